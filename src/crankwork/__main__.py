@@ -1,0 +1,5 @@
+"""`python -m crankwork`."""
+
+from crankwork.cli import main
+
+main()

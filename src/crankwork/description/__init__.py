@@ -1,0 +1,1 @@
+"""The machine file: its keys, its reader, its templates."""

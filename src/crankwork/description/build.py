@@ -1,0 +1,278 @@
+"""From the values of a machine file to the machine they describe, with the checks that need several keys."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from crankwork.description.schema import Measure, Reader, nearest_name
+from crankwork.dynamics.masses import CrankGearMasses, rod_big_end_mass, rod_inertia_excess, rod_small_end_mass
+from crankwork.errors import MethodError
+from crankwork.kinematics.slider_crank import SliderCrank
+from crankwork.loads.gas import piston_area
+from crankwork.loads.indicator import DiagramPoint, Piece
+from crankwork.loads.measured import MeasuredPressure
+from crankwork.machine import Cylinder, Gas, Machine
+from crankwork.mechanism.mechanism import slider_crank
+from crankwork.method import EXACT, STANDARD_GRAVITY, Method
+
+ReadMeasured = Callable[[Mapping[str, Any], Reader], MeasuredPressure | None]
+
+
+def build_machine(values: Mapping[str, Any], reader: Reader, read_measured: ReadMeasured) -> Machine | None:
+    """Return the machine, or None after complaints.
+
+    Parameters
+    ----------
+    values : mapping
+        What `keys.MACHINE_FILE` has read.
+    reader : Reader
+        Collects the complaints.
+    read_measured : callable
+        Reads the measured pressure that `gas.measured` names.
+    """
+    method = _method(values.get("method", {}), reader)
+    crank, rod = values.get("crank", {}), values.get("rod", {})
+    lengths = _lengths(crank, rod, values.get("cylinder", {}), reader)
+    cylinder = _cylinder(values.get("cylinder"))
+    masses = _masses(values, lengths, cylinder, method, reader)
+    gas = _gas(values.get("gas"), cylinder, reader, read_measured)
+    table = values.get("table", {})
+    special = [math.degrees(angle.value) for angle in table.get("special_angles", []) if angle]
+    cycle = gas.cycle if gas else 360.0
+    for number, angle in enumerate(special, start=1):
+        if angle > cycle + 1e-9 and not reader.doubts("gas.cycle"):
+            reader.complain(
+                f"table.special_angles[{number}]",
+                f"{angle:g} deg lies beyond the cycle; write an angle from 0 to {cycle:g} deg",
+            )
+    if reader.problems or lengths is None:
+        return None
+    return Machine(
+        mechanism=slider_crank(*lengths),
+        speed=crank["speed"].value,
+        angular_acceleration=_value(crank, "angular_acceleration"),
+        title=values.get("title", ""),
+        cylinder=cylinder,
+        masses=masses,
+        gas=gas,
+        has_gravity=values.get("method", {}).get("weights", False),
+        method=method,
+        table_step=round(math.degrees(_value(table, "step", math.radians(10.0))), 9),
+        table_special=tuple(round(angle, 9) for angle in special),
+    )
+
+
+def _value(table: Mapping[str, Any], key: str, default: float = 0.0) -> float:
+    measure = table.get(key)
+    return default if measure is None else float(measure.value)
+
+
+def _method(values: Mapping[str, Any], reader: Reader) -> Method:
+    method = Method(
+        pi=values.get("pi", math.pi),
+        gravity=_value(values, "gravity", STANDARD_GRAVITY),
+        inertia_rod_ratio=values.get("inertia_rod_ratio"),
+    )
+    try:
+        method = method.named(values.get("kinematics", "exact"))
+    except MethodError as error:
+        reader.complain("method.kinematics", str(error))
+        return EXACT
+    rod = values.get("rod", method.rod)
+    return method if rod == method.rod else Method(**{**vars(method), "rod": rod})
+
+
+def _lengths(
+    crank: Mapping[str, Any], rod: Mapping[str, Any], cylinder: Mapping[str, Any], reader: Reader
+) -> tuple[float, float, float] | None:
+    """Return crank radius, rod length and offset."""
+    ratio = rod.get("ratio")
+    inverse = rod.get("ratio_definition", "r/l") == "l/r"
+    if ratio is not None and not inverse and ratio >= 1:
+        reader.complain(
+            "rod.ratio",
+            f"{ratio:g} would make the rod shorter than the crank; r/l is below 1: "
+            f'write {1 / ratio:.6g}, or add ratio_definition = "l/r"',
+        )
+        return None
+    if "radius" in crank:
+        radius = crank["radius"].value
+    elif "stroke" in crank:
+        radius = crank["stroke"].value / 2
+    else:
+        return None
+    if ratio is not None:
+        length = radius * ratio if inverse else radius / ratio
+    elif "length" in rod:
+        length = rod["length"].value
+    else:
+        return None
+    offset = _value(cylinder, "offset")
+    if not SliderCrank(radius, length, offset).clearance > 0:
+        key = "rod.ratio" if ratio is not None else "rod.length"
+        reader.complain(
+            key,
+            f"the rod ({length * 1e3:.6g} mm) must be longer than crank radius and offset together "
+            f"({radius * 1e3:.6g} + {abs(offset) * 1e3:.6g} mm); "
+            f"it misses {(radius + abs(offset) - length) * 1e3:.6g} mm; lengthen it or shorten the crank",
+        )
+        return None
+    return radius, length, offset
+
+
+def _cylinder(values: Mapping[str, Any] | None) -> Cylinder | None:
+    if values is None or "bore" not in values:
+        return None
+    volume = values.get("clearance_volume")
+    return Cylinder(
+        bore=values["bore"].value,
+        clearance_volume=volume.value if volume else None,
+        compression_ratio=values.get("compression_ratio"),
+        piston_rod_diameter=_value(values, "piston_rod_diameter"),
+        inclination=_value(values, "inclination"),
+    )
+
+
+def _masses(
+    values: Mapping[str, Any],
+    lengths: tuple[float, float, float] | None,
+    cylinder: Cylinder | None,
+    method: Method,
+    reader: Reader,
+) -> CrankGearMasses | None:
+    area = float(piston_area(method.pi, cylinder.bore)) if cylinder else None
+    rod_keys = ("mass", "small_end_mass", "big_end_mass")
+    wanted = [("piston", "mass"), ("crank", "mass"), *(("rod", key) for key in rod_keys)]
+    given = {(table, key): values[table][key] for table, key in wanted if key in values.get(table, {})}
+    if not given:
+        return None
+    mass = {place: _mass(measure, area, ".".join(place), reader) for place, measure in given.items()}
+    piston, crank = mass.get(("piston", "mass"), 0.0), mass.get(("crank", "mass"), 0.0)
+    rod = values.get("rod", {})
+    if ("rod", "mass") not in mass:
+        for key in ("inertia", "radius_of_gyration", "centre_of_mass", "small_end_share"):
+            if key in rod and not reader.doubts("rod.mass"):
+                reader.complain(f"rod.{key}", 'tells where the mass of the rod is, but not the mass; add mass = "1 kg"')
+        small, big = (mass.get(("rod", key), 0.0) for key in rod_keys[1:])
+        return CrankGearMasses(piston, small, big, crank)
+    centre = _centre_of_mass(rod, lengths[1], reader) if lengths else None
+    if lengths is None or centre is None:
+        return None
+    total = mass["rod", "mass"]
+    small = float(rod_small_end_mass(total, centre, lengths[1]))
+    excess = _inertia_excess(rod, total, centre, lengths[1])
+    return CrankGearMasses(piston, small, float(rod_big_end_mass(total, small)), crank, excess)
+
+
+def _mass(measure: Measure, area: float | None, key: str, reader: Reader) -> float:
+    """Return a mass, multiplied by the piston area if it is given per area. [kg]"""
+    if measure.dimension == "mass":
+        return measure.value
+    if area is None:
+        if not reader.doubts("cylinder.bore"):
+            reader.complain(key, "is a mass per piston area; give cylinder.bore, or the mass in kg")
+        return 0.0
+    return measure.value * area
+
+
+def _centre_of_mass(rod: Mapping[str, Any], length: float, reader: Reader) -> float | None:
+    """Return the distance of the rod's centre of mass from the crankpin."""
+    if "small_end_share" in rod:
+        return float(rod["small_end_share"] * length)
+    if "centre_of_mass" not in rod:
+        if not reader.doubts("rod.centre_of_mass", "rod.small_end_share"):
+            reader.complain(
+                "rod.mass",
+                'says nothing of where the mass is; add centre_of_mass = "50 mm" (from the crankpin) '
+                "or small_end_share = 0.275",
+            )
+        return None
+    centre = float(rod["centre_of_mass"].value)
+    if centre >= length:
+        reader.complain(
+            "rod.centre_of_mass", f"lies beyond the piston pin; write less than the {length * 1e3:.6g} mm of the rod"
+        )
+        return None
+    return centre
+
+
+def _inertia_excess(rod: Mapping[str, Any], mass: float, centre: float, length: float) -> float:
+    if "inertia" in rod:
+        inertia = rod["inertia"].value
+    elif "radius_of_gyration" in rod:
+        inertia = mass * rod["radius_of_gyration"].value ** 2
+    else:
+        return 0.0
+    return float(rod_inertia_excess(inertia, mass, centre, length))
+
+
+def _gas(
+    values: Mapping[str, Any] | None, cylinder: Cylinder | None, reader: Reader, read_measured: ReadMeasured
+) -> Gas | None:
+    if values is None or "cycle" not in values:
+        return None
+    if cylinder is None:
+        if not reader.doubts("cylinder.bore"):
+            reader.complain("gas", 'needs the cylinder; write bore = "85 mm" below a line [cylinder]')
+    elif {cylinder.clearance_volume, cylinder.compression_ratio} == {None} and not reader.doubts(
+        "cylinder.clearance_volume", "cylinder.compression_ratio"
+    ):
+        reader.complain(
+            "cylinder", 'gas needs its smallest volume; write compression_ratio = 9 or clearance_volume = "64 cm3"'
+        )
+    if values.get("pressures") != "absolute" and "ambient" in values and not reader.doubts("gas.pressures"):
+        reader.complain(
+            "gas.ambient", 'is used with absolute pressures only; add pressures = "absolute", or leave it out'
+        )
+    _check_points(values, reader)
+    if "measured" not in values:
+        for key in ("points", "pieces"):
+            if key not in values and not reader.doubts(f"gas.{key}", "gas.measured"):
+                example = "a line [gas.points]" if key == "points" else "a line [[gas.pieces]] for each law"
+                reader.complain(f"gas.{key}", f"is missing; add {example}, or [gas.measured] with a file")
+    measured = read_measured(values["measured"], reader) if "measured" in values else None
+    source = values.get("measured", {})
+    resample = source.get("resample")
+    return Gas(
+        cycle=float(values["cycle"].split()[0]),
+        points={name: _point(one) for name, one in values.get("points", {}).items() if one is not None},
+        pieces=tuple(_piece(one) for one in values.get("pieces", []) if one and {"law", "points"} <= set(one)),
+        measured=measured,
+        angle_shift=math.degrees(_value(source, "shift")),
+        resample=math.degrees(resample.value) if resample else None,
+        is_absolute=values.get("pressures") == "absolute",
+        ambient=_value(values, "ambient", 101325.0),
+        back_pressure=_value(values, "back_pressure"),
+    )
+
+
+def _check_points(values: Mapping[str, Any], reader: Reader) -> None:
+    """Complain of every point that a piece names and the table of points does not know."""
+    known = values.get("points")
+    if known is None:
+        return
+    for number, piece in enumerate(values.get("pieces", []), start=1):
+        key = f"gas.pieces[{number}]"
+        names = [(f"{key}.points[{i}]", name) for i, name in enumerate((piece or {}).get("points", []), start=1)]
+        names.append((f"{key}.reference", (piece or {}).get("reference")))
+        for place, name in names:
+            if name is not None and name not in known and not reader.doubts("gas.points"):
+                nearest = nearest_name(name, known)
+                advice = f"did you mean {nearest}?" if nearest else f"there are: {', '.join(known)[:120]}"
+                reader.complain(place, f'there is no point "{name}" in [gas.points]; {advice}')
+
+
+def _point(values: Mapping[str, Any]) -> DiagramPoint:
+    angle, pressure, volume = (values.get(key) for key in ("angle", "pressure", "volume"))
+    return DiagramPoint(
+        angle=None if angle is None else round(math.degrees(angle.value), 9),
+        pressure=None if pressure is None else pressure.value,
+        volume=None if volume is None else volume.value,
+    )
+
+
+def _piece(values: Mapping[str, Any]) -> Piece:
+    points = tuple(name for name in values["points"] if name)
+    return Piece(values["law"], points, values.get("exponent"), values.get("reference"))

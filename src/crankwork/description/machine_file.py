@@ -1,0 +1,255 @@
+"""The door for machine files: text to machine, with every mistake told at once and on its line."""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from crankwork import files
+from crankwork.analysis import solve
+from crankwork.description.build import build_machine
+from crankwork.description.keys import MACHINE_FILE
+from crankwork.description.locate import locate
+from crankwork.description.measured_file import read_measured
+from crankwork.description.schema import Reader, Table, is_one_line
+from crankwork.errors import CrankworkError, InputError, Problem
+from crankwork.loads.indicator import DiagramError
+from crankwork.machine import Machine
+
+TEMPLATES = "description/templates"
+_MAX_PARTS = 8
+_STRINGS = re.compile(r"""\"(?:\\.|[^\"\\])*\"?|'[^']*'?""")
+
+
+class Setting(NamedTuple):
+    """A value laid over the file by an option of the command line, which messages name instead of a line."""
+
+    option: str
+    key: str
+    value: Any
+
+
+def read(path: str | Path, overrides: Sequence[str | Setting] = ()) -> Machine:
+    """Return the machine that a file describes.
+
+    Parameters
+    ----------
+    path : path
+        A machine file.
+    overrides : sequence of str or Setting
+        `KEY=VALUE` settings laid over the file, `rod.ratio=0.34` or `crank.radius=75 mm`. A setting takes
+        the place of the keys that say the same: `rod.ratio` of `rod.length`.
+
+    Returns
+    -------
+    Machine
+        The machine, checked as far as it can be without computing its results.
+
+    Raises
+    ------
+    InputError
+        With every mistake, each on its line.
+    CrankworkError
+        If the file cannot be read at all.
+    """
+    path = Path(path)
+    advice = f"check the path, or make one with: crankwork new engine -o {path}"
+    return read_machine(files.read_text(path, advice=advice), str(path), overrides, folder=path.parent)
+
+
+def read_machine(
+    source: str, name: str = "text", overrides: Sequence[str | Setting] = (), *, folder: Path | None = None
+) -> Machine:
+    """Return the machine that a text describes.
+
+    Parameters
+    ----------
+    source : str
+        The text of a machine file.
+    name : str
+        What to call it in messages.
+    overrides : sequence of str or Setting
+        `KEY=VALUE` settings laid over it.
+    folder : path, optional
+        What the names of data files start from; the working folder otherwise.
+
+    Returns
+    -------
+    Machine
+        The machine.
+
+    Raises
+    ------
+    InputError
+        With every mistake, each on its line.
+    CrankworkError
+        If the text is no TOML, or a setting is none.
+    """
+    folder = folder or Path()
+    values = _parse(source, name)
+    settings = [one if isinstance(one, Setting) else _setting(one) for one in overrides]
+    for one in settings:
+        _lay(values, one)
+    reader = Reader(decimal_comma=values.get("decimal_mark") == ",")
+    read_values = MACHINE_FILE.read(values, "", reader) or {}
+    machine = build_machine(read_values, reader, lambda table, one: read_measured(table, one, folder))
+    if machine is not None:
+        try:
+            solve(machine, machine.method)
+        except DiagramError as error:
+            measured = read_values.get("gas", {}).get("measured", {})
+            reader.complain(error.key, f"{measured['file']}, {error}" if measured else str(error))
+    if reader.problems or machine is None:
+        raise _input_error(source, name, reader, settings)
+    return machine
+
+
+def _parse(source: str, name: str) -> dict[str, Any]:
+    """Return the values of a TOML text, refusing what would keep the parser busy."""
+    for number, line in enumerate(source.split("\n"), start=1):
+        if len(line) > files.MAX_LINE:
+            raise CrankworkError(f"{name}:{number}: line longer than {files.MAX_LINE} characters; break it up")
+        if line.count(".") >= _MAX_PARTS and _most_parts(line) > _MAX_PARTS:
+            raise CrankworkError(
+                f"{name}:{number}: a key of more than {_MAX_PARTS} parts; write it like crank.radius, table and key"
+            )
+    try:
+        return tomllib.loads(source)
+    except tomllib.TOMLDecodeError as error:
+        raise CrankworkError(_syntax_message(source, name, str(error))) from None
+    except RecursionError:
+        raise CrankworkError(
+            f"{name}:{_deepest(source)}: brackets are nested too deeply; a machine file needs three levels"
+        ) from None
+    except ValueError:
+        # an integer of thousands of digits, or a date that no calendar has
+        raise CrankworkError(f"{name}:1: holds a number or a date that cannot be; write numbers like 0.25") from None
+
+
+def _most_parts(line: str) -> int:
+    """Return how many parts the longest dotted key of a line has."""
+    plain = _STRINGS.sub("s", line).partition("#")[0]
+    plain = re.sub(r"\s*\.\s*", ".", plain)
+    return max(sum(1 for part in key.split(".") if part) for key in re.split(r"[^\w.-]", plain))
+
+
+def _deepest(source: str) -> int:
+    """Return the line on which brackets are nested most deeply, roughly."""
+    depth, deepest, line = 0, 0, 1
+    for number, text in enumerate(source.split("\n"), start=1):
+        depth += sum(text.count(mark) for mark in "[{") - sum(text.count(mark) for mark in "]}")
+        if depth > deepest:
+            deepest, line = depth, number
+    return line
+
+
+def _syntax_message(source: str, name: str, text: str) -> str:
+    """Return a sentence for a syntax error, with the line and a likely fix."""
+    found = re.search(r"\(at line (\d+), column (\d+)\)", text)
+    lines = source.split("\n")
+    number = int(found[1]) if found else len(lines)
+    line = _printable(lines[number - 1].strip()[:60]) if number <= len(lines) else ""
+    if any(word in text for word in ("overwrite", "twice", "already", "mutate", "Duplicate", "immutable")):
+        return f"{name}:{number}: the key or table stands twice: {line}; keep one of them"
+    if re.match(r"[\w.\-]+\s*=\s*[+-]?[\d.,]+\s*[^\s\d#\]]", line):
+        return f'{name}:{number}: a value with a unit needs quotes: {line}; write it like key = "75 mm"'
+    line = line or "the file ends too early"
+    return f'{name}:{number}: is not valid TOML: {line}; write key = "75 mm", key = 0.25 or [table]'
+
+
+def _setting(text: str) -> Setting:
+    """Return the setting that `KEY=VALUE` means, its value as TOML reads it or as the plain text it is."""
+    key, sign, value = (part.strip() for part in text.partition("="))
+    names = key.split(".")
+    if not sign or not all(names) or len(names) > 4:
+        raise CrankworkError(f"--set {_printable(text[:60])}: write --set KEY=VALUE, like --set rod.ratio=0.25")
+    if len(value) > files.MAX_LINE:
+        raise CrankworkError(f"--set {_printable(key[:60])}: the value is too long; write a number, a text or a list")
+    try:
+        return Setting("--set", key, tomllib.loads(f"value = {value}")["value"] if "\n" not in value else value)
+    except (ValueError, RecursionError):
+        return Setting("--set", key, value)
+
+
+def _lay(values: dict[str, Any], setting: Setting) -> None:
+    """Lay a setting over the values; what says the same gives way."""
+    *path, last = setting.key.split(".")
+    table: Any = values
+    entry: Any = MACHINE_FILE
+    for name in path:
+        known = entry.keys.get(name) if isinstance(entry, Table) else None
+        entry = known.kind if known else None
+        table = table.setdefault(name, {})
+        if not isinstance(table, dict):
+            raise CrankworkError(
+                f"{setting.option} {_printable(setting.key[:60])}: "
+                f"{_printable(name[:40])} is not a table in this file; set a key of a table, like rod.ratio"
+            )
+    known = entry.keys.get(last) if isinstance(entry, Table) else None
+    for other in known.instead_of if known else ():
+        table.pop(other, None)
+    table[last] = setting.value
+
+
+def _input_error(source: str, name: str, reader: Reader, settings: Sequence[Setting]) -> InputError:
+    """Return the error that tells every problem, in the order of the lines."""
+    lines = locate(source)
+    found = []
+    for problem in reader.problems:
+        message = _printable(problem.message)
+        setting = next(
+            (one for one in settings if problem.key == one.key or problem.key.startswith(f"{one.key}.")), None
+        )
+        if setting is not None:
+            key = f" {_printable(problem.key)}" if setting.option == "--set" else ""
+            found.append((0, f"{setting.option}{key}", Problem("", message)))
+            continue
+        key = problem.key
+        while key and key not in lines:
+            key = key[: max(key.rfind("."), key.rfind("["), 0)]
+        line = lines[key] if key else 1
+        found.append((line, f"{name}:{line}", Problem(_printable(problem.key), message)))
+    found.sort(key=lambda one: one[0])
+    if reader.more:
+        found.append((0, name, Problem("", f"{reader.more} more mistakes; correct these first")))
+    return InputError([problem for _, _, problem in found], [place for _, place, _ in found])
+
+
+def _printable(text: str) -> str:
+    """Return a text of the user for a message: one line, no control characters, not too long."""
+    text = text if len(text) <= 400 else f"{text[:397]}..."
+    return text if is_one_line(text) else "".join(one if is_one_line(one) else ascii(one)[1:-1] for one in text)
+
+
+def json_schema() -> str:
+    """Return the JSON Schema of the machine file, for editors."""
+    schema = {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "crankwork machine file",
+        **MACHINE_FILE.schema(),
+    }
+    return json.dumps(schema, indent=2, ensure_ascii=False)
+
+
+def template_names() -> list[str]:
+    """Return the names of the machines that `template` knows."""
+    return files.resource_names(TEMPLATES, ".toml")
+
+
+def template(name: str) -> str:
+    """Return the commented machine file to start from.
+
+    Raises
+    ------
+    CrankworkError
+        If there is none of that name.
+    """
+    if name not in template_names():
+        raise CrankworkError(
+            f'there is no template "{_printable(name[:40])}"; there are: {", ".join(template_names())}'
+        )
+    return files.read_resource(*TEMPLATES.split("/"), f"{name}.toml")

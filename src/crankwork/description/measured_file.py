@@ -1,0 +1,120 @@
+"""Reading measured pressure from a CSV file, whatever the separator and the decimal mark."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from crankwork import files
+from crankwork.description.schema import Reader
+from crankwork.errors import CrankworkError
+from crankwork.loads.measured import MeasuredPressure
+from crankwork.units import UNITS
+
+_KEY = "gas.measured.file"
+_LARGEST = 1e12
+
+
+def read_measured(values: Mapping[str, Any], reader: Reader, folder: Path) -> MeasuredPressure | None:
+    """Return the samples of a CSV file, or None after a complaint.
+
+    Parameters
+    ----------
+    values : mapping
+        The `gas.measured` table.
+    reader : Reader
+        Collects the complaints.
+    folder : path
+        What a relative file name starts from.
+    """
+    if "file" not in values or "pressure_unit" not in values:
+        return None
+    path = folder / values["file"]
+    try:
+        text = files.read_text(path, limit=files.MAX_DATA_FILE)
+        samples = _samples(text, values)
+    except CrankworkError as error:
+        reader.complain(_KEY, str(error))
+        return None
+    except ValueError as error:
+        reader.complain(_KEY, f"{values['file']}, {error}")
+        return None
+    numbers, angles, pressures = zip(*samples, strict=True)
+    degrees = np.array(angles) if values.get("angle_unit", "deg") == "deg" else np.degrees(angles)
+    return MeasuredPressure(degrees, np.array(pressures) * UNITS[values["pressure_unit"]].factor, numbers)
+
+
+def _samples(text: str, values: Mapping[str, Any]) -> list[tuple[int, float, float]]:
+    """Return line number, angle and pressure of every row of numbers."""
+    rows = _rows(text)
+    if not rows:
+        raise ValueError("line 1: the file is empty; it needs a column of crank angle and one of pressure")
+    number, first = rows[0]
+    angle, pressure = _columns(first, number, values)
+    has_heading = any(_float(cell) is None for cell in first[:2])
+    samples = []
+    for number, row in rows[has_heading:]:
+        if len(row) != len(first):
+            raise ValueError(
+                f"line {number}: {len(row)} columns where line {rows[0][0]} has {len(first)}; "
+                "correct the row, and separate columns by semicolons if commas are decimal marks"
+            )
+        samples.append((number, _number(row[angle], number), _number(row[pressure], number)))
+    if not samples:
+        raise ValueError(f"line {number}: only a heading; write rows of numbers below it")
+    return samples
+
+
+def _rows(text: str) -> list[tuple[int, list[str]]]:
+    """Return the cells of every row that is neither empty nor a comment, with its line number."""
+    lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1)]
+    lines = [(number, line) for number, line in lines if line.strip(" \t;,") and not line.lstrip().startswith("#")]
+    sample = lines[0][1] if lines else ""
+    separator = next((mark for mark in ";\t," if mark in sample), None)
+    if separator is None:
+        return [(number, line.split()) for number, line in lines]
+    try:
+        return [
+            (number, next(csv.reader([line], delimiter=separator, skipinitialspace=True))) for number, line in lines
+        ]
+    except csv.Error:
+        raise ValueError("line 1: a cell is far too long; give a table of numbers") from None
+
+
+def _columns(heading: list[str], number: int, values: Mapping[str, Any]) -> tuple[int, int]:
+    """Return the positions of the two columns, by heading if one is given."""
+    names = [cell.strip() for cell in heading]
+    if len(names) < 2:
+        raise ValueError(f"line {number}: only one column; write crank angle and pressure, separated by a comma")
+    if len(names) > 2 and all(_float(name) is not None for name in names):
+        raise ValueError(
+            f"line {number}: {len(names)} columns without headings; keep two, "
+            "and separate them by semicolons if commas are decimal marks"
+        )
+    positions = []
+    for key, default in (("angle_column", 0), ("pressure_column", 1)):
+        name = values.get(key)
+        if name is not None and name not in names:
+            raise ValueError(f'line {number}: there is no column "{name}"; the headings are: {", ".join(names)[:200]}')
+        positions.append(default if name is None else names.index(name))
+    return positions[0], positions[1]
+
+
+def _number(cell: str, number: int) -> float:
+    value = _float(cell)
+    if value is None or not abs(value) < _LARGEST:
+        raise ValueError(
+            f'line {number}: "{cell.strip()[:40]}" is not a number that can be measured; correct or remove the row'
+        )
+    return value
+
+
+def _float(cell: str) -> float | None:
+    try:
+        return None if "_" in cell else float(cell.strip().replace(",", "."))
+    except ValueError:
+        return None

@@ -1,0 +1,386 @@
+"""What a table of the machine file may hold: kinds of values that read, complain and describe themselves."""
+
+from __future__ import annotations
+
+import difflib
+import math
+import unicodedata
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, NamedTuple, Protocol
+
+from crankwork import units
+from crankwork.errors import Problem
+
+_MAX_ENTRIES = 10_000
+_MAX_PROBLEMS = 50
+
+
+class Measure(NamedTuple):
+    """A quantity as read: SI value and dimension."""
+
+    value: float
+    dimension: str
+
+
+class Reader:
+    """Collects the problems of one description while its values are read.
+
+    `problems` holds the first of them; `more` counts the others.
+    """
+
+    def __init__(self, *, decimal_comma: bool = False) -> None:
+        self.problems: list[Problem] = []
+        self.more = 0
+        self.decimal_comma = decimal_comma
+        self._blamed: set[str] = set()
+        self._suspects: set[str] = set()
+
+    def complain(self, key: str, message: str, *, meant: str = "") -> None:
+        """Remember a mistake; a key that is wrong already is not blamed twice.
+
+        `meant` is the key that a misspelt one stands for, so that it is not missed as well.
+        """
+        if key in self._blamed:
+            return
+        self._blamed.add(key)
+        self._suspects |= {key, meant or key}
+        if len(self.problems) < _MAX_PROBLEMS:
+            self.problems.append(Problem(key, message))
+        else:
+            self.more += 1
+
+    @property
+    def is_full(self) -> bool:
+        """Whether further mistakes are only counted."""
+        return len(self.problems) >= _MAX_PROBLEMS
+
+    def doubts(self, *keys: str) -> bool:
+        """Return whether one of the keys, or a table around it, is wrong already: what follows from it is not told."""
+        around = ({key, *(key[:at] for at, mark in enumerate(key) if mark == ".")} for key in keys)
+        return any(not self._suspects.isdisjoint(one) for one in around)
+
+
+class Kind(Protocol):
+    """A kind of value."""
+
+    def read(self, value: object, key: str, reader: Reader) -> Any:  # noqa: ANN401 - each kind has its own type
+        """Return the value as the program uses it, or None after a complaint."""
+
+    def schema(self) -> dict[str, Any]:
+        """Return the JSON Schema of the value as written."""
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """Number and unit as text; the SI value must lie within `low` and `high`, whichever dimension it has."""
+
+    dimensions: tuple[str, ...]
+    low: float
+    high: float
+    above: bool = False
+
+    def read(self, value: object, key: str, reader: Reader) -> Measure | None:
+        """Return SI value and dimension."""
+        example = units.EXAMPLES[self.dimensions[0]]
+        if isinstance(value, bool) or not isinstance(value, str | int | float):
+            reader.complain(key, f'must be a number with a unit as text, for example "{example}"')
+            return None
+        if not isinstance(value, str):
+            text = _shown(value)
+            known = example.split()[1]
+            shown = f'"{text} {known}"' if _is_moderate(value) else f'"{example}"'
+            reader.complain(key, f"{text} has no unit; write it as text with a unit, for example {shown}")
+            return None
+        try:
+            number, dimension = units.parse(value, self.dimensions, decimal_comma=reader.decimal_comma)
+        except ValueError as error:
+            reader.complain(key, str(error))
+            return None
+        if not self._holds(number):
+            reader.complain(key, f'"{value.strip()}" is out of range; {self._range(dimension)}')
+            return None
+        return Measure(number, dimension)
+
+    def _holds(self, number: float) -> bool:
+        return (self.low < number if self.above else self.low <= number) and number <= self.high
+
+    def _range(self, dimension: str) -> str:
+        unit = units.EXAMPLES[dimension].split()[1]
+        low, high = (f'"{units.from_si(one, unit):.6g} {unit}"' for one in (self.low, self.high))
+        return f"write {'more than' if self.above else 'at least'} {low} and at most {high}"
+
+    def schema(self) -> dict[str, Any]:
+        """Return the schema of a text with a unit."""
+        named = " or ".join(dimension.replace("_", " ") for dimension in self.dimensions)
+        known = [one for dimension in self.dimensions for one in units.spellings(dimension)]
+        return {
+            "type": "string",
+            "pattern": r"^\s*[+-]?[0-9.,]+([eE][+-]?[0-9]+)?\s*\S.*$",
+            "description": f"{named}; units: {', '.join(known)}",
+            "examples": [units.EXAMPLES[self.dimensions[0]]],
+        }
+
+
+@dataclass(frozen=True)
+class Number:
+    """A plain number between `low` and `high`."""
+
+    low: float
+    high: float
+    above: bool = False
+
+    def read(self, value: object, key: str, reader: Reader) -> float | None:
+        """Return the number."""
+        if isinstance(value, str) and reader.decimal_comma and value.count(",") == 1:
+            value = _float(value.replace(",", "."))
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            reader.complain(key, f"{_shown(value)} must be a plain number without quotes, like {self.example()}")
+            return None
+        number = float(value) if _is_moderate(value) else math.nan
+        if not (self.low < number if self.above else self.low <= number) or not number <= self.high:
+            reader.complain(key, f"{_shown(value)} is out of range; write a number {self._range()}")
+            return None
+        return number
+
+    def _range(self) -> str:
+        return f"{'above' if self.above else 'from'} {self.low:g} {'and up to' if self.above else 'to'} {self.high:g}"
+
+    def example(self) -> str:
+        """Return a number in range, for advice."""
+        return f"{min(self.high, max(self.low, 0.25)):g}"
+
+    def schema(self) -> dict[str, Any]:
+        """Return the schema of a number in range."""
+        return {"type": "number", "exclusiveMinimum" if self.above else "minimum": self.low, "maximum": self.high}
+
+
+@dataclass(frozen=True)
+class Choice:
+    """One of a few words."""
+
+    options: tuple[str, ...]
+
+    def read(self, value: object, key: str, reader: Reader) -> str | None:
+        """Return the word."""
+        if value in self.options:
+            return str(value)
+        options = " or ".join(f'"{one}"' for one in self.options)
+        reader.complain(key, f"{_shown(value)} is not possible here; write {options}")
+        return None
+
+    def schema(self) -> dict[str, Any]:
+        """Return the schema of an enumeration."""
+        return {"enum": list(self.options)}
+
+
+@dataclass(frozen=True)
+class Text:
+    """A text, at most `longest` characters."""
+
+    longest: int = 200
+
+    def read(self, value: object, key: str, reader: Reader) -> str | None:
+        """Return the text."""
+        if not isinstance(value, str):
+            reader.complain(key, f"{_shown(value)} must be text in quotes")
+            return None
+        if len(value) > self.longest:
+            reader.complain(key, f"{_shown(value)} is too long, {len(value)} characters; write at most {self.longest}")
+            return None
+        if not is_one_line(value):
+            reader.complain(key, f"{_shown(value)} holds a line break or a control character; write plain text")
+            return None
+        return value
+
+    def schema(self) -> dict[str, Any]:
+        """Return the schema of a text."""
+        return {"type": "string", "maxLength": self.longest}
+
+
+@dataclass(frozen=True)
+class Flag:
+    """true or false."""
+
+    def read(self, value: object, key: str, reader: Reader) -> bool | None:
+        """Return the truth value."""
+        if isinstance(value, bool):
+            return value
+        reader.complain(key, f"{_shown(value)} must be true or false, without quotes")
+        return None
+
+    def schema(self) -> dict[str, Any]:
+        """Return the schema of a truth value."""
+        return {"type": "boolean"}
+
+
+@dataclass(frozen=True)
+class ListOf:
+    """A list whose entries are of one kind."""
+
+    entry: Kind
+    fewest: int = 0
+
+    def read(self, value: object, key: str, reader: Reader) -> list[Any] | None:
+        """Return the entries; a bad one is left out after its complaint."""
+        if not isinstance(value, list):
+            reader.complain(key, self._advice(key))
+            return None
+        if not self.fewest <= len(value) <= _MAX_ENTRIES:
+            reader.complain(
+                key, f"has {len(value)} entries; write at least {self.fewest} and at most {_MAX_ENTRIES} of them"
+            )
+            return None
+        return [self.entry.read(one, f"{key}[{i}]", reader) for i, one in enumerate(value, start=1)]
+
+    def _advice(self, key: str) -> str:
+        if isinstance(self.entry, Table):
+            return f"must be a list of tables; begin each with a line [[{key}]]"
+        example = units.EXAMPLES[self.entry.dimensions[0]] if isinstance(self.entry, Quantity) else "a"
+        return f'must be a list in square brackets, like ["{example}"]'
+
+    def schema(self) -> dict[str, Any]:
+        """Return the schema of an array."""
+        return {"type": "array", "items": self.entry.schema(), "minItems": self.fewest}
+
+
+@dataclass(frozen=True)
+class Named:
+    """A table whose keys are names of the user's own, all values of one kind."""
+
+    entry: Kind
+
+    def read(self, value: object, key: str, reader: Reader) -> dict[str, Any] | None:
+        """Return the values by name."""
+        if not isinstance(value, dict):
+            reader.complain(key, f"must be a table; put its keys below a line [{key}]")
+            return None
+        return {name: self.entry.read(one, f"{key}.{name}", reader) for name, one in value.items()}
+
+    def schema(self) -> dict[str, Any]:
+        """Return the schema of a mapping."""
+        return {"type": "object", "additionalProperties": self.entry.schema()}
+
+
+@dataclass(frozen=True)
+class Key:
+    """A key of a table: its kind, what it means, and the keys that say the same and exclude it."""
+
+    kind: Kind
+    meaning: str
+    required: bool = False
+    instead_of: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table with a fixed set of keys."""
+
+    keys: Mapping[str, Key]
+
+    def read(self, value: object, key: str, reader: Reader) -> dict[str, Any] | None:
+        """Return the values by key; keys not given are absent."""
+        if not isinstance(value, dict):
+            header = f"put its keys below a line [{key}]" if "[" not in key else "write { key = value, ... }"
+            reader.complain(key, f"must be a table; {header}")
+            return None
+        result = {}
+        for name, one in value.items():
+            path = f"{key}.{name}" if key else name
+            if name not in self.keys:
+                self._complain_unknown(name, one, path, reader)
+                continue
+            result[name] = self.keys[name].kind.read(one, path, reader)
+            clashes = [other for other in self.keys[name].instead_of if other in value]
+            if clashes and list(value).index(name) > min(list(value).index(other) for other in clashes):
+                reader.complain(path, f"says the same as {' and '.join(clashes)}; keep one of them")
+        for name, entry in self.keys.items():
+            if entry.required:
+                self._check_there(name, value, key, reader)
+        return {name: one for name, one in result.items() if one is not None}
+
+    def _complain_unknown(self, name: str, value: object, path: str, reader: Reader) -> None:
+        if reader.is_full:
+            reader.complain(path, "")
+            return
+        what = "table" if isinstance(value, dict) else "key"
+        nearest = nearest_name(name, tuple(self.keys))
+        if nearest:
+            meant = f"{path.removesuffix(name)}{nearest}"
+            reader.complain(path, f"unknown {what}; did you mean {nearest}?", meant=meant)
+            # what stands in a misspelt table has mistakes of its own to tell
+            self.keys[nearest].kind.read(value, path, reader)
+        else:
+            reader.complain(path, f"unknown {what}; known here: {', '.join(self.keys)}")
+
+    def _check_there(self, name: str, value: Mapping[str, object], key: str, reader: Reader) -> None:
+        """Complain if a required key is missing, and so are those that could stand in its place."""
+        entry = self.keys[name]
+        alternatives = (name, *entry.instead_of)
+        prefix = f"{key}." if key else ""
+        if any(one in value for one in alternatives) or reader.doubts(*(f"{prefix}{one}" for one in alternatives)):
+            return
+        advice = [_advice(one, self.keys[one].kind) for one in alternatives]
+        reader.complain(f"{prefix}{name}", f"is missing; write {' or '.join(advice)}")
+
+    def schema(self) -> dict[str, Any]:
+        """Return the schema of an object."""
+        properties = {}
+        for name, entry in self.keys.items():
+            own = entry.kind.schema()
+            described = {"description": "; ".join(part for part in (entry.meaning, own.get("description")) if part)}
+            properties[name] = {**own, **described}
+        required = [name for name, entry in self.keys.items() if entry.required and not entry.instead_of]
+        return {"type": "object", "properties": properties, "required": required, "additionalProperties": False}
+
+
+def nearest_name(word: str, options: Iterable[str]) -> str:
+    """Return the option nearest to a misspelt word, or nothing if none is near."""
+    matches = difflib.get_close_matches(word[:60], list(options), n=1, cutoff=0.6)
+    return matches[0] if matches else ""
+
+
+def is_one_line(text: str) -> bool:
+    """Return whether a text has no line break, no control character and nothing that XML forbids."""
+    return not any(unicodedata.category(one) in ("Cc", "Zl", "Zp", "Cs") or one in "\ufffe\uffff" for one in text)
+
+
+def _is_moderate(value: float) -> bool:
+    """Return whether a number is finite and of a size that can be shown; TOML has integers of any length."""
+    return abs(value) < 1e15
+
+
+def _shown(value: object) -> str:
+    """Return a value as a message shows it: short, and as TOML writes it."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, int) and not _is_moderate(value):
+        return "the number"
+    if isinstance(value, list | dict):
+        return "a list" if isinstance(value, list) else "a table"
+    text = f'"{value}"' if isinstance(value, str) else str(value)
+    return text if len(text) <= 40 else f"{text[:37]}..."
+
+
+def _advice(name: str, kind: Kind) -> str:
+    """Return what to write for a missing key."""
+    match kind:
+        case Quantity():
+            return f'{name} = "{units.EXAMPLES[kind.dimensions[0]]}"'
+        case Number():
+            return f"{name} = {kind.example()}"
+        case Choice():
+            return f'{name} = "{kind.options[0]}"'
+        case Text():
+            return f'{name} = "..."'
+        case Table():
+            return f"a table [{name}]"
+        case _:
+            return name
+
+
+def _float(text: str) -> float | str:
+    try:
+        return float(text)
+    except ValueError:
+        return text

@@ -1,0 +1,1 @@
+"""Masses, and the forces that follow from motion and loads."""

@@ -1,0 +1,132 @@
+"""Crank angles with the sines and cosines that everything else shares."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+# Angles closer than this are one row of a table. [deg]
+_SAME_ANGLE = 1e-9
+_SIN_OF_QUARTER = np.array([0.0, 1.0, 0.0, -1.0])
+_COS_OF_QUARTER = np.array([1.0, 0.0, -1.0, 0.0])
+
+
+@dataclass(frozen=True)
+class CrankGrid:
+    """Crank angles, their sine and cosine. Made by `from_degrees`, `from_radians` or `steps`.
+
+    Parameters
+    ----------
+    degrees, angle, sin, cos : array, shape (n,)
+        The angles in degrees and radians and their functions. [deg], [rad], [-], [-]
+    """
+
+    degrees: Array
+    angle: Array
+    sin: Array
+    cos: Array
+
+    @classmethod
+    def from_degrees(cls, degrees: ArrayLike) -> Self:
+        """Return the grid of the given angles; exact at every multiple of 90 degrees, and 0 equals 720."""
+        degrees = np.asarray(degrees, dtype=float)
+        quarter = np.rint(degrees / 90)
+        rest = np.radians(degrees - 90 * quarter)
+        turn = quarter.astype(np.int64) & 3
+        sin_turn, cos_turn = _SIN_OF_QUARTER[turn], _COS_OF_QUARTER[turn]
+        sin, cos = np.sin(rest), np.cos(rest)
+        return cls(
+            degrees, np.radians(degrees), sin_turn * cos + cos_turn * sin + 0.0, cos_turn * cos - sin_turn * sin + 0.0
+        )
+
+    @classmethod
+    def from_radians(cls, angle: ArrayLike) -> Self:
+        """Return the grid of the given angles in radians."""
+        angle = np.asarray(angle, dtype=float)
+        return cls(np.degrees(angle), angle, np.sin(angle), np.cos(angle))
+
+    @classmethod
+    def steps(cls, step: float, end: float, *, special: tuple[float, ...] = ()) -> Self:
+        """Return the grid 0, step, 2 step, ..., end, with special angles sorted in.
+
+        Parameters
+        ----------
+        step, end : float
+            Step and last angle; the last angle is a row even where the step does not divide it. [deg]
+        special : tuple of float
+            Further angles. [deg]
+        """
+        count = math.ceil(end / step - _SAME_ANGLE)
+        regular = np.append(np.arange(count) * step, end)
+        far = [one for one in sorted(set(special)) if np.min(np.abs(regular - one)) > _SAME_ANGLE]
+        return cls.from_degrees(np.sort(np.append(regular, far)))
+
+    @cached_property
+    def sin_2(self) -> Array:
+        """Sine of twice the angle."""
+        return 2 * self.sin * self.cos
+
+    @cached_property
+    def cos_2(self) -> Array:
+        """Cosine of twice the angle."""
+        return (self.cos - self.sin) * (self.cos + self.sin)
+
+    @cached_property
+    def one_minus_sin(self) -> Array:
+        """1 - sin, without cancellation near 90 degrees."""
+        return np.where(self.sin > 0, self.cos**2 / (1 + np.abs(self.sin)), 1 - self.sin)
+
+    @cached_property
+    def one_plus_sin(self) -> Array:
+        """1 + sin, without cancellation near 270 degrees."""
+        return np.where(self.sin < 0, self.cos**2 / (1 + np.abs(self.sin)), 1 + self.sin)
+
+    def __getitem__(self, part: slice) -> Self:
+        """Return a stretch of the grid."""
+        return type(self)(self.degrees[part], self.angle[part], self.sin[part], self.cos[part])
+
+    def __len__(self) -> int:
+        return self.angle.size
+
+
+def sin_multiple(grid: CrankGrid, order: int) -> Array:
+    """Return the sine of `order` times the crank angle.
+
+    Parameters
+    ----------
+    grid : CrankGrid, shape (n,)
+        Crank angles. [rad]
+    order : int
+        The multiple.
+
+    Returns
+    -------
+    array, shape (n,)
+        sin(order * angle). [-]
+    """
+    return CrankGrid.from_degrees(order * grid.degrees).sin
+
+
+def cos_multiple(grid: CrankGrid, order: int) -> Array:
+    """Return the cosine of `order` times the crank angle.
+
+    Parameters
+    ----------
+    grid : CrankGrid, shape (n,)
+        Crank angles. [rad]
+    order : int
+        The multiple.
+
+    Returns
+    -------
+    array, shape (n,)
+        cos(order * angle). [-]
+    """
+    return CrankGrid.from_degrees(order * grid.degrees).cos

@@ -1,0 +1,1 @@
+"""What pushes: gas in the cylinder, calculated or measured."""

@@ -1,0 +1,382 @@
+"""The indicator diagram: gas pressure over the crank angle, piece by piece, closed over the cycle.
+
+The description is named points and the laws between them. Solving it against the volume of the cylinder
+gives segments that know their pressure at any angle. A segment owns its end and not its start, so at a
+vertical line the pressure before the jump is the one that counts.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from crankwork.errors import CrankworkError
+from crankwork.kinematics.crank_grid import Array
+from crankwork.loads.cycle import quadrature
+from crankwork.loads.gas import polytropic_pressure
+from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
+
+Law = Literal["constant", "polytropic", "rounded"]
+VolumeAt = Callable[[Array], Array]
+
+_CLOSING = 1e-3
+
+
+class DiagramError(CrankworkError):
+    """A diagram that does not hang together; `key` is the part of the description at fault."""
+
+    def __init__(self, key: str, message: str) -> None:
+        super().__init__(message)
+        self.key = key
+
+
+@dataclass(frozen=True)
+class DiagramPoint:
+    """A named point: crank angle [deg] and pressure [Pa]; either may be left to the law that ends there.
+
+    `volume` replaces the volume of the cylinder at that angle where a document prints its own. [m3]
+    """
+
+    angle: float | None = None
+    pressure: float | None = None
+    volume: float | None = None
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A law between two named points, through more of them if it is rounded.
+
+    `reference` names the state a polytrope passes through, the first point unless said otherwise.
+    """
+
+    law: Law
+    points: tuple[str, ...]
+    exponent: float | None = None
+    reference: str | None = None
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A solved piece from `start` to `end` [deg]: knots of a curve [deg], [Pa], or a polytrope's state."""
+
+    start: float
+    end: float
+    law: Law
+    knots: Array
+    pressures: Array
+    slopes: Array
+    state: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    def pressure(self, degrees: Array, volume: Array) -> Array:
+        """Return the pressure at crank angles of this segment.
+
+        Parameters
+        ----------
+        degrees, volume : array, shape (n,)
+            Crank angles and the cylinder volume there. [deg], [m3]
+
+        Returns
+        -------
+        array, shape (n,)
+            Pressure. [Pa]
+        """
+        if self.law == "constant":
+            return np.full_like(degrees, self.pressures[0])
+        if self.law == "polytropic":
+            pressure, reference, exponent = self.state
+            return np.asarray(polytropic_pressure(pressure, reference, volume, exponent))
+        return hermite(self.knots, self.pressures, self.slopes, degrees)
+
+    def work(self, volume_at: VolumeAt) -> float:
+        """Return the integral of pressure by volume over the segment.
+
+        Parameters
+        ----------
+        volume_at : callable
+            Cylinder volume of an array of crank angles. [deg] -> [m3]
+
+        Returns
+        -------
+        float
+            Work; closed form for constants and polytropes, by parts for curves. [J]
+
+        References
+        ----------
+        heywood_1988, sec. 2.4.
+        """
+        ends = np.array([self.start, self.end])
+        volume = volume_at(ends)
+        pressure = self.pressure(ends, volume)
+        if self.law == "constant":
+            return float(pressure[0] * (volume[1] - volume[0]))
+        if self.law == "polytropic":
+            exponent = self.state[2]
+            if abs(exponent - 1) < 1e-9:
+                return float(pressure[0] * volume[0] * np.log(volume[1] / volume[0]))
+            return float((pressure[1] * volume[1] - pressure[0] * volume[0]) / (1 - exponent))
+        nodes, weights = quadrature(self.knots)
+        slope = hermite_slope(self.knots, self.pressures, self.slopes, nodes)
+        change = weights @ (volume_at(nodes) * np.degrees(slope))
+        return float(pressure[1] * volume[1] - pressure[0] * volume[0] - change)
+
+
+@dataclass(frozen=True)
+class IndicatorDiagram:
+    """A solved diagram: segments in order, from 0 to the end of the cycle.
+
+    `jumps` lists angle [deg] and pressure step [Pa] wherever two segments meet at different pressures
+    although the description names one point there.
+    """
+
+    segments: tuple[Segment, ...]
+    named: Mapping[str, tuple[float, float]]
+    jumps: tuple[tuple[str, float, float], ...] = ()
+
+    @property
+    def breaks(self) -> Array:
+        """Crank angles where the law changes or a curve has a knot. [deg]"""
+        knots = [segment.knots for segment in self.segments]
+        return np.array(sorted({*np.concatenate(knots).tolist(), self.segments[-1].end}))
+
+    def work(self, volume_at: VolumeAt) -> float:
+        """Return the area of the diagram over the cylinder volume.
+
+        Parameters
+        ----------
+        volume_at : callable
+            Cylinder volume of an array of crank angles. [deg] -> [m3]
+
+        Returns
+        -------
+        float
+            Work of the gas on the piston over one cycle. [J]
+
+        References
+        ----------
+        heywood_1988, sec. 2.4.
+        """
+        return sum(segment.work(volume_at) for segment in self.segments)
+
+    def pressure(self, degrees: Array, volume: Array) -> Array:
+        """Return the pressure at ascending crank angles within one cycle.
+
+        Parameters
+        ----------
+        degrees, volume : array, shape (n,)
+            Ascending crank angles and the cylinder volume there. [deg], [m3]
+
+        Returns
+        -------
+        array, shape (n,)
+            Pressure. [Pa]
+        """
+        ends = [segment.end for segment in self.segments]
+        edges = [0, *np.searchsorted(degrees, ends, side="right")]
+        edges[-1] = len(degrees)
+        result = np.empty_like(degrees)
+        for segment, (first, last) in zip(self.segments, itertools.pairwise(edges), strict=True):
+            part = slice(first, last)
+            result[part] = segment.pressure(degrees[part], volume[part])
+        return result
+
+
+def solve_diagram(
+    points: Mapping[str, DiagramPoint],
+    pieces: tuple[Piece, ...],
+    cycle: float,
+    volume_at: VolumeAt,
+    *,
+    dead_centres: tuple[float, float],
+) -> IndicatorDiagram:
+    """Return the diagram that named points and laws describe.
+
+    Parameters
+    ----------
+    points : mapping of str to DiagramPoint
+        The named points.
+    pieces : tuple of Piece
+        Laws in the order of the crank angle, each starting where the one before ends.
+    cycle : float
+        Length of the cycle. [deg]
+    volume_at : callable
+        Cylinder volume of an array of crank angles. [deg] -> [m3]
+    dead_centres : tuple of float
+        Top and bottom dead centre within one revolution. [deg]
+
+    Returns
+    -------
+    IndicatorDiagram
+        Segments from 0 to `cycle`.
+
+    Raises
+    ------
+    DiagramError
+        With the key at fault, if a point is unknown or incomplete, or the pieces leave a gap.
+    """
+    solver = _Solver(points, volume_at, dead_centres, cycle)
+    segments = [solver.segment(number, piece) for number, piece in enumerate(pieces)]
+    _check_chain(segments, cycle, solver.named)
+    _check_closed(segments)
+    return IndicatorDiagram(tuple(one for one in segments if one.end > one.start), solver.named, tuple(solver.jumps))
+
+
+class _Solver:
+    """Angles and pressures of the named points as they become known, piece after piece."""
+
+    def __init__(
+        self,
+        points: Mapping[str, DiagramPoint],
+        volume_at: VolumeAt,
+        dead_centres: tuple[float, float],
+        cycle: float,
+    ) -> None:
+        self.points = points
+        self.volume_at = volume_at
+        self.dead_centres = dead_centres
+        self.cycle = cycle
+        self.named: dict[str, tuple[float, float]] = {}
+        self.jumps: list[tuple[str, float, float]] = []
+
+    def segment(self, number: int, piece: Piece) -> Segment:
+        """Solve one piece and remember what it says about its points."""
+        key = f"gas.pieces[{number + 1}]"
+        for name in (*piece.points, *([piece.reference] if piece.reference else [])):
+            if name not in self.points:
+                raise DiagramError(f"{key}.points", f'there is no point "{name}" in [gas.points]')
+        match piece.law:
+            case "constant":
+                return self._constant(key, piece)
+            case "polytropic":
+                return self._polytropic(key, piece)
+            case "rounded":
+                return self._rounded(key, piece)
+
+    def angle(self, key: str, name: str) -> float:
+        """Return the crank angle of a point, given or already found. [deg]"""
+        if name in self.named:
+            return self.named[name][0]
+        angle = self.points[name].angle
+        if angle is None:
+            raise DiagramError(
+                key, f'point "{name}" needs an angle; only the end of a polytrope can be found by pressure'
+            )
+        return angle
+
+    def pressure(self, key: str, name: str) -> float:
+        """Return the pressure of a point, given or already found. [Pa]"""
+        if name in self.named:
+            return self.named[name][1]
+        pressure = self.points[name].pressure
+        if pressure is None:
+            raise DiagramError(key, f'point "{name}" needs a pressure; nothing before it gives one')
+        return pressure
+
+    def settle(self, name: str, angle: float, pressure: float) -> None:
+        """Remember a point; a given pressure other than the computed one is a jump to report."""
+        given = self.points[name].pressure
+        if given is not None and abs(given - pressure) > _CLOSING * max(abs(given), abs(pressure)):
+            self.jumps.append((name, angle, given - pressure))
+        self.named[name] = (angle, pressure if given is None else given)
+
+    def _constant(self, key: str, piece: Piece) -> Segment:
+        first, last = piece.points[0], piece.points[-1]
+        pressure = self.pressure(key, first)
+        start, end = self.angle(key, first), self.angle(key, last)
+        self.settle(first, start, pressure)
+        self.settle(last, end, pressure)
+        return Segment(start, end, "constant", np.array([start, end]), np.full(2, pressure), np.zeros(2))
+
+    def _polytropic(self, key: str, piece: Piece) -> Segment:
+        if piece.exponent is None:
+            raise DiagramError(f"{key}.exponent", "a polytropic piece needs its exponent, for example 1.35")
+        first, last = piece.points[0], piece.points[-1]
+        reference = piece.reference or first
+        state = (self.pressure(key, reference), self._volume(key, reference), piece.exponent)
+        if state[0] <= 0:
+            raise DiagramError(key, f'a polytrope needs a positive pressure at "{reference}"')
+        start = self.angle(key, first)
+        end = self.points[last].angle
+        if end is None:
+            end = self._angle_of_pressure(key, start, last, state)
+        degrees = np.array([start, end])
+        ends = np.asarray(polytropic_pressure(*state[:2], self.volume_at(degrees), state[2]))
+        self.settle(first, start, float(ends[0]))
+        self.settle(last, end, float(ends[1]))
+        return Segment(start, end, "polytropic", degrees, ends, np.zeros(2), state)
+
+    def _volume(self, key: str, name: str) -> float:
+        given = self.points[name].volume
+        return float(self.volume_at(np.array([self.angle(key, name)]))[0]) if given is None else given
+
+    def _angle_of_pressure(self, key: str, start: float, last: str, state: tuple[float, float, float]) -> float:
+        """Return where the polytrope reaches the pressure of its end point, before the next dead centre."""
+        wanted = self.points[last].pressure
+        if wanted is None or wanted <= 0:
+            raise DiagramError(key, f'point "{last}" needs an angle or a positive pressure')
+        turns = np.arange(0.0, self.cycle + 360.0, 360.0)
+        centres = np.sort(np.concatenate([turns + one for one in self.dead_centres]))
+        low, high = start, float(centres[np.searchsorted(centres, start + 1e-9)])
+
+        def excess(angle: float) -> float:
+            volume = float(self.volume_at(np.array([angle]))[0])
+            return float(polytropic_pressure(*state[:2], volume, state[2])) - wanted
+
+        if excess(low) * excess(high) > 0:
+            raise DiagramError(key, f'the polytrope does not reach the pressure of "{last}" before {high:g} deg')
+        rising = excess(high) > 0
+        for _ in range(60):
+            middle = (low + high) / 2
+            low, high = (low, middle) if (excess(middle) > 0) == rising else (middle, high)
+        return (low + high) / 2
+
+    def _rounded(self, key: str, piece: Piece) -> Segment:
+        if len(piece.points) < 2:
+            raise DiagramError(f"{key}.points", "a rounded piece passes through at least two points")
+        knots = np.array([self.angle(key, name) for name in piece.points])
+        pressures = np.array([self.pressure(key, name) for name in piece.points])
+        if knots[0] == knots[-1]:
+            slopes = np.zeros_like(knots)
+        elif np.any(np.diff(knots) <= 0):
+            raise DiagramError(f"{key}.points", "the points of a rounded piece must have rising crank angles")
+        else:
+            slopes = monotone_slopes(knots, pressures)
+        for name, angle, pressure in zip(piece.points, knots, pressures, strict=True):
+            self.settle(name, float(angle), float(pressure))
+        return Segment(float(knots[0]), float(knots[-1]), "rounded", knots, pressures, slopes)
+
+
+def _check_chain(segments: list[Segment], cycle: float, named: Mapping[str, tuple[float, float]]) -> None:
+    """Raise unless every segment starts where the one before ends, from 0 to the end of the cycle."""
+    end = 0.0
+    for number, segment in enumerate(segments, start=1):
+        if abs(segment.start - end) > 1e-6:
+            raise DiagramError(
+                f"gas.pieces[{number}]",
+                f"starts at {segment.start:g} deg, but the pieces before it end at {end:g} deg: "
+                + ("fill the gap" if segment.start > end else "the angle must not go backwards"),
+            )
+        if segment.end < segment.start:
+            raise DiagramError(
+                f"gas.pieces[{number}]",
+                f"goes backwards, from {segment.start:g} to {segment.end:g} deg; order its points by crank angle",
+            )
+        end = segment.end
+    if abs(end - cycle) > 1e-6:
+        last = max(named, key=lambda name: named[name][0])
+        raise DiagramError(
+            "gas.pieces", f'the pieces end at {end:g} deg (point "{last}"); the cycle is closed at {cycle:g} deg'
+        )
+
+
+def _check_closed(segments: list[Segment]) -> None:
+    first, last = float(segments[0].pressures[0]), float(segments[-1].pressures[-1])
+    highest = max(float(np.max(np.abs(segment.pressures))) for segment in segments)
+    if abs(first - last) > 0.02 * highest:
+        raise DiagramError(
+            "gas.pieces",
+            f"the diagram does not close: it starts at {first / 1e6:g} MPa and ends at {last / 1e6:g} MPa",
+        )

@@ -1,0 +1,145 @@
+"""Measured cylinder pressure: from rows of angle and pressure to a closed diagram."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from crankwork.kinematics.crank_grid import Array
+from crankwork.loads.indicator import DiagramError, IndicatorDiagram, Segment
+from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
+
+_GAP_FACTOR = 4.0
+_WRAP = 0.05
+
+
+@dataclass(frozen=True)
+class MeasuredPressure:
+    """Pressure samples of one or more cycles, as recorded.
+
+    Parameters
+    ----------
+    degrees, pressure : array, shape (n,)
+        Crank angles, rising throughout, and pressures. [deg], [Pa]
+    rows : sequence of int
+        Line numbers of the samples in their file, for messages.
+    """
+
+    degrees: Array
+    pressure: Array
+    rows: Sequence[int]
+
+
+def measured_diagram(
+    measured: MeasuredPressure, cycle: float, *, shift: float = 0.0, step: float | None = None
+) -> tuple[IndicatorDiagram, int, float]:
+    """Return the diagram of measured pressure, cycles averaged and resampled if asked.
+
+    Parameters
+    ----------
+    measured : MeasuredPressure
+        The samples.
+    cycle : float
+        Length of the cycle. [deg]
+    shift : float
+        Added to every angle, so that zero is top dead centre. [deg]
+    step : float, optional
+        Resample at this step; otherwise the samples of the first cycle set the angles. [deg]
+
+    Returns
+    -------
+    tuple of IndicatorDiagram, int, float
+        The closed diagram, the number of cycles averaged, and by how much the pressure at the end of the
+        cycle differs from that at its start. [Pa]
+
+    Raises
+    ------
+    DiagramError
+        If angles go backwards, leave a gap or do not cover a cycle, naming the line of the file.
+    """
+    _check_angles(measured, cycle)
+    start, end = measured.degrees[0], measured.degrees[-1]
+    typical = float(np.median(np.diff(measured.degrees)))
+    cycles = max(1, int((end - start + 1.5 * typical) // cycle))
+    wrap = _wrap_step(measured, cycle)
+    offsets = np.arange(0.0, cycle, typical if step is None else step)
+    # a cycle recorded without its last angle is closed by its first sample
+    degrees = np.append(measured.degrees, start + cycle * cycles)
+    pressure = np.append(measured.pressure, measured.pressure[0])
+    keep = np.append(measured.degrees < start + cycle * cycles - 1e-9, True)
+    degrees, pressure = degrees[keep], pressure[keep]
+    slopes = monotone_slopes(degrees, pressure, periodic=True)
+    samples = [hermite(degrees, pressure, slopes, start + number * cycle + offsets) for number in range(cycles)]
+    return _closed(offsets + start + shift, np.mean(samples, axis=0), cycle), cycles, wrap
+
+
+def _closed(degrees: Array, pressure: Array, cycle: float) -> IndicatorDiagram:
+    """Return a diagram from 0 to `cycle` through samples at any angles of one period."""
+    degrees = np.asarray(np.round(np.mod(degrees, cycle), 9) % cycle)
+    order = np.argsort(degrees)
+    degrees, pressure = degrees[order], pressure[order]
+    around = np.concatenate([[degrees[-1] - cycle], degrees, [degrees[0] + cycle]])
+    values = np.concatenate([pressure[-1:], pressure, pressure[:1]])
+    slopes = monotone_slopes(around[1:], values[1:], periodic=True)
+    slopes = np.concatenate([slopes[-2:-1], slopes])
+    curve = (around, values, slopes)
+    inside = np.concatenate([[0.0], around[(around > 0) & (around < cycle)], [cycle]])
+    return IndicatorDiagram(
+        (Segment(0.0, cycle, "rounded", inside, hermite(*curve, inside), hermite_slope(*curve, inside)),), {}
+    )
+
+
+def _check_angles(measured: MeasuredPressure, cycle: float) -> None:
+    degrees, rows = measured.degrees, measured.rows
+    if len(degrees) < 8:
+        raise DiagramError("gas.measured", f"only {len(degrees)} samples; a cycle needs at least 8")
+    steps = np.diff(degrees)
+    if np.any(steps <= 0):
+        worst = int(np.argmax(steps <= 0))
+        raise DiagramError(
+            "gas.measured",
+            f"line {rows[worst + 1]}: the angle goes backwards, from {degrees[worst]:g} to {degrees[worst + 1]:g} deg; "
+            "sort the rows, and let the angle of a second cycle go on counting",
+        )
+    typical = float(np.median(steps))
+    if np.max(steps) > _GAP_FACTOR * typical:
+        worst = int(np.argmax(steps))
+        raise DiagramError(
+            "gas.measured",
+            f"line {rows[worst + 1]}: gap from {degrees[worst]:g} to {degrees[worst + 1]:g} deg "
+            f"where the usual step is {typical:g} deg; fill in the missing samples",
+        )
+    covered = float(degrees[-1] - degrees[0]) + 1.5 * typical
+    if covered < cycle:
+        raise DiagramError(
+            "gas.measured",
+            f"the samples cover {degrees[-1] - degrees[0]:g} deg; one cycle is {cycle:g} deg: "
+            "record it whole, or correct gas.cycle",
+        )
+
+
+def _wrap_step(measured: MeasuredPressure, cycle: float) -> float:
+    """Return the pressure one cycle after the first sample less that of the first sample."""
+    after = float(np.interp(measured.degrees[0] + cycle, measured.degrees, measured.pressure))
+    return after - float(measured.pressure[0])
+
+
+def wrap_is_rough(diagram: IndicatorDiagram, wrap: float) -> bool:
+    """Return whether the step between end and start of the cycle is worth a warning.
+
+    Parameters
+    ----------
+    diagram : IndicatorDiagram
+        The closed diagram.
+    wrap : float
+        Pressure step across the wrap. [Pa]
+
+    Returns
+    -------
+    bool
+        True above 5 % of the range of pressures.
+    """
+    pressures = diagram.segments[0].pressures
+    return abs(wrap) > _WRAP * float(np.ptp(pressures))

@@ -1,0 +1,113 @@
+"""Monotone cubic curves with continuous slope through given points.
+
+SciPy has the same curve, but importing it costs more than the whole of a run; it is the reference of the tests.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from crankwork.kinematics.crank_grid import Array
+
+
+def monotone_slopes(x: Array, y: Array, *, periodic: bool = False) -> Array:
+    """Return slopes at the points such that the cubic Hermite curve never overshoots them.
+
+    Parameters
+    ----------
+    x, y : array, shape (n,)
+        Ascending abscissas and ordinates; with `periodic` the last point repeats the first one period on.
+    periodic : bool
+        Whether slopes at both ends are those of one closed curve.
+
+    Returns
+    -------
+    array, shape (n,)
+        Slopes; zero at local extremes.
+
+    References
+    ----------
+    fritsch_butland_1984, weighted harmonic mean; three-point end slopes.
+    """
+    if periodic:
+        x = np.concatenate([[x[0] - (x[-1] - x[-2])], x, [x[-1] + x[1] - x[0]]])
+        y = np.concatenate([[y[-2]], y, [y[1]]])
+        return monotone_slopes(x, y)[1:-1]
+    h, delta = np.diff(x), np.diff(y) / np.diff(x)
+    if len(x) == 2:
+        return np.repeat(delta, 2)
+    before, after = 2 * h[1:] + h[:-1], h[1:] + 2 * h[:-1]
+    same_sign = delta[:-1] * delta[1:] > 0
+    left, right = np.where(same_sign, delta[:-1], 1.0), np.where(same_sign, delta[1:], 1.0)
+    inner = np.where(same_sign, (before + after) / (before / left + after / right), 0.0)
+    return np.concatenate([
+        [_end_slope(h[0], h[1], delta[0], delta[1])],
+        inner,
+        [_end_slope(h[-1], h[-2], delta[-1], delta[-2])],
+    ])  # fmt: skip
+
+
+def _end_slope(near: float, far: float, delta_near: float, delta_far: float) -> float:
+    slope = ((2 * near + far) * delta_near - near * delta_far) / (near + far)
+    if slope * delta_near <= 0:
+        return 0.0
+    if delta_near * delta_far <= 0 and abs(slope) > 3 * abs(delta_near):
+        return 3 * delta_near
+    return slope
+
+
+def hermite(x: Array, y: Array, slopes: Array, at: Array) -> Array:
+    """Return the piecewise cubic with given ordinates and slopes.
+
+    Parameters
+    ----------
+    x, y, slopes : array, shape (n,)
+        Points and slopes.
+    at : array, shape (m,)
+        Abscissas between the first and the last point.
+
+    Returns
+    -------
+    array, shape (m,)
+        Ordinates.
+
+    References
+    ----------
+    fritsch_carlson_1980, eq. 2.
+    """
+    i = np.clip(np.searchsorted(x, at, side="right") - 1, 0, len(x) - 2)
+    h = x[i + 1] - x[i]
+    t = (at - x[i]) / h
+    s = 1 - t
+    return (
+        y[i] * (1 + 2 * t) * s**2
+        + slopes[i] * h * t * s**2
+        + y[i + 1] * t**2 * (1 + 2 * s)
+        - slopes[i + 1] * h * t**2 * s
+    )
+
+
+def hermite_slope(x: Array, y: Array, slopes: Array, at: Array) -> Array:
+    """Return the derivative of the piecewise cubic with given ordinates and slopes.
+
+    Parameters
+    ----------
+    x, y, slopes : array, shape (n,)
+        Points and slopes.
+    at : array, shape (m,)
+        Abscissas between the first and the last point.
+
+    Returns
+    -------
+    array, shape (m,)
+        Slopes.
+
+    References
+    ----------
+    fritsch_carlson_1980, eq. 2.
+    """
+    i = np.clip(np.searchsorted(x, at, side="right") - 1, 0, len(x) - 2)
+    h = x[i + 1] - x[i]
+    t = (at - x[i]) / h
+    rise = (y[i + 1] - y[i]) / h
+    return np.asarray(6 * t * (1 - t) * rise + slopes[i] * (1 - t) * (1 - 3 * t) + slopes[i + 1] * t * (3 * t - 2))

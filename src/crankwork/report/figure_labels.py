@@ -1,0 +1,117 @@
+"""Names beside points of a curve, placed so that they cover neither lines nor each other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from crankwork.kinematics.crank_grid import Array
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_SIZE = 8.0
+_SPACING = 2.5
+_LONGEST = 16
+_REACHES = np.array([8.0, 11.0, 15.0, 20.0, 26.0, 33.0, 41.0, 50.0])
+_ANGLES = np.radians([45, 135, 90, 0, 180, 315, 225, 270, 22, 67, 112, 157, 202, 247, 292, 337])
+_DIRECTIONS = np.column_stack([np.cos(_ANGLES), np.sin(_ANGLES)])
+
+Line = tuple[Sequence[float] | Array, Sequence[float] | Array]
+Box = tuple[Array, Array]
+
+
+def label_points(axes: Axes, points: Sequence[tuple[str, float, float]], *lines: Line) -> None:
+    """Mark points and name them, with a thin line to names that had to go further away.
+
+    Points that fall together share one mark.
+
+    Parameters
+    ----------
+    axes : Axes
+        With limits already set.
+    points : sequence of (str, float, float)
+        Name and coordinates in the units of the axes.
+    *lines : tuple of sequence, shape (n,)
+        Coordinates of lines to keep clear of.
+    """
+    points = _merged(axes, points)
+    if not points:
+        return
+    axes.plot(*zip(*((x, y) for _, x, y in points), strict=True), "o", color="black", markersize=2.6, clip_on=False)
+    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    frame = _on_paper(axes, ([left, right], [bottom, top]))
+    edges: list[Line] = [([left, left], [bottom, top]), ([left, right], [bottom, bottom])]
+    marks = _on_paper(axes, tuple(zip(*((x, y) for _, x, y in points), strict=True)))
+    obstacles = np.vstack([marks, *(_spread(_on_paper(axes, line)) for line in (*lines, *edges))])
+    placed: list[Box] = []
+    for (name, x, y), mark in zip(points, marks, strict=True):
+        half = np.array([0.31 * _SIZE * len(name) + 0.8, 0.5 * _SIZE])
+        shift = _best_shift(mark, half, placed, obstacles, np.sort(frame, axis=0))
+        placed.append((mark + shift, half))
+        obstacles = np.vstack([obstacles, _spread(np.array([mark, mark + shift]))])
+        _write(axes, name, (x, y), shift, half)
+
+
+def _write(axes: Axes, name: str, place: tuple[float, float], shift: Array, half: Array) -> None:
+    gap = np.max(np.abs(shift) - half)
+    line = {"arrowstyle": "-", "linewidth": 0.4, "color": "0.4", "shrinkA": 0, "shrinkB": 1.5} if gap > 6 else None
+    axes.annotate(
+        name, place, shift, textcoords="offset points", size=_SIZE, ha="center", va="center",
+        arrowprops=line, parse_math=False, annotation_clip=False,
+    )  # fmt: skip
+
+
+def _best_shift(mark: Array, half: Array, placed: Sequence[Box], obstacles: Array, frame: Array) -> Array:
+    """Return where the middle of a name goes, from its mark: clear first, then near. [pt]"""
+    shifts = np.concatenate([_DIRECTIONS * (reach + np.abs(_DIRECTIONS) * (half - half.min())) for reach in _REACHES])
+    centres = mark + shifts
+    near = obstacles[np.all(np.abs(obstacles - mark) < _REACHES[-1] + 2 * half + 4, axis=1)]
+    cost = 10.0 * np.all(np.abs(centres[:, None] - near) < half + 1.0, axis=2).sum(axis=1)
+    cost += np.repeat(_REACHES, len(_DIRECTIONS)) + 0.1 * np.tile(np.arange(len(_DIRECTIONS)), len(_REACHES))
+    towards = mark + shifts[:, None] * np.linspace(0.1, 1.0, 10)[:, None]
+    for centre, other in placed:
+        cost += 500.0 * np.all(np.abs(centres - centre) < half + other + 0.5, axis=1)
+        cost += 40.0 * np.any(np.all(np.abs(towards - centre) < other, axis=2), axis=1)
+    outside = np.any((centres - half < frame[0]) | (centres + half > frame[1]), axis=1)
+    return np.asarray(shifts[np.argmin(cost + 200.0 * outside)])
+
+
+def _on_paper(axes: Axes, line: Line) -> Array:
+    """Return coordinates of the axes in points of the paper."""
+    figure = axes.figure
+    return np.asarray(axes.transData.transform(np.column_stack(line)) * 72 / figure.dpi)
+
+
+def _spread(line: Array) -> Array:
+    """Return points along a line at even distances on paper."""
+    length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
+    even = np.arange(0.0, length[-1], _SPACING)
+    return np.column_stack([np.interp(even, length, line[:, 0]), np.interp(even, length, line[:, 1])])
+
+
+def _merged(axes: Axes, points: Sequence[tuple[str, float, float]]) -> list[tuple[str, float, float]]:
+    """Return the points with printable names, those within a point of the paper joined."""
+    result: list[tuple[str, float, float]] = []
+    places: list[Array] = []
+    for name, x, y in points:
+        text, here = _printable(name), _on_paper(axes, ([x], [y]))[0]
+        same = [i for i, place in enumerate(places) if np.hypot(*(place - here)) < 1.0]
+        if same:
+            first, *place = result[same[0]]
+            result[same[0]] = (f"{first}, {text}", place[0], place[1])
+        else:
+            result.append((text, x, y))
+            places.append(here)
+    return result
+
+
+def _printable(name: str) -> str:
+    """Return a name with a box for every character that the font lacks, shortened if it is long."""
+    from matplotlib.font_manager import findfont, get_font  # noqa: PLC0415 - an optional part
+
+    font = get_font(findfont("DejaVu Serif"))
+    name = name if len(name) <= _LONGEST else f"{name[: _LONGEST - 1]}…"
+    return "".join(one if one.isprintable() and font.get_char_index(ord(one)) else "□" for one in name)

@@ -1,0 +1,179 @@
+"""Words, units and numbers as each language prints them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from crankwork.quantities import LANGUAGES, QUANTITIES, Language, base_key
+from crankwork.units import from_si
+
+_RUSSIAN_UNITS = {
+    "mm": "мм", "cm2": "см²", "cm3": "см³", "deg": "°", "rad/s": "рад/с", "rad/s2": "рад/с²", "m/s": "м/с",
+    "m/s2": "м/с²", "kg": "кг", "g/cm2": "г/см²", "kg*m2": "кг·м²", "MPa": "МПа", "N": "Н", "N*m": "Н·м",
+    "J": "Дж", "kW": "кВт", "rpm": "мин⁻¹",
+}  # fmt: skip
+_LATIN_UNITS = {
+    "cm2": "cm²", "cm3": "cm³", "deg": "°", "rad/s2": "rad/s²", "m/s2": "m/s²", "g/cm2": "g/cm²",
+    "kg*m2": "kg·m²", "N*m": "N·m",
+}  # fmt: skip
+_VIETNAMESE_UNITS = {**_LATIN_UNITS, "rpm": "vg/ph"}
+_UNITS: Mapping[Language, Mapping[str, str]] = {"en": _LATIN_UNITS, "ru": _RUSSIAN_UNITS, "vi": _VIETNAMESE_UNITS}
+
+# word: English, Russian, Vietnamese
+_WORDS = {
+    "max": ("largest {}", "{}: наибольшее значение", "{}: giá trị lớn nhất"),
+    "min": ("smallest {}", "{}: наименьшее значение", "{}: giá trị nhỏ nhất"),
+    "max_angle": ("at crank angle", "при угле поворота", "tại góc quay"),
+    "error": ("largest error against exact, {}", "{}: наибольшая погрешность относительно точного решения",
+              "{}: sai số lớn nhất so với kết quả chính xác"),
+    "top_dead_centre": ("top dead centre", "верхняя мёртвая точка", "điểm chết trên"),
+    "bottom_dead_centre": ("bottom dead centre", "нижняя мёртвая точка", "điểm chết dưới"),
+    "method": ("method", "метод", "phương pháp"),
+    "summary": ("Summary", "Сводка", "Tóm tắt"),
+    "checks": ("Checks (relative residual)", "Проверки (относительная невязка)", "Kiểm tra (sai lệch tương đối)"),
+    "notices": ("Notes", "Примечания", "Ghi chú"),
+    "written": ("Written to", "Записано в", "Đã ghi vào"),
+    "exact": ("exact", "точный", "chính xác"),
+    "textbook": ("textbook, two terms", "приближённый, два члена ряда", "gần đúng, hai số hạng"),
+    "series": ("series to order {}", "ряд до порядка {}", "chuỗi đến bậc {}"),
+    "rigid": ("rigid rod", "шатун – твёрдое тело", "thanh truyền là vật rắn"),
+    "two-mass": ("two-mass rod", "двухмассовый шатун", "thanh truyền hai khối lượng"),
+    "mean": ("mean", "среднее", "trung bình"),
+    "per_area": (
+        "forces per piston area", "силы на единицу площади поршня", "lực trên một đơn vị diện tích đỉnh piston"
+    ),
+    "crankpin_resultant": ("T² + K² = S²", "T² + K² = S²", "T² + Z² = Ptt²"),
+    "pin_resultant": ("F_P² + F_N² = F_Q²", "P² + N² = S²", "P1² + N² = Ptt²"),
+    "overturning": ("torque = overturning moment", "крутящий момент = опрокидывающий момент", "mômen quay = mômen lật"),
+    "work": ("work by p–V = work by torque", "работа по p–V = работа по моменту", "công theo p–V = công theo mômen"),
+    "kinematics": ("Piston motion", "Кинематика поршня", "Động học piston"),
+    "harmonics": ("First and second order", "Первый и второй порядки", "Cấp một và cấp hai"),
+    "forces": ("Forces and torque", "Силы и крутящий момент", "Lực và mômen"),
+}  # fmt: skip
+
+_NOTICES = {
+    "pi": ("computed with π = {pi}", "расчёт выполнен с π = {pi}", "tính với π = {pi}"),
+    "inertia_rod_ratio": (
+        "the inertia force uses r/l = {used}, everything else {rod_ratio}: the document mixes two ratios",
+        "сила инерции вычислена при λ = {used}, всё остальное при λ = {rod_ratio}: в документе смешаны два значения",
+        "lực quán tính tính với λ = {used}, phần còn lại với λ = {rod_ratio}: tài liệu dùng lẫn hai giá trị",
+    ),
+    "cycles_averaged": ("mean of {cycles} measured cycles", "среднее по {cycles} измеренным циклам",
+                        "trung bình của {cycles} chu trình đo"),
+    "wrap": (
+        "measured pressure jumps by {step} MPa from the end of the cycle to its start",
+        "измеренное давление меняется скачком на {step} МПа между концом и началом цикла",
+        "áp suất đo nhảy {step} MPa giữa cuối và đầu chu trình",
+    ),
+    "jump": (
+        "pressure jumps by {step} MPa at point {point}, {angle}°",
+        "скачок давления {step} МПа в точке {point}, {angle}°",
+        "áp suất nhảy {step} MPa tại điểm {point}, {angle}°",
+    ),
+    "two_terms": (
+        "two-term displacement and exact rod angle differ slightly, so the two works do",
+        "двучленное перемещение и точный угол шатуна не вполне согласованы, поэтому работы различаются",
+        "chuyển vị hai số hạng và góc lắc chính xác không hoàn toàn khớp nên hai công khác nhau",
+    ),
+}  # fmt: skip
+
+
+def word(key: str, language: Language) -> str:
+    """Return a word or phrase of the report in a language."""
+    return _WORDS[key][LANGUAGES.index(language)]
+
+
+def has_word(key: str) -> bool:
+    """Return whether the report has a phrase of its own for a key."""
+    return key in _WORDS
+
+
+def notice_text(code: str, values: Mapping[str, float | str], language: Language) -> str:
+    """Return the sentence of a notice with its numbers printed."""
+    shown = {}
+    for key, value in values.items():
+        if isinstance(value, str):
+            shown[key] = value
+        else:
+            # pressure steps are the only values with a unit of their own, MPa
+            shown[key] = number(value / 1e6 if key == "step" else value, language, digits=5)
+    return _NOTICES[code][LANGUAGES.index(language)].format(**shown)
+
+
+def notice_codes() -> list[str]:
+    """Return the codes of all notices."""
+    return list(_NOTICES)
+
+
+def unit_name(unit: str, language: Language) -> str:
+    """Return a unit as that language prints it."""
+    return _UNITS[language].get(unit, unit)
+
+
+def number(value: float, language: Language, *, digits: int = 6) -> str:
+    """Return a number with up to `digits` significant digits, the language's decimal mark and a true minus sign."""
+    text = f"{value + 0.0:.{digits}g}"
+    if "e" not in text and abs(value) >= 10**digits:
+        text = f"{value:.0f}"
+    if text in ("-0", "0"):
+        return "0"
+    if "e" in text:
+        mantissa, _, exponent = text.partition("e")
+        text = f"{mantissa}·10^{int(exponent)}" if mantissa not in ("1", "-1") else f"{mantissa[:-1]}10^{int(exponent)}"
+    if language != "en":
+        text = text.replace(".", ",")
+    return text.replace("-", "−")
+
+
+def key_unit(key: str, *, per_area: bool = False) -> str:
+    """Return the display unit of a key, a derived one such as `piston_force_max_angle` included."""
+    if key.endswith("_angle") and key not in QUANTITIES:
+        return "deg"
+    row = QUANTITIES[base_key(key)]
+    return row.per_area_unit if per_area and row.per_area_unit else row.unit
+
+
+def displayed(key: str, value: float, *, per_area: float | None = None) -> float:
+    """Return an SI value in the display unit of its key; `per_area` is the piston area to divide by. [m2]"""
+    if per_area is not None and QUANTITIES.get(base_key(key), None) and _is_per_area(key):
+        value = value / per_area
+    return from_si(value, key_unit(key, per_area=per_area is not None))
+
+
+def _is_per_area(key: str) -> bool:
+    return not (key.endswith("_angle") and key not in QUANTITIES) and bool(QUANTITIES[base_key(key)].per_area_unit)
+
+
+def label(key: str, language: Language) -> str:
+    """Return the name of a key, with words for derived keys, `largest piston velocity`."""
+    if key in QUANTITIES:
+        return QUANTITIES[key].label(language)
+    if key.endswith(("_max_angle", "_min_angle")):
+        return word("max_angle", language)
+    for suffix in ("max", "min", "error"):
+        if key.endswith(f"_{suffix}"):
+            return word(suffix, language).format(label(key.removesuffix(f"_{suffix}"), language))
+    return word(key.removesuffix("_angle"), language)
+
+
+def symbol(key: str, language: Language) -> str:
+    """Return the symbol of a key; derived keys get the mark of what they are."""
+    if key in QUANTITIES:
+        return QUANTITIES[key].symbol(language)
+    if key.endswith("_angle"):
+        return QUANTITIES["crank_angle"].symbol(language)
+    base = QUANTITIES[base_key(key.removesuffix("_error"))].symbol(language)
+    if key.endswith("_error"):
+        return f"Δ{base}"
+    return f"{base}{',' if '_' in base else '_'}{key[-3:]}"
+
+
+def method_name(kinematics: str, order: int, rod: str, language: Language) -> str:
+    """Return how a result was made, in words."""
+    return f"{word(kinematics, language).format(order)}; {word(rod, language)}"
+
+
+def rounded(value: float, digits: int = 15) -> float:
+    """Return a number without the noise of its last bit, for printing as data."""
+    return float(f"{value:.{digits}g}") if math.isfinite(value) else value

@@ -1,0 +1,78 @@
+"""The bibliography: what a key in a formula or a docstring stands for."""
+
+from __future__ import annotations
+
+import functools
+import re
+from types import MappingProxyType
+from typing import NamedTuple
+
+from crankwork.files import read_resource
+
+_ENTRY = re.compile(r"^@(?P<kind>\w+)\{(?P<key>\w+),$(?P<body>.*?)^\}$", re.MULTILINE | re.DOTALL)
+_FIELD = re.compile(r"^  (?P<name>\w+) = \{(?P<value>.*)\},$", re.MULTILINE)
+
+
+class Source(NamedTuple):
+    """One entry of the bibliography, as text; a field that the entry lacks is empty."""
+
+    key: str
+    kind: str
+    title: str
+    year: str
+    author: str = ""
+    editor: str = ""
+    edition: str = ""
+    publisher: str = ""
+    address: str = ""
+    journal: str = ""
+    volume: str = ""
+    number: str = ""
+    pages: str = ""
+    doi: str = ""
+
+
+@functools.cache
+def sources() -> MappingProxyType[str, Source]:
+    """Return the bibliography by key."""
+    entries = {}
+    for entry in _ENTRY.finditer(read_resource("sources.bib")):
+        fields = {field["name"]: field["value"] for field in _FIELD.finditer(entry["body"])}
+        entries[entry["key"]] = Source(entry["key"], entry["kind"], **fields)
+    return MappingProxyType(entries)
+
+
+def cite(reference: str) -> str:
+    """Return the line of a list of references.
+
+    Parameters
+    ----------
+    reference : str
+        Key of the bibliography, with chapter, page or equation after a comma if wanted.
+
+    Raises
+    ------
+    KeyError
+        If the bibliography has no such key.
+
+    Examples
+    --------
+    >>> cite("khurmi_gupta_2005, ch. 15")
+    'Khurmi R. S., Gupta J. K. Theory of Machines. 14th ed. New Delhi: S. Chand, 2005, ch. 15.'
+    """
+    key, comma, place = reference.partition(",")
+    source = sources()[key]
+    parts = (_names(source.author or source.editor), source.title, source.edition, _publication(source))
+    sentences = " ".join(part if part.endswith(".") else part + "." for part in parts if part)
+    return f"{sentences.removesuffix('.')}{comma}{place}".removesuffix(".") + "."
+
+
+def _names(people: str) -> str:
+    return ", ".join(person.replace(", ", " ") for person in people.split(" and "))
+
+
+def _publication(source: Source) -> str:
+    """Return where and when it appeared."""
+    if source.journal:
+        return f"{source.journal} {source.volume}({source.number}), {source.pages}, {source.year}"
+    return f"{source.address}: {source.publisher}, {source.year}"

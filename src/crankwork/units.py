@@ -1,0 +1,198 @@
+"""Units of measurement as text, at the doors only; inside, everything is SI.
+
+A table and a strict grammar: a number, a space if you like, a unit of the table. Nothing is evaluated,
+so neither `9**9**9 mm` nor `1 mm + 1 m` means anything, and a comma is never dropped.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import unicodedata
+from typing import Any, NamedTuple
+
+
+class Unit(NamedTuple):
+    """A unit: the dimension it measures and its size in SI."""
+
+    dimension: str
+    factor: float
+
+
+KGF = 9.80665
+_RPM = math.pi / 30
+
+# dimension: {SI size: every spelling}. The first spelling is the one that is suggested.
+_SPELLINGS: dict[str, list[tuple[float, str]]] = {
+    "angle": [(math.pi / 180, "deg ° градус град độ"), (1.0, "rad рад")],
+    "length": [
+        (1e-3, "mm мм"),
+        (1e-2, "cm см"),
+        (1.0, "m м"),
+        (1e-6, "um µm μm мкм"),
+        (0.0254, "in inch"),
+        (0.3048, "ft"),
+    ],
+    "area": [(1e-4, "cm2 cm² см2 см²"), (1e-6, "mm2 mm² мм2 мм²"), (1.0, "m2 m² м2 м²")],
+    "volume": [
+        (1e-6, "cm3 cm³ cc см3 см³"),
+        (1e-3, "l L dm3 dm³ л дм3 дм³"),
+        (1e-9, "mm3 mm³ мм3 мм³"),
+        (1.0, "m3 m³ м3 м³"),
+        (0.0254**3, "in3 in³"),
+    ],
+    "mass": [(1.0, "kg кг"), (1e-3, "g г"), (1e3, "t т"), (0.45359237, "lb lbm")],
+    "mass_per_area": [
+        (10.0, "g/cm2 g/cm² г/см2 г/см²"),
+        (1.0, "kg/m2 kg/m² кг/м2 кг/м²"),
+        (1e4, "kg/cm2 kg/cm² кг/см2 кг/см²"),
+    ],
+    "inertia": [
+        (1.0, "kg*m2 kg·m² kg.m2 kgm2 кг·м² кг*м2 кг.м2"),
+        (1e-4, "kg*cm2 kg·cm² кг·см² кг*см2"),
+        (1e-6, "kg*mm2 kg·mm² кг·мм² кг*мм2"),
+        (1e-7, "g*cm2 g·cm² г·см²"),
+    ],
+    "speed": [
+        (_RPM, "rpm r/min rev/min 1/min min-1 min⁻¹ об/мин vg/ph vòng/phút v/ph v/p"),
+        (1.0, "rad/s рад/с rad/giây"),
+        (2 * math.pi, "rev/s 1/s Hz s-1 об/с vg/s"),
+    ],
+    "angular_acceleration": [(1.0, "rad/s2 rad/s² рад/с2 рад/с²")],
+    "velocity": [(1.0, "m/s м/с"), (1e-3, "mm/s мм/с")],
+    "acceleration": [(1.0, "m/s2 m/s² м/с2 м/с²"), (1e-3, "mm/s2 mm/s² мм/с2 мм/с²")],
+    "pressure": [
+        (1e6, "MPa МПа MN/m2 MN/m² МН/м2 МН/м² N/mm2 N/mm² Н/мм2 Н/мм²"),
+        (1e3, "kPa кПа kN/m2 kN/m²"),
+        (1.0, "Pa Па N/m2 N/m²"),
+        (1e5, "bar бар"),
+        (KGF * 1e4, "kgf/cm2 kgf/cm² кгс/см2 кгс/см² kG/cm2 kG/cm² at ат"),
+        (101325.0, "atm атм"),
+        (6894.757293168361, "psi lbf/in2"),
+    ],
+    "force": [(1.0, "N Н"), (1e3, "kN кН"), (1e6, "MN МН"), (KGF, "kgf кгс kG"), (4.4482216152605, "lbf")],
+    "torque": [
+        (1.0, "N*m N·m Nm N.m Н·м Н*м Нм Н.м"),
+        (1e3, "kN*m kN·m kNm кН·м кН*м"),
+        (KGF, "kgf*m kgf·m кгс·м кгс*м"),
+    ],
+    "energy": [(1.0, "J Дж"), (1e3, "kJ кДж")],
+    "power": [(1e3, "kW кВт"), (1.0, "W Вт"), (735.49875, "hp PS л.с. лс mã_lực")],
+}
+
+UNITS: dict[str, Unit] = {
+    name: Unit(dimension, factor)
+    for dimension, rows in _SPELLINGS.items()
+    for factor, names in rows
+    for name in names.split()
+}
+
+# "ratio" has no unit; the display of a share in per cent stays a choice of the report.
+EXAMPLES = {
+    dimension: (f"30 {rows[0][1].split()[0]}" if dimension != "speed" else "2300 rpm")
+    for dimension, rows in _SPELLINGS.items()
+}
+
+_MAX_LENGTH = 100
+_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?"
+# a unit that starts with a digit, 1/min, needs a space before it
+_UNIT = r"\s*(?P<unit>[^\s\d.,+-].*?|(?<=\s)1/\w+)?\s*\Z"
+_QUANTITY = re.compile(rf"\s*(?P<number>{_NUMBER}){_UNIT}")
+_WITH_COMMA = re.compile(rf"\s*(?P<number>[+-]?\d+,\d+(?:[eE][+-]?\d{{1,3}})?){_UNIT}")
+_OPERATOR = re.compile(r"\s*([/*·])\s*")
+
+
+def spellings(dimension: str) -> list[str]:
+    """Return the first spelling of every unit of a dimension."""
+    return [names.split()[0] for _, names in _SPELLINGS[dimension]]
+
+
+def parse(text: str, dimensions: tuple[str, ...], *, decimal_comma: bool = False) -> tuple[float, str]:
+    """Return the SI value and the dimension of a quantity written as text.
+
+    Parameters
+    ----------
+    text : str
+        Number and unit, `"75 mm"`, `"2300 об/мин"`, `"15.87 g/cm2"`.
+    dimensions : tuple of str
+        The dimensions that make sense here; the first is used in the advice.
+    decimal_comma : bool
+        Read `1,1 kg` as 1.1 kg. Otherwise a comma is an error, because it also separates thousands.
+
+    Raises
+    ------
+    ValueError
+        With a sentence that says what is wrong and what to write.
+
+    Examples
+    --------
+    >>> parse("75 mm", ("length",))
+    (0.075, 'length')
+    """
+    example = EXAMPLES[dimensions[0]]
+    text = unicodedata.normalize("NFC", text) if len(text) <= _MAX_LENGTH else text
+    match = _match(text, example, decimal_comma=decimal_comma)
+    value, name = float(match["number"].replace(",", ".")), match["unit"]
+    if name is None:
+        raise ValueError(f'"{_short(text)}" has no unit; write it like "{example}"')
+    spelling = _spelling(name)
+    unit = UNITS.get(spelling)
+    if unit is None or unit.dimension not in dimensions:
+        known = ", ".join(one for dimension in dimensions for one in spellings(dimension))
+        what = "is not a unit known here" if unit is None else f"measures {_plain(unit.dimension)}"
+        wanted = " or ".join(_plain(dimension) for dimension in dimensions)
+        raise ValueError(f'unit "{_short(name)}" {what}; {wanted} is wanted: {known}')
+    value = to_si(value, spelling)
+    if not math.isfinite(value):
+        raise ValueError(f'"{_short(text)}" is too large; write a finite number like "{example}"')
+    return value, unit.dimension
+
+
+def _match(text: str, example: str, *, decimal_comma: bool) -> re.Match[str]:
+    """Return number and unit of a text, or raise with the advice."""
+    if len(text) <= _MAX_LENGTH:
+        comma = _WITH_COMMA.match(text)
+        if comma and not decimal_comma:
+            point = f"{comma['number'].replace(',', '.')} {comma['unit'] or example.split()[1]}"
+            raise ValueError(
+                f'"{_short(text)}" has a decimal comma; write "{point}", '
+                'or put decimal_mark = "," at the top of the file'
+            )
+        match = comma or _QUANTITY.match(text)
+        if match:
+            return match
+    raise ValueError(f'"{_short(text)}" is not a number with a unit; write it like "{example}"')
+
+
+def _spelling(name: str) -> str:
+    """Return a unit as the table spells it: blanks around an operator mean nothing, others an operator or a word."""
+    name = _OPERATOR.sub(r"\1", name)
+    return next((one for one in (name, name.replace(" ", "*"), name.replace(" ", "_")) if one in UNITS), name)
+
+
+def to_si(value: Any, unit: str) -> Any:  # noqa: ANN401 - a float or an array, as given
+    """Return a value (or array) given in `unit` as SI.
+
+    Small units divide by their whole reciprocal, so that 120 cm3 is the double nearest to 0.00012.
+    """
+    factor = UNITS[unit].factor
+    inverse = round(1 / factor)
+    return value / inverse if inverse > 1 and abs(inverse * factor - 1) < 1e-12 else value * factor
+
+
+def from_si(value: Any, unit: str) -> Any:  # noqa: ANN401 - a float or an array, as given
+    """Return an SI value (or array) expressed in `unit`; `""` leaves it alone."""
+    if not unit:
+        return value
+    factor = UNITS[unit].factor
+    inverse = round(1 / factor)
+    return value * inverse if inverse > 1 and abs(inverse * factor - 1) < 1e-12 else value / factor
+
+
+def _plain(dimension: str) -> str:
+    return dimension.replace("_", " ")
+
+
+def _short(text: str) -> str:
+    text = " ".join(text[:200].split())
+    return text if len(text) <= 40 else text[:37] + "..."

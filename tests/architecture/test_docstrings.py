@@ -1,0 +1,101 @@
+"""Every public name says what it is, and every number it takes says its unit."""
+
+from __future__ import annotations
+
+import ast
+import re
+
+ROOMS = ("kinematics/", "loads/", "dynamics/")
+NUMERIC = re.compile(r"\b(array|arrays|float|ArrayLike|Array|CrankGrid)\b")
+UNIT = re.compile(r"\[[^\]\s][^\]]*\]")
+HEADER = re.compile(r"(?P<names>[*\w]+(?:, [*\w]+)*) : (?P<type>.+)")
+
+
+def test_every_public_function_and_class_has_a_docstring(modules):
+    bare = [
+        f"{module.path}:{node.lineno}: {name}"
+        for module in modules
+        for name, node in _public(module.tree)
+        if not ast.get_docstring(node)
+    ]
+    assert bare == []
+
+
+def test_every_documented_parameter_exists_and_the_other_way_round(modules):
+    differences = [
+        f"{module.path}:{node.lineno}: {name}: documents {documented}, takes {taken}"
+        for module in modules
+        for name, node in _public(module.tree)
+        if isinstance(node, ast.FunctionDef)
+        and (documented := [one for block in _parameters(ast.get_docstring(node) or "") for one in block[0]])
+        and documented != (taken := _arguments(node))
+    ]
+    assert differences == []
+
+
+def test_numbers_of_the_calculation_have_units(modules):
+    missing = [
+        f"{module.path}:{node.lineno}: {name}: {', '.join(names)}"
+        for module in modules
+        if module.path.startswith(ROOMS)
+        for name, node in _public(module.tree)
+        for names, kind, text in _parameters(ast.get_docstring(node) or "")
+        if NUMERIC.search(kind) and len(UNIT.findall(text)) not in (1, len(names))
+    ]
+    assert missing == []
+
+
+def _public(tree, prefix=""):
+    """Give every public function, class and method with its dotted name."""
+    for node in tree.body:
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef) and not node.name.startswith("_"):
+            yield prefix + node.name, node
+            if isinstance(node, ast.ClassDef):
+                yield from _public(node, f"{prefix}{node.name}.")
+
+
+def _arguments(node: ast.FunctionDef) -> list[str]:
+    spec = node.args
+    names = [one.arg for one in (*spec.posonlyargs, *spec.args)]
+    names += [f"*{spec.vararg.arg}"] if spec.vararg else []
+    names += [one.arg for one in spec.kwonlyargs]
+    names += [f"**{spec.kwarg.arg}"] if spec.kwarg else []
+    return [name for name in names if name not in ("self", "cls")]
+
+
+def _parameters(docstring: str) -> list[tuple[list[str], str, str]]:
+    """Return names, type and description of each block of the section Parameters."""
+    _, _, rest = docstring.partition("Parameters\n----------\n")
+    section = re.split(r"\n\n\w[\w ]*\n-{3,}\n", rest)[0]
+    blocks: list[tuple[list[str], str, str]] = []
+    for line in section.splitlines():
+        header = HEADER.fullmatch(line)
+        if header:
+            blocks.append((header["names"].split(", "), header["type"], ""))
+        elif blocks and line.strip():
+            names, kind, text = blocks[-1]
+            blocks[-1] = (names, kind, f"{text} {line.strip()}")
+    return blocks
+
+
+def test_how_a_docstring_is_read():
+    docstring = """Return the sum.
+
+Parameters
+----------
+r, l : array, shape (n,)
+    Lengths. [m]
+count : int
+    Two
+    lines.
+
+Returns
+-------
+total : float
+    Sum. [m]
+"""
+    assert _parameters("Return nothing.") == []
+    assert _parameters(docstring) == [
+        (["r", "l"], "array, shape (n,)", " Lengths. [m]"),
+        (["count"], "int", " Two lines."),
+    ]

@@ -1,0 +1,39 @@
+"""What all tests share: how Hypothesis runs, and that nothing is skipped where everything must run."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Generator
+from typing import TypeVar
+
+import pytest
+from hypothesis import settings
+
+Report = TypeVar("Report", pytest.TestReport, pytest.CollectReport)
+
+IN_CI = os.environ.get("CI") == "true"
+
+# Parallel tests share the processor, so a deadline would measure the neighbours.
+settings.register_profile("crankwork", deadline=None, derandomize=IN_CI)
+settings.load_profile("crankwork")
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport() -> Generator[None, pytest.TestReport, pytest.TestReport]:
+    """Turn a skipped test into a failure in CI."""
+    return _without_skips((yield))
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_make_collect_report() -> Generator[None, pytest.CollectReport, pytest.CollectReport]:
+    """Turn a skipped module into a failure in CI."""
+    return _without_skips((yield))
+
+
+def _without_skips(report: Report) -> Report:
+    # an expected failure is reported as skipped too, and stays one
+    if IN_CI and report.skipped and not hasattr(report, "wasxfail"):
+        reason = report.longrepr[2] if isinstance(report.longrepr, tuple) else report.longrepr
+        report.outcome = "failed"
+        report.longrepr = f"A skip is a failure in CI: {reason}"
+    return report

@@ -1,0 +1,116 @@
+"""The command line as a user meets it: in this process for speed, as a program where it matters."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import pytest
+
+from crankwork import cli
+from crankwork.description.machine_file import template
+
+SOURCE = Path(cli.__file__).parents[1]
+# file:line: key: what is wrong; what to write instead
+LINE = re.compile(r"(?P<place>[^\n]+?:\d+): (?P<key>[^\s:][^:\n]*): (?P<message>[^\n]+)")
+
+
+class Answer(NamedTuple):
+    """What a command said and how it ended."""
+
+    code: int
+    out: str
+    err: str
+
+    @property
+    def mistakes(self) -> list[str]:
+        """The lines that name a mistake."""
+        return [line for line in self.err.splitlines() if line != "nothing was computed"]
+
+
+Command = Callable[..., Answer]
+
+
+@pytest.fixture(autouse=True)
+def _in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.fixture
+def crankwork(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Command:
+    """Run a command in this process."""
+
+    def run(*arguments: str) -> Answer:
+        monkeypatch.setattr(sys, "argv", ["crankwork", *arguments])
+        capsys.readouterr()
+        with pytest.raises(SystemExit) as ended:
+            cli.main()
+        out, err = capsys.readouterr()
+        return Answer(int(ended.value.code or 0), out, err)
+
+    return run
+
+
+@pytest.fixture
+def program() -> Callable[..., subprocess.CompletedProcess[bytes]]:
+    """Run a command as a program of its own."""
+
+    def run(*arguments: str, env: dict[str, str] | None = None, **options: Any) -> subprocess.CompletedProcess[bytes]:
+        options = {"capture_output": True, "timeout": 60, "check": False} | options
+        return subprocess.run(command(*arguments), env=environment() | (env or {}), **options)
+
+    return run
+
+
+def command(*arguments: str) -> list[str]:
+    """Return the words that start the program."""
+    return [sys.executable, "-m", "crankwork", *arguments]
+
+
+def environment() -> dict[str, str]:
+    """Return an environment in which the program is found."""
+    return os.environ | {"PYTHONPATH": str(SOURCE)}
+
+
+@pytest.fixture
+def spawn() -> Callable[..., subprocess.Popen[bytes]]:
+    """Start a command and do not wait for it."""
+
+    def start(*arguments: str) -> subprocess.Popen[bytes]:
+        return subprocess.Popen(command(*arguments), env=environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+    return start
+
+
+@pytest.fixture
+def machine_file(tmp_path: Path) -> Callable[..., str]:
+    """Write a machine file: a template with pieces of its text replaced, or a text."""
+
+    def write(*changes: tuple[str, str], name: str = "engine", text: str | None = None) -> str:
+        source = template(name) if text is None else text
+        for old, new in changes:
+            assert source.count(old) == 1, f"{old!r} stands {source.count(old)} times"
+            source = source.replace(old, new)
+        (tmp_path / "my.toml").write_text(source, encoding="utf-8")
+        return "my.toml"
+
+    return write
+
+
+@pytest.fixture
+def check_mistakes(crankwork: Command) -> Callable[[Answer], None]:
+    """Make sure that an answer refuses as every refusal does: code 2, one line per mistake, no traceback."""
+
+    def check(answer: Answer) -> None:
+        assert answer.code == 2
+        assert answer.out == ""
+        assert answer.mistakes
+        assert "Traceback" not in answer.err
+        assert not re.search(r"tomllib|numpy|pydantic|errno|error code|exception", answer.err, re.IGNORECASE)
+
+    return check

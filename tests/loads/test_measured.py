@@ -1,0 +1,208 @@
+"""Measured pressure: a known diagram comes back from its samples, however they were recorded."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+
+from crankwork.kinematics.crank_grid import Array
+from crankwork.loads.indicator import DiagramError, IndicatorDiagram
+from crankwork.loads.measured import MeasuredPressure, measured_diagram, wrap_is_rough
+
+CYCLE = 720.0
+
+
+def _true_pressure(degrees: Array) -> Array:
+    """Return a smooth pressure of period 720 degrees with its peak of 4.1 MPa at 365. [Pa]"""
+    return np.asarray(1e5 + 4e6 * np.exp(12 * (np.cos(np.radians(degrees - 365) / 2) - 1)))
+
+
+def _recorded(degrees: Array, pressure: Array | None = None, first_line: int = 2) -> MeasuredPressure:
+    values = _true_pressure(degrees) if pressure is None else pressure
+    return MeasuredPressure(degrees, values, range(first_line, first_line + len(degrees)))
+
+
+def _pressure(diagram: IndicatorDiagram, degrees: Array) -> Array:
+    return diagram.pressure(degrees, np.zeros_like(degrees))
+
+
+def _error(measured: MeasuredPressure, cycle: float = CYCLE) -> DiagramError:
+    with pytest.raises(DiagramError) as caught:
+        measured_diagram(measured, cycle)
+    return caught.value
+
+
+@pytest.mark.parametrize("step", [0.1, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.2, 2.0, 3.0])
+@pytest.mark.parametrize("start", [0.0, -360.0, 57.0])
+def test_samples_come_back_as_recorded(step: float, start: float) -> None:
+    degrees = start + np.arange(round(CYCLE / step)) * step
+    diagram, cycles, _ = measured_diagram(_recorded(degrees), CYCLE)
+    at = np.sort(np.mod(degrees, CYCLE))
+    assert cycles == 1
+    # angles are kept to a billionth of a degree, over which the pressure changes by less than a pascal
+    assert np.max(np.abs(_pressure(diagram, at) - _true_pressure(at))) < 1e-3
+    assert np.all(np.diff(diagram.breaks) > step / 2)
+
+
+def test_unevenly_spaced_samples_come_back_as_recorded() -> None:
+    degrees = np.concatenate([np.arange(0.0, 340.0), np.arange(340.0, 390.0, 0.5), np.arange(390.0, 720.0)])
+    diagram, _, _ = measured_diagram(_recorded(degrees), CYCLE)
+    assert _pressure(diagram, degrees) == pytest.approx(_true_pressure(degrees), rel=1e-9)
+
+
+def test_between_samples_the_curve_is_near_the_true_one() -> None:
+    diagram, _, _ = measured_diagram(_recorded(np.arange(0.0, 720.0)), CYCLE)
+    at = np.linspace(0, 720, 7201)
+    assert np.max(np.abs(_pressure(diagram, at) - _true_pressure(at))) < 2e-4 * 4e6
+
+
+def test_the_work_of_the_true_diagram_comes_back() -> None:
+    def volume_at(degrees: Array) -> Array:
+        return np.asarray(6e-5 + 2.5e-4 * (1 - np.cos(np.radians(degrees))))
+
+    fine = np.linspace(0, 720, 72001)
+    rate = 2.5e-4 * np.sin(np.radians(fine))
+    # the integrand is smooth and periodic, so the sum over equal steps is the integral
+    expected = float(np.sum((_true_pressure(fine) * rate)[:-1])) * np.radians(0.01)
+    diagram, _, _ = measured_diagram(_recorded(np.arange(0.0, 720.0)), CYCLE)
+    assert diagram.work(volume_at) == pytest.approx(expected, rel=1e-5)
+
+
+def test_a_last_row_that_repeats_the_first_changes_nothing() -> None:
+    degrees = np.arange(0.0, 720.5, 0.5)
+    with_last, _, _ = measured_diagram(_recorded(degrees), CYCLE)
+    without, _, _ = measured_diagram(_recorded(degrees[:-1]), CYCLE)
+    at = np.linspace(0, 720, 1001)
+    assert _pressure(with_last, at).tolist() == _pressure(without, at).tolist()
+
+
+@pytest.mark.parametrize("start", [0.0, 30.0, -181.5])
+def test_the_diagram_is_closed_bit_for_bit(start: float) -> None:
+    diagram, _, _ = measured_diagram(_recorded(start + np.arange(0.0, 720.0)), CYCLE)
+    first, last = _pressure(diagram, np.array([0.0, 720.0]))
+    assert first == last
+    assert (diagram.segments[0].start, diagram.segments[-1].end) == (0.0, 720.0)
+
+
+@pytest.mark.parametrize("shift", [0.0, 25.0, -11.5, 360.0, -700.0])
+def test_a_shift_puts_top_dead_centre_where_it_belongs(shift: float) -> None:
+    degrees = np.arange(0.0, 720.0, 0.5)
+    recorded = _recorded(degrees, _true_pressure(degrees + shift))
+    diagram, _, _ = measured_diagram(recorded, CYCLE, shift=shift)
+    assert _pressure(diagram, degrees) == pytest.approx(_true_pressure(degrees), rel=1e-9)
+
+
+def test_two_cycles_are_averaged() -> None:
+    degrees = np.arange(0.0, 1440.0)
+    ripple = np.where(degrees < 720, 3e4, -1e4)
+    diagram, cycles, _ = measured_diagram(_recorded(degrees, _true_pressure(degrees) + ripple), CYCLE)
+    assert cycles == 2
+    at = degrees[:720]
+    assert _pressure(diagram, at) == pytest.approx(_true_pressure(at) + 1e4, rel=1e-12)
+
+
+def test_noise_shrinks_with_the_root_of_the_number_of_cycles() -> None:
+    noise = np.random.default_rng(3).normal(0, 1e4, 100 * 720)
+    degrees = np.arange(0.0, 100 * 720.0)
+    diagram, cycles, _ = measured_diagram(_recorded(degrees, _true_pressure(degrees) + noise), CYCLE)
+    assert cycles == 100
+    at = degrees[:720]
+    assert 0.9e3 < np.std(_pressure(diagram, at) - _true_pressure(at)) < 1.1e3
+
+
+def test_a_cycle_that_is_not_whole_is_left_out_of_the_average() -> None:
+    degrees = np.arange(0.0, 1000.0)
+    spoilt = np.where(degrees < 720, _true_pressure(degrees), 9e9)
+    diagram, cycles, _ = measured_diagram(_recorded(degrees, spoilt), CYCLE)
+    assert cycles == 1
+    assert np.max(_pressure(diagram, degrees[:720])) < 4.2e6
+
+
+@pytest.mark.parametrize("cycle", [360.0, 720.0])
+def test_the_cycle_may_be_two_strokes_or_four(cycle: float) -> None:
+    degrees = np.arange(0.0, 720.0)
+    _, cycles, _ = measured_diagram(_recorded(degrees), cycle)
+    assert cycles == 720 / cycle
+
+
+@pytest.mark.parametrize("step", [0.5, 1.0, 2.0, 7.2, 0.7])
+def test_resampling_sets_the_knots(step: float) -> None:
+    degrees = np.arange(0.0, 720.0, 0.5)
+    diagram, _, _ = measured_diagram(_recorded(degrees), CYCLE, step=step)
+    expected = [*np.arange(0.0, 720.0, step), 720.0]
+    assert diagram.breaks == pytest.approx(expected, abs=1e-8)
+    at = diagram.breaks
+    assert np.max(np.abs(_pressure(diagram, at) - _true_pressure(at))) < 1e-4 * 4e6
+
+
+@pytest.mark.parametrize("step", [0.1, 0.2, 0.3, 0.6])
+def test_resampling_at_a_step_that_is_no_binary_fraction_keeps_every_knot_once(step: float) -> None:
+    for start in (0.0, 0.35, -360.0):
+        degrees = start + np.arange(0.0, 720.0)
+        diagram, _, _ = measured_diagram(_recorded(degrees), CYCLE, step=step)
+        assert np.all(np.diff(diagram.breaks) > 0.04)
+        assert np.all(np.isfinite(diagram.segments[0].pressures))
+
+
+def test_a_smooth_wrap_is_not_worth_a_warning() -> None:
+    diagram, _, wrap = measured_diagram(_recorded(np.arange(0.0, 721.0)), CYCLE)
+    assert abs(wrap) < 1e-6
+    assert not wrap_is_rough(diagram, wrap)
+
+
+@pytest.mark.parametrize(("drift", "rough"), [(1e5, False), (-1e5, False), (3e5, True), (-3e5, True)])
+def test_a_drift_over_the_cycle_shows_at_the_wrap(drift: float, *, rough: bool) -> None:
+    degrees = np.arange(0.0, 721.0)
+    drifting = _true_pressure(degrees) + drift * degrees / 720
+    diagram, _, wrap = measured_diagram(_recorded(degrees, drifting), CYCLE)
+    assert wrap == pytest.approx(drift, rel=1e-9)
+    assert wrap_is_rough(diagram, wrap) == rough
+
+
+def test_a_recording_that_starts_in_combustion_has_no_rough_wrap() -> None:
+    """The last sample is one step before the first; on a steep curve they differ although nothing drifts."""
+    degrees = 340 + np.arange(0.0, 720.0, 4.0)
+    diagram, _, wrap = measured_diagram(_recorded(degrees), CYCLE)
+    assert not wrap_is_rough(diagram, wrap)
+
+
+class TestRefusals:
+    def test_too_few_samples(self) -> None:
+        error = _error(_recorded(np.linspace(0, 720, 7)))
+        assert (error.key, str(error)) == ("gas.measured", "only 7 samples; a cycle needs at least 8")
+
+    @pytest.mark.parametrize("wrong", [49.0, 48.0, -3.0])
+    def test_an_angle_that_does_not_rise_is_told_with_its_line(self, wrong: float) -> None:
+        degrees = np.arange(0.0, 720.0)
+        degrees[50] = wrong
+        error = _error(_recorded(degrees, first_line=2))
+        assert error.key == "gas.measured"
+        assert str(error).startswith(f"line 52: the angle goes backwards, from 49 to {wrong:g} deg")
+
+    def test_a_gap_is_told_with_its_line_and_the_usual_step(self) -> None:
+        degrees = np.delete(np.arange(0.0, 720.0), np.arange(100, 105))
+        error = _error(_recorded(degrees, first_line=2))
+        assert error.key == "gas.measured"
+        assert str(error).startswith("line 102: gap from 99 to 105 deg where the usual step is 1 deg")
+
+    def test_a_few_missing_samples_are_no_gap(self) -> None:
+        degrees = np.delete(np.arange(0.0, 720.0), np.arange(100, 103))
+        assert measured_diagram(_recorded(degrees), CYCLE)[1] == 1
+
+    @pytest.mark.parametrize(("samples", "whole"), [(720, True), (719, False), (360, False)])
+    def test_less_than_a_cycle_is_refused(self, samples: int, *, whole: bool) -> None:
+        recorded = _recorded(np.arange(0.0, float(samples)))
+        if whole:
+            assert measured_diagram(recorded, CYCLE)[1] == 1
+        else:
+            error = _error(recorded)
+            assert error.key == "gas.measured"
+            assert str(error).startswith(f"the samples cover {samples - 1} deg; one cycle is 720 deg")
+
+
+def test_the_knots_of_the_curve_rise() -> None:
+    diagram, _, _ = measured_diagram(_recorded(np.arange(0.0, 720.0)), CYCLE)
+    (segment,) = diagram.segments
+    assert all(one < other for one, other in itertools.pairwise(segment.knots))

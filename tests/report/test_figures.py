@@ -1,0 +1,141 @@
+"""Figures: which there are, that they are the same every time, and that no letter is missing in any language."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import numpy as np
+import pytest
+
+from crankwork.analysis import Results, analyse
+from crankwork.description.machine_file import read
+from crankwork.errors import CrankworkError, MissingExtraError
+from crankwork.quantities import LANGUAGES, QUANTITIES
+from crankwork.report.figure_data import drawn_from, figure_title
+from crankwork.report.figures import figures
+
+pytest.importorskip("matplotlib")
+ROOT = Path(__file__).parents[2]
+TEMPLATES = ROOT / "src" / "crankwork" / "description" / "templates"
+FILES = [*sorted((ROOT / "examples").glob("*.toml")), *sorted(TEMPLATES.glob("*.toml"))]
+FORCES = ["piston_forces", "rod_forces", "crankpin_forces", "torque", "crankpin_polar"]
+ALL = ["kinematics", "pressure", "indicator", *FORCES]
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def _results(path: Path, method: str = "exact") -> Results:
+    machine = read(path)
+    return analyse(machine, method=machine.method.named(method))
+
+
+@pytest.fixture(scope="module")
+def engine() -> Results:
+    return _results(TEMPLATES / "engine.toml")
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: f"{path.parent.name}-{path.stem}")
+@pytest.mark.parametrize("method", ["exact", "textbook"])
+def test_every_machine_has_the_figures_of_what_is_known(path, method):
+    results = _results(path, method)
+    expected = ALL if results.solved.space else ["kinematics", *FORCES] if results.machine.masses else ["kinematics"]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        drawn = figures(results)
+    assert list(drawn) == expected
+    for data in drawn.values():
+        assert ET.fromstring(data).tag == f"{SVG}svg"  # noqa: S314 - our own bytes
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("method", ["textbook", "series:4"])
+def test_no_letter_is_missing(language, method):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        drawn = figures(_results(TEMPLATES / "engine.toml", method), language=language, per_area=True)
+    assert list(drawn) == ALL
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_font_has_every_letter_of_the_table_of_quantities(language):
+    from matplotlib.font_manager import findfont, get_font
+
+    font = get_font(findfont("DejaVu Serif"))
+    letters = {letter for row in QUANTITIES.values() for letter in row.label(language) + row.symbol(language)}
+    assert [letter for letter in letters if not font.get_char_index(ord(letter))] == []
+
+
+def test_figures_are_the_same_every_time(engine):
+    assert figures(engine, language="vi") == figures(engine, language="vi")
+
+
+def test_figures_do_not_depend_on_the_settings_of_matplotlib_nor_change_them(engine):
+    import matplotlib as mpl
+
+    with mpl.rc_context({"font.size": 20, "svg.fonttype": "none"}):
+        other = figures(engine)
+        assert mpl.rcParams["font.size"] == 20
+    assert other == figures(engine)
+
+
+def test_every_language_has_its_own_labels(engine):
+    one, two, three = (figures(engine, language=language) for language in LANGUAGES)
+    for name in ALL:
+        assert len({one[name], two[name], three[name]}) == 3
+        assert len({figure_title(name, language) for language in LANGUAGES}) == 3
+
+
+def test_the_title_for_those_who_cannot_see_is_in_the_picture(engine):
+    assert figure_title("torque", "ru").encode() in figures(engine, language="ru")["torque"]
+
+
+def test_forces_per_area_change_forces_only(engine):
+    plain, per_area = figures(engine), figures(engine, per_area=True)
+    assert [name for name in ALL if plain[name] != per_area[name]] == [*FORCES[:3], "torque", "crankpin_polar"][:0] + [
+        name for name in FORCES if name != "torque"
+    ]
+
+
+def test_forces_per_area_without_a_bore_are_refused():
+    machine = read(TEMPLATES / "slider-crank.toml")
+    from dataclasses import replace
+
+    with pytest.raises(CrankworkError, match=r"cylinder\.bore"):
+        figures(analyse(replace(machine, cylinder=None)), per_area=True)
+
+
+def test_the_curves_hold_the_numbers_of_the_table(engine):
+    drawn = drawn_from(engine, "en", per_area=False)
+    at = np.searchsorted(drawn.degrees, engine.grid.degrees)
+    for key in ("gas_pressure", "piston_force", "crank_torque", "radial_force"):
+        np.testing.assert_allclose(drawn.columns[key][at], engine.columns[key], rtol=1e-12, atol=1e-6)
+
+
+def test_both_sides_of_a_jump_of_pressure_are_drawn():
+    results = _results(ROOT / "examples" / "spark-engine.toml")
+    drawn = drawn_from(results, "en", per_area=False)
+    near = drawn.columns["gas_pressure"][np.abs(drawn.degrees - 360) < 1e-3]
+    assert near.tolist() == pytest.approx([2.42322e6, 4.5083e6], rel=1e-4)
+
+
+def test_the_pole_lies_at_the_inertia_force_of_the_big_end(engine):
+    from crankwork.report.figure_polar import _big_end_inertia
+
+    masses, lengths = engine.machine.masses, engine.solved.lengths
+    assert masses is not None
+    expected = -masses.rod_big_end * float(lengths.crank_radius) * engine.solved.speed**2
+    assert _big_end_inertia(drawn_from(engine, "en", per_area=False)) == pytest.approx(expected)
+
+
+def test_point_names_that_the_font_lacks_become_boxes():
+    from crankwork.report.figure_labels import _printable
+
+    assert [_printable(name) for name in ("c1", "точка", "点", "a" * 40)] == ["c1", "точка", "□", f"{'a' * 15}…"]
+
+
+def test_without_matplotlib_the_fix_is_named(engine, monkeypatch):
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(MissingExtraError, match=r"crankwork\[figures\]"):
+        figures(engine)

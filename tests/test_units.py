@@ -1,0 +1,232 @@
+"""Units as text: what is read, what is refused, and that every refusal says what to write."""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+import subprocess
+import sys
+import unicodedata
+
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from crankwork.units import EXAMPLES, UNITS, from_si, parse, spellings
+
+DIMENSIONS = tuple(EXAMPLES)
+
+
+@pytest.mark.parametrize("unit", UNITS)
+def test_every_spelling_is_read_back_as_the_number_that_was_written(unit: str) -> None:
+    dimension = UNITS[unit].dimension
+    for number in (0.1, 37.5, -2300.0, 1.234567e-5):
+        value, measured = parse(f"{number!r} {unit}", (dimension,))
+        assert measured == dimension
+        assert from_si(value, unit) == pytest.approx(number, rel=2**-52)
+
+
+@pytest.mark.parametrize("dimension", DIMENSIONS)
+def test_the_example_of_a_dimension_is_accepted_and_has_that_dimension(dimension: str) -> None:
+    assert parse(EXAMPLES[dimension], (dimension,))[1] == dimension
+
+
+@pytest.mark.parametrize("dimension", DIMENSIONS)
+def test_the_suggested_spelling_is_the_first_of_each_size(dimension: str) -> None:
+    sizes = [UNITS[name].factor for name in spellings(dimension)]
+    assert len(set(sizes)) == len(sizes) == len({unit.factor for unit in UNITS.values() if unit.dimension == dimension})
+
+
+# sizes in SI, written out from the definitions of the units, not from the table
+@pytest.mark.parametrize(
+    ("text", "dimension", "si"),
+    [
+        ("180 °", "angle", math.pi),
+        ("90 град", "angle", math.pi / 2),
+        ("60 độ", "angle", math.pi / 3),
+        ("75 мм", "length", 0.075),
+        ("0.5 мкм", "length", 0.5e-6),
+        ("1 ft", "length", 0.3048),
+        ("2 см²", "area", 2e-4),
+        ("1.5 л", "volume", 1.5e-3),
+        ("3 in3", "volume", 3 * 16.387064e-6),
+        ("2 lb", "mass", 0.90718474),
+        ("15.87 g/cm2", "mass_per_area", 158.7),
+        ("0.2 кг·м²", "inertia", 0.2),
+        ("60 об/мин", "speed", 2 * math.pi),
+        ("2300 vòng/phút", "speed", 2300 * math.pi / 30),
+        ("2300 vg/ph", "speed", 2300 * math.pi / 30),
+        ("2 рад/с²", "angular_acceleration", 2.0),
+        ("3 м/с", "velocity", 3.0),
+        ("3 мм/с2", "acceleration", 3e-3),
+        ("1 кгс/см2", "pressure", 98066.5),
+        ("2 МН/м²", "pressure", 2e6),
+        ("1 psi", "pressure", 0.45359237 * 9.80665 / 0.0254**2),
+        ("1 lbf", "force", 0.45359237 * 9.80665),
+        ("2 кН", "force", 2000.0),
+        ("1 кгс·м", "torque", 9.80665),
+        ("2 кДж", "energy", 2000.0),
+        ("10 л.с.", "power", 7354.9875),
+    ],
+)
+def test_a_unit_has_its_defined_size_in_every_language(text: str, dimension: str, si: float) -> None:
+    value, measured = parse(text, (dimension,))
+    assert (value, measured) == (pytest.approx(si, rel=1e-15), dimension)
+
+
+@pytest.mark.parametrize(
+    "text", ["75mm", "75 mm", "  75   mm  ", "75\u00a0mm", "+75 mm", "75. mm", "7.5e1 mm", "7.5E+1mm"]
+)
+def test_spaces_signs_and_exponents_do_not_change_the_number(text: str) -> None:
+    assert parse(text, ("length",)) == (0.075, "length")
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "si"),
+    [
+        ("2300 1/min", "speed", 2300 * math.pi / 30),
+        ("5 1/s", "speed", 10 * math.pi),
+        ("10 mã lực", "power", 7354.9875),
+    ],
+)
+def test_units_that_begin_with_a_digit_or_are_two_words_are_read(text: str, dimension: str, si: float) -> None:
+    assert parse(text, (dimension,))[0] == pytest.approx(si, rel=1e-15)
+
+
+@pytest.mark.parametrize("unit", [one for one in UNITS if not one.isascii()])
+def test_accents_typed_as_separate_characters_are_the_same_unit(unit: str) -> None:
+    decomposed = unicodedata.normalize("NFD", unit)
+    assert parse(f"2 {decomposed}", (UNITS[unit].dimension,)) == parse(f"2 {unit}", (UNITS[unit].dimension,))
+
+
+def test_a_quantity_with_two_meanings_takes_either_and_says_which() -> None:
+    assert parse("3 kg", ("mass", "mass_per_area")) == (3.0, "mass")
+    assert parse("3 g/cm2", ("mass", "mass_per_area")) == (30.0, "mass_per_area")
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "fix"),
+    [
+        ("1,1 kg", "mass", 'write "1.1 kg"'),
+        ("1,1 kg", "mass", 'decimal_mark = ","'),
+        ("9**9**9 mm", "length", "length is wanted: mm"),
+        ("nan mm", "length", 'write it like "30 mm"'),
+        ("inf mm", "length", 'write it like "30 mm"'),
+        ("-inf mm", "length", 'write it like "30 mm"'),
+        ("", "length", 'write it like "30 mm"'),
+        ("   ", "speed", 'write it like "2300 rpm"'),
+        ("mm", "length", 'write it like "30 mm"'),
+        ("75", "length", 'has no unit; write it like "30 mm"'),
+        ("1e999 mm", "length", 'write a finite number like "30 mm"'),
+        ("1e999999 mm", "length", "mm"),
+        ("75 furlong", "length", '"furlong" is not a unit known here; length is wanted: mm, cm, m'),
+        ("75 kg", "length", '"kg" measures mass; length is wanted: mm'),
+        ("75 Mm", "length", '"Mm" is not a unit known here; length is wanted: mm'),
+        ("1 mm + 1 m", "length", "length is wanted: mm"),
+        ("1_000 mm", "length", "length is wanted: mm"),
+        ("0x10 mm", "length", "length is wanted: mm"),
+        ("1.234,5 mm", "length", 'write it like "30 mm"'),
+        ("1,234,567 mm", "length", 'write it like "30 mm"'),
+        ("1,", "length", 'write it like "30 mm"'),
+        ("3 rad/s", "angular_acceleration", "measures speed; angular acceleration is wanted: rad/s2"),
+    ],
+)
+def test_a_refusal_names_what_is_wrong_and_what_to_write(text: str, dimension: str, fix: str) -> None:
+    with pytest.raises(ValueError, match=re.escape(fix)):
+        parse(text, (dimension,))
+
+
+def test_a_refusal_lists_the_units_of_every_dimension_that_would_do() -> None:
+    with pytest.raises(ValueError, match="mass or mass per area is wanted") as caught:
+        parse("3 m", ("mass", "mass_per_area"))
+    assert all(unit in str(caught.value) for unit in (*spellings("mass"), *spellings("mass_per_area")))
+
+
+@pytest.mark.parametrize("text", ["1e308 MPa", "-1e308 MPa", "1e306 kgf/cm2"])
+def test_a_number_that_overflows_in_si_is_too_large(text: str) -> None:
+    with pytest.raises(ValueError, match="too large"):
+        parse(text, ("pressure",))
+
+
+@pytest.mark.parametrize(("text", "dimension"), [("5 m m", "length"), ("5 k g", "mass"), ("5 M Pa", "pressure")])
+def test_a_space_inside_a_unit_symbol_does_not_make_it_another_unit(text: str, dimension: str) -> None:
+    """Read as SI writes it, `m m` is a square metre, not a millimetre."""
+    with pytest.raises(ValueError, match="is wanted"):
+        parse(text, (dimension,))
+
+
+@pytest.mark.parametrize(
+    ("text", "si"),
+    [("1,1 kg", 1.1), ("1.1 kg", 1.1), ("-0,25 kg", -0.25), ("2 kg", 2.0), ("1,5e-1кг", 0.15), (" 1,1  kg ", 1.1)],
+)
+def test_a_decimal_comma_is_read_where_the_file_says_so(text: str, si: float) -> None:
+    assert parse(text, ("mass",), decimal_comma=True) == (si, "mass")
+
+
+@pytest.mark.parametrize("text", ["1,1,1 kg", "1.000,5 kg", ",5 kg", "1, kg", "1 , 1 kg", "1,1"])
+def test_a_decimal_comma_does_not_let_malformed_numbers_in(text: str) -> None:
+    with pytest.raises(ValueError, match="write it like"):
+        parse(text, ("mass",), decimal_comma=True)
+
+
+# pieces that bring the fuzz close to the grammar
+PIECES = st.sampled_from([
+    *"0123456789+-.,eE_^*/()²³·°",
+    *("1e5", "1e308", "1e-308", "1,1", "nan", "inf", "0x1", " ", "  ", "\n", "\t", "\u00a0", "\u2212"),
+    *UNITS,
+])  # fmt: skip
+TEXTS = st.one_of(st.text(max_size=30), st.lists(PIECES, max_size=6).map("".join))
+NUMBER = re.compile(r"[+-]?(\d+[.,]?\d*|[.,]\d+)([eE][+-]?\d+)?")
+
+
+@settings(deadline=None)  # other work on the same machine is no failure
+@given(text=TEXTS, dimension=st.sampled_from(DIMENSIONS), comma=st.booleans())
+@example(text="1e308 MPa", dimension="pressure", comma=False)
+@example(text="1 m m", dimension="length", comma=False)
+def test_any_text_is_a_finite_number_with_a_unit_or_a_value_error(text: str, dimension: str, comma: bool) -> None:
+    try:
+        value, measured = parse(text, (dimension,), decimal_comma=comma)
+    except ValueError as refusal:
+        assert re.search("write|is wanted", str(refusal))  # noqa: PT017 - both outcomes are right, each has its claim
+        return
+    assert measured == dimension
+    assert math.isfinite(value)
+    matched = NUMBER.match(text.strip())
+    assert matched, "accepted without a number"
+    number, unit = matched[0], unicodedata.normalize("NFC", text.strip()[matched.end() :].strip())
+    assert comma or "," not in number
+    unit = re.sub(r"\s*([/*·.])\s*", r"\1", unit)  # spaces around an operator of the unit are harmless
+    candidates = [unit, unit.replace(" ", "_"), unit.replace(" ", "*")]
+    known = [UNITS[one] for one in candidates if one in UNITS]
+    assert known, f"{unit!r} accepted, but it is no unit of the table"
+    assert known[0].dimension == dimension
+    assert value == float(number.replace(",", ".")) * known[0].factor
+
+
+LONG = {
+    "digits, then a sign": '"1" * 100_000 + "+"',
+    "digits and a unit": '"1" * 100_000 + " mm"',
+    "decimals, then a sign": '"0." + "1" * 100_000 + "+"',
+    "a comma, digits, then a sign": '"1," + "1" * 100_000 + "+"',
+    "a comma, digits and a unit": '"1," + "1" * 100_000 + " kg"',
+    "blanks only": '" " * 100_000',
+    "a number, blanks, then a sign": '"1" + " " * 100_000 + "+"',
+    "a unit, blanks, then a new line": '"1 a" + " " * 100_000 + "\\n+"',
+    "words": '"1 " + "a " * 50_000 + "\\nb"',
+    "letters": '"m" * 100_000',
+}
+
+
+@pytest.mark.parametrize("text", LONG.values(), ids=LONG)
+def test_a_hundred_kilobytes_are_refused_at_once_and_briefly(text: str) -> None:
+    """In another process, because a regular expression that backtracks cannot be interrupted everywhere."""
+    program = (
+        "from crankwork.units import parse\n"
+        f"try: parse({text}, ('length',))\n"
+        "except ValueError as refusal: print(len(str(refusal)))"
+    )
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
+    command = [sys.executable, "-c", program]
+    shown = subprocess.run(command, capture_output=True, text=True, timeout=2, check=True, env=environment)
+    assert 0 < int(shown.stdout) < 400
