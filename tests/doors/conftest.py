@@ -61,8 +61,8 @@ def program() -> Callable[..., subprocess.CompletedProcess[bytes]]:
     """Run a command as a program of its own."""
 
     def run(*arguments: str, env: dict[str, str] | None = None, **options: Any) -> subprocess.CompletedProcess[bytes]:
-        options = {"capture_output": True, "timeout": 60, "check": False} | options
-        return subprocess.run(command(*arguments), env=environment() | (env or {}), **options)
+        options = {"capture_output": True, "timeout": 60} | options
+        return subprocess.run(command(*arguments), env=environment() | (env or {}), check=False, **options)
 
     return run
 

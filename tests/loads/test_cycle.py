@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -22,7 +23,7 @@ def test_the_nodes_rise_and_never_stand_on_a_break() -> None:
     nodes, _ = quadrature(BREAKS)
     assert np.all(np.diff(nodes) > 0)
     assert not set(nodes) & set(BREAKS)
-    for start, end in zip(BREAKS[:-1], BREAKS[1:], strict=True):
+    for start, end in itertools.pairwise(BREAKS):
         inside = np.count_nonzero((start < nodes) & (nodes < end))
         assert inside == 8 * math.ceil((end - start) / 15)
 

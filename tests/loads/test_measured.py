@@ -37,13 +37,14 @@ def _error(measured: MeasuredPressure, cycle: float = CYCLE) -> DiagramError:
 @pytest.mark.parametrize("step", [0.1, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.2, 2.0, 3.0])
 @pytest.mark.parametrize("start", [0.0, -360.0, 57.0])
 def test_samples_come_back_as_recorded(step: float, start: float) -> None:
-    degrees = start + np.arange(round(CYCLE / step)) * step
+    degrees = np.asarray(start + np.arange(round(CYCLE / step)) * step, float)
     diagram, cycles, _ = measured_diagram(_recorded(degrees), CYCLE)
     at = np.sort(np.mod(degrees, CYCLE))
     assert cycles == 1
     # angles are kept to a billionth of a degree, over which the pressure changes by less than a pascal
     assert np.max(np.abs(_pressure(diagram, at) - _true_pressure(at))) < 1e-3
-    assert np.all(np.diff(diagram.breaks) > step / 2)
+    # no knot twice; the ends of the cycle may lie between samples
+    assert np.min(np.diff(diagram.breaks)) > 0.01
 
 
 def test_unevenly_spaced_samples_come_back_as_recorded() -> None:

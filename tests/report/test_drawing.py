@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree as ET
@@ -110,9 +111,7 @@ def test_nothing_leaves_the_picture(machine):
 
 def _path(element):
     """Return the absolute places of a path."""
-    words = element.get("d").replace("z", "").replace("l", " l").replace("M", " M").replace("L", " L").split(" ")
-    pairs = zip(words, words[1:], strict=False)
-    return np.array([[float(a[1:]), float(b.split("v")[0].split("h")[0])] for a, b in pairs if a[:1] in ("M", "L")])
+    return np.array(re.findall(r"[ML](-?[\d.]+) (-?[\d.]+)", element.get("d")), dtype=float)
 
 
 def test_one_revolution_closes_and_takes_the_time_asked_for(machine):

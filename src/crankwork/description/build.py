@@ -211,27 +211,12 @@ def _inertia_excess(rod: Mapping[str, Any], mass: float, centre: float, length: 
 def _gas(
     values: Mapping[str, Any] | None, cylinder: Cylinder | None, reader: Reader, read_measured: ReadMeasured
 ) -> Gas | None:
-    if values is None or "cycle" not in values:
+    if values is None:
         return None
-    if cylinder is None:
-        if not reader.doubts("cylinder.bore"):
-            reader.complain("gas", 'needs the cylinder; write bore = "85 mm" below a line [cylinder]')
-    elif {cylinder.clearance_volume, cylinder.compression_ratio} == {None} and not reader.doubts(
-        "cylinder.clearance_volume", "cylinder.compression_ratio"
-    ):
-        reader.complain(
-            "cylinder", 'gas needs its smallest volume; write compression_ratio = 9 or clearance_volume = "64 cm3"'
-        )
-    if values.get("pressures") != "absolute" and "ambient" in values and not reader.doubts("gas.pressures"):
-        reader.complain(
-            "gas.ambient", 'is used with absolute pressures only; add pressures = "absolute", or leave it out'
-        )
+    _check_gas(values, cylinder, reader)
     _check_points(values, reader)
-    if "measured" not in values:
-        for key in ("points", "pieces"):
-            if key not in values and not reader.doubts(f"gas.{key}", "gas.measured"):
-                example = "a line [gas.points]" if key == "points" else "a line [[gas.pieces]] for each law"
-                reader.complain(f"gas.{key}", f"is missing; add {example}, or [gas.measured] with a file")
+    if "cycle" not in values:
+        return None
     measured = read_measured(values["measured"], reader) if "measured" in values else None
     source = values.get("measured", {})
     resample = source.get("resample")
@@ -246,6 +231,28 @@ def _gas(
         ambient=_value(values, "ambient", 101325.0),
         back_pressure=_value(values, "back_pressure"),
     )
+
+
+def _check_gas(values: Mapping[str, Any], cylinder: Cylinder | None, reader: Reader) -> None:
+    """Complain of what the gas needs and has not."""
+    if cylinder is None:
+        if not reader.doubts("cylinder.bore"):
+            reader.complain("gas", 'needs the cylinder; write bore = "85 mm" below a line [cylinder]')
+    elif {cylinder.clearance_volume, cylinder.compression_ratio} == {None} and not reader.doubts(
+        "cylinder.clearance_volume", "cylinder.compression_ratio"
+    ):
+        reader.complain(
+            "cylinder", 'gas needs its smallest volume; write compression_ratio = 9 or clearance_volume = "64 cm3"'
+        )
+    if values.get("pressures") != "absolute" and "ambient" in values and not reader.doubts("gas.pressures"):
+        reader.complain(
+            "gas.ambient", 'is used with absolute pressures only; add pressures = "absolute", or leave it out'
+        )
+    if "measured" not in values:
+        for key in ("points", "pieces"):
+            if key not in values and not reader.doubts(f"gas.{key}", "gas.measured"):
+                example = "a line [gas.points]" if key == "points" else "a line [[gas.pieces]] for each law"
+                reader.complain(f"gas.{key}", f"is missing; add {example}, or [gas.measured] with a file")
 
 
 def _check_points(values: Mapping[str, Any], reader: Reader) -> None:

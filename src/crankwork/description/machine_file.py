@@ -155,7 +155,7 @@ def _syntax_message(source: str, name: str, text: str) -> str:
     line = _printable(lines[number - 1].strip()[:60]) if number <= len(lines) else ""
     if any(word in text for word in ("overwrite", "twice", "already", "mutate", "Duplicate", "immutable")):
         return f"{name}:{number}: the key or table stands twice: {line}; keep one of them"
-    if re.match(r"[\w.\-]+\s*=\s*[+-]?[\d.,]+\s*[^\s\d#\]]", line):
+    if re.match(r"[\w.\-]+\s*=\s*[+-]?[\d.,]+\s*[^\W\d_]", line):
         return f'{name}:{number}: a value with a unit needs quotes: {line}; write it like key = "75 mm"'
     line = line or "the file ends too early"
     return f'{name}:{number}: is not valid TOML: {line}; write key = "75 mm", key = 0.25 or [table]'

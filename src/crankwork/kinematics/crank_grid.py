@@ -66,7 +66,7 @@ class CrankGrid:
         count = math.ceil(end / step - _SAME_ANGLE)
         regular = np.append(np.arange(count) * step, end)
         far = [one for one in sorted(set(special)) if np.min(np.abs(regular - one)) > _SAME_ANGLE]
-        return cls.from_degrees(np.sort(np.append(regular, far)))
+        return cls.from_degrees(np.sort(np.append(regular, far)) if far else regular)
 
     @cached_property
     def sin_2(self) -> Array:
@@ -81,12 +81,17 @@ class CrankGrid:
     @cached_property
     def one_minus_sin(self) -> Array:
         """1 - sin, without cancellation near 90 degrees."""
-        return np.where(self.sin > 0, self.cos**2 / (1 + np.abs(self.sin)), 1 - self.sin)
+        return np.where(self.sin > 0, self._small_complement, 1 - self.sin)
 
     @cached_property
     def one_plus_sin(self) -> Array:
         """1 + sin, without cancellation near 270 degrees."""
-        return np.where(self.sin < 0, self.cos**2 / (1 + np.abs(self.sin)), 1 + self.sin)
+        return np.where(self.sin < 0, self._small_complement, 1 + self.sin)
+
+    @cached_property
+    def _small_complement(self) -> Array:
+        """1 - |sin|, from the square of the cosine."""
+        return np.asarray(self.cos**2 / (1 + np.abs(self.sin)))
 
     def __getitem__(self, part: slice) -> Self:
         """Return a stretch of the grid."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from crankwork.quantities import QUANTITIES
@@ -21,20 +23,23 @@ from crankwork.report.figure_look import (
 )
 from crankwork.report.language import displayed, number, unit_name
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
-def _over_cycle(drawn: Drawn, name: str, curves: list[Curve], title: str) -> bytes:
+
+def _over_cycle(drawn: Drawn, curves: list[Curve], title: str) -> Figure:
     figure, axes = single_axes(drawn.language, len(curves))
     draw_curves(axes, drawn.degrees, curves)
     over_crank_angle(axes, drawn.results.machine.cycle, drawn.language)
     through_zero(axes, *(one.values for one in curves))
     axes.set_ylabel(title)
-    return drawn.forces_finished(name, figure)
+    return figure
 
 
 def _forces(drawn: Drawn, name: str, curves: list[Curve]) -> bytes:
     symbols = ", ".join(math_symbol(one.symbol) for one in curves)
     title = with_unit(symbols, "piston_force", drawn.language, per_area=drawn.per_area)
-    return _over_cycle(drawn, name, curves, title)
+    return drawn.forces_finished(name, _over_cycle(drawn, curves, title))
 
 
 def piston_forces(drawn: Drawn) -> bytes:
@@ -109,5 +114,5 @@ def torque(drawn: Drawn) -> bytes:
         mean = 0.0
     label = f"{row.label(language)}, {number(mean, language, digits=4)} {unit}"
     line = Curve(row.symbol(language), label, np.full_like(drawn.degrees, mean), DASHED)
-    title = drawn.title("crank_torque")
-    return _over_cycle(drawn, "torque", [drawn.curve("crank_torque"), line], title)
+    figure = _over_cycle(drawn, [drawn.curve("crank_torque"), line], drawn.title("crank_torque"))
+    return drawn.finished("torque", figure)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from crankwork.kinematics.crank_grid import Array
 
@@ -43,34 +44,46 @@ def label_points(axes: Axes, points: Sequence[tuple[str, float, float]], *lines:
     axes.plot(*zip(*((x, y) for _, x, y in points), strict=True), "o", color="black", markersize=2.6, clip_on=False)
     (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
     frame = _on_paper(axes, ([left, right], [bottom, top]))
-    edges: list[Line] = [([left, left], [bottom, top]), ([left, right], [bottom, bottom])]
+    axis = 0.0 if min(bottom, top) < 0 < max(bottom, top) else bottom
+    edges: list[Line] = [([left, left], [bottom, top]), ([left, right], [axis, axis])]
     marks = _on_paper(axes, tuple(zip(*((x, y) for _, x, y in points), strict=True)))
     obstacles = np.vstack([marks, *(_spread(_on_paper(axes, line)) for line in (*lines, *edges))])
     placed: list[Box] = []
     for (name, x, y), mark in zip(points, marks, strict=True):
         half = np.array([0.31 * _SIZE * len(name) + 0.8, 0.5 * _SIZE])
-        shift = _best_shift(mark, half, placed, obstacles, np.sort(frame, axis=0))
+        others = marks[np.any(marks != mark, axis=1)]
+        shift = _best_shift(mark, half, placed, obstacles, others, np.sort(frame, axis=0))
         placed.append((mark + shift, half))
         obstacles = np.vstack([obstacles, _spread(np.array([mark, mark + shift]))])
-        _write(axes, name, (x, y), shift, half)
+        is_far = np.max(np.abs(shift) - half) > 6 or bool(_is_misleading(mark, shift[None], others)[0])
+        _write(axes, name, (x, y), shift, with_line=is_far)
 
 
-def _write(axes: Axes, name: str, place: tuple[float, float], shift: Array, half: Array) -> None:
-    gap = np.max(np.abs(shift) - half)
-    line = {"arrowstyle": "-", "linewidth": 0.4, "color": "0.4", "shrinkA": 0, "shrinkB": 1.5} if gap > 6 else None
+def _write(axes: Axes, name: str, place: tuple[float, float], shift: Array, *, with_line: bool) -> None:
+    line = {"arrowstyle": "-", "linewidth": 0.4, "color": "0.4", "shrinkA": 0, "shrinkB": 1.5} if with_line else None
     axes.annotate(
         name, place, shift, textcoords="offset points", size=_SIZE, ha="center", va="center",
         arrowprops=line, parse_math=False, annotation_clip=False,
     )  # fmt: skip
 
 
-def _best_shift(mark: Array, half: Array, placed: Sequence[Box], obstacles: Array, frame: Array) -> Array:
+def _is_misleading(mark: Array, shifts: Array, others: Array) -> NDArray[np.bool_]:
+    """Return where a name would stand about as near to another mark as to its own."""
+    own = np.hypot(*shifts.T)
+    nearest = np.min(np.hypot(*np.moveaxis(mark + shifts[:, None] - others, -1, 0)), axis=1, initial=np.inf)
+    return np.asarray(nearest < 1.2 * own)
+
+
+def _best_shift(
+    mark: Array, half: Array, placed: Sequence[Box], obstacles: Array, others: Array, frame: Array
+) -> Array:
     """Return where the middle of a name goes, from its mark: clear first, then near. [pt]"""
     shifts = np.concatenate([_DIRECTIONS * (reach + np.abs(_DIRECTIONS) * (half - half.min())) for reach in _REACHES])
     centres = mark + shifts
     near = obstacles[np.all(np.abs(obstacles - mark) < _REACHES[-1] + 2 * half + 4, axis=1)]
     cost = 10.0 * np.all(np.abs(centres[:, None] - near) < half + 1.0, axis=2).sum(axis=1)
     cost += np.repeat(_REACHES, len(_DIRECTIONS)) + 0.1 * np.tile(np.arange(len(_DIRECTIONS)), len(_REACHES))
+    cost += 12.0 * _is_misleading(mark, shifts, others)
     towards = mark + shifts[:, None] * np.linspace(0.1, 1.0, 10)[:, None]
     for centre, other in placed:
         cost += 500.0 * np.all(np.abs(centres - centre) < half + other + 0.5, axis=1)

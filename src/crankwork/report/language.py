@@ -138,7 +138,7 @@ def displayed(key: str, value: float, *, per_area: float | None = None) -> float
     """Return an SI value in the display unit of its key; `per_area` is the piston area to divide by. [m2]"""
     if per_area is not None and QUANTITIES.get(base_key(key), None) and _is_per_area(key):
         value = value / per_area
-    return from_si(value, key_unit(key, per_area=per_area is not None))
+    return float(from_si(value, key_unit(key, per_area=per_area is not None)))
 
 
 def _is_per_area(key: str) -> bool:
