@@ -206,8 +206,10 @@ def _text(tree: Expression, values: Mapping[str, str], language: Language) -> tu
             shown, binding = _text(left, values, language)
             # a sign may lead a sum or a product, but two operators never stand side by side
             left_text = shown if binding >= level or binding == _SIGNED else f"({shown})"
-            tight = level + (function in (operator.sub, operator.truediv))
-            return left_text + sign + _wrapped(right, tight, values, language), level
+            right_text = _wrapped(right, level + (function in (operator.sub, operator.truediv)), values, language)
+            if right_text.startswith("−"):
+                right_text = f"({right_text})"
+            return left_text + sign + right_text, level
         case Operation(function, (base, exponent)) if function in (operator.pow, np.power):
             shown = _wrapped(base, 4, values, language)
             if isinstance(exponent, Number) and exponent.value in _SUPERSCRIPTS:

@@ -75,6 +75,7 @@ ARGUMENTS: dict[str, Argument] = {
     "F_g": Argument("gas_force"),
     "F_j": Argument("inertia_force"),
     "F_w": Argument("weight_force"),
+    "F_wn": Argument("transverse_weight"),
     "P": Argument("piston_force"),
     "N": Argument("side_force"),
     "T": Argument("tangential_force"),

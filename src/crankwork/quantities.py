@@ -145,6 +145,10 @@ _ROWS = (
          "Minus reciprocating mass times piston acceleration, positive towards the crankshaft.", "MPa"),
     _row("weight_force", "N", "F_w|G|G", "weight along the cylinder axis | вес вдоль оси цилиндра"
          " | trọng lực dọc trục xylanh", "Weight of the reciprocating mass along the axis.", "MPa"),
+    _row("transverse_weight", "N", "F_wn|G_n|G_n", "weight across the cylinder axis"
+         " | вес поперёк оси цилиндра | trọng lực vuông góc với trục xylanh",
+         "Weight of the reciprocating mass across the axis, positive towards the crankpin side at 90 degrees.",
+         "MPa"),
     _row("piston_force", "N", "F_P|P|P_1", "force on the piston pin | суммарная сила на поршневом пальце"
          " | lực tác dụng lên chốt piston", "Gas, inertia and weight, positive towards the crankshaft.", "MPa"),
     _row("side_force", "N", "F_N|N|N", "side force | боковая сила | lực ngang",

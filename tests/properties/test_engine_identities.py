@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -25,6 +25,8 @@ from crankwork.machine import Cylinder, Gas, Machine
 from crankwork.mechanism.mechanism import slider_crank
 from crankwork.method import EXACT, TEXTBOOK, Method
 from crankwork.report.tables import table_column
+
+Values = NDArray[Any]
 
 GRID = CrankGrid.steps(7.5, 720.0)
 ONE_TURN = CrankGrid.steps(7.5, 360.0)
@@ -51,11 +53,16 @@ class Drawn(NamedTuple):
 
 
 def _otto(pressure: float, exponent: float) -> Gas:
-    """Return a closed four-stroke diagram with a vertical line at firing and one at exhaust. [Pa, gauge]"""
+    """Return a closed four-stroke diagram, spark at 350 degrees and exhaust valve at 490. [Pa, gauge]"""
     points = {
-        "r": DiagramPoint(0.0, 2e4), "a": DiagramPoint(170.0), "c": DiagramPoint(350.0),
-        "z": DiagramPoint(363.0, pressure), "b": DiagramPoint(490.0), "e": DiagramPoint(560.0, 2e4), "r0": DiagramPoint(720.0),
-    }  # fmt: skip
+        "r": DiagramPoint(0.0, 2e4),
+        "a": DiagramPoint(170.0),
+        "c": DiagramPoint(350.0),
+        "z": DiagramPoint(363.0, pressure),
+        "b": DiagramPoint(490.0),
+        "e": DiagramPoint(560.0, 2e4),
+        "r0": DiagramPoint(720.0),
+    }
     pieces = (
         Piece("constant", ("r", "a")),
         Piece("polytropic", ("a", "c"), exponent),
@@ -283,7 +290,7 @@ def test_three_masses_take_the_torque_of_the_rigid_rod(drawn: Drawn) -> None:
     _assert_equal(_columns(machine, EXACT, ONE_TURN)["crank_torque"], torque, 1e-12, scale)
 
 
-def _kinetic_energy(drawn: Drawn, phi: Array | NDArray[np.complex128]) -> NDArray[np.complex128]:
+def _kinetic_energy(drawn: Drawn, phi: Values) -> Values:
     """Return the kinetic energy at any, also complex, crank angle at constant speed. [J]"""
     machine, (r, l, e), rod = drawn  # noqa: E741
     masses, w = machine.masses, machine.speed
@@ -294,9 +301,7 @@ def _kinetic_energy(drawn: Drawn, phi: Array | NDArray[np.complex128]) -> NDArra
     piston = r * w * (np.sin(phi) + np.cos(phi) * sin_beta / cos_beta)
     across = r * w * np.cos(phi) * (1 - rod.centre / l)
     down = r * w * np.sin(phi) + rod.centre * sin_beta * swing
-    return (
-        np.asarray(masses.piston * piston**2 + rod.mass * (across**2 + down**2) + rod.inertia * swing**2, complex) / 2
-    )
+    return np.asarray(masses.piston * piston**2 + rod.mass * (across**2 + down**2) + rod.inertia * swing**2) / 2
 
 
 @MANY

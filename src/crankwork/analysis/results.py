@@ -203,12 +203,15 @@ def _checks(solved: Solved, dense: Mapping[str, Array], summary: Mapping[str, fl
     if "piston_force" not in dense:
         return {}
     T, K, S, N = (dense[key] for key in ("tangential_force", "radial_force", "rod_force", "side_force"))
+    P, r, l = dense["piston_force"], solved.lengths.crank_radius, solved.lengths.rod_length  # noqa: E741
     across = dense.get("rod_transverse_force", np.zeros_like(S))
-    P, r = dense["piston_force"], solved.lengths.crank_radius
+    # what the wall takes beside the rod: the weight across the axis
+    weight = dense.get("transverse_weight", np.zeros_like(S))
+    height = r * np.cos(dense["crank_angle"]) + l * np.cos(dense["rod_angle"])
     result = {
         "crankpin_resultant": _residual(T**2 + K**2, S**2 + across**2),
-        "pin_resultant": _residual(P**2 + N**2, S**2 + across**2),
-        "overturning": _residual(T * r, -dense["overturning_moment"] - across * solved.lengths.rod_length),
+        "pin_resultant": _residual(P**2 + (N + weight) ** 2, S**2 + across**2),
+        "overturning": _residual(T * r, weight * height - dense["overturning_moment"] - across * l),
     }
     if solved.space is not None and not solved.machine.angular_acceleration:
         work = summary["mean_torque"] * math.radians(solved.machine.cycle)

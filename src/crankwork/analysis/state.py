@@ -25,7 +25,7 @@ HARMONICS = tuple(
     for order in ("first", "second")
 )
 FORCES = (
-    "gas_pressure", "gas_force", "inertia_force", "weight_force", "piston_force", "side_force", "rod_force",
+    "gas_pressure", "gas_force", "inertia_force", "weight_force", "transverse_weight", "piston_force", "side_force", "rod_force",
     "rod_transverse_force", "radial_force", "tangential_force", "rotating_inertia_force", "rotating_torque",
     "crank_torque", "overturning_moment",
 )  # fmt: skip
@@ -91,13 +91,16 @@ def _forces(solved: Solved, grid: CrankGrid, motion: PistonMotion, known: Mappin
         couple = forces.correction_couple(masses.rod_inertia_excess, known["rod_angular_acceleration"])
         rod = forces.add_couple(rod, couple, l, grid, swing)
         result["rod_transverse_force"] = np.asarray(forces.rod_transverse_force(couple, l))
+    side = rod.side
+    if "transverse_weight" in result:
+        side = np.asarray(forces.side_force_less_weight(side, result["transverse_weight"]))
     result |= {
-        "side_force": rod.side,
+        "side_force": side,
         "rod_force": rod.along,
         "radial_force": rod.radial,
         "tangential_force": rod.tangential,
         "crank_torque": forces.crank_torque(rod.tangential, r),
-        "overturning_moment": forces.overturning_moment(rod.side, r * grid.cos + l * swing.cos, P, e),
+        "overturning_moment": forces.overturning_moment(side, r * grid.cos + l * swing.cos, P, e),
     }
     if masses is not None:
         centrifugal = forces.rotating_inertia_force(masses.rotating, r, solved.speed)
@@ -123,6 +126,9 @@ def _axial_forces(solved: Solved, grid: CrankGrid, known: Mapping[str, Array]) -
     inclination = machine.cylinder.inclination if machine.cylinder else 0.0
     weight = forces.weight_force(masses.reciprocating, solved.method.gravity, math.cos(inclination))
     result["weight_force"] = np.full_like(grid.angle, weight)
+    across = forces.transverse_weight(masses.reciprocating, solved.method.gravity, math.sin(inclination))
+    if across:
+        result["transverse_weight"] = np.full_like(grid.angle, across)
     result["piston_force"] = forces.piston_force_with_weight(gas, result["inertia_force"], result["weight_force"])
     return result
 

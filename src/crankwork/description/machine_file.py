@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -201,9 +201,7 @@ def _input_error(source: str, name: str, reader: Reader, settings: Sequence[Sett
     found = []
     for problem in reader.problems:
         message = _printable(problem.message)
-        setting = next(
-            (one for one in settings if problem.key == one.key or problem.key.startswith(f"{one.key}.")), None
-        )
+        setting = next((one for one in settings if _concerns(problem.key, one.key, lines)), None)
         if setting is not None:
             key = f" {_printable(problem.key)}" if setting.option == "--set" else ""
             found.append((0, f"{setting.option}{key}", Problem("", message)))
@@ -217,6 +215,11 @@ def _input_error(source: str, name: str, reader: Reader, settings: Sequence[Sett
     if reader.more:
         found.append((0, name, Problem("", f"{reader.more} more mistakes; correct these first")))
     return InputError([problem for _, _, problem in found], [place for _, place, _ in found])
+
+
+def _concerns(blamed: str, key: str, lines: Mapping[str, int]) -> bool:
+    """Return whether a problem is that of a setting: of its key, of what is in it, or of a table it has made."""
+    return blamed == key or blamed.startswith(f"{key}.") or (key.startswith(f"{blamed}.") and blamed not in lines)
 
 
 def _printable(text: str) -> str:

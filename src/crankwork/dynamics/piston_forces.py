@@ -132,6 +132,23 @@ def weight_force(m_rec: Value, g: Value, cos_theta: Value) -> Value:
     return m_rec * g * cos_theta
 
 
+@formula("transverse_weight", "khurmi_gupta_2005, ch. 15")
+def transverse_weight(m_rec: Value, g: Value, sin_theta: Value) -> Value:
+    """Weight of the reciprocating mass across the cylinder axis.
+
+    Parameters
+    ----------
+    m_rec, g, sin_theta : float
+        Reciprocating mass, gravity, sine of the inclination of the axis. [kg], [m/s2], [-]
+
+    Returns
+    -------
+    float
+        Force, positive towards the crankpin side at 90 degrees. [N]
+    """
+    return m_rec * g * sin_theta
+
+
 @formula("piston_force", "kolchin_demidov_2008, ch. 7")
 def piston_force(F_g: Value, F_j: Value) -> Value:
     """Force on the piston pin along the cylinder axis.
@@ -321,6 +338,23 @@ def correction_couple(dJ: Value, eps_r: Value) -> Value:
         Couple on the rod, positive as the rod angle. [N m]
     """
     return -dJ * eps_r
+
+
+@formula("side_force", "artobolevsky_1988, ch. 13")
+def side_force_less_weight(N: Value, F_wn: Value) -> Value:
+    """Side force of a leaning cylinder, whose wall also carries weight.
+
+    Parameters
+    ----------
+    N, F_wn : array
+        Side force of the rod, weight across the axis. [N], [N]
+
+    Returns
+    -------
+    array
+        Force of the piston on the wall, positive on the side opposite to the crankpin at 90 degrees. [N]
+    """
+    return N - F_wn
 
 
 @formula("side_force", "khurmi_gupta_2005, ch. 15")

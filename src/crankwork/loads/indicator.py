@@ -114,10 +114,9 @@ class Segment:
         if self.law == "constant":
             return float(pressure[0] * (volume[1] - volume[0]))
         if self.law == "polytropic":
-            exponent = self.state[2]
-            if abs(exponent - 1) < 1e-9:
-                return float(pressure[0] * volume[0] * np.log(volume[1] / volume[0]))
-            return float((pressure[1] * volume[1] - pressure[0] * volume[0]) / (1 - exponent))
+            # p1 V1 ((V2/V1)^(1-n) - 1) / (1-n), in a form that keeps its digits as n goes to 1
+            growth, less = np.log(volume[1] / volume[0]), 1 - self.state[2]
+            return float(pressure[0] * volume[0] * (np.expm1(less * growth) / less if less else growth))
         nodes, weights = quadrature(self.knots)
         slope = hermite_slope(self.knots, self.pressures, self.slopes, nodes)
         change = weights @ (volume_at(nodes) * np.degrees(slope))
@@ -327,7 +326,7 @@ class _Solver:
 
         if excess(low) * excess(high) > 0:
             raise DiagramError(key, f'the polytrope does not reach the pressure of "{last}" before {high:g} deg')
-        rising = excess(high) > 0
+        rising = excess(high) > 0 or excess(low) < 0
         for _ in range(60):
             middle = (low + high) / 2
             low, high = (low, middle) if (excess(middle) > 0) == rising else (middle, high)

@@ -12,6 +12,7 @@ from crankwork.loads.indicator import DiagramError, IndicatorDiagram, Segment
 from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
 
 _GAP_FACTOR = 4.0
+_SAME_ANGLE = 1e-6
 _WRAP = 0.05
 
 
@@ -64,7 +65,8 @@ def measured_diagram(
     typical = float(np.median(np.diff(measured.degrees)))
     cycles = max(1, int((end - start + 1.5 * typical) // cycle))
     wrap = _wrap_step(measured, cycle)
-    offsets = np.arange(0.0, cycle, typical if step is None else step)
+    first = measured.degrees[measured.degrees < start + cycle - _SAME_ANGLE] - start
+    offsets = first if step is None else step * np.arange(np.ceil(cycle / step - 1e-6))
     # a cycle recorded without its last angle is closed by its first sample
     degrees = np.append(measured.degrees, start + cycle * cycles)
     pressure = np.append(measured.pressure, measured.pressure[0])
@@ -122,7 +124,14 @@ def _check_angles(measured: MeasuredPressure, cycle: float) -> None:
 
 def _wrap_step(measured: MeasuredPressure, cycle: float) -> float:
     """Return the pressure one cycle after the first sample less that of the first sample."""
-    after = float(np.interp(measured.degrees[0] + cycle, measured.degrees, measured.pressure))
+    degrees, pressure = measured.degrees, measured.pressure
+    end = degrees[0] + cycle
+    if degrees[-1] >= end:
+        after = float(np.interp(end, degrees, pressure))
+    else:
+        # the last row of a cycle is often left out; carry on as the samples before it go
+        slope = (pressure[-1] - pressure[-2]) / (degrees[-1] - degrees[-2])
+        after = float(pressure[-1] + slope * (end - degrees[-1]))
     return after - float(measured.pressure[0])
 
 

@@ -16,14 +16,14 @@ def monotone_slopes(x: Array, y: Array, *, periodic: bool = False) -> Array:
     Parameters
     ----------
     x, y : array, shape (n,)
-        Ascending abscissas and ordinates; with `periodic` the last point repeats the first one period on.
+        Ascending abscissas and ordinates; with `periodic` the last point repeats the first one period on. [deg], [Pa]
     periodic : bool
         Whether slopes at both ends are those of one closed curve.
 
     Returns
     -------
     array, shape (n,)
-        Slopes; zero at local extremes.
+        Slopes; zero at local extremes. [Pa/deg]
 
     References
     ----------
@@ -62,14 +62,14 @@ def hermite(x: Array, y: Array, slopes: Array, at: Array) -> Array:
     Parameters
     ----------
     x, y, slopes : array, shape (n,)
-        Points and slopes.
+        Points and slopes. [deg], [Pa], [Pa/deg]
     at : array, shape (m,)
-        Abscissas between the first and the last point.
+        Abscissas between the first and the last point. [deg]
 
     Returns
     -------
     array, shape (m,)
-        Ordinates.
+        Ordinates. [Pa]
 
     References
     ----------
@@ -93,14 +93,14 @@ def hermite_slope(x: Array, y: Array, slopes: Array, at: Array) -> Array:
     Parameters
     ----------
     x, y, slopes : array, shape (n,)
-        Points and slopes.
+        Points and slopes. [deg], [Pa], [Pa/deg]
     at : array, shape (m,)
-        Abscissas between the first and the last point.
+        Abscissas between the first and the last point. [deg]
 
     Returns
     -------
     array, shape (m,)
-        Slopes.
+        Slopes. [Pa/deg]
 
     References
     ----------

@@ -46,7 +46,7 @@ def label_points(axes: Axes, points: Sequence[tuple[str, float, float]], *lines:
     frame = _on_paper(axes, ([left, right], [bottom, top]))
     axis = 0.0 if min(bottom, top) < 0 < max(bottom, top) else bottom
     edges: list[Line] = [([left, left], [bottom, top]), ([left, right], [axis, axis])]
-    marks = _on_paper(axes, tuple(zip(*((x, y) for _, x, y in points), strict=True)))
+    marks = _on_paper(axes, ([x for _, x, _ in points], [y for _, _, y in points]))
     obstacles = np.vstack([marks, *(_spread(_on_paper(axes, line)) for line in (*lines, *edges))])
     placed: list[Box] = []
     for (name, x, y), mark in zip(points, marks, strict=True):
@@ -62,7 +62,7 @@ def label_points(axes: Axes, points: Sequence[tuple[str, float, float]], *lines:
 def _write(axes: Axes, name: str, place: tuple[float, float], shift: Array, *, with_line: bool) -> None:
     line = {"arrowstyle": "-", "linewidth": 0.4, "color": "0.4", "shrinkA": 0, "shrinkB": 1.5} if with_line else None
     axes.annotate(
-        name, place, shift, textcoords="offset points", size=_SIZE, ha="center", va="center",
+        name, place, (float(shift[0]), float(shift[1])), textcoords="offset points", size=_SIZE, ha="center", va="center",
         arrowprops=line, parse_math=False, annotation_clip=False,
     )  # fmt: skip
 

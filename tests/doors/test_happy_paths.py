@@ -1,0 +1,174 @@
+"""From a template to its results: summary, tables, workbook, figures, in three languages."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+import zipfile
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from crankwork.description.machine_file import template_names
+from crankwork.quantities import LANGUAGES, QUANTITIES, base_key
+from crankwork.units import UNITS
+
+SHEET = {"x": "http://schemas.openxmlformats.org/spreadsheetml/2006/main"}
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+def _table(name: str, folder: str = "out") -> tuple[list[str], list[list[float]]]:
+    heading, *rows = csv.reader(Path(folder, "tables", f"{name}.csv").read_text("utf-8").splitlines())
+    return heading, [[float(cell) for cell in row] for row in rows]
+
+
+def _run(crankwork, *arguments):
+    answer = crankwork("run", *arguments)
+    assert answer.code == 0, answer.err
+    return answer
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("name", template_names())
+def test_a_template_is_written_checked_and_computed(crankwork, name, language) -> None:
+    assert crankwork("new", name, "-o", "my.toml").out == "my.toml written; check it with: crankwork check my.toml\n"
+    checked = crankwork("check", "my.toml")
+    assert (checked.code, checked.err) == (0, "")
+    assert checked.out.startswith("my.toml: ")
+    answer = _run(crankwork, "my.toml", "-o", "out", "--lang", language, "--no-figures")
+    assert bool(re.search(r"\d[.]\d", answer.out)) == (language == "en")
+    assert bool(re.search(r"\d,\d", answer.out)) == (language != "en")
+    assert answer.err == ""
+    assert answer.out.rstrip().endswith(" out")
+    assert {one.name for one in Path("out").iterdir()} == {"tables", "tables.xlsx", "machine.svg"}
+    assert {"kinematics.csv", "forces.csv"} <= {one.name for one in Path("out/tables").iterdir()}
+    ElementTree.parse("out/machine.svg")  # noqa: S314 - our own drawing
+
+
+def test_figures_are_drawn_unless_left_out(crankwork, machine_file) -> None:
+    _run(crankwork, machine_file(name="slider-crank"), "-o", "out")
+    drawn = list(Path("out/figures").glob("*.svg"))
+    assert drawn
+    for one in drawn:
+        assert ElementTree.parse(one).getroot().tag.endswith("svg")  # noqa: S314 - our own figure
+
+
+@pytest.mark.parametrize("example", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
+def test_an_example_is_computed(crankwork, example) -> None:
+    _run(crankwork, str(example), "-o", "out", "--no-figures")
+
+
+def test_json_is_one_object_with_values_and_units(crankwork, machine_file) -> None:
+    answer = _run(crankwork, machine_file(("# pi = 3.14", "pi = 3.14")), "--json", "-o", "out", "--no-figures")
+    data = json.loads(answer.out, parse_constant=lambda word: pytest.fail(f"{word} is no JSON"))
+    assert data["method"] == "exact"
+    assert data["notices"] == ["computed with π = 3.14"]
+    assert answer.err == "\nWritten to out\n"
+    for key, entry in data["summary"].items():
+        assert set(entry) == {"value", "unit"}
+        assert base_key(key) in QUANTITIES
+        assert entry["unit"] in ("", *UNITS)
+        assert isinstance(entry["value"], float)
+
+
+def test_the_language_of_the_screen_does_not_change_the_data(crankwork, machine_file) -> None:
+    name = machine_file()
+    assert len({_run(crankwork, name, "--json", "--lang", language).out for language in LANGUAGES}) == 1
+    assert len({_run(crankwork, name, "--lang", language).out for language in LANGUAGES}) == 3
+
+
+@pytest.mark.parametrize("per_area", [False, True])
+def test_a_table_begins_with_key_and_unit_of_each_column(crankwork, machine_file, per_area) -> None:
+    _run(crankwork, machine_file(), "-o", "out", "--no-figures", *(["--per-area"] if per_area else []))
+    for path in Path("out/tables").iterdir():
+        heading, rows = _table(path.stem)
+        assert heading[0] == "crank_angle [deg]"
+        for column in heading:
+            key, _, unit = column.removesuffix("]").partition(" [")
+            quantity = QUANTITIES[key]
+            assert unit == ((per_area and quantity.per_area_unit) or quantity.unit or "-")
+        assert all(len(row) == len(heading) for row in rows)
+    heading, _ = _table("forces")
+    assert {"gas_pressure [MPa]", f"inertia_force [{'MPa' if per_area else 'N'}]", "crank_torque [N*m]"} <= set(heading)
+
+
+def test_forces_per_area_are_forces_over_the_piston_area(crankwork, machine_file) -> None:
+    name = machine_file()
+    area = json.loads(_run(crankwork, name, "--json").out)["summary"]["piston_area"]["value"]
+    _run(crankwork, name, "-o", "out", "--no-figures")
+    _run(crankwork, name, "-o", "per_area", "--no-figures", "--per-area")
+    (heading, plain), (_, divided) = _table("forces"), _table("forces", "per_area")
+    column = heading.index("piston_force [N]")
+    # N over cm2 is 0.01 MPa
+    assert [row[column] for row in divided] == pytest.approx([row[column] / area / 100 for row in plain], rel=1e-12)
+
+
+def test_rows_stand_at_every_step_and_at_special_angles(crankwork, machine_file) -> None:
+    special = ('special_angles = ["372 deg"]', 'special_angles = ["372 deg", "30 deg", "0.5 rad", "720 deg"]')
+    _run(crankwork, machine_file(special), "-o", "out", "--no-figures", "--step", "7")
+    angles = [row[0] for row in _table("kinematics")[1]]
+    expected = {7.0 * number for number in range(103)} | {720.0, 372.0, 30.0, 28.647889757}
+    assert angles == sorted(expected)
+
+
+def test_zero_and_the_end_of_the_cycle_are_the_same_state(crankwork, machine_file) -> None:
+    _run(crankwork, machine_file(), "-o", "out", "--no-figures")
+    heading, rows = _table("kinematics")
+    assert (rows[0][0], rows[-1][0]) == (0.0, 720.0)
+    assert rows[0][1:] == rows[-1][1:]
+
+
+def test_csv_for_excel_has_semicolons_and_commas_and_the_same_numbers(crankwork, machine_file) -> None:
+    name = machine_file()
+    _run(crankwork, name, "-o", "out", "--no-figures")
+    _run(crankwork, name, "-o", "excel", "--no-figures", "--excel-csv")
+    data = Path("excel/tables/forces.csv").read_bytes()
+    assert data.startswith(b"\xef\xbb\xbfcrank_angle [deg];")
+    heading, *rows = csv.reader(io.StringIO(data.decode("utf-8-sig")), delimiter=";")
+    assert (heading, [[float(cell.replace(",", ".")) for cell in row] for row in rows]) == _table("forces")
+    assert b"." not in data.partition(b"\n")[2]
+
+
+def test_a_table_of_results_can_be_read_back_as_measured_pressure(crankwork, machine_file) -> None:
+    answer = _run(crankwork, machine_file(), "-o", "out", "--no-figures", "--step", "1", "--json")
+    before = json.loads(answer.out)["summary"]
+    text = Path("my.toml").read_text("utf-8")
+    head, tail = text[: text.index("[gas]")], text[text.index("[method]") :]
+    gas = (
+        '[gas]\ncycle = "720 deg"\n[gas.measured]\nfile = "out/tables/forces.csv"\npressure_unit = "MPa"\n'
+        'angle_column = "crank_angle [deg]"\npressure_column = "gas_pressure [MPa]"\n'
+    )
+    after = json.loads(_run(crankwork, machine_file(text=head + gas + tail), "--json").out)["summary"]
+    assert after["indicated_work"]["value"] == pytest.approx(before["indicated_work"]["value"], rel=2e-3)
+
+
+def test_the_workbook_holds_the_same_numbers_as_the_tables(crankwork, machine_file) -> None:
+    _run(crankwork, machine_file(), "-o", "out", "--no-figures", "--lang", "ru")
+    with zipfile.ZipFile("out/tables.xlsx") as book:
+        assert book.testzip() is None
+        workbook = ElementTree.fromstring(book.read("xl/workbook.xml"))  # noqa: S314 - our own workbook
+        names = [sheet.get("name") for sheet in workbook.iterfind(".//x:sheet", SHEET)]
+        sheets = [ElementTree.fromstring(book.read(f"xl/worksheets/sheet{n}.xml")) for n in (1, 2, 3)]  # noqa: S314
+    assert names[0] == "Кинематика поршня"
+    for sheet, name in zip(sheets, ("kinematics", "harmonics", "forces"), strict=True):
+        rows = sheet.findall(".//x:row", SHEET)[1:]
+        values = [[float(cell.findtext("x:v", "nan", SHEET)) for cell in row] for row in rows]
+        expected = _table(name)[1]
+        assert len(values) == len(expected)
+        # the workbook writes 16 digits
+        assert [pytest.approx(row, rel=1e-15, abs=1e-300) for row in expected] == values
+
+
+def test_three_lines_of_python_give_the_results() -> None:
+    import crankwork
+
+    machine = crankwork.read_machine(crankwork.template("engine"))
+    results = crankwork.analyse(machine)
+    assert crankwork.summary_text(results).startswith("Four-stroke engine\n")
+    assert crankwork.read.__module__ == "crankwork.description.machine_file"
+    assert set(crankwork.__all__) <= set(dir(crankwork))
+    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
+        _ = crankwork.nothing
