@@ -6,7 +6,6 @@ import contextlib
 import importlib
 import io
 import json
-import os
 import sys
 import time
 from collections.abc import Callable, Iterable
@@ -45,11 +44,11 @@ def _exit_code() -> int:
     except (click.Abort, KeyboardInterrupt):
         return 130
     except BrokenPipeError:
-        _give_up_output()
+        _load("files").send_nowhere(sys.stdout)
         return 1
     except OSError as error:
         # everything else that touches the disk is in `files`, so this is the output itself
-        _give_up_output()
+        _load("files").send_nowhere(sys.stdout)
         _tell(f"the output cannot be written ({(error.strerror or 'unknown reason').lower()}); send it elsewhere")
     else:
         return 0
@@ -60,14 +59,6 @@ def _tell(*lines: str) -> None:
     """Write lines to the error stream, if there is one."""
     with contextlib.suppress(OSError):
         click.echo("\n".join(lines), err=True)
-
-
-def _give_up_output() -> None:
-    """Send what is still buffered nowhere, because nobody reads it and the interpreter would try again."""
-    with contextlib.suppress(OSError, ValueError, AttributeError):
-        nowhere = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, sys.stdout.fileno())
-        os.close(nowhere)
 
 
 def _usage_sentence(error: click.ClickException) -> str:

@@ -9,6 +9,7 @@ import stat
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TextIO
 
 from crankwork.errors import CrankworkError
 
@@ -155,6 +156,20 @@ def write_folder(folder: str | Path, contents: dict[str, bytes], *, overwrite: b
             _move(staged, folder, contents, overwrite=overwrite)
     except (OSError, ValueError) as error:
         raise _unwritable(folder, error) from None
+
+
+def send_nowhere(stream: TextIO) -> None:
+    """Let what is still buffered in a stream go nowhere, where nobody reads it any more.
+
+    Parameters
+    ----------
+    stream : text stream
+        The output; the interpreter would try to write it once more when it ends, and complain.
+    """
+    with contextlib.suppress(OSError, ValueError):
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, stream.fileno())
+        os.close(nowhere)
 
 
 def check_folder(folder: str | Path, *, overwrite: bool = False) -> None:

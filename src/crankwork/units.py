@@ -70,6 +70,7 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (101325.0, "atm атм"),
         (6894.757293168361, "psi lbf/in2"),
     ],
+    "stiffness": [(1.0, "N/m Н/м"), (1e3, "N/mm kN/m Н/мм кН/м")],
     "force": [(1.0, "N Н"), (1e3, "kN кН"), (1e6, "MN МН"), (KGF, "kgf кгс kG"), (4.4482216152605, "lbf")],
     "torque": [
         (1.0, "N*m N·m Nm N.m Н·м Н*м Нм Н.м"),

@@ -8,7 +8,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import pytest
 
@@ -60,9 +60,9 @@ def crankwork(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str
 def program() -> Callable[..., subprocess.CompletedProcess[bytes]]:
     """Run a command as a program of its own."""
 
-    def run(*arguments: str, env: dict[str, str] | None = None, **options: Any) -> subprocess.CompletedProcess[bytes]:
-        options = {"capture_output": True, "timeout": 60} | options
-        return subprocess.run(command(*arguments), env=environment() | (env or {}), check=False, **options)
+    def run(*arguments: str, env: dict[str, str] | None = None) -> subprocess.CompletedProcess[bytes]:
+        words, variables = command(*arguments), environment() | (env or {})
+        return subprocess.run(words, env=variables, capture_output=True, timeout=60, check=False)
 
     return run
 

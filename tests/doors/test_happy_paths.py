@@ -8,7 +8,7 @@ import json
 import re
 import zipfile
 from pathlib import Path
-from xml.etree import ElementTree
+from xml.etree import ElementTree as ET
 
 import pytest
 
@@ -45,7 +45,7 @@ def test_a_template_is_written_checked_and_computed(crankwork, name, language) -
     assert answer.out.rstrip().endswith(" out")
     assert {one.name for one in Path("out").iterdir()} == {"tables", "tables.xlsx", "machine.svg"}
     assert {"kinematics.csv", "forces.csv"} <= {one.name for one in Path("out/tables").iterdir()}
-    ElementTree.parse("out/machine.svg")  # noqa: S314 - our own drawing
+    ET.parse("out/machine.svg")  # noqa: S314 - our own drawing
 
 
 def test_figures_are_drawn_unless_left_out(crankwork, machine_file) -> None:
@@ -53,7 +53,7 @@ def test_figures_are_drawn_unless_left_out(crankwork, machine_file) -> None:
     drawn = list(Path("out/figures").glob("*.svg"))
     assert drawn
     for one in drawn:
-        assert ElementTree.parse(one).getroot().tag.endswith("svg")  # noqa: S314 - our own figure
+        assert ET.parse(one).getroot().tag.endswith("svg")  # noqa: S314 - our own figure
 
 
 @pytest.mark.parametrize("example", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
@@ -116,7 +116,7 @@ def test_rows_stand_at_every_step_and_at_special_angles(crankwork, machine_file)
 
 def test_zero_and_the_end_of_the_cycle_are_the_same_state(crankwork, machine_file) -> None:
     _run(crankwork, machine_file(), "-o", "out", "--no-figures")
-    heading, rows = _table("kinematics")
+    _, rows = _table("kinematics")
     assert (rows[0][0], rows[-1][0]) == (0.0, 720.0)
     assert rows[0][1:] == rows[-1][1:]
 
@@ -149,9 +149,9 @@ def test_the_workbook_holds_the_same_numbers_as_the_tables(crankwork, machine_fi
     _run(crankwork, machine_file(), "-o", "out", "--no-figures", "--lang", "ru")
     with zipfile.ZipFile("out/tables.xlsx") as book:
         assert book.testzip() is None
-        workbook = ElementTree.fromstring(book.read("xl/workbook.xml"))  # noqa: S314 - our own workbook
+        workbook = ET.fromstring(book.read("xl/workbook.xml"))  # noqa: S314 - our own workbook
         names = [sheet.get("name") for sheet in workbook.iterfind(".//x:sheet", SHEET)]
-        sheets = [ElementTree.fromstring(book.read(f"xl/worksheets/sheet{n}.xml")) for n in (1, 2, 3)]  # noqa: S314
+        sheets = [ET.fromstring(book.read(f"xl/worksheets/sheet{n}.xml")) for n in (1, 2, 3)]  # noqa: S314
     assert names[0] == "Кинематика поршня"
     for sheet, name in zip(sheets, ("kinematics", "harmonics", "forces"), strict=True):
         rows = sheet.findall(".//x:row", SHEET)[1:]

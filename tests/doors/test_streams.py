@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
+import crankwork
+
 HEAVY = ("matplotlib", "pydantic", "scipy", "xlsxwriter")
+ENVIRONMENT = os.environ | {"PYTHONPATH": str(Path(crankwork.__file__).parents[1])}
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="the shell is that of Unix")
 
 
@@ -22,12 +26,8 @@ def _shell(program_words: str, environment: dict[str, str]) -> subprocess.Comple
 @pytest.fixture
 def shell(machine_file):
     """Run a line of the shell in which `crankwork` is the program and my.toml an engine."""
-    import os
-
-    import crankwork
-
     machine_file()
-    environment = os.environ | {"PYTHONPATH": str(Path(crankwork.__file__).parents[1]), "PYTHON": sys.executable}
+    environment = ENVIRONMENT | {"PYTHON": sys.executable}
 
     def run(line: str, **more: str) -> subprocess.CompletedProcess[str]:
         line = 'crankwork() { "$PYTHON" -m crankwork "$@"; }; ' + line
@@ -78,9 +78,8 @@ def test_a_first_answer_loads_nothing_that_draws_or_writes_workbooks(machine_fil
     )
     result = program(*arguments)
     assert result.returncode == 0
-    loaded = subprocess.run(
-        [sys.executable, "-c", code, *arguments], capture_output=True, text=True, check=False, timeout=60
-    )
+    command = [sys.executable, "-c", code, *arguments]
+    loaded = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, check=False, timeout=60)
     assert loaded.stderr == "heavy\n"
     assert loaded.stdout == result.stdout.decode()
 

@@ -32,7 +32,7 @@ def build_machine(values: Mapping[str, Any], reader: Reader, read_measured: Read
     read_measured : callable
         Reads the measured pressure that `gas.measured` names.
     """
-    method = _method(values.get("method", {}), reader)
+    method = build_method(values.get("method", {}), reader)
     crank, rod = values.get("crank", {}), values.get("rod", {})
     lengths = _lengths(crank, rod, values.get("cylinder", {}), reader)
     cylinder = _cylinder(values.get("cylinder"))
@@ -69,7 +69,7 @@ def _value(table: Mapping[str, Any], key: str, default: float = 0.0) -> float:
     return default if measure is None else float(measure.value)
 
 
-def _method(values: Mapping[str, Any], reader: Reader) -> Method:
+def build_method(values: Mapping[str, Any], reader: Reader) -> Method:
     method = Method(
         pi=values.get("pi", math.pi),
         gravity=_value(values, "gravity", STANDARD_GRAVITY),

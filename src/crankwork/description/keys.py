@@ -100,7 +100,7 @@ _GAS = Table(
     }
 )
 
-_METHOD = Table({
+METHOD = Table({
     "kinematics": Key(Text(20), "exact, textbook or series:N"),
     "rod": Key(Choice(("rigid", "two-mass")), "rigid rod, or two masses without the correction couple"),
     "pi": Key(Number(3.0, 3.2), "the value of pi that a document used, for example 3.14"),
@@ -110,7 +110,7 @@ _METHOD = Table({
                              "another r/l for the inertia force alone, where a document mixes two"),
 })  # fmt: skip
 
-_TABLE = Table(
+TABLE = Table(
     {
         "step": Key(Quantity(("angle",), math.radians(0.01), math.radians(180)), "step of the tables"),
         "special_angles": Key(ListOf(Quantity(("angle",), 0.0, 4 * math.pi + 1e-9)), "further angles of the tables"),
@@ -125,6 +125,6 @@ MACHINE_FILE = Table({
     "piston": Key(_PISTON, "the piston"),
     "cylinder": Key(_CYLINDER, "the cylinder"),
     "gas": Key(_GAS, "the pressure in the cylinder"),
-    "method": Key(_METHOD, "how to compute, and the constants of a document to reproduce"),
-    "table": Key(_TABLE, "the rows of the tables"),
+    "method": Key(METHOD, "how to compute, and the constants of a document to reproduce"),
+    "table": Key(TABLE, "the rows of the tables"),
 })  # fmt: skip

@@ -74,6 +74,7 @@ class _Locator:
         path = ""
         for name in names[:-1]:
             path = self._join(path, name)
+            self.lines.setdefault(path, opening.line)
             path = f"{path}[{self.counts[path]}]" if path in self.counts else path
         path = self._join(path, names[-1])
         if opening.text == "[[":

@@ -220,16 +220,16 @@ class ListOf:
 
     entry: Kind
     fewest: int = 0
+    most: int = _MAX_ENTRIES
 
     def read(self, value: object, key: str, reader: Reader) -> list[Any] | None:
         """Return the entries; a bad one is left out after its complaint."""
         if not isinstance(value, list):
             reader.complain(key, self._advice(key))
             return None
-        if not self.fewest <= len(value) <= _MAX_ENTRIES:
-            reader.complain(
-                key, f"has {len(value)} entries; write at least {self.fewest} and at most {_MAX_ENTRIES} of them"
-            )
+        if not self.fewest <= len(value) <= self.most:
+            wanted = f"{self.fewest}" if self.fewest == self.most else f"at least {self.fewest} and at most {self.most}"
+            reader.complain(key, f"has {len(value)} entries; write {wanted} of them")
             return None
         return [self.entry.read(one, f"{key}[{i}]", reader) for i, one in enumerate(value, start=1)]
 
@@ -241,7 +241,45 @@ class ListOf:
 
     def schema(self) -> dict[str, Any]:
         """Return the schema of an array."""
-        return {"type": "array", "items": self.entry.schema(), "minItems": self.fewest}
+        return {"type": "array", "items": self.entry.schema(), "minItems": self.fewest, "maxItems": self.most}
+
+
+@dataclass(frozen=True)
+class Nested:
+    """A list whose entries are of one kind or lists of it."""
+
+    entry: Kind
+
+    def read(self, value: object, key: str, reader: Reader) -> list[Any] | None:
+        """Return the entries, lists within as lists."""
+        if not isinstance(value, list) or not 1 <= len(value) <= _MAX_ENTRIES:
+            reader.complain(key, "must be a list in square brackets, like [0.98, [0.95, 0.95], 0.99]")
+            return None
+        inner = ListOf(self.entry, fewest=1)
+        return [
+            (inner if isinstance(one, list) else self.entry).read(one, f"{key}[{i}]", reader)
+            for i, one in enumerate(value, start=1)
+        ]
+
+    def schema(self) -> dict[str, Any]:
+        """Return the schema of an array with arrays in it."""
+        one = self.entry.schema()
+        return {"type": "array", "items": {"anyOf": [one, {"type": "array", "items": one}]}, "minItems": 1}
+
+
+@dataclass(frozen=True)
+class NameOr:
+    """A name, or a value of another kind."""
+
+    other: Kind
+
+    def read(self, value: object, key: str, reader: Reader) -> Any:  # noqa: ANN401 - a name or the other kind's type
+        """Return the name or the value."""
+        return value if isinstance(value, str) and value else self.other.read(value, key, reader)
+
+    def schema(self) -> dict[str, Any]:
+        """Return the schema of either."""
+        return {"anyOf": [{"type": "string"}, self.other.schema()]}
 
 
 @dataclass(frozen=True)

@@ -3,16 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from crankwork.errors import MethodError
 from crankwork.kinematics import textbook
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.dyads import PointMotion, Transfer, crank_pin_motion, rrp_motion
+from crankwork.kinematics.dyads import (
+    LinkMotion,
+    PointMotion,
+    Transfer,
+    crank_motion,
+    crank_pin_motion,
+    fixed_guide,
+    fixed_point,
+    point_on_guide,
+    point_on_link,
+)
+from crankwork.kinematics.placement import Placed, assembled, place, reached
 from crankwork.kinematics.series import series_transfer
 from crankwork.kinematics.slider_crank import (
     RodSwing,
@@ -26,8 +38,11 @@ from crankwork.kinematics.slider_crank import (
     rod_transfer_1,
     rod_transfer_2,
 )
+from crankwork.mechanism.dyads import RRP, Point
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.method import EXACT, Method
+
+Status = NDArray[np.int8]
 
 
 @dataclass(frozen=True)
@@ -41,11 +56,15 @@ class Motion:
     points : mapping of str to PointMotion
         Coordinates of the named points, arrays of shape (n,). [m]
     links : mapping of str to Transfer
-        Direction of each link from the x axis, arrays of shape (n,). [rad]
+        Direction of each link that does not slide from the x axis, arrays of shape (n,). [rad]
     sliders : mapping of str to Transfer
         Distance of each slider along its guide, arrays of shape (n,). [m]
     method : Method
         How it was made.
+    frames : mapping of str to LinkMotion
+        Links and sliding pieces as frames, with origin and direction; empty where the motion comes from a table.
+    status : int, shape (n,), or None
+        0 where the crank gets, 1 where the mechanism cannot be assembled, 2 where it can, but not be reached.
     """
 
     grid: CrankGrid
@@ -53,6 +72,63 @@ class Motion:
     links: Mapping[str, Transfer]
     sliders: Mapping[str, Transfer]
     method: Method
+    frames: Mapping[str, LinkMotion] = field(default_factory=dict)
+    status: Status | None = None
+
+
+class Directions(Mapping[str, Transfer]):
+    """Directions of links as angles, worked out when asked for: an arc tangent costs as much as half a dyad.
+
+    Parameters
+    ----------
+    grid : CrankGrid, shape (n,)
+        Crank angles. [rad]
+    frames : mapping of str to LinkMotion
+        The links.
+    """
+
+    def __init__(self, grid: CrankGrid, frames: Mapping[str, LinkMotion]) -> None:
+        self._grid, self._frames = grid, frames
+        self._known: dict[str, Transfer] = {}
+
+    def __getitem__(self, name: str) -> Transfer:
+        """Return the direction of a link from the x axis, arrays of shape (n,). [rad]"""
+        if name not in self._known:
+            self._known[name] = direction(self._grid, self._frames[name])
+        return self._known[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._frames)
+
+    def __len__(self) -> int:
+        return len(self._frames)
+
+
+def direction(grid: CrankGrid, link: LinkMotion) -> Transfer:
+    """Return the direction of a link, free of jumps by a turn.
+
+    Parameters
+    ----------
+    grid : CrankGrid, shape (n,)
+        Crank angles. [rad]
+    link : LinkMotion
+        The frame of the link.
+
+    Returns
+    -------
+    Transfer of array, shape (n,)
+        Angle from the x axis, from -pi to pi at the first position, and its derivatives. [rad]
+
+    Notes
+    -----
+    Between neighbours the angle grows by about the mean rate times the step, which says how many turns to add.
+    """
+    still = np.zeros_like(grid.angle)
+    angle, rate = np.arctan2(link.sin, link.cos) + still, link.angle_1 + still
+    grown = np.diff(grid.angle) * (rate[1:] + rate[:-1]) / 2
+    turns = np.nan_to_num(np.rint((grown - np.diff(angle)) / math.tau))
+    angle[1:] += math.tau * np.cumsum(turns)
+    return Transfer(angle, rate, link.angle_2 + still)
 
 
 class PistonMotion(NamedTuple):
@@ -186,10 +262,9 @@ def as_slider_crank(mechanism: Mechanism) -> SliderCrank | None:
     SliderCrank or None
         Radius, rod length and offset. [m]
     """
-    crank = mechanism.crank
-    if len(mechanism.dyads) != 1:
+    crank, rod = mechanism.crank, _only_rod(mechanism)
+    if rod is None:
         return None
-    (rod,) = mechanism.dyads
     along_guide = math.isclose(math.sin((rod.guide_angle - crank.start) / 2), 0.0, abs_tol=1e-12)
     if rod.joint != crank.pin or rod.branch != 1 or not along_guide:
         return None
@@ -197,6 +272,14 @@ def as_slider_crank(mechanism: Mechanism) -> SliderCrank | None:
     x, y = (rod.guide_point[0] - crank.pivot[0], rod.guide_point[1] - crank.pivot[1])
     offset = x * math.cos(side) + y * math.sin(side)
     return SliderCrank(crank.radius, rod.length, 0.0 if abs(offset) < 1e-15 * rod.length else offset)
+
+
+def _only_rod(mechanism: Mechanism) -> RRP | None:
+    """Return the one dyad of a mechanism if it is a link on a fixed guide."""
+    match mechanism.dyads:
+        case (RRP(guide_link="") as rod,):
+            return rod
+    return None
 
 
 def motion(mechanism: Mechanism, grid: CrankGrid, method: Method = EXACT) -> Motion:
@@ -223,24 +306,26 @@ def motion(mechanism: Mechanism, grid: CrankGrid, method: Method = EXACT) -> Mot
     MethodError
         If a series or textbook is asked for where none exists.
     """
-    lengths = as_slider_crank(mechanism)
-    if lengths is None:
+    lengths, rod = as_slider_crank(mechanism), _only_rod(mechanism)
+    if lengths is None or rod is None:
         if not method.is_exact:
             raise MethodError(f"method {method.name} exists for a slider-crank only; use exact")
         return linkage_motion(mechanism, grid)
     check_slider_crank(lengths)
-    return _slider_crank_motion(mechanism, lengths, grid, method)
+    return _slider_crank_motion(mechanism, rod, lengths, grid, method)
 
 
-def linkage_motion(mechanism: Mechanism, grid: CrankGrid) -> Motion:
-    """Return the exact motion of a mechanism, dyad after dyad.
+def linkage_motion(mechanism: Mechanism, grid: CrankGrid, *, partial: bool = False) -> Motion:
+    """Return the exact motion of a mechanism, group after group.
 
     Parameters
     ----------
     mechanism : Mechanism
-        A crank and dyads.
+        A crank and groups.
     grid : CrankGrid, shape (n,)
         Crank angles. [rad]
+    partial : bool
+        Keep the positions that the crank can reach, with NaN and a status at the others, instead of refusing.
 
     Returns
     -------
@@ -250,40 +335,76 @@ def linkage_motion(mechanism: Mechanism, grid: CrankGrid) -> Motion:
     Raises
     ------
     GeometryError
-        If a dyad cannot be assembled, with its link, the angle and the length that is missing.
+        If a group cannot be assembled or is singular at an angle or between two that follow each other, with
+        its links, the angle and the length that is missing.
     """
-    crank = mechanism.crank
-    pin, arm = crank_pin_motion(crank, grid)
-    points, links, sliders = {crank.pin: pin}, {crank.link: arm}, {}
-    for dyad in mechanism.dyads:
-        point, link, slider = rrp_motion(dyad, points[dyad.joint], grid)
-        points[dyad.slider], links[dyad.link], sliders[dyad.slider] = point, link, slider
-    return Motion(grid, points, links, sliders, EXACT)
+    if not partial:
+        return _as_motion(assembled(mechanism, grid), np.zeros(len(grid), dtype=np.int8))
+    placed = place(mechanism, grid)
+    status = reached(mechanism, placed)
+    return _as_motion(placed, status)
 
 
-def _slider_crank_motion(mechanism: Mechanism, lengths: SliderCrank, grid: CrankGrid, method: Method) -> Motion:
+def _as_motion(placed: Placed, status: Status) -> Motion:
+    """Return the motion of what has been placed, NaN where the crank does not get."""
+    lost = status != 0 if status.any() else None
+
+    def full(one: Array) -> Array:
+        if lost is not None:
+            return np.where(lost, np.nan, one)
+        return one if one.ndim else np.broadcast_to(one, status.shape)
+
+    def transfer(one: Transfer) -> Transfer:
+        return Transfer(full(one[0]), full(one[1]), full(one[2]))
+
+    points = {name: PointMotion(transfer(one.x), transfer(one.y)) for name, one in placed.points.items()}
+    frames = placed.links
+    if lost is not None:
+        frames = {name: _masked(link, full) for name, link in frames.items()}
+    sliders = {name: transfer(one) for name, one in placed.sliders.items()}
+    links = {name: frame for name, frame in frames.items() if name not in sliders}
+    return Motion(placed.grid, points, Directions(placed.grid, links), sliders, EXACT, frames, status)
+
+
+def _masked(link: LinkMotion, full: Callable[[Array], Array]) -> LinkMotion:
+    x, y = (Transfer(*(full(one) for one in side)) for side in link.origin)
+    return LinkMotion(PointMotion(x, y), *(full(one) for one in link[1:]))
+
+
+def _slider_crank_motion(
+    mechanism: Mechanism, dyad: RRP, lengths: SliderCrank, grid: CrankGrid, method: Method
+) -> Motion:
     """Return the motion with piston and rod by the engine's own formulas, in the frame of the mechanism."""
-    crank, (dyad,) = mechanism.crank, mechanism.dyads
-    (x, x_1, x_2), swing, _ = piston_motion(lengths, grid, method)
+    crank = mechanism.crank
+    (x, x_1, x_2), rod, swing = piston_motion(lengths, grid, method)
     r, l, e = lengths  # noqa: E741
     top = np.sqrt((r + l) ** 2 - e**2)
-    slider = Transfer(_along_guide(mechanism) + top - x, -x_1, -x_2)
-    cos, sin = math.cos(dyad.guide_angle), math.sin(dyad.guide_angle)
-    (qx, qy), d = dyad.guide_point, crank.direction
-    piston = PointMotion(
-        Transfer(qx + cos * slider.position, cos * slider.position_1, cos * slider.position_2),
-        Transfer(qy + sin * slider.position, sin * slider.position_1, sin * slider.position_2),
-    )
-    rod = Transfer(dyad.guide_angle - d * swing.position, -d * swing.position_1, -d * swing.position_2)
+    guide = fixed_guide(dyad.guide)
+    slider = Transfer(_along_guide(dyad, crank.pivot) + top - x, -x_1, -x_2)
+    piston = point_on_guide(guide, slider)
+    d, cos, sin = crank.direction, guide.cos, guide.sin
     pin, arm = crank_pin_motion(crank, grid)
+    still = np.zeros_like(grid.angle)
+    frames = {
+        crank.link: crank_motion(crank, grid),
+        dyad.link: LinkMotion(
+            pin,
+            cos * swing.cos + d * sin * swing.sin,
+            sin * swing.cos - d * cos * swing.sin,
+            *(-d * one for one in rod[1:]),
+        ),
+        dyad.piece: LinkMotion(piston, cos + still, sin + still, still, still),
+    }
+    angle = Transfer(dyad.guide_angle - d * rod.position, -d * rod.position_1, -d * rod.position_2)
     points = {crank.pin: pin, dyad.slider: piston}
-    return Motion(grid, points, {crank.link: arm, dyad.link: rod}, {dyad.slider: slider}, method)
+    points |= {name: fixed_point(place) for name, place in mechanism.ground.items()}
+    points |= {one.name: point_on_link(frames[one.link], one.along, one.across) for one in mechanism.points}
+    return Motion(grid, points, {crank.link: arm, dyad.link: angle}, {dyad.piece: slider}, method, frames)
 
 
-def _along_guide(mechanism: Mechanism) -> float:
+def _along_guide(rod: RRP, pivot: Point) -> float:
     """Return where the foot of the crank pivot lies along the guide, counted from the guide point."""
-    (rod,), (px, py) = mechanism.dyads, mechanism.crank.pivot
-    qx, qy = rod.guide_point
+    (px, py), (qx, qy) = pivot, rod.guide_point
     return (px - qx) * math.cos(rod.guide_angle) + (py - qy) * math.sin(rod.guide_angle)
 
 

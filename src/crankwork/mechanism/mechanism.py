@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
-Point = tuple[float, float]
-Branch = Literal[-1, 1]
+from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.dyads import RRP, Branch, Dyad, Point
 
 
 @dataclass(frozen=True)
@@ -37,35 +37,21 @@ class Crank:
 
 
 @dataclass(frozen=True)
-class RRP:
-    """A dyad of one link between a known point and a slider on a fixed straight guide.
+class LinkPoint:
+    """A named point that moves with a link: a coupler point, a further joint, a centre of mass.
 
     Parameters
     ----------
-    joint, slider : str
-        Name of the known point, and of the point that slides.
-    link : str
-        Name of the link.
-    length : float
-        Distance between the two points. [m]
-    guide_point : tuple of float
-        A point of the guide line. [m]
-    guide_angle : float
-        Direction in which the slider's distance along the guide is counted, from the x axis. [rad]
-    branch : {1, -1}
-        1 if the slider lies ahead of the joint in the guide direction, -1 if behind.
+    name, link : str
+        Name of the point, and of the link or sliding piece it belongs to.
+    along, across : float
+        Coordinates in the frame of the link: from its first joint towards its second, and to the left of that. [m]
     """
 
-    joint: str
-    slider: str
+    name: str
     link: str
-    length: float
-    guide_point: Point = (0.0, 0.0)
-    guide_angle: float = 0.0
-    branch: Branch = 1
-
-
-Dyad = RRP
+    along: float
+    across: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -92,6 +78,21 @@ class Body:
     share: float
 
 
+def body_at(link: str, mass: float, inertia: float, point: str) -> Body:
+    """Return a moving mass whose centre is a named point.
+
+    Parameters
+    ----------
+    link : str
+        Name of the link or slider that carries the mass.
+    mass, inertia : float
+        Mass, and moment of inertia about the centre of mass. [kg], [kg m2]
+    point : str
+        Name of the centre of mass.
+    """
+    return Body(link, mass, inertia, point, point, 0.0)
+
+
 @dataclass(frozen=True)
 class Mechanism:
     """A crank, the dyads in the order in which they are solved, and the bodies.
@@ -100,15 +101,21 @@ class Mechanism:
     ----------
     crank : Crank
         The driving link.
-    dyads : tuple of Dyad
-        Each rests on points that the crank or an earlier dyad has placed.
+    dyads : tuple of Dyad or Chain
+        Each rests on points and links that the crank or an earlier one has placed.
     bodies : tuple of Body
         Moving masses; may be empty where only the motion is wanted.
+    ground : mapping of str to tuple of float
+        Fixed points by name. [m]
+    points : tuple of LinkPoint
+        Further points of the links; a dyad may rest on them.
     """
 
     crank: Crank
-    dyads: tuple[Dyad, ...]
+    dyads: tuple[Dyad | Chain, ...]
     bodies: tuple[Body, ...] = ()
+    ground: Mapping[str, Point] = field(default_factory=dict)
+    points: tuple[LinkPoint, ...] = ()
 
 
 def slider_crank(crank_radius: float, rod_length: float, offset: float = 0.0) -> Mechanism:

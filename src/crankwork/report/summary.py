@@ -74,7 +74,8 @@ def summary_text(results: Results, *, language: Language = "en", per_area: bool 
     lines += ["", *aligned(rows)]
     if results.checks:
         lines += ["", word("checks", language)]
-        lines += aligned([(word(key, language), "", f"{value:.1e}", "") for key, value in results.checks.items()])
+        checks = results.checks.items()
+        lines += aligned([(word(key, language), "", number(value, language, digits=2), "") for key, value in checks])
     if results.notices:
         lines += ["", word("notices", language)]
         lines += [f"  {notice_text(one.code, one.values, language)}" for one in results.notices]

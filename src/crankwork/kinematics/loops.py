@@ -1,0 +1,437 @@
+"""Groups that no dyad describes, by Newton's method on the coordinates of all their links.
+
+Each moving link has three coordinates, its origin and its angle; each pin and each slide two equations. All
+positions are solved at once from a path that starts at the stated position and follows the crank in steps.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from crankwork.errors import GeometryError
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.dyads import (
+    Closure,
+    LinkMotion,
+    PointMotion,
+    Transfer,
+    guide_on_link,
+    point_on_link,
+    seen_from,
+)
+from crankwork.mechanism.chain import Chain, ChainLink, Slide
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide, Point
+
+Positions = NDArray[np.intp]
+
+_FIELDS = ("degrees", "angle", "sin", "cos")
+_STEP = np.radians(6.0)
+_SMALLEST_STEP = 1e-4
+_LAST_STEP = 1e-8
+_ITERATIONS = 12
+_FARTHEST = 0.05
+
+
+class Surroundings(Protocol):
+    """What a chain hangs on: points that are placed, and guides on links that are."""
+
+    @property
+    def points(self) -> dict[str, PointMotion]:
+        """Points by name."""
+
+    def guide(self, guide: Guide) -> LinkMotion:
+        """Return the motion of a guide."""
+
+
+class ChainMotion(NamedTuple):
+    """Points, frames of links, distances of sliders, and how well the chain closes."""
+
+    points: dict[str, PointMotion]
+    links: dict[str, LinkMotion]
+    sliders: dict[str, Transfer]
+    closure: Closure
+
+
+class _Solution(NamedTuple):
+    """Coordinates of the links and their derivatives, shape (n, 3 m), and the determinant, shape (n,)."""
+
+    q: Array
+    q_1: Array
+    q_2: Array
+    determinant: Array
+
+
+class _Row(NamedTuple):
+    """An equation: its value and two derivatives, each shape (n,), and its derivative by the coordinates of links."""
+
+    value: Transfer
+    columns: list[tuple[int, Array, Array, Array]]
+
+
+def chain_motion(chain: Chain, grid: CrankGrid, around: Callable[[CrankGrid], Surroundings]) -> ChainMotion:
+    """Return the motion of a chain of links.
+
+    Parameters
+    ----------
+    chain : Chain
+        The links and the stated start.
+    grid : CrankGrid, shape (n,)
+        Crank angles. [rad]
+    around : callable
+        What is placed before, as a function of the crank angles.
+
+    Returns
+    -------
+    ChainMotion
+        NaN where the chain cannot be reached from its start without passing a singular position.
+
+    Raises
+    ------
+    GeometryError
+        If pins and slides do not determine the links, or the chain cannot be assembled at the start.
+
+    Notes
+    -----
+    F(q, phi) = 0; q' and q'' solve J q' = -F' and J q'' = -F'' with the same Jacobian, where F' and F'' are the
+    derivatives of the equations with the unknown one set to zero.
+
+    References
+    ----------
+    uicker_2011, on numerical loop closure.
+    """
+    equations = _Equations(chain)
+    ahead, behind = (_knots(chain.start, float(end)) for end in (grid.angle.max(), grid.angle.min()))
+    knots = CrankGrid.from_radians([chain.start, *ahead, *behind])
+    every = CrankGrid(*(np.concatenate([getattr(one, name) for one in (knots, grid)]) for name in _FIELDS))
+    surroundings, size = around(every), len(knots)
+    start = _start(equations, surroundings)
+    walk = _Walk(equations, surroundings, around)
+    there = list(walk.along(start, knots.angle, np.arange(1, 1 + len(ahead))))
+    back = list(walk.along(start, knots.angle, np.arange(1 + len(ahead), size)))
+    path = _path([*back[::-1], (chain.start, start), *there], start)
+    nearest = np.clip(np.searchsorted(path.angle, grid.angle), 1, path.angle.size - 1)
+    nearest -= grid.angle - path.angle[nearest - 1] < path.angle[nearest] - grid.angle
+    step = (grid.angle - path.angle[nearest])[:, None]
+    guess = path.q[nearest] + step * (path.q_1[nearest] + 0.5 * step * path.q_2[nearest])
+    guess[np.abs(step[:, 0]) > 1.001 * _STEP] = np.nan
+    at = np.arange(size, size + len(grid))
+    q, _ = _newton(equations, guess, surroundings, at)
+    solution = _derivatives(equations, q, surroundings, at)
+    return _as_motion(equations, solution, path.determinant, surroundings, at)
+
+
+def _knots(start: float, end: float) -> Array:
+    """Return equal steps from the start to an end, without the start. [rad]"""
+    return np.linspace(start, end, math.ceil(abs(end - start) / _STEP) + 1)[1:]
+
+
+class _Path(NamedTuple):
+    """Solved positions along the way of the crank, ascending, and the determinant at the start."""
+
+    angle: Array
+    q: Array
+    q_1: Array
+    q_2: Array
+    determinant: float
+
+
+def _path(knots: list[tuple[float, _Solution]], start: _Solution) -> _Path:
+    """Return solved positions as arrays, two at least."""
+    if len(knots) == 1:
+        knots = knots * 2
+    q, q_1, q_2 = (np.concatenate([one[k] for _, one in knots]) for k in range(3))
+    return _Path(np.array([angle for angle, _ in knots]), q, q_1, q_2, float(start.determinant[0]))
+
+
+def _start(equations: _Equations, surroundings: Surroundings) -> _Solution:
+    """Return the position at the stated start, which is the first of the surroundings."""
+    chain, here = equations.chain, np.array([0])
+    given = np.array([[value for link in chain.links for value in (*link.origin, link.angle)]])
+    q, miss = _newton(equations, given, surroundings, here)
+    if not np.isfinite(q).all():
+        raise GeometryError(
+            f"links {equations.names} cannot be assembled at a crank angle of {math.degrees(chain.start):g} deg from "
+            f"the given start, whose loops are open by {float(miss[0]) * 1e3:.4g} mm; correct a length or the positions"
+        )
+    return _derivatives(equations, q, surroundings, here)
+
+
+class _Walk(NamedTuple):
+    """Follows the crank from knot to knot."""
+
+    equations: _Equations
+    surroundings: Surroundings
+    around: Callable[[CrankGrid], Surroundings]
+
+    def along(self, at: _Solution, angles: Array, knots: Positions) -> Iterator[tuple[float, _Solution]]:
+        """Yield positions at the knots, and between where needed, until there is none that continues the last."""
+        angle = self.equations.chain.start
+        for index in knots:
+            target = float(angles[index])
+            found = _continued(self.equations, at, target - angle, self.surroundings, int(index))
+            if found is None:
+                crept = list(self._creep(at, angle, target))
+                yield from crept
+                if not crept or crept[-1][0] != target:
+                    return
+                angle, at = crept[-1]
+            else:
+                angle, at = target, found
+                yield angle, at
+
+    def _creep(self, at: _Solution, angle: float, end: float) -> Iterator[tuple[float, _Solution]]:
+        """Yield positions on the way to the end in steps as small as it takes."""
+        step = (end - angle) / 2
+        while angle != end and abs(step) > _SMALLEST_STEP:
+            target = end if abs(step) >= abs(end - angle) else angle + step
+            here = self.around(CrankGrid.from_radians([target]))
+            found = _continued(self.equations, at, target - angle, here, 0)
+            if found is None:
+                step /= 2
+            else:
+                angle, at = target, found
+                yield angle, at
+
+
+def _continued(
+    equations: _Equations, at: _Solution, step: float, surroundings: Surroundings, index: int
+) -> _Solution | None:
+    """Return the position one step on, or None if that would be a jump or a passage through a singular one."""
+    guess = at.q + step * (at.q_1 + 0.5 * step * at.q_2)
+    here = np.array([index])
+    q, _ = _newton(equations, guess, surroundings, here)
+    if not np.max(np.abs(q - guess) / equations.scale) < _FARTHEST:
+        return None
+    found = _derivatives(equations, q, surroundings, here)
+    return found if found.determinant[0] * at.determinant[0] > 0 else None
+
+
+def _newton(equations: _Equations, guess: Array, surroundings: Surroundings, at: Positions) -> tuple[Array, Array]:
+    """Return the coordinates that close all loops, NaN where none were found, and by how much the guess misses.
+
+    The guesses belong to the positions `at` of the surroundings. Those that have converged drop out: after a
+    step shorter than the square root of the rounding, the error is gone.
+    """
+    q, active = guess.copy(), np.arange(len(guess))
+    active = active[np.isfinite(q).all(axis=1)]
+    miss = np.full(len(guess), np.nan)
+    for iteration in range(_ITERATIONS):
+        if not active.size:
+            break
+        rows = equations.rows(q[active], None, None, surroundings, at[active])
+        value = np.stack([row.value.position for row in rows], axis=-1)
+        if iteration == 0:
+            miss[active] = np.abs(value).max(axis=1)
+        step = _solved(equations.jacobian(rows, active.size), -value)
+        q[active] += step
+        active = active[~(np.max(np.abs(step) / equations.scale, axis=1) < _LAST_STEP)]
+    q[active] = np.nan
+    return q, miss
+
+
+def _derivatives(equations: _Equations, q: Array, surroundings: Surroundings, at: Positions) -> _Solution:
+    """Return the transfer functions of the coordinates."""
+    rows = equations.rows(q, np.zeros_like(q), np.zeros_like(q), surroundings, at)
+    jacobian = equations.jacobian(rows, len(q))
+    q_1 = _solved(jacobian, -np.stack([row.value.position_1 for row in rows], axis=-1))
+    rows = equations.rows(q, q_1, np.zeros_like(q), surroundings, at)
+    q_2 = _solved(jacobian, -np.stack([row.value.position_2 for row in rows], axis=-1))
+    return _Solution(q, q_1, q_2, np.linalg.det(jacobian))
+
+
+def _solved(matrix: Array, right: Array) -> Array:
+    """Return the solutions of linear systems, NaN where the matrix is singular."""
+    try:
+        return np.asarray(np.linalg.solve(matrix, right[..., None])[..., 0], dtype=float)
+    except np.linalg.LinAlgError:
+        regular = np.linalg.det(matrix) != 0
+        solution = np.full_like(right, np.nan)
+        solution[regular] = np.linalg.solve(matrix[regular], right[regular, :, None])[..., 0]
+        return solution
+
+
+@dataclass
+class _Equations:
+    """The closing equations of a chain."""
+
+    chain: Chain
+
+    def __post_init__(self) -> None:
+        self.names = ", ".join(link.name for link in self.chain.links)
+        self.index = {link.name: 3 * k for k, link in enumerate(self.chain.links)}
+        owners: dict[str, list[str]] = {}
+        for link in self.chain.links:
+            for name in link.points:
+                owners.setdefault(name, []).append(link.name)
+        self.pins = [
+            (name, links[0], other)
+            for name, links in owners.items()
+            for other in (links if name in self.chain.known else links[1:])
+        ]
+        count = 2 * len(self.pins) + 2 * len(self.chain.slides)
+        if count != 3 * len(self.index):
+            raise GeometryError(
+                f"group of {self.names} has {count} equations for {3 * len(self.index)} coordinates; "
+                "a joint is missing or too many"
+            )
+        size = max(np.hypot(*point) for link in self.chain.links for point in link.points.values()) or 1.0
+        self.scale = np.tile([size, size, 1.0], len(self.index))
+
+    def frames(self, q: Array, q_1: Array | None, q_2: Array | None) -> dict[str, LinkMotion]:
+        """Return the frames of the links from their coordinates."""
+        zero = np.zeros(len(q))
+        frames = {}
+        for name, k in self.index.items():
+            x, y, angle = (
+                Transfer(q[:, k + j], zero if q_1 is None else q_1[:, k + j], zero if q_2 is None else q_2[:, k + j])
+                for j in range(3)
+            )
+            cos, sin = np.cos(angle.position), np.sin(angle.position)
+            frames[name] = LinkMotion(PointMotion(x, y), cos, sin, angle.position_1, angle.position_2)
+        return frames
+
+    def rows(self, q: Array, q_1: Array | None, q_2: Array | None, around: Surroundings, at: Positions) -> list[_Row]:
+        """Return all equations at some of the positions."""
+        frames = self.frames(q, q_1, q_2)
+        rows: list[_Row] = []
+        for name, one, other in self.pins:
+            end, column = self._point(other, name, frames)
+            if name in self.chain.known:
+                rows += _pin(end, _at(around.points[name], at), [column], [])
+            else:
+                start, against = self._point(one, name, frames)
+                rows += _pin(end, start, [column], [against])
+        for slide in self.chain.slides:
+            rows += self._slide(slide.link, slide.guide, q, frames, around, at)
+        return rows
+
+    def _point(
+        self, link: str, name: str, frames: dict[str, LinkMotion]
+    ) -> tuple[PointMotion, tuple[int, Array, Array]]:
+        """Return the motion of a point of a link, and its derivative by the angle of the link."""
+        k, frame = self.index[link], frames[link]
+        along, across = self.chain.links[k // 3].points[name]
+        point = point_on_link(frame, along, across)
+        arm_x, arm_y = point.x.position - frame.origin.x.position, point.y.position - frame.origin.y.position
+        return point, (k, -arm_y, arm_x)
+
+    def _slide(
+        self, link: str, guide: Guide, q: Array, frames: dict[str, LinkMotion], around: Surroundings, at: Positions
+    ) -> list[_Row]:
+        """Return the two equations of a link whose x axis lies on a guide."""
+        k, frame = self.index[link], frames[link]
+        carrier = self.index.get(guide.link)
+        line = _line_at(around.guide(guide), at) if carrier is None else guide_on_link(frames[guide.link], guide)
+        across = seen_from(line, frame.origin).y
+        zero, one = np.zeros(len(q)), np.ones(len(q))
+        columns = [(k, -line.sin + zero, line.cos + zero, zero)]
+        # sine of the angle between the two x axes; at the solution its cosine is one
+        sine = frame.sin * line.cos - frame.cos * line.sin
+        turn = Transfer(sine, frame.angle_1 - line.angle_1, frame.angle_2 - line.angle_2)
+        turns = [(k, zero, zero, one)]
+        if carrier is not None:
+            base = frames[guide.link].origin
+            arm_x, arm_y = (mine.position - other.position for mine, other in zip(frame.origin, base, strict=True))
+            columns.append((carrier, line.sin, -line.cos, -(arm_x * line.cos + arm_y * line.sin)))
+            turns.append((carrier, zero, zero, -one))
+        return [_Row(across, columns), _Row(turn, turns)]
+
+    def jacobian(self, rows: list[_Row], count: int) -> Array:
+        """Return the derivative of the equations by the coordinates, shape (n, 3 m, 3 m)."""
+        matrix = np.zeros((count, len(rows), len(rows)))
+        for row, equation in enumerate(rows):
+            for k, x, y, angle in equation.columns:
+                matrix[:, row, k], matrix[:, row, k + 1], matrix[:, row, k + 2] = x, y, angle
+        return matrix
+
+
+def _pin(
+    end: PointMotion,
+    start: PointMotion,
+    ends: list[tuple[int, Array, Array]],
+    starts: list[tuple[int, Array, Array]],
+) -> list[_Row]:
+    """Return the two equations of a pin: that two points are one."""
+    zero = np.zeros(np.shape(end.x.position))
+    x_columns = [(k, zero + sign, zero, sign * x) for sign, side in ((1, ends), (-1, starts)) for k, x, _ in side]
+    y_columns = [(k, zero, zero + sign, sign * y) for sign, side in ((1, ends), (-1, starts)) for k, _, y in side]
+    apart = [Transfer(*(a - b for a, b in zip(one, two, strict=True))) for one, two in zip(end, start, strict=True)]
+    return [_Row(apart[0], x_columns), _Row(apart[1], y_columns)]
+
+
+def _at(point: PointMotion, at: Positions) -> PointMotion:
+    """Return a motion at some of the positions."""
+    return PointMotion(*(Transfer(*(one[at] if one.ndim else one for one in side)) for side in point))
+
+
+def _line_at(line: LinkMotion, at: Positions) -> LinkMotion:
+    cos, sin, angle_1, angle_2 = (one[at] if one.ndim else one for one in line[1:])
+    return LinkMotion(_at(line.origin, at), cos, sin, angle_1, angle_2)
+
+
+def _as_motion(
+    equations: _Equations, solution: _Solution, determinant: float, around: Surroundings, at: Positions
+) -> ChainMotion:
+    """Return points, frames and distances from the coordinates of the links."""
+    chain, frames = equations.chain, equations.frames(*solution[:3])
+    points = {
+        name: point_on_link(frames[link.name], *place)
+        for link in chain.links
+        for name, place in link.points.items()
+        if name not in chain.known
+    }
+    sliders = {}
+    for slide in chain.slides:
+        carrier = frames.get(slide.guide.link)
+        line = guide_on_link(carrier, slide.guide) if carrier else _line_at(around.guide(slide.guide), at)
+        sliders[slide.link] = seen_from(line, frames[slide.link].origin).x
+    ratio = solution.determinant / determinant
+    return ChainMotion(points, frames, sliders, Closure(np.where(ratio > 0, ratio * ratio, np.nan), 1.0, ratio))
+
+
+def as_chain(dyad: Dyad, placed: Mapping[str, LinkMotion], start: float) -> Chain:
+    """Return a dyad as a chain that starts from a solved position, to be solved the other way.
+
+    Parameters
+    ----------
+    dyad : Dyad
+        The two links.
+    placed : mapping of str to LinkMotion
+        Solved frames of links, of which the first position is taken.
+    start : float
+        Crank angle of the first position. [rad]
+    """
+
+    def link(name: str, **own: Point) -> ChainLink:
+        frame = placed[name]
+        x, y = (float(np.ravel(one.position)[0]) for one in frame.origin)
+        cos, sin = float(np.ravel(frame.cos)[0]), float(np.ravel(frame.sin)[0])
+        return ChainLink(name, (x, y), math.atan2(sin, cos), own)
+
+    at = (0.0, 0.0)
+    match dyad:
+        case RRR():
+            a = link(dyad.link_a, **{dyad.joint_a: at, dyad.point: (dyad.length_a, 0.0)})
+            b = link(dyad.link_b, **{dyad.joint_b: at, dyad.point: (dyad.length_b, 0.0)})
+            return Chain((a, b), (), frozenset({dyad.joint_a, dyad.joint_b}), start)
+        case RRP():
+            a = link(dyad.link, **{dyad.joint: at, dyad.slider: (dyad.length, 0.0)})
+            b = link(dyad.piece, **{dyad.slider: at})
+            return Chain((a, b), (Slide(dyad.piece, dyad.guide),), frozenset({dyad.joint}), start)
+        case RPR():
+            a, b = link(dyad.link, **{dyad.pivot: at}), link(dyad.block, **{dyad.joint: at})
+            slot = replace(dyad.slot, link=dyad.link)
+            return Chain((a, b), (Slide(dyad.block, slot),), frozenset({dyad.joint, dyad.pivot}), start)
+        case PRP():
+            a, b = link(dyad.block_a, **{dyad.point: at}), link(dyad.block_b, **{dyad.point: at})
+            return Chain((a, b), (Slide(dyad.block_a, dyad.guide_a), Slide(dyad.block_b, dyad.guide_b)), start=start)
+        case RPP():
+            a, b = link(dyad.link), link(dyad.block, **{dyad.joint: at})
+            slides = Slide(dyad.link, dyad.guide), Slide(dyad.block, replace(dyad.slot, link=dyad.link))
+            return Chain((a, b), slides, frozenset({dyad.joint}), start)

@@ -1,0 +1,207 @@
+"""The crank and one group after another: where every point and link of a mechanism is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from crankwork.errors import GeometryError
+from crankwork.kinematics.assembly import refusal, singular_between, unassembled
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.dyads import (
+    Closure,
+    LinkMotion,
+    PointMotion,
+    Transfer,
+    crank_motion,
+    fixed_guide,
+    fixed_point,
+    guide_on_link,
+    pin_on_crank,
+    point_on_link,
+    rrp_motion,
+    rrr_motion,
+)
+from crankwork.kinematics.loops import chain_motion
+from crankwork.kinematics.sliding_dyads import prp_motion, rpp_motion, rpr_motion
+from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide
+from crankwork.mechanism.mechanism import Mechanism
+
+
+@dataclass
+class Placed:
+    """What has been placed so far: points, frames of links, distances of sliders, and how well groups closed."""
+
+    grid: CrankGrid
+    points: dict[str, PointMotion] = field(default_factory=dict)
+    links: dict[str, LinkMotion] = field(default_factory=dict)
+    sliders: dict[str, Transfer] = field(default_factory=dict)
+    closures: list[Closure] = field(default_factory=list)
+
+    def guide(self, guide: Guide) -> LinkMotion:
+        """Return the motion of a guide."""
+        return guide_on_link(self.links[guide.link], guide) if guide.link else fixed_guide(guide)
+
+
+def place(mechanism: Mechanism, grid: CrankGrid) -> Placed:
+    """Return where everything is, without asking whether it can be assembled.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A crank and groups.
+    grid : CrankGrid, shape (n,)
+        Crank angles. [rad]
+
+    Returns
+    -------
+    Placed
+        Points, links and sliders; NaN or infinite where a group does not close.
+
+    Raises
+    ------
+    GeometryError
+        If a group rests on a point or link that nothing has placed.
+    """
+    crank = mechanism.crank
+    arm = crank_motion(crank, grid)
+    placed = Placed(grid)
+    placed.points.update({name: fixed_point(point) for name, point in mechanism.ground.items()})
+    placed.points[crank.pin] = pin_on_crank(crank, arm)
+    placed.links[crank.link] = arm
+    _place_link_points(mechanism, placed, {crank.link})
+    with np.errstate(invalid="ignore", divide="ignore"):
+        for index, group in enumerate(mechanism.dyads):
+            before = set(placed.links)
+            try:
+                placed.closures.append(_place_group(mechanism, index, placed))
+            except KeyError as missing:
+                raise GeometryError(
+                    f"{_title(group)} rests on {missing}, which neither the ground nor the crank nor an earlier group "
+                    f"places; put it after the one that does"
+                ) from None
+            _place_link_points(mechanism, placed, placed.links.keys() - before)
+    return placed
+
+
+def _place_link_points(mechanism: Mechanism, placed: Placed, links: set[str]) -> None:
+    for point in mechanism.points:
+        if point.link in links:
+            placed.points[point.name] = point_on_link(placed.links[point.link], point.along, point.across)
+
+
+def _place_group(mechanism: Mechanism, index: int, placed: Placed) -> Closure:
+    """Add the points, links and sliders of one group."""
+    points, links, sliders = placed.points, placed.links, placed.sliders
+    match mechanism.dyads[index]:
+        case RRR() as dyad:
+            rrr = rrr_motion(dyad, points[dyad.joint_a], points[dyad.joint_b])
+            points[dyad.point], links[dyad.link_a], links[dyad.link_b] = rrr.point, rrr.link_a, rrr.link_b
+            return rrr.closure
+        case RRP() as dyad:
+            rrp = rrp_motion(dyad, points[dyad.joint], placed.guide(dyad.guide))
+            points[dyad.slider], sliders[dyad.piece] = rrp.point, rrp.slide
+            links[dyad.link], links[dyad.piece] = rrp.link, rrp.piece
+            return rrp.closure
+        case RPR() as dyad:
+            rpr = rpr_motion(dyad, points[dyad.joint], points[dyad.pivot])
+            links[dyad.link], links[dyad.block], sliders[dyad.block] = rpr.link, rpr.block, rpr.slide
+            return rpr.closure
+        case PRP() as dyad:
+            prp = prp_motion(placed.guide(dyad.guide_a), placed.guide(dyad.guide_b))
+            points[dyad.point], links[dyad.block_a], links[dyad.block_b] = prp.point, prp.block_a, prp.block_b
+            sliders[dyad.block_a], sliders[dyad.block_b] = prp.slide_a, prp.slide_b
+            return prp.closure
+        case RPP() as dyad:
+            rpp = rpp_motion(dyad, points[dyad.joint], placed.guide(dyad.guide))
+            links[dyad.link], links[dyad.block] = rpp.link, rpp.block
+            sliders[dyad.link], sliders[dyad.block] = rpp.slide, rpp.block_slide
+            return rpp.closure
+        case chain:
+            earlier = replace(mechanism, dyads=mechanism.dyads[:index])
+            solved = chain_motion(chain, placed.grid, lambda grid: place(earlier, grid))
+            points.update(solved.points)
+            links.update(solved.links)
+            sliders.update(solved.sliders)
+            return solved.closure
+
+
+def assembled(mechanism: Mechanism, grid: CrankGrid) -> Placed:
+    """Return where everything is, of a mechanism that can be assembled at and between all angles.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A crank and groups.
+    grid : CrankGrid, shape (n,)
+        Crank angles; what lies between them is looked at where they ascend. [rad]
+
+    Raises
+    ------
+    GeometryError
+        If a group does not close or becomes singular, with its name, the angle and the length that is missing.
+    """
+    placed = place(mechanism, grid)
+    for index, (group, closure) in enumerate(zip(mechanism.dyads, placed.closures, strict=True)):
+        bad = unassembled(closure)
+        if bad is not None:
+            raise refusal(group, closure, grid, bad)
+        for _, angle in singular_between(grid, closure, _closure_of(mechanism, index)):
+            at = CrankGrid.from_radians(np.array([angle]))
+            there = _closure_of(mechanism, index)(at)._replace(scale=closure.scale)
+            raise refusal(group, there, at, np.array([True]))
+    return placed
+
+
+def reached(mechanism: Mechanism, placed: Placed) -> NDArray[np.int8]:
+    """Return the status of each position: 0 reached, 1 cannot be assembled, 2 assembled but not to be reached.
+
+    Reached are the positions that the crank can turn to without passing a singular one, from the first
+    position that can be assembled.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A crank and groups.
+    placed : Placed
+        Where everything is.
+    """
+    grid = placed.grid
+    bad = np.zeros(grid.angle.shape, dtype=bool)
+    cut = np.zeros(grid.angle.shape, dtype=bool)
+    for index, closure in enumerate(placed.closures):
+        missing = unassembled(closure)
+        if missing is not None:
+            bad |= missing
+        for interval, _ in singular_between(grid, closure, _closure_of(mechanism, index)):
+            cut[interval + 1] = True
+    if bad.all():
+        return np.ones(grid.angle.shape, dtype=np.int8)
+    run = np.cumsum(bad | cut)
+    first = int(np.argmin(bad))
+    return np.where(bad, 1, np.where(run == run[first], 0, 2)).astype(np.int8)
+
+
+def _closure_of(mechanism: Mechanism, index: int) -> Callable[[CrankGrid], Closure]:
+    """Return how well one group closes, as a function of the crank angles."""
+    part = replace(mechanism, dyads=mechanism.dyads[: index + 1])
+    return lambda grid: place(part, grid).closures[index]
+
+
+def _title(group: Dyad | Chain) -> str:
+    """Return what to call a group in a message."""
+    match group:
+        case RRR():
+            return f"dyad RRR of {group.link_a} and {group.link_b}"
+        case RRP():
+            return f"dyad RRP of {group.link} and {group.piece}"
+        case RPR() | RPP():
+            return f"dyad {type(group).__name__} of {group.link} and {group.block}"
+        case PRP():
+            return f"dyad PRP of {group.block_a} and {group.block_b}"
+        case Chain():
+            return "group of " + ", ".join(link.name for link in group.links)

@@ -1,0 +1,326 @@
+"""How good a linkage is: whether the crank turns, limits and stroke of an output, time ratio, transmission angle."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from crankwork.errors import GeometryError
+from crankwork.kinematics.assembly import unassembled
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.dyads import Transfer
+from crankwork.kinematics.motion import direction
+from crankwork.kinematics.placement import Placed, assembled, place
+from crankwork.mechanism.dyads import RPR, RRP, RRR
+from crankwork.mechanism.mechanism import Mechanism
+
+FourBarType = Literal["crank-rocker", "double crank", "double rocker", "rocker-crank", "triple rocker", "change point"]
+_SCAN = 1440
+
+
+class Grashof(NamedTuple):
+    """The type of a four-bar linkage, and p + q - s - l: positive if its shortest link turns fully. [m]"""
+
+    type: FourBarType
+    margin: float
+
+
+def grashof(crank: float, coupler: float, rocker: float, ground: float) -> Grashof:
+    """Return the type of a four-bar linkage.
+
+    Parameters
+    ----------
+    crank, coupler, rocker, ground : float
+        The lengths; the crank is the link that drives. [m]
+
+    Returns
+    -------
+    Grashof
+        Type and margin; `change point` where the links can all come into line.
+
+    References
+    ----------
+    norton_2012, ch. 2.
+    """
+    lengths = (crank, coupler, rocker, ground)
+    shortest, longest = min(lengths), max(lengths)
+    margin = sum(lengths) - 2 * shortest - 2 * longest
+    if abs(margin) <= 1e-12 * longest:
+        return Grashof("change point", 0.0)
+    if margin < 0:
+        return Grashof("triple rocker", margin)
+    types: tuple[FourBarType, ...] = ("crank-rocker", "double rocker", "rocker-crank", "double crank")
+    return Grashof(types[lengths.index(shortest)], margin)
+
+
+class Limits(NamedTuple):
+    """Where an output turns back over one revolution of the crank.
+
+    Crank angles [deg] and the output there [m] or [rad], arrays of shape (k,); largest less smallest.
+    """
+
+    degrees: Array
+    position: Array
+    travel: float
+
+
+def limits(mechanism: Mechanism, output: str) -> Limits:
+    """Return the dead positions of an output, and its stroke or swing.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A mechanism whose crank turns fully.
+    output : str
+        Name of a sliding piece, or of a link.
+
+    Returns
+    -------
+    Limits
+        Where the first transfer function is zero; empty for a link that turns fully.
+
+    Raises
+    ------
+    GeometryError
+        If the mechanism cannot be assembled at some angle.
+    """
+    grid = CrankGrid.from_degrees(np.linspace(0.0, 360.0, _SCAN + 1))
+    coarse = _output(assembled(mechanism, grid), output)
+    degrees = _zeros(mechanism, output, grid.degrees, coarse.position_1)
+    if not degrees.size:
+        return Limits(degrees, degrees, abs(float(coarse.position[-1] - coarse.position[0])))
+    placed = place(mechanism, CrankGrid.from_degrees(degrees))
+    found = _output(placed, output).position
+    if output not in placed.sliders:
+        found = found + math.tau * np.rint((np.interp(degrees, grid.degrees, coarse.position) - found) / math.tau)
+    return Limits(degrees, found, float(np.ptp(found)))
+
+
+def _output(placed: Placed, output: str) -> Transfer:
+    if output in placed.sliders:
+        return placed.sliders[output]
+    if output in placed.links:
+        return direction(placed.grid, placed.links[output])
+    raise GeometryError(f"{output} is not an output; there is {', '.join([*placed.sliders, *placed.links])}")
+
+
+def _zeros(mechanism: Mechanism, output: str, degrees: Array, value: Array) -> Array:
+    """Return where the first transfer function changes its sign, by halving."""
+    sign = np.sign(value)
+    exact = degrees[:-1][sign[:-1] == 0]
+    left = np.flatnonzero(sign[:-1] * sign[1:] < 0)
+    low, high, below = degrees[left], degrees[left + 1], sign[left]
+    for _ in range(50 if left.size else 0):
+        middle = (low + high) / 2
+        same = np.sign(_output(place(mechanism, CrankGrid.from_degrees(middle)), output).position_1) == below
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return np.sort(np.concatenate([exact, (low + high) / 2]))
+
+
+def time_ratio(mechanism: Mechanism, output: str) -> float:
+    """Return the time of the slower stroke over that of the faster one, at constant crank speed.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A mechanism whose crank turns fully.
+    output : str
+        Name of a sliding piece or link with two dead positions.
+
+    Returns
+    -------
+    float
+        K = (180 + theta) / (180 - theta). [-]
+
+    Raises
+    ------
+    GeometryError
+        If the output has not exactly two dead positions.
+
+    References
+    ----------
+    artobolevsky_1988, ch. 27.
+    """
+    found = limits(mechanism, output)
+    if found.degrees.size != 2:
+        raise GeometryError(
+            f"{output} has {found.degrees.size} dead positions in a turn of the crank; a time ratio needs two"
+        )
+    way = float(found.degrees[1] - found.degrees[0])
+    return max(way, 360.0 - way) / min(way, 360.0 - way)
+
+
+def transmission_angle(mechanism: Mechanism, group: int, grid: CrankGrid) -> Array:
+    """Return the transmission angle of a dyad.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A mechanism.
+    group : int
+        Number of the dyad, from 0.
+    grid : CrankGrid, shape (n,)
+        Crank angles. [rad]
+
+    Returns
+    -------
+    array, shape (n,)
+        RRR: angle between the links, from 0 to 180 degrees. RRP: angle between the link and the normal of the
+        guide, from 0 to 90; 90 less it is the pressure angle. RPR: always 90 degrees. [deg]
+
+    References
+    ----------
+    norton_2012, ch. 2, 4.
+    """
+    placed = assembled(mechanism, grid)
+    match mechanism.dyads[group]:
+        case RRR() as dyad:
+            one, other = placed.links[dyad.link_a], placed.links[dyad.link_b]
+        case RRP() as dyad:
+            one, other = placed.links[dyad.link], placed.links[dyad.piece]
+        case RPR():
+            return np.full(grid.angle.shape, 90.0)
+        case _:
+            raise GeometryError("a transmission angle is defined for RRR, RRP and RPR dyads; ask for another group")
+    sine, cosine = one.cos * other.sin - one.sin * other.cos, one.cos * other.cos + one.sin * other.sin
+    if isinstance(dyad, RRR):
+        return np.degrees(np.arctan2(np.abs(sine), cosine))
+    return np.degrees(np.arctan2(np.abs(cosine), np.abs(sine)))
+
+
+def pressure_angle(mechanism: Mechanism, group: int, grid: CrankGrid) -> Array:
+    """Return the pressure angle of a dyad, by which the force departs from the way of the driven link.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A mechanism.
+    group : int
+        Number of the dyad, from 0.
+    grid : CrankGrid, shape (n,)
+        Crank angles. [rad]
+
+    Returns
+    -------
+    array, shape (n,)
+        Departure of the transmission angle from 90 degrees. [deg]
+    """
+    return np.abs(90.0 - transmission_angle(mechanism, group, grid))
+
+
+class Extremes(NamedTuple):
+    """Least and greatest value over a turn, and the crank angles at which they occur. [deg]"""
+
+    least: float
+    least_at: float
+    greatest: float
+    greatest_at: float
+
+
+def transmission_extremes(mechanism: Mechanism, group: int) -> Extremes:
+    """Return the least and greatest transmission angle over a turn of the crank.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A mechanism whose crank turns fully.
+    group : int
+        Number of the dyad, from 0.
+    """
+
+    def value(degrees: Array) -> Array:
+        return transmission_angle(mechanism, group, CrankGrid.from_degrees(degrees))
+
+    ends = []
+    for sign in (1, -1):
+        low, high = 0.0, 360.0
+        for _ in range(6):
+            degrees = np.linspace(low, high, 361)
+            at = int(np.argmin(sign * value(degrees)))
+            step = degrees[1] - degrees[0]
+            low, high = degrees[at] - step, degrees[at] + step
+        ends += [float(value(np.array([degrees[at]]))[0]), float(degrees[at]) % 360.0]
+    return Extremes(*ends)
+
+
+class CrankRange(NamedTuple):
+    """Crank angles between which a mechanism can be assembled, and the group that ends it; None if it turns fully."""
+
+    start: float
+    end: float
+    group: int | None
+
+
+def crank_ranges(mechanism: Mechanism) -> list[CrankRange]:
+    """Return the ranges of the crank in which a mechanism can be assembled; their ends are singular positions.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A crank and dyads.
+
+    Returns
+    -------
+    list of CrankRange
+        Ascending; a range over zero ends beyond 360. One from 0 to 360 if the crank turns fully. [deg]
+    """
+    degrees = np.linspace(0.0, 360.0, _SCAN + 1)
+    works = _works(mechanism, degrees)
+    if works.all():
+        return [CrankRange(0.0, 360.0, None)]
+    change = np.flatnonzero(works[1:] != works[:-1])
+    low, high, before = degrees[change], degrees[change + 1], works[change]
+    for _ in range(40 if change.size else 0):
+        middle = (low + high) / 2
+        same = _works(mechanism, middle) == before
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    starts, ends = high[~before], low[before]
+    if works[0]:
+        ends = np.concatenate([ends[1:], ends[:1] + 360.0])
+    return [
+        CrankRange(float(start), float(end), _failing(mechanism, float(end)))
+        for start, end in zip(starts, ends, strict=True)
+    ]
+
+
+def _works(mechanism: Mechanism, degrees: Array) -> NDArray[np.bool_]:
+    works = np.ones(degrees.shape, dtype=bool)
+    for closure in place(mechanism, CrankGrid.from_degrees(degrees)).closures:
+        bad = unassembled(closure)
+        if bad is not None:
+            works &= ~bad
+    return works
+
+
+def _failing(mechanism: Mechanism, degrees: float) -> int | None:
+    """Return the group that no longer closes just beyond an angle."""
+    for index in range(len(mechanism.dyads)):
+        part = replace(mechanism, dyads=mechanism.dyads[: index + 1])
+        if not _works(part, np.array([degrees + 1e-6]))[0]:
+            return index
+    return None
+
+
+def coupler_curve(mechanism: Mechanism, point: str, grid: CrankGrid) -> tuple[Array, Array]:
+    """Return the path of a point.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A mechanism.
+    point : str
+        Name of the point.
+    grid : CrankGrid, shape (n,)
+        Crank angles. [rad]
+
+    Returns
+    -------
+    tuple of array, shape (n,)
+        Coordinates. [m]
+    """
+    motion = assembled(mechanism, grid).points[point]
+    return motion.x.position, motion.y.position

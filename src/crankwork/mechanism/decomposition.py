@@ -1,0 +1,211 @@
+"""From a linkage as drawn to a crank and ordered groups: which dyad each pair of members is, and its branch."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+
+from crankwork.errors import Problem
+from crankwork.mechanism.chain import Chain, ChainLink, Slide
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Branch, Dyad, Guide, Point
+from crankwork.mechanism.linkage import Linkage, Member
+from crankwork.mechanism.mechanism import LinkPoint, Mechanism, body_at
+from crankwork.mechanism.structure import known_points, structure
+
+
+def mechanism_of(linkage: Linkage) -> tuple[Mechanism | None, list[Problem]]:
+    """Return the mechanism that a linkage is, or every problem that keeps it from being one.
+
+    Parameters
+    ----------
+    linkage : Linkage
+        Crank, links and sliding pieces in any order.
+
+    Returns
+    -------
+    tuple of Mechanism or None and list of Problem
+        Dyads and chains in the order in which they are solved, with the points and masses that go along.
+    """
+    found, problems = structure(linkage)
+    if found is None:
+        return None, problems
+    order = _Order(linkage)
+    groups = [order.group([linkage.member(name) for name in group.members]) for group in found.groups]
+    order.check_branches()
+    if order.problems:
+        return None, order.problems
+    order.points += [LinkPoint(name, linkage.crank.link, *place) for name, place in linkage.crank_points.items()]
+    bodies = tuple(body_at(m.name, m.mass, m.inertia, m.centre) for m in linkage.members if m.centre)
+    return Mechanism(linkage.crank, tuple(groups), bodies, dict(linkage.ground), tuple(order.points)), []
+
+
+@dataclass
+class _Order:
+    """What is solved so far: the names of the members, their frames in their own drawn frames, further points."""
+
+    linkage: Linkage
+    solved: list[str] = field(default_factory=list)
+    frames: dict[str, tuple[Point, float]] = field(default_factory=dict)
+    points: list[LinkPoint] = field(default_factory=list)
+    problems: list[Problem] = field(default_factory=list)
+    branched: set[str] = field(default_factory=set)
+
+    def group(self, members: list[Member]) -> Dyad | Chain:
+        """Return the dyad or chain of some members and note what it places."""
+        known = known_points(self.linkage, self.solved)
+        pairs = (members, members[::-1]) if len(members) == 2 else ()
+        dyads = (self._dyad(one, other, known) for one, other in pairs)
+        made = next((dyad for dyad in dyads if dyad), None)
+        self.solved += [one.name for one in members]
+        return made or self._chain(members, known)
+
+    def _dyad(self, a: Member, b: Member, known: set[str]) -> Dyad | None:
+        """Return the dyad of two members, or None if it is none in this order."""
+        ka, kb = ([name for name in one.points if name in known] for one in (a, b))
+        shared = [name for name in a.points if name in b.points and name not in known]
+        guides = [self.linkage.guides.get(one.guide) for one in (a, b)]
+        match guides, len(ka), len(kb), shared:
+            case [None, None], 1, 1, [point]:
+                return self._rrr(a, b, ka[0], kb[0], point)
+            case [None, Guide(link=carrier) as guide], 1, 0, [point] if carrier != a.name:
+                return self._rrp(a, b, ka[0], point, guide)
+            case [None, Guide(link=a.name) as guide], 1, 1, []:
+                return self._rpr(a, b, ka[0], kb[0], guide)
+            case [Guide() as one, Guide() as other], 0, 0, [point] if a.name != other.link and b.name != one.link:
+                one, other = self._shifted(one, a, point), self._shifted(other, b, point)
+                self._place(a, a.points[point], 0.0, {point})
+                self._place(b, b.points[point], 0.0, {point})
+                return PRP(point, a.name, b.name, one, other)
+            case [Guide() as guide, Guide(link=a.name) as slot], 0, 1, []:
+                self._place(a, (0.0, 0.0), 0.0, set())
+                slot = _moved(slot, b.points[kb[0]])
+                self._place(b, b.points[kb[0]], 0.0, {kb[0]})
+                return RPP(kb[0], a.name, b.name, slot, self._guide(guide))
+        return None
+
+    def _rrr(self, a: Member, b: Member, joint_a: str, joint_b: str, point: str) -> RRR:
+        lengths = [self._placed_bar(one, joint, point) for one, joint in ((a, joint_a), (b, joint_b))]
+        at = self.linkage.at_zero()
+        side = 0.0
+        if {joint_a, joint_b, point} <= at.keys():
+            (ax, ay), (bx, by), (cx, cy) = at[joint_a], at[joint_b], at[point]
+            side = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+        return RRR(joint_a, joint_b, point, a.name, b.name, lengths[0], lengths[1], self._branch(point, side))
+
+    def _rrp(self, link: Member, piece: Member, joint: str, point: str, guide: Guide) -> RRP:
+        length = self._placed_bar(link, joint, point)
+        line = self._shifted(guide, piece, point)
+        self._place(piece, piece.points[point], 0.0, {point})
+        at = self.linkage.at_zero()
+        ahead = 0.0
+        if {joint, point} <= at.keys():
+            angle = line.angle + self._angle_at_zero(line.link)
+            ahead = (at[point][0] - at[joint][0]) * math.cos(angle) + (at[point][1] - at[joint][1]) * math.sin(angle)
+        branch = self._branch(point, ahead)
+        return RRP(joint, point, link.name, length, line.point, line.angle, branch, line.link, piece.name)
+
+    def _rpr(self, lever: Member, block: Member, pivot: str, joint: str, guide: Guide) -> RPR:
+        x, y = lever.points[pivot]
+        slot = Guide((guide.point[0] - x, guide.point[1] - y), guide.angle)
+        slot = _moved(slot, block.points[joint])
+        self._place(lever, (x, y), 0.0, {pivot})
+        self._place(block, block.points[joint], 0.0, {joint})
+        at, ahead = self.linkage.at_zero(), 0.0
+        if {joint, pivot} <= at.keys() and sum(name in at for name in lever.points) > 1:
+            along, across = _difference(at[pivot], at[joint])
+            angle = self._drawn_angle(lever.name) + slot.angle
+            ahead = along * math.cos(angle) + across * math.sin(angle)
+        return RPR(joint, pivot, lever.name, block.name, slot, self._branch(lever.name, ahead))
+
+    def _placed_bar(self, link: Member, joint: str, point: str) -> float:
+        """Return the length of a link from a known joint to a new one, and note its frame."""
+        (x, y), (to_x, to_y) = link.points[joint], link.points[point]
+        self._place(link, (x, y), math.atan2(to_y - y, to_x - x), {joint, point})
+        return math.hypot(to_x - x, to_y - y)
+
+    def _place(self, member: Member, origin: Point, angle: float, without: set[str]) -> None:
+        """Note the frame in which a member is solved, and its points in that frame."""
+        self.frames[member.name] = (origin, angle)
+        for name, place in member.points.items():
+            if name not in without:
+                self.points.append(LinkPoint(name, member.name, *_seen(place, origin, angle)))
+
+    def _guide(self, guide: Guide) -> Guide:
+        """Return a guide in the frame in which its carrier is solved."""
+        origin, angle = self.frames.get(guide.link, ((0.0, 0.0), 0.0))
+        return Guide(_seen(guide.point, origin, angle), guide.angle - angle, guide.link)
+
+    def _shifted(self, guide: Guide, piece: Member, point: str) -> Guide:
+        """Return the line that a point of a sliding piece runs on."""
+        return self._guide(_moved(guide, piece.points[point]))
+
+    def _branch(self, name: str, side: float) -> Branch:
+        """Return the branch given for a joint or a lever, else that of the positions, else 1."""
+        self.branched.add(name)
+        given = self.linkage.branches.get(name)
+        return given if given is not None else -1 if side < 0 else 1
+
+    def check_branches(self) -> None:
+        """Note branches of what has none."""
+        for name in self.linkage.branches:
+            if name not in self.branched:
+                choice = ", ".join(sorted(self.branched)) or "none"
+                self.problems.append(Problem(f"branch.{name}", f"{name} has no branch; there is one for: {choice}"))
+
+    def _angle_at_zero(self, link: str) -> float:
+        """Return the direction of the solved frame of a link at a crank angle of zero. [rad]"""
+        return self._drawn_angle(link) + self.frames.get(link, ((0.0, 0.0), 0.0))[1]
+
+    def _drawn_angle(self, link: str) -> float:
+        """Return the direction of the drawn frame of a member at a crank angle of zero. [rad]"""
+        if not link or link == self.linkage.crank.link:
+            return self.linkage.crank.start if link else 0.0
+        member, at = self.linkage.member(link), self.linkage.at_zero()
+        if member.guide:
+            guide = self.linkage.guides[member.guide]
+            return guide.angle + self._drawn_angle(guide.link)
+        ends = [name for name in member.points if name in at][:2]
+        if len(ends) < 2:
+            return 0.0
+        (x, y), (u, v) = (_difference(*(source[name] for name in ends)) for source in (at, member.points))
+        return math.atan2(y, x) - math.atan2(v, u)
+
+    def _chain(self, members: list[Member], known: set[str]) -> Chain:
+        """Return members that no dyad describes, with the start that the positions give."""
+        at = self.linkage.at_zero()
+        links, slides = [], []
+        for one in members:
+            self.frames[one.name] = ((0.0, 0.0), 0.0)
+            anchor = next((name for name in one.points if name in at), None)
+            if anchor is None or (not one.guide and sum(name in at for name in one.points) < 2):
+                key = f"{'sliders' if one.guide else 'links'}.{one.name}"
+                self.problems.append(Problem(key, (
+                    f"{one.name} belongs to a group that is solved from a start; give the positions of its joints "
+                    f"{', '.join(one.points)} at a crank angle of 0"
+                )))  # fmt: skip
+                continue
+            angle, (u, v) = self._drawn_angle(one.name), one.points[anchor]
+            cos, sin = math.cos(angle), math.sin(angle)
+            origin = (at[anchor][0] - u * cos + v * sin, at[anchor][1] - u * sin - v * cos)
+            links.append(ChainLink(one.name, origin, angle, dict(one.points)))
+            if one.guide:
+                slides.append(Slide(one.name, self._guide(self.linkage.guides[one.guide])))
+        joints = {name for one in members for name in one.points}
+        return Chain(tuple(links), tuple(slides), frozenset(joints & known))
+
+
+def _moved(guide: Guide, by: Point) -> Guide:
+    """Return a guide whose line is that of a point given in the frame of the piece that slides on it."""
+    cos, sin = math.cos(guide.angle), math.sin(guide.angle)
+    (x, y), (u, v) = guide.point, by
+    return replace(guide, point=(x + u * cos - v * sin, y + u * sin + v * cos))
+
+
+def _seen(place: Point, origin: Point, angle: float) -> Point:
+    """Return a point in a frame of given origin and direction."""
+    x, y, cos, sin = place[0] - origin[0], place[1] - origin[1], math.cos(angle), math.sin(angle)
+    return x * cos + y * sin, y * cos - x * sin
+
+
+def _difference(start: Point, end: Point) -> Point:
+    return end[0] - start[0], end[1] - start[1]

@@ -1,0 +1,277 @@
+"""A mechanism as an engineer writes it down, in tables, and every mistake in it at once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+from crankwork.errors import Problem
+from crankwork.mechanism.decomposition import mechanism_of
+from crankwork.mechanism.dyads import Branch, Guide, Point
+from crankwork.mechanism.linkage import Linkage, Member
+from crankwork.mechanism.mechanism import Crank, Mechanism
+
+Table = Mapping[str, Any]
+
+_TABLES = ("fixed_points", "crank", "links", "guides", "sliders", "branch", "positions")
+_CRANK = ("pivot", "pin", "radius", "start", "direction", "points")
+_MASS = ("mass", "inertia", "centre")
+_LINK = ("joins", "length", "points", *_MASS)
+_SLIDER = ("guide", "pin", "points", *_MASS)
+_GUIDE = ("through", "angle", "link")
+_DIRECTIONS: dict[str, Branch] = {"anticlockwise": 1, "clockwise": -1}
+
+
+def mechanism_from(tables: Table) -> tuple[Mechanism | None, list[Problem]]:
+    """Return the mechanism that some tables describe, or every problem that is in them.
+
+    Parameters
+    ----------
+    tables : mapping
+        Tables `fixed_points`, `crank`, `links`, `guides`, `sliders`, `branch`, `positions` with plain values in
+        SI units, angles in radians.
+
+    Returns
+    -------
+    tuple of Mechanism or None and list of Problem
+        The mechanism where there is no problem.
+
+    Examples
+    --------
+    >>> mechanism, problems = mechanism_from(
+    ...     {
+    ...         "fixed_points": {"O": [0.0, 0.0]},
+    ...         "crank": {"pivot": "O", "pin": "A", "radius": 0.05},
+    ...         "links": {"rod": {"joins": ["A", "B"], "length": 0.2}},
+    ...         "guides": {"line": {"through": "O", "angle": 0.0}},
+    ...         "sliders": {"piston": {"pin": "B", "guide": "line"}},
+    ...     }
+    ... )
+    >>> mechanism.dyads[0].length, problems
+    (0.2, [])
+    """
+    linkage, problems = linkage_from(tables)
+    if linkage is None:
+        return None, problems
+    return mechanism_of(linkage)
+
+
+def linkage_from(tables: Table) -> tuple[Linkage | None, list[Problem]]:
+    """Return the linkage that some tables describe, or every problem that is in them.
+
+    Parameters
+    ----------
+    tables : mapping
+        As of `mechanism_from`.
+
+    Returns
+    -------
+    tuple of Linkage or None and list of Problem
+        The linkage where there is no problem.
+    """
+    reader = _Reader(tables)
+    linkage = reader.linkage()
+    return (None, reader.problems) if reader.problems else (linkage, [])
+
+
+@dataclass
+class _Reader:
+    """Reads the tables and collects what is wrong with them."""
+
+    tables: Table
+    problems: list[Problem] = field(default_factory=list)
+
+    def linkage(self) -> Linkage:
+        """Return the linkage; it makes sense only if there are no problems."""
+        self._known_keys("", self.tables, _TABLES)
+        ground = {name: self._point(f"fixed_points.{name}", at) for name, at in self._table("fixed_points").items()}
+        crank, throws = self._crank(ground)
+        positions = {name: self._point(f"positions.{name}", at) for name, at in self._table("positions").items()}
+        drawn = Linkage(crank, ground, (), positions=positions, crank_points=throws).at_zero()
+        members = (*self._links(drawn), *self._sliders())
+        guides = {name: self._guide(name, guide, ground) for name, guide in self._named("guides", _GUIDE)}
+        linkage = Linkage(crank, ground, members, guides, self._branches(), positions, throws)
+        self._names(linkage)
+        return linkage
+
+    def _problem(self, key: str, message: str) -> None:
+        self.problems.append(Problem(key, message))
+
+    def _table(self, key: str) -> Table:
+        table = self.tables.get(key, {})
+        if isinstance(table, Mapping):
+            return table
+        if key == "crank" and isinstance(table, list):
+            self._problem(key, f"there are {len(table)} cranks; a mechanism of one degree of freedom has one [crank]")
+        else:
+            self._problem(key, f"must be a table; write [{key}]")
+        return {}
+
+    def _known_keys(self, key: str, table: Table, known: tuple[str, ...]) -> None:
+        for name in table:
+            if name not in known:
+                self._problem(f"{key}.{name}".lstrip("."), f"is not known here; there is {', '.join(known)}")
+
+    def _named(self, key: str, known: tuple[str, ...]) -> Iterator[tuple[str, Table]]:
+        """Yield the tables below a table."""
+        for name, table in self._table(key).items():
+            if isinstance(table, Mapping):
+                self._known_keys(f"{key}.{name}", table, known)
+                yield name, table
+            else:
+                self._problem(f"{key}.{name}", f"must be a table; write [{key}.{name}]")
+
+    def _number(self, key: str, value: object, *, positive: bool = False) -> float:
+        if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+            self._problem(key, "must be a number" if value is not None else "is missing; give a number")
+        elif positive and not value > 0:
+            self._problem(key, f"must be greater than zero, not {value:g}; a link of no length is a joint")
+        else:
+            return float(value)
+        return 1.0
+
+    def _point(self, key: str, value: object) -> Point:
+        if isinstance(value, list | tuple) and len(value) == 2:
+            return self._number(key, value[0]), self._number(key, value[1])
+        self._problem(key, "must be two coordinates, [x, y]")
+        return 0.0, 0.0
+
+    def _word(self, key: str, value: object) -> str:
+        if isinstance(value, str) and value:
+            return value
+        self._problem(key, "is missing; give a name" if value is None else "must be a name")
+        return ""
+
+    def _points(self, key: str, table: Table) -> dict[str, Point]:
+        points = table.get("points", {})
+        if isinstance(points, Mapping):
+            return {name: self._point(f"{key}.points.{name}", at) for name, at in points.items()}
+        self._problem(f"{key}.points", "must be a table of coordinates, { S = [along, across] }")
+        return {}
+
+    def _crank(self, ground: Mapping[str, Point]) -> tuple[Crank, dict[str, Point]]:
+        table = self._table("crank")
+        self._known_keys("crank", table, _CRANK)
+        pivot, pin = self._word("crank.pivot", table.get("pivot")), self._word("crank.pin", table.get("pin"))
+        if pivot and pivot not in ground:
+            self._problem("crank.pivot", f"{pivot} is not a fixed point; give it in [fixed_points]")
+        if pin in ground:
+            self._problem("crank.pin", f"{pin} is a fixed point already; a moving pin needs a name of its own")
+        direction = table.get("direction", "anticlockwise")
+        if direction not in _DIRECTIONS:
+            self._problem("crank.direction", f"must be clockwise or anticlockwise, not {str(direction)[:40]}")
+        radius = self._number("crank.radius", table.get("radius"), positive=True)
+        start = self._number("crank.start", table.get("start", 0.0))
+        sense = _DIRECTIONS.get(str(direction), 1)
+        return Crank(radius, ground.get(pivot, (0.0, 0.0)), start, sense, pin), self._points("crank", table)
+
+    def _links(self, drawn: Mapping[str, Point]) -> Iterator[Member]:
+        for name, table in self._named("links", _LINK):
+            key, joins = f"links.{name}", table.get("joins")
+            if not isinstance(joins, list | tuple) or len(joins) < 2 or not all(isinstance(one, str) for one in joins):
+                self._problem(f"{key}.joins", 'must be the names of two or more joints, ["A", "B"]')
+                continue
+            if len(set(joins)) < len(joins):
+                self._problem(f"{key}.joins", f"names a joint twice: {', '.join(joins)}; a link joins different points")
+                continue
+            points = self._points(key, table)
+            places = self._joint_places(key, table, list(joins), points, drawn)
+            yield self._with_mass(key, table, Member(name, {**places, **points}))
+
+    def _joint_places(
+        self, key: str, table: Table, joins: list[str], points: Mapping[str, Point], drawn: Mapping[str, Point]
+    ) -> dict[str, Point]:
+        """Return the joints of a link in its frame, from its length or from where they are drawn."""
+        first, second, *others = joins
+        if "length" in table:
+            length = self._number(f"{key}.length", table["length"], positive=True)
+        elif first in drawn and second in drawn:
+            length = math.dist(drawn[first], drawn[second])
+            if length == 0:
+                self._problem(key, f"{first} and {second} are at the same place; a link of no length is a joint")
+                length = 1.0
+        else:
+            self._problem(f"{key}.length", f"is missing; give it, or the positions of {first} and {second}")
+            length = 1.0
+        places = {first: (0.0, 0.0), second: (length, 0.0)}
+        for name in others:
+            if name in points:
+                continue
+            if not {first, second, name} <= drawn.keys():
+                self._problem(f"{key}.points.{name}", (
+                    f"is missing; give {name} along and across the line from {first} to {second}"
+                ))  # fmt: skip
+                continue
+            (x, y), (ax, ay), (bx, by) = drawn[name], drawn[first], drawn[second]
+            cos, sin = (bx - ax) / math.dist((ax, ay), (bx, by)), (by - ay) / math.dist((ax, ay), (bx, by))
+            places[name] = ((x - ax) * cos + (y - ay) * sin, (y - ay) * cos - (x - ax) * sin)
+        return places
+
+    def _sliders(self) -> Iterator[Member]:
+        for name, table in self._named("sliders", _SLIDER):
+            key = f"sliders.{name}"
+            guide = self._word(f"{key}.guide", table.get("guide"))
+            points = self._points(key, table)
+            if "pin" in table:
+                points = {self._word(f"{key}.pin", table["pin"]): (0.0, 0.0), **points}
+            yield self._with_mass(key, table, Member(name, points, guide))
+
+    def _with_mass(self, key: str, table: Table, member: Member) -> Member:
+        if not any(name in table for name in _MASS):
+            return member
+        mass = self._number(f"{key}.mass", table.get("mass"), positive=True)
+        inertia = self._number(f"{key}.inertia", table.get("inertia", 0.0))
+        centre = table.get("centre", next(iter(member.points), "") if member.guide else None)
+        if not isinstance(centre, str):
+            name = f"{member.name}.centre"
+            return _replaced(member, {**member.points, name: self._point(f"{key}.centre", centre)}, mass, inertia, name)
+        if centre not in member.points:
+            self._problem(f"{key}.centre", f"{centre or 'the centre of mass'} is not a point of {member.name}")
+        return _replaced(member, member.points, mass, inertia, centre)
+
+    def _guide(self, name: str, table: Table, ground: Mapping[str, Point]) -> Guide:
+        key, through = f"guides.{name}", table.get("through", [0.0, 0.0])
+        link = self._word(f"{key}.link", table["link"]) if "link" in table else ""
+        if not isinstance(through, str):
+            point = self._point(f"{key}.through", through)
+        elif through in ground and not link:
+            point = ground[through]
+        else:
+            self._problem(f"{key}.through", f"{through} is not a fixed point; give it, or [x, y]")
+            point = (0.0, 0.0)
+        return Guide(point, self._number(f"{key}.angle", table.get("angle", 0.0)), link)
+
+    def _branches(self) -> dict[str, Branch]:
+        branches: dict[str, Branch] = {}
+        for name, value in self._table("branch").items():
+            if isinstance(value, bool) or value not in (1, -1):
+                self._problem(f"branch.{name}", f"{value!s:.40} does not exist; a branch is 1 or -1")
+            else:
+                branches[name] = 1 if value == 1 else -1
+        return branches
+
+    def _names(self, linkage: Linkage) -> None:
+        """Note names that stand for two things or for nothing."""
+        names = {linkage.crank.link}
+        for one in linkage.members:
+            table = "sliders" if one.guide else "links"
+            if one.name in names:
+                self._problem(f"{table}.{one.name}", f"{one.name} is the name of another link; choose another name")
+            names.add(one.name)
+            if one.guide and one.guide not in linkage.guides:
+                self._problem(
+                    f"{table}.{one.name}.guide", f"{one.guide} is not a guide; give it in [guides.{one.guide}]"
+                )
+        for name, guide in linkage.guides.items():
+            if guide.link and guide.link not in names:
+                self._problem(f"guides.{name}.link", f"{guide.link} is neither a link nor a slider")
+        for name in linkage.positions:
+            if name in linkage.ground or name == linkage.crank.pin:
+                self._problem(f"positions.{name}", f"{name} is placed by the ground or the crank; leave it out")
+
+
+def _replaced(member: Member, points: Mapping[str, Point], mass: float, inertia: float, centre: str) -> Member:
+    values = {one.name: getattr(member, one.name) for one in fields(member)}
+    return Member(**{**values, "points": points, "mass": mass, "inertia": inertia, "centre": centre})

@@ -1,0 +1,91 @@
+"""A linkage as it is drawn: fixed points, a crank, links and sliding pieces in any order."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from crankwork.mechanism.dyads import Branch, Guide, Point
+from crankwork.mechanism.mechanism import Crank
+
+GROUND = "ground"
+
+
+@dataclass(frozen=True)
+class Member:
+    """A link, or a piece that slides without turning on its guide.
+
+    Parameters
+    ----------
+    name : str
+        Its name.
+    points : mapping of str to tuple of float
+        Its joints and other named points, in its own frame. [m]
+    guide : str
+        Name of the guide it slides on, its x axis on the line; empty for a link.
+    mass, inertia : float
+        Mass, and moment of inertia about the centre of mass. [kg], [kg m2]
+    centre : str
+        Name of the point that is the centre of mass; empty where there is no mass.
+    """
+
+    name: str
+    points: Mapping[str, Point]
+    guide: str = ""
+    mass: float = 0.0
+    inertia: float = 0.0
+    centre: str = ""
+
+
+@dataclass(frozen=True)
+class Linkage:
+    """A planar linkage before it is taken apart.
+
+    Parameters
+    ----------
+    crank : Crank
+        The driving link.
+    ground : mapping of str to tuple of float
+        Fixed points by name. [m]
+    members : tuple of Member
+        Links and sliding pieces, in any order.
+    guides : mapping of str to Guide
+        Straight guides by name, fixed or carried by a member, in its frame.
+    branches : mapping of str to {1, -1}
+        Branch by the name of the joint that it places, or of the slotted lever.
+    positions : mapping of str to tuple of float
+        Roughly where joints are at a crank angle of zero; they settle the branches that are not given. [m]
+    crank_points : mapping of str to tuple of float
+        Further points of the crank: from the pivot towards the pin, and to the left of that. [m]
+    """
+
+    crank: Crank
+    ground: Mapping[str, Point]
+    members: tuple[Member, ...]
+    guides: Mapping[str, Guide] = field(default_factory=dict)
+    branches: Mapping[str, Branch] = field(default_factory=dict)
+    positions: Mapping[str, Point] = field(default_factory=dict)
+    crank_points: Mapping[str, Point] = field(default_factory=dict)
+
+    def member(self, name: str) -> Member:
+        """Return the member of a name."""
+        return next(one for one in self.members if one.name == name)
+
+    def owners(self) -> dict[str, list[str]]:
+        """Return, for every point, what it belongs to: members, the crank, the ground."""
+        owners: dict[str, list[str]] = {name: [GROUND] for name in self.ground}
+        for name in (self.crank.pin, *self.crank_points):
+            owners.setdefault(name, []).append(self.crank.link)
+        for one in self.members:
+            for name in one.points:
+                owners.setdefault(name, []).append(one.name)
+        return owners
+
+    def at_zero(self) -> dict[str, Point]:
+        """Return where points are at a crank angle of zero, as far as it is given. [m]"""
+        (x, y), r, start = self.crank.pivot, self.crank.radius, self.crank.start
+        pin = (x + r * math.cos(start), y + r * math.sin(start))
+        cos, sin = math.cos(start), math.sin(start)
+        throws = {name: (x + u * cos - v * sin, y + u * sin + v * cos) for name, (u, v) in self.crank_points.items()}
+        return {**self.positions, **self.ground, **throws, self.crank.pin: pin}

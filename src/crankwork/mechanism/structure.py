@@ -1,0 +1,212 @@
+"""What a linkage is made of: its mobility, its Assur groups and their classes, the formula of its structure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import combinations
+
+from crankwork.errors import Problem
+from crankwork.mechanism.linkage import GROUND, Linkage
+
+_ROMAN = ("0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
+
+
+@dataclass(frozen=True)
+class AssurGroup:
+    """Members that have to be solved together, in the order given.
+
+    Parameters
+    ----------
+    members : tuple of str
+        Their names.
+    number : int
+        The class: 2 for a dyad, 3 for a group about a link with three joints, 4 and more for a closed loop of
+        as many links.
+    """
+
+    members: tuple[str, ...]
+    number: int
+
+
+@dataclass(frozen=True)
+class Structure:
+    """Mobility and groups of a linkage.
+
+    Parameters
+    ----------
+    links : tuple of str
+        Moving links, the crank first; their numbers in the formula.
+    joints : int
+        Joints of one freedom, p5.
+    groups : tuple of AssurGroup
+        Groups in the order in which they are solved.
+    """
+
+    links: tuple[str, ...]
+    joints: int
+    groups: tuple[AssurGroup, ...]
+
+    @property
+    def mobility(self) -> int:
+        """Degrees of freedom, 3 n - 2 p5 (Chebyshev)."""
+        return 3 * len(self.links) - 2 * self.joints
+
+    @property
+    def number(self) -> int:
+        """The class of the mechanism, that of its highest group."""
+        return max((group.number for group in self.groups), default=1)
+
+    @property
+    def formula(self) -> str:
+        """The formula of structure, for example `I(0,1) -> II(2,3) -> II(4,5)`."""
+        return " -> ".join(["I(0,1)", *(
+            f"{_ROMAN[group.number]}({','.join(str(self.links.index(name) + 1) for name in group.members)})"
+            for group in self.groups
+        )])  # fmt: skip
+
+
+def mobility(linkage: Linkage) -> int:
+    """Return the degrees of freedom of a linkage, 3 n - 2 p5.
+
+    Parameters
+    ----------
+    linkage : Linkage
+        Crank, links and sliding pieces; a pin of k links counts k - 1 joints.
+
+    References
+    ----------
+    artobolevsky_1988, ch. 2; Chebyshev's formula without higher pairs.
+    """
+    return 3 * (1 + len(linkage.members)) - 2 * _joints(linkage)
+
+
+def _joints(linkage: Linkage) -> int:
+    pins = sum(len(owners) - 1 for owners in linkage.owners().values())
+    return 1 + pins + sum(1 for one in linkage.members if one.guide)
+
+
+def structure(linkage: Linkage) -> tuple[Structure | None, list[Problem]]:
+    """Return the structure of a linkage, or what keeps it from having one.
+
+    Parameters
+    ----------
+    linkage : Linkage
+        Crank, links and sliding pieces.
+
+    Returns
+    -------
+    tuple of Structure or None and list of Problem
+        The structure where there is no problem.
+
+    References
+    ----------
+    artobolevsky_1988, ch. 2-3.
+    """
+    problems = _loose_ends(linkage)
+    if problems:
+        return None, problems
+    names = [one.name for one in linkage.members]
+    solved: set[str] = set()
+    groups: list[AssurGroup] = []
+    while len(solved) < len(names):
+        rest = [name for name in names if name not in solved]
+        found = _smallest_group(linkage, rest, solved)
+        if found is None:
+            return None, [Problem("", _too_free(linkage, rest))]
+        if _excess(linkage, found, solved) > 0:
+            return None, [Problem(_key(linkage, found[0]), _too_stiff(linkage, found))]
+        groups.append(AssurGroup(found, _class(linkage, found, solved)))
+        solved |= set(found)
+    return Structure((linkage.crank.link, *names), _joints(linkage), tuple(groups)), []
+
+
+def _smallest_group(linkage: Linkage, rest: list[str], solved: set[str]) -> tuple[str, ...] | None:
+    """Return the fewest members that what is solved determines, or overdetermines; those named first go first."""
+    for size in range(1, len(rest) + 1):
+        for some in combinations(rest, size):
+            if _excess(linkage, some, solved) >= 0:
+                return some
+    return None
+
+
+def known_points(linkage: Linkage, solved: Iterable[str]) -> set[str]:
+    """Return the points that are placed once some members are solved."""
+    members = {GROUND, linkage.crank.link, *solved}
+    return {name for name, owners in linkage.owners().items() if members.intersection(owners)}
+
+
+def _excess(linkage: Linkage, some: tuple[str, ...], solved: set[str]) -> int:
+    """Return the equations less the coordinates of some members: 0 for a group, more if it is over-constrained."""
+    known = known_points(linkage, solved)
+    carriers = {"", linkage.crank.link, *solved, *some}
+    equations = 0
+    for name, owners in linkage.owners().items():
+        pinned = len(set(owners).intersection(some))
+        equations += 2 * (pinned if name in known else max(pinned - 1, 0))
+    for name in some:
+        guide = linkage.member(name).guide
+        equations += 2 * bool(guide and linkage.guides[guide].link in carriers)
+    return equations - 3 * len(some)
+
+
+def _class(linkage: Linkage, some: tuple[str, ...], solved: set[str]) -> int:
+    """Return the class of a group: the links of its longest closed loop of inner joints, and at least three."""
+    if len(some) == 2:
+        return 2
+    beside: dict[str, set[str]] = {name: set() for name in some}
+    known = known_points(linkage, solved)
+    for point, owners in linkage.owners().items():
+        inner = [name for name in owners if name in beside]
+        if point not in known:
+            for one, other in combinations(inner, 2):
+                beside[one].add(other)
+                beside[other].add(one)
+    for name in some:
+        guide = linkage.member(name).guide
+        if guide and linkage.guides[guide].link in beside:
+            beside[name].add(linkage.guides[guide].link)
+            beside[linkage.guides[guide].link].add(name)
+    return max([3, *(_longest_loop(beside, name) for name in some)])
+
+
+def _longest_loop(beside: dict[str, set[str]], first: str) -> int:
+    def walk(path: list[str]) -> int:
+        longest = len(path) if len(path) > 3 and first in beside[path[-1]] else 0
+        return max([longest, *(walk([*path, name]) for name in beside[path[-1]] if name not in path)])
+
+    return walk([first])
+
+
+def _loose_ends(linkage: Linkage) -> list[Problem]:
+    """Return what hangs on fewer than two joints, and names that stand for nothing."""
+    owners, problems = linkage.owners(), []
+    carriers = {guide.link for name, guide in linkage.guides.items() if any(m.guide == name for m in linkage.members)}
+    for one in linkage.members:
+        joints = [name for name in one.points if len(owners[name]) > 1]
+        count = len(joints) + bool(one.guide) + (one.name in carriers)
+        if count < 2:
+            what = f"only on {joints[0]}" if joints else "on nothing else" if not one.guide else "only on its guide"
+            problems.append(Problem(_key(linkage, one.name), (
+                f"{one.name} hangs {what}; a link needs two joints: join it to another link, a fixed point or a guide"
+            )))  # fmt: skip
+    return problems
+
+
+def _too_free(linkage: Linkage, rest: list[str]) -> str:
+    return (
+        f"the linkage has {mobility(linkage)} degrees of freedom with one crank: {', '.join(rest)} can move on their "
+        f"own; add a link or a guide, or take away {'one of these' if len(rest) > 1 else 'it'}"
+    )
+
+
+def _too_stiff(linkage: Linkage, some: tuple[str, ...]) -> str:
+    what = " and ".join(some)
+    return (
+        f"{what} cannot move with the crank: {'it has' if len(some) == 1 else 'they have'} more joints than the rest "
+        f"leaves free (mobility {mobility(linkage)}); take away a joint or a link"
+    )
+
+
+def _key(linkage: Linkage, name: str) -> str:
+    return f"{'sliders' if linkage.member(name).guide else 'links'}.{name}"

@@ -1,0 +1,137 @@
+"""The JSON Schema, the templates and the examples say the same as the reader."""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from pathlib import Path
+
+import jsonschema
+import pytest
+
+from crankwork.description.keys import MACHINE_FILE
+from crankwork.description.machine_file import json_schema, read_machine, template, template_names
+from crankwork.description.schema import ListOf, Named, Table
+from crankwork.errors import CrankworkError
+
+EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
+TEXTS = {name: template(name) for name in template_names()} | {path.stem: path.read_text("utf-8") for path in EXAMPLES}
+SCHEMA = json.loads(json_schema())
+
+
+def test_the_schema_is_a_json_schema() -> None:
+    jsonschema.Draft202012Validator.check_schema(SCHEMA)
+
+
+@pytest.mark.parametrize("text", TEXTS.values(), ids=TEXTS)
+def test_templates_and_examples_follow_the_schema_and_the_reader(text) -> None:
+    jsonschema.validate(tomllib.loads(text), SCHEMA)
+    assert read_machine(text).title
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        "crank = {radius = 45}",
+        "crank = {radiuss = '45 mm'}",
+        "gas = {cycle = '700 deg'}",
+        "rod = {ratio = -1}",
+        "x = 1",
+    ],
+)
+def test_what_the_reader_refuses_the_schema_refuses_too(wrong) -> None:
+    values = tomllib.loads(template("slider-crank")) | tomllib.loads(wrong)
+    assert not jsonschema.Draft202012Validator(SCHEMA).is_valid(values)
+    with pytest.raises(CrankworkError):
+        read_machine(wrong)
+
+
+@pytest.mark.parametrize("text", TEXTS.values(), ids=TEXTS)
+def test_templates_and_examples_use_documented_keys_only(text) -> None:
+    assert list(_undocumented(tomllib.loads(text), MACHINE_FILE, "")) == []
+
+
+def _undocumented(value, kind, path):
+    match kind:
+        case Table() if isinstance(value, dict):
+            for name, one in value.items():
+                if name not in kind.keys or not kind.keys[name].meaning:
+                    yield f"{path}.{name}"
+                else:
+                    yield from _undocumented(one, kind.keys[name].kind, f"{path}.{name}")
+        case Named():
+            for name, one in value.items():
+                yield from _undocumented(one, kind.entry, f"{path}.{name}")
+        case ListOf():
+            for one in value:
+                yield from _undocumented(one, kind.entry, path)
+
+
+COMMENTED = re.compile(r"# (?P<key>\w+) = (?P<value>\"[^\"]*\"|\[[^\]]*\]|[\w.]+)")
+ALTERNATIVE = re.compile(r"(?:or|;|which is r/l;|add) (?P<key>\w+) = (?P<value>\"[^\"]*\"|[\d.]+)")
+
+
+def _comments():
+    """Give every setting that stands in a comment of a template: alone on a line, or after `or`."""
+    for name in template_names():
+        lines = template(name).split("\n")
+        for number, line in enumerate(lines):
+            alone = COMMENTED.match(line)
+            if alone and "gas.measured" not in "".join(lines[max(0, number - 3) : number]):
+                yield pytest.param(name, number, line.removeprefix("# "), id=f"{name}-{alone['key']}")
+            for other in ALTERNATIVE.finditer(line.partition("#")[2]):
+                key, value = other["key"], other["value"]
+                if line.lstrip().startswith("#") or key == "ratio_definition":
+                    continue
+                yield pytest.param(name, number, f"{key} = {value}", id=f"{name}-or-{key}")
+
+
+@pytest.mark.parametrize(("name", "number", "line"), list(_comments()))
+def test_every_setting_in_a_comment_of_a_template_can_be_used(name, number, line) -> None:
+    lines = template(name).split("\n")
+    is_alternative = not lines[number].startswith("#")
+    lines[number] = line
+    # a zero, and a decimal mark where no comma stands, change nothing
+    is_neutral = '"0 ' in line or "decimal_mark" in line
+    assert is_alternative or is_neutral or read_machine("\n".join(lines)) != read_machine(template(name))
+    assert read_machine("\n".join(lines)).title
+
+
+def test_comments_of_the_templates_are_found() -> None:
+    assert len(list(_comments())) >= 25
+
+
+@pytest.mark.parametrize(
+    ("name", "key", "alternative"),
+    [
+        ("engine", 'radius = "45 mm"', 'stroke = "90 mm"'),
+        ("engine", 'length = "160 mm"', "ratio = 0.28125"),
+        ("engine", "small_end_share = 0.275", 'centre_of_mass = "44 mm"'),
+        ("slider-crank", "small_end_share = 0.275", 'centre_of_mass = "55 mm"'),
+        ("slider-crank", 'length = "200 mm"', "ratio = 0.25"),
+        ("compressor", "small_end_share = 0.3", 'centre_of_mass = "54 mm"'),
+    ],
+)
+def test_an_alternative_in_a_comment_is_the_same_machine(name, key, alternative) -> None:
+    text = template(name)
+    assert key in text
+    assert alternative in text
+    one, other = read_machine(text), read_machine(text.replace(key, alternative, 1))
+    assert one.mechanism == other.mechanism
+    assert (one.masses is None) == (other.masses is None)
+    if one.masses is not None and other.masses is not None:
+        assert one.masses.reciprocating == pytest.approx(other.masses.reciprocating, rel=1e-12)
+
+
+def test_a_measured_pressure_takes_the_place_of_points_and_pieces(tmp_path) -> None:
+    text = template("engine")
+    start, end = text.index("[gas.points]"), text.index("# [gas.measured]")
+    tail = "\n".join(line.removeprefix("# ") if 0 < number < 4 else line for number, line in enumerate(
+        text[end:].removeprefix("# ").split("\n"))
+    )  # fmt: skip
+    (tmp_path / "pressure.csv").write_text("".join(f"{a},{1 + a % 360 / 100}\n" for a in range(0, 721, 5)), "utf-8")
+    machine = read_machine(text[:start] + tail, folder=tmp_path)
+    assert machine.gas is not None
+    assert machine.gas.measured is not None
+    assert machine.gas.angle_shift == 0.0

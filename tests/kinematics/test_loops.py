@@ -1,0 +1,91 @@
+"""Newton's method on whole groups: the same as the dyads, and groups that are none."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from crankwork.errors import GeometryError
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.loops import as_chain
+from crankwork.kinematics.motion import linkage_motion
+from crankwork.mechanism.chain import Chain, ChainLink
+from crankwork.mechanism.description import mechanism_from
+
+GRID = CrankGrid.from_degrees(np.arange(0.0, 360, 10))
+
+TRIAD = {
+    "fixed_points": {"O": [0, 0], "E": [0.2, 0.5], "F": [0.26, 0.4]},
+    "crank": {"pivot": "O", "pin": "A", "radius": 0.03},
+    "positions": {"B": [0.15, 0.03], "C": [0.2, 0.1], "D": [0.2, -0.05]},
+    "links": {
+        "rod": {"joins": ["A", "B"]},
+        "plate": {"joins": ["B", "C", "D"], "points": {"S": [0.05, 0.01]}},
+        "arm": {"joins": ["C", "E"]},
+        "leg": {"joins": ["D", "F"]},
+    },
+}
+
+
+def test_every_dyad_moves_as_newton_finds(linkage):
+    mechanism = linkage
+    solved = linkage_motion(mechanism, GRID)
+    chains = tuple(as_chain(dyad, solved.frames, 0.0) for dyad in mechanism.dyads)
+    other = linkage_motion(replace(mechanism, dyads=chains), GRID)
+    for order in range(3):
+        for point, motion in solved.points.items():
+            assert motion.x[order] == pytest.approx(other.points[point].x[order], abs=1e-12)
+            assert motion.y[order] == pytest.approx(other.points[point].y[order], abs=1e-12)
+        for slider, distance in solved.sliders.items():
+            assert distance[order] == pytest.approx(other.sliders[slider][order], abs=1e-12)
+        for link, angle in solved.links.items():
+            if order:
+                assert angle[order] == pytest.approx(other.links[link][order], abs=1e-12)
+
+
+@pytest.fixture(scope="module")
+def triad():
+    mechanism, problems = mechanism_from(TRIAD)
+    assert problems == []
+    return mechanism
+
+
+def test_a_triad_turns_with_constant_lengths(triad):
+    solved = linkage_motion(triad, CrankGrid.from_degrees(np.arange(360.0)))
+    c, e = solved.points["C"], solved.points["E"]
+    assert np.hypot(c.x[0] - e.x[0], c.y[0] - e.y[0]) == pytest.approx(0.4, rel=1e-13)
+    order = np.fft.fftfreq(360, 1 / 360)
+    for point in ("B", "C", "D", "S"):
+        for position, first, second in solved.points[point]:
+            assert np.fft.ifft(1j * order * np.fft.fft(position)).real == pytest.approx(first, abs=1e-10)
+            assert np.fft.ifft(1j * order * np.fft.fft(first)).real == pytest.approx(second, abs=1e-9)
+
+
+def test_the_result_does_not_depend_on_the_grid(triad):
+    whole = linkage_motion(triad, CrankGrid.from_degrees(np.arange(360.0))).points["S"]
+    one = linkage_motion(triad, CrankGrid.from_degrees([217.0])).points["S"]
+    for order in range(3):
+        assert one.x[order][0] == pytest.approx(whole.x[order][217], abs=1e-13)
+
+
+def test_a_triad_that_locks_is_named_or_kept_in_part():
+    mechanism, _ = mechanism_from({**TRIAD, "crank": {**TRIAD["crank"], "radius": 0.9}})
+    with pytest.raises(GeometryError, match=r"links rod, plate, arm, leg cannot be brought from their start at 0 deg"):
+        linkage_motion(mechanism, CrankGrid.from_degrees(np.arange(360.0)))
+    status = linkage_motion(mechanism, CrankGrid.from_degrees(np.arange(360.0)), partial=True).status
+    assert status[0] == 0
+    assert status.max() > 0
+
+
+def test_a_start_that_does_not_close_is_refused(triad):
+    (chain,) = triad.dyads
+    rod = replace(chain.links[0], points={"A": (0.0, 0.0), "B": (9.0, 0.0)})
+    far = replace(triad, dyads=(replace(chain, links=(rod, *chain.links[1:])),))
+    with pytest.raises(GeometryError, match=r"cannot be assembled at a crank angle of 0 deg from the given start"):
+        linkage_motion(far, GRID)
+
+
+def test_a_chain_with_a_joint_missing_is_refused(triad):
+    loose = Chain((ChainLink("rod", (0, 0), 0.0, {"crank_pin": (0, 0), "B": (1, 0)}),), known=frozenset({"crank_pin"}))
+    with pytest.raises(GeometryError, match=r"2 equations for 3 coordinates"):
+        linkage_motion(replace(triad, dyads=(loose,), points=()), GRID)
