@@ -202,14 +202,7 @@ def _text(tree: Expression, values: Mapping[str, str], language: Language) -> tu
             shown = f"{value:.15g}".replace("-", "−")
             return shown, _SIGNED if shown.startswith("−") else _ATOM
         case Operation(function, (left, right)) if function in _BINARY:
-            level, sign = _BINARY[function]
-            shown, binding = _text(left, values, language)
-            # a sign may lead a sum or a product, but two operators never stand side by side
-            left_text = shown if binding >= level or binding == _SIGNED else f"({shown})"
-            right_text = _wrapped(right, level + (function in (operator.sub, operator.truediv)), values, language)
-            if right_text.startswith("−"):
-                right_text = f"({right_text})"
-            return left_text + sign + right_text, level
+            return _binary_text(function, left, right, values, language)
         case Operation(function, (base, exponent)) if function in (operator.pow, np.power):
             shown = _wrapped(base, 4, values, language)
             if isinstance(exponent, Number) and exponent.value in _SUPERSCRIPTS:
@@ -223,6 +216,23 @@ def _text(tree: Expression, values: Mapping[str, str], language: Language) -> tu
             inside = ", ".join(_text(one, values, language)[0] for one in operands)
             return f"{function.__name__}({inside})", _ATOM
     raise TypeError(f"{tree!r} is not part of a formula")
+
+
+def _binary_text(
+    function: Callable[..., Any], left: Expression, right: Expression, values: Mapping[str, str], language: Language
+) -> tuple[str, int]:
+    """Return the text of a sum, difference, product or quotient.
+
+    A sign may lead it, but two operators never stand side by side.
+    """
+    level, sign = _BINARY[function]
+    left_text, binding = _text(left, values, language)
+    if binding < level and binding != _SIGNED:
+        left_text = f"({left_text})"
+    right_text = _wrapped(right, level + (function in (operator.sub, operator.truediv)), values, language)
+    if right_text.startswith("−"):
+        right_text = f"({right_text})"
+    return left_text + sign + right_text, level
 
 
 def _wrapped(tree: Expression, level: int, values: Mapping[str, str], language: Language) -> str:

@@ -20,6 +20,7 @@ from crankwork.machine import Machine
 from crankwork.method import Method
 
 _DENSE_STEP = 0.1
+_ROUNDING = 1e-13
 
 
 @dataclass(frozen=True)
@@ -182,7 +183,9 @@ def _force_summary(solved: Solved, dense: Mapping[str, Array]) -> dict[str, floa
     cycle = math.radians(solved.machine.cycle)
     nodes, weights = quadrature(_breaks(solved))
     torque = columns(solved, CrankGrid.from_degrees(nodes))["crank_torque"]
-    result["mean_torque"] = float(weights @ torque) / cycle
+    mean = float(weights @ torque) / cycle
+    # a torque that does no work leaves rounding only
+    result["mean_torque"] = mean if abs(mean) > _ROUNDING * float(np.max(np.abs(torque))) else 0.0
     if solved.space is not None:
         work = solved.space.work
         result |= {

@@ -25,7 +25,8 @@ HARMONICS = tuple(
     for order in ("first", "second")
 )
 FORCES = (
-    "gas_pressure", "gas_force", "inertia_force", "weight_force", "transverse_weight", "piston_force", "side_force", "rod_force",
+    "gas_pressure", "gas_force", "inertia_force", "weight_force", "transverse_weight", "piston_force",
+    "side_force", "rod_force",
     "rod_transverse_force", "radial_force", "tangential_force", "rotating_inertia_force", "rotating_torque",
     "crank_torque", "overturning_moment",
 )  # fmt: skip

@@ -70,6 +70,7 @@ def _value(table: Mapping[str, Any], key: str, default: float = 0.0) -> float:
 
 
 def build_method(values: Mapping[str, Any], reader: Reader) -> Method:
+    """Return the method of a machine file; exact after a complaint."""
     method = Method(
         pi=values.get("pi", math.pi),
         gravity=_value(values, "gravity", STANDARD_GRAVITY),

@@ -62,8 +62,8 @@ def label_points(axes: Axes, points: Sequence[tuple[str, float, float]], *lines:
 def _write(axes: Axes, name: str, place: tuple[float, float], shift: Array, *, with_line: bool) -> None:
     line = {"arrowstyle": "-", "linewidth": 0.4, "color": "0.4", "shrinkA": 0, "shrinkB": 1.5} if with_line else None
     axes.annotate(
-        name, place, (float(shift[0]), float(shift[1])), textcoords="offset points", size=_SIZE, ha="center", va="center",
-        arrowprops=line, parse_math=False, annotation_clip=False,
+        name, place, (float(shift[0]), float(shift[1])), textcoords="offset points", size=_SIZE,
+        ha="center", va="center", arrowprops=line, parse_math=False, annotation_clip=False,
     )  # fmt: skip
 
 

@@ -1,0 +1,133 @@
+"""Where the letters and numbers of a drawn linkage go: beside what they name, clear of the rest at every angle."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.kinematics.crank_grid import Array
+from crankwork.report.linkage_scene import SLOT, Scene
+
+_TURNS = np.radians([45, 135, 315, 225, 90, 0, 180, 270, 20, 70, 110, 160, 200, 250, 290, 340])
+_AROUND = np.column_stack([np.cos(_TURNS), np.sin(_TURNS)])
+_REACHES = (15.0, 19.0, 24.0, 30.0)
+_EVERY = 3
+_STEP = 7.0
+
+
+class Label(NamedTuple):
+    """A text whose middle follows places, array of shape (n, 2); y upwards."""
+
+    text: str
+    places: Array
+    is_number: bool
+
+    @property
+    def half(self) -> Array:
+        """Half its width and height. [px]"""
+        return np.array([4.4 * len(self.text) + 1.5, 6.5])
+
+
+def labels(drawn: Scene, fixed: Sequence[Array] = (), *, every: int = _EVERY) -> list[Label]:
+    """Return the names of points and the numbers of links.
+
+    Parameters
+    ----------
+    drawn : Scene
+        The parts.
+    fixed : sequence of array, shape (k, 2)
+        Further places to keep clear of.
+    every : int
+        Look at every so many positions.
+    """
+    obstacles = _samples(drawn, every)
+    still = np.vstack([*fixed, np.zeros((0, 2))])
+    count = obstacles.shape[0]
+    obstacles = np.concatenate([obstacles, np.broadcast_to(still, (count, *still.shape))], axis=1)
+    placed: list[Label] = []
+    for text, is_number, ways in _wanted(drawn):
+        choices = [Label(text, place, is_number) for place, _ in ways]
+        costs = [_cost(one, extra, obstacles, placed, every) for one, (_, extra) in zip(choices, ways, strict=True)]
+        placed.append(choices[int(np.argmin(costs))])
+    return placed
+
+
+def _cost(label: Label, extra: float, obstacles: Array, placed: Sequence[Label], every: int) -> float:
+    centre, half = label.places[::every, None], label.half
+    cost = extra + 10.0 * float(np.mean(np.sum(np.all(np.abs(obstacles - centre) < half, axis=2), axis=1)))
+    for other in placed:
+        apart = np.abs(other.places[::every, None] - centre)
+        cost += 60.0 * float(np.mean(np.all(apart < half + other.half, axis=2)))
+    return cost
+
+
+def _wanted(drawn: Scene) -> Iterator[tuple[str, bool, list[tuple[Array, float]]]]:
+    """Yield each text with the places where it could go, and what each of them costs at least."""
+    shape = drawn.skeleton
+    seen: set[str] = set()
+    for name, letter in shape.letters.items():
+        if name in drawn.points and letter not in seen:
+            seen.add(letter)
+            wide = 4.4 * (len(letter) - 1)
+            yield letter, False, [
+                (drawn.points[name] + (reach + wide * abs(way[0])) * way, reach - 15 + 0.2 * rank)
+                for reach in _REACHES
+                for rank, way in enumerate(_AROUND)
+            ]
+    pivot = drawn.points[shape.crank.points[0]]
+    yield "0", True, [(pivot + [side * x, -y], 0.0) for x, y in ((32, 24), (30, 12), (36, 34)) for side in (1, -1)]
+    for one in shape.members:
+        yield str(one.number), True, list(_number_ways(drawn, one.name))
+
+
+def _number_ways(drawn: Scene, name: str) -> Iterator[tuple[Array, float]]:
+    """Yield the places beside a link or block."""
+    for block in (one for one in drawn.blocks if one.name == name):
+        for reach in (block.half[1] + 10, block.half[1] + 18, block.half[1] + 26):
+            for share in (-0.6, 0.0, 0.6, -1.3, 1.3):
+                for side in (1, -1):
+                    yield block.pose.place(share * block.half[0], side * reach), 0.3 * (reach - block.half[1])
+    for slot in (one for one in drawn.slots if one.carrier == name):
+        for share in (0.2, 0.5, 0.8):
+            for side in (1, -1):
+                yield slot.line.place(slot.start + share * (slot.end - slot.start), side * (SLOT + 10)), 6.0
+    for bar in (one for one in drawn.bars if one.name == name):
+        if not bar.is_flat:
+            yield np.asarray(np.mean(bar.nodes, axis=0)), -20.0
+        for start, end in _edges(bar.nodes, is_flat=bar.is_flat):
+            along = end - start
+            left = np.column_stack([-along[:, 1], along[:, 0]]) / np.maximum(np.hypot(*along.T), 1e-9)[:, None]
+            for share in (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8):
+                for side in (1, -1):
+                    yield start + share * along + side * 13 * left, 8 * abs(share - 0.5)
+
+
+def _edges(nodes: Sequence[Array], *, is_flat: bool) -> Iterator[tuple[Array, Array]]:
+    yield from zip(nodes, nodes[1:], strict=False)
+    if not is_flat:
+        yield nodes[-1], nodes[0]
+
+
+def _samples(drawn: Scene, every: int) -> Array:
+    """Return places on everything that is drawn, shape (frames, k, 2)."""
+    lines = [edge for bar in drawn.bars for edge in _edges(bar.nodes, is_flat=bar.is_flat)]
+    for slot in drawn.slots:
+        sides = (SLOT, -SLOT)
+        lines += [(slot.line.place(slot.start, side), slot.line.place(slot.end, side)) for side in sides]
+    for block in drawn.blocks:
+        u, v = block.half
+        lines += [(block.pose.place(-u, side), block.pose.place(u, side)) for side in (v, 0.0, -v)]
+    for rail in drawn.rails:
+        for side in (rail.half, rail.half + 6, -rail.half, -rail.half - 6):
+            lines.append((rail.line.place(rail.start, side), rail.line.place(rail.end, side)))
+    for at in (place for name, place in drawn.points.items() if name in drawn.skeleton.pivots):
+        lines += [(at, at + [-13.0, -24.0]), (at, at + [13.0, -24.0])]
+        lines += [(at + [-26.0, drop], at + [20.0, drop]) for drop in (-24.0, -31.0)]
+    found = [place[::every, None] for place in drawn.points.values()]
+    for start, end in lines:
+        length = float(np.max(np.hypot(*(end - start).T)))
+        shares = np.linspace(0, 1, max(2, int(length / _STEP)))[:, None]
+        found.append(start[::every, None] + shares * (end - start)[::every, None])
+    return np.concatenate(found, axis=1)
