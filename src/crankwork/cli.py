@@ -166,11 +166,12 @@ def run(  # noqa: PLR0913 - one argument per option of the command
     else:
         click.echo(summary.summary_text(results, language=language, per_area=per_area))
     if output is not None:
-        steps = _load("report.results_folder").results_folder(
+        folder = _load("report.results_folder")
+        steps = folder.results_folder(
             results, language=language, per_area=per_area, for_excel=excel_csv, with_figures=not no_figures
         )
         contents = _with_progress(steps, 4 - no_figures)
-        _load("files").write_folder(output, contents, overwrite=overwrite)
+        _load("files").write_folder(output, contents, overwrite=overwrite, stale=folder.OUTPUTS)
         click.echo(f"\n{_load('report.language').word('written', language)} {output}", err=as_json)
 
 

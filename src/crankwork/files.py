@@ -126,7 +126,9 @@ def write_new(path: str | Path, text: str, *, overwrite: bool = False) -> None:
         raise _unwritable(path, error) from None
 
 
-def write_folder(folder: str | Path, contents: dict[str, bytes], *, overwrite: bool = False) -> None:
+def write_folder(
+    folder: str | Path, contents: dict[str, bytes], *, overwrite: bool = False, stale: tuple[str, ...] = ()
+) -> None:
     """Write files into a folder so that a failure leaves what was there before.
 
     Parameters
@@ -137,6 +139,8 @@ def write_folder(folder: str | Path, contents: dict[str, bytes], *, overwrite: b
         Data by path relative to the folder.
     overwrite : bool
         Write into a folder that holds something already; files of other names stay.
+    stale : tuple of str
+        Patterns of what an earlier run may have left there; of those, what is not written anew is removed.
 
     Raises
     ------
@@ -154,6 +158,9 @@ def write_folder(folder: str | Path, contents: dict[str, bytes], *, overwrite: b
             for name, data in contents.items():
                 _write_through(staged / name, data)
             _move(staged, folder, contents, overwrite=overwrite)
+            for old in {path for pattern in stale for path in folder.glob(pattern)}:
+                if str(old.relative_to(folder).as_posix()) not in contents:
+                    old.unlink(missing_ok=True)
     except (OSError, ValueError) as error:
         raise _unwritable(folder, error) from None
 

@@ -70,6 +70,7 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (101325.0, "atm атм"),
         (6894.757293168361, "psi lbf/in2"),
     ],
+    "time": [(1.0, "s с"), (1e-3, "ms мс"), (60.0, "min мин")],
     "stiffness": [(1.0, "N/m Н/м"), (1e3, "N/mm kN/m Н/мм кН/м")],
     "force": [(1.0, "N Н"), (1e3, "kN кН"), (1e6, "MN МН"), (KGF, "kgf кгс kG"), (4.4482216152605, "lbf")],
     "torque": [

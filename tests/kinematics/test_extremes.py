@@ -12,7 +12,7 @@ import pytest
 
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.extremes import acceleration_extremes, dead_centres, roots, velocity_extremes
-from crankwork.kinematics.motion import piston_motion
+from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.method import EXACT, TEXTBOOK
 

@@ -10,7 +10,8 @@ import pytest
 
 from crankwork.errors import GeometryError, MethodError
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.motion import Motion, as_slider_crank, largest_error, linkage_motion, motion, piston_motion
+from crankwork.kinematics.motion import Motion, linkage_motion, motion
+from crankwork.kinematics.piston import as_slider_crank, largest_error, piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.mechanism.mechanism import RRP, Crank, Mechanism, slider_crank
 from crankwork.method import EXACT, TEXTBOOK, Method

@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.motion import piston_motion
+from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.series import acceleration_harmonic, acceleration_harmonics, series_transfer
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.method import EXACT

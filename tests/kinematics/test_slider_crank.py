@@ -11,7 +11,7 @@ import pytest
 
 from crankwork.errors import GeometryError
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.motion import exact_piston, piston_motion, textbook_piston
+from crankwork.kinematics.piston import exact_piston, piston_motion, textbook_piston
 from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank, piston_transfer_3, rod_swing
 
 RADIUS, LIMIT = 0.075, 0.999999

@@ -16,7 +16,7 @@ import pytest
 
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.extremes import velocity_extremes
-from crankwork.kinematics.motion import piston_motion
+from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.method import EXACT, TEXTBOOK
 

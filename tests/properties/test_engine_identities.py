@@ -438,7 +438,7 @@ def test_the_summary_says_by_how_much_the_two_terms_err(ratio: float, errors: tu
     """In units of radius, of radius and speed, and of radius and speed squared."""
     r, w = 0.07, 130.0
     summary = crankwork.analyse(Machine(slider_crank(r, r / ratio), w), method=TEXTBOOK).summary
-    phi = np.linspace(0, 2 * np.pi, 721)
+    phi = np.linspace(0, 2 * np.pi, 144_001)
     sin_beta = ratio * np.sin(phi)
     cos_beta = np.sqrt(1 - sin_beta**2)
     rod_1 = ratio * np.cos(phi) / cos_beta

@@ -13,7 +13,7 @@ from crankwork.dynamics.piston_forces import angular_speed
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.extremes import dead_centres
-from crankwork.kinematics.motion import as_slider_crank, piston_motion
+from crankwork.kinematics.piston import as_slider_crank, piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.indicator import IndicatorDiagram, solve_diagram
@@ -87,6 +87,10 @@ def solve(machine: Machine, method: Method) -> Solved:
         notices.append(Notice("pi", {"pi": method.pi}))
     if method.inertia_rod_ratio is not None and not method.is_exact:
         notices.append(Notice("inertia_rod_ratio", {"used": method.inertia_rod_ratio, "rod_ratio": lengths.rod_ratio}))
+    if machine.gas is not None and machine.gas.is_absolute and not machine.gas.names_ambient:
+        notices.append(Notice("ambient", {"pressure": machine.gas.ambient / 1e6}))
+    if machine.masses is not None and machine.masses.rod_inertia_excess and method.rod != "rigid":
+        notices.append(Notice("no_couple", {}))
     space = _working_space(machine, method, lengths, notices)
     return Solved(machine, method, lengths, float(speed), space, tuple(notices))
 

@@ -11,7 +11,7 @@ from crankwork.analysis.solved import Solved, WorkingSpace
 from crankwork.dynamics import piston_forces as forces
 from crankwork.kinematics import textbook
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.motion import PistonMotion, piston_motion
+from crankwork.kinematics.piston import PistonMotion, piston_motion
 from crankwork.kinematics.series import acceleration_harmonics
 from crankwork.loads import gas as gas_formulas
 
@@ -180,6 +180,7 @@ def harmonic_columns(solved: Solved, grid: CrankGrid) -> dict[str, Array]:
     kolchin_demidov_2008, ch. 6; taylor_1985, vol. 2, ch. 8.
     """
     r, lam, w = solved.lengths.crank_radius, solved.lengths.rod_ratio, solved.speed
+    eps = solved.machine.angular_acceleration
     if solved.method.kinematics == "textbook" and solved.lengths.offset == 0:
         parts = (
             textbook.textbook_displacement_first(r, grid.cos),
@@ -189,7 +190,7 @@ def harmonic_columns(solved: Solved, grid: CrankGrid) -> dict[str, Array]:
             textbook.textbook_transfer_2_first(r, grid.cos) * w**2,
             textbook.textbook_transfer_2_second(r, lam, grid.cos_2) * w**2,
         )
-        return dict(zip(HARMONICS, parts, strict=True))
+        return _with_acceleration(dict(zip(HARMONICS, parts, strict=True)), eps / w)
     (c_1, c_2), (s_1, s_2) = acceleration_harmonics(solved.lengths, 2)
     parts = (
         c_1 * (1 - grid.cos) - s_1 * grid.sin,
@@ -199,4 +200,14 @@ def harmonic_columns(solved: Solved, grid: CrankGrid) -> dict[str, Array]:
         (c_1 * grid.cos + s_1 * grid.sin) * w**2,
         (c_2 * grid.cos_2 + s_2 * grid.sin_2) * w**2,
     )
-    return dict(zip(HARMONICS, parts, strict=True))
+    return _with_acceleration(dict(zip(HARMONICS, parts, strict=True)), eps / w)
+
+
+def _with_acceleration(parts: dict[str, Array], rate: float) -> dict[str, Array]:
+    """Add what a changing speed does to the parts of the acceleration: velocity times eps / w. [1/s]"""
+    if rate:
+        for order in ("first", "second"):
+            parts[f"piston_acceleration_{order}_order"] = (
+                parts[f"piston_acceleration_{order}_order"] + rate * parts[f"piston_velocity_{order}_order"]
+            )
+    return parts

@@ -9,7 +9,7 @@ from typing import Any
 from crankwork.description.schema import Measure, Reader, nearest_name
 from crankwork.dynamics.masses import CrankGearMasses, rod_big_end_mass, rod_inertia_excess, rod_small_end_mass
 from crankwork.errors import MethodError
-from crankwork.kinematics.slider_crank import SliderCrank
+from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
 from crankwork.loads.gas import piston_area
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.loads.measured import MeasuredPressure
@@ -94,8 +94,8 @@ def _lengths(
     if ratio is not None and not inverse and ratio >= 1:
         reader.complain(
             "rod.ratio",
-            f"{ratio:g} would make the rod shorter than the crank; r/l is below 1: "
-            f'write {1 / ratio:.6g}, or add ratio_definition = "l/r"',
+            f"{ratio:g} would make the rod no longer than the crank; r/l is below 1: "
+            + (f'write {1 / ratio:.6g}, or add ratio_definition = "l/r"' if ratio > 1 else "write 0.25, for example"),
         )
         return None
     if "radius" in crank:
@@ -111,7 +111,7 @@ def _lengths(
     else:
         return None
     offset = _value(cylinder, "offset")
-    if not SliderCrank(radius, length, offset).clearance > 0:
+    if not turns_fully(SliderCrank(radius, length, offset)):
         key = "rod.ratio" if ratio is not None else "rod.length"
         reader.complain(
             key,
@@ -221,6 +221,18 @@ def _gas(
     measured = read_measured(values["measured"], reader) if "measured" in values else None
     source = values.get("measured", {})
     resample = source.get("resample")
+    if values.get("pressures") == "absolute":
+        for name, point in values.get("points", {}).items():
+            pressure = (point or {}).get("pressure")
+            if pressure is not None and pressure.value < 0:
+                reader.complain(
+                    f"gas.points.{name}.pressure", 'is below vacuum; write it above zero, or pressures = "gauge"'
+                )
+        if measured is not None and float(measured.pressure.min()) < 0:
+            row = measured.rows[int(measured.pressure.argmin())]
+            reader.complain(
+                "gas.measured.file", f'line {row}: the pressure is below vacuum; correct it, or pressures = "gauge"'
+            )
     return Gas(
         cycle=float(values["cycle"].split()[0]),
         points={name: _point(one) for name, one in values.get("points", {}).items() if one is not None},
@@ -230,6 +242,7 @@ def _gas(
         resample=math.degrees(resample.value) if resample else None,
         is_absolute=values.get("pressures") == "absolute",
         ambient=_value(values, "ambient", 101325.0),
+        names_ambient="ambient" in values,
         back_pressure=_value(values, "back_pressure"),
     )
 

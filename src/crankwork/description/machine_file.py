@@ -2,26 +2,30 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from types import ModuleType
 from typing import Any, NamedTuple
 
 from crankwork import files
 from crankwork.analysis import solve
 from crankwork.description.build import build_machine
 from crankwork.description.keys import MACHINE_FILE
+from crankwork.description.linkage_keys import LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.locate import locate
 from crankwork.description.measured_file import read_measured
 from crankwork.description.schema import Reader, Table, is_one_line
 from crankwork.errors import CrankworkError, InputError, Problem
 from crankwork.loads.indicator import DiagramError
-from crankwork.machine import Machine
+from crankwork.machine import AnyMachine
 
 TEMPLATES = "description/templates"
 _MAX_PARTS = 8
+_OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
 _STRINGS = re.compile(r"""\"(?:\\.|[^\"\\])*\"?|'[^']*'?""")
 
 
@@ -33,7 +37,7 @@ class Setting(NamedTuple):
     value: Any
 
 
-def read(path: str | Path, overrides: Sequence[str | Setting] = ()) -> Machine:
+def read(path: str | Path, overrides: Sequence[str | Setting] = ()) -> AnyMachine:
     """Return the machine that a file describes.
 
     Parameters
@@ -63,7 +67,7 @@ def read(path: str | Path, overrides: Sequence[str | Setting] = ()) -> Machine:
 
 def read_machine(
     source: str, name: str = "text", overrides: Sequence[str | Setting] = (), *, folder: Path | None = None
-) -> Machine:
+) -> AnyMachine:
     """Return the machine that a text describes.
 
     Parameters
@@ -95,7 +99,20 @@ def read_machine(
     for one in settings:
         _lay(values, one)
     reader = Reader(decimal_comma=values.get("decimal_mark") == ",")
-    read_values = MACHINE_FILE.read(values, "", reader) or {}
+    machine = _build(values, reader, folder)
+    if reader.problems or machine is None:
+        raise _input_error(source, name, reader, settings)
+    return machine
+
+
+def _build(values: dict[str, Any], reader: Reader, folder: Path) -> AnyMachine | None:
+    """Return the machine of the values, or None after complaints."""
+    keys = _file_keys(values)
+    read_values = keys.read(values, "", reader) or {}
+    if keys is LINKAGE_FILE:
+        return _linkage_room().build_linkage(read_values, reader)  # type: ignore[no-any-return]
+    if keys is TRANSFER_FILE:
+        return _linkage_room().build_tabulated(read_values, reader)  # type: ignore[no-any-return]
     machine = build_machine(read_values, reader, lambda table, one: read_measured(table, one, folder))
     if machine is not None:
         try:
@@ -103,9 +120,19 @@ def read_machine(
         except DiagramError as error:
             measured = read_values.get("gas", {}).get("measured", {})
             reader.complain(error.key, f"{measured['file']}, {error}" if measured else str(error))
-    if reader.problems or machine is None:
-        raise _input_error(source, name, reader, settings)
     return machine
+
+
+def _linkage_room() -> ModuleType:
+    """Return the room that builds linkages, loaded when a file describes one: an engine starts faster without it."""
+    return importlib.import_module("crankwork.description.linkage_build")
+
+
+def _file_keys(values: Mapping[str, Any]) -> Table:
+    """Return the keys of the kind of machine that a file describes: an engine, a linkage, or a table of one."""
+    if "transfer" in values:
+        return TRANSFER_FILE
+    return LINKAGE_FILE if any(name in values for name in _OF_LINKAGES) else MACHINE_FILE
 
 
 def _parse(source: str, name: str) -> dict[str, Any]:
@@ -179,7 +206,7 @@ def _lay(values: dict[str, Any], setting: Setting) -> None:
     """Lay a setting over the values; what says the same gives way."""
     *path, last = setting.key.split(".")
     table: Any = values
-    entry: Any = MACHINE_FILE
+    entry: Any = _file_keys(values)
     for name in path:
         known = entry.keys.get(name) if isinstance(entry, Table) else None
         entry = known.kind if known else None
@@ -233,7 +260,7 @@ def json_schema() -> str:
     schema = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "crankwork machine file",
-        **MACHINE_FILE.schema(),
+        "oneOf": [one.schema() for one in (MACHINE_FILE, LINKAGE_FILE, TRANSFER_FILE)],
     }
     return json.dumps(schema, indent=2, ensure_ascii=False)
 

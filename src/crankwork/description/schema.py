@@ -330,7 +330,8 @@ class Table:
                 continue
             result[name] = self.keys[name].kind.read(one, path, reader)
             clashes = [other for other in self.keys[name].instead_of if other in value]
-            if clashes and list(value).index(name) > min(list(value).index(other) for other in clashes):
+            later = clashes and list(value).index(name) > min(list(value).index(other) for other in clashes)
+            if later or any(name not in self.keys[other].instead_of for other in clashes):
                 reader.complain(path, f"says the same as {' and '.join(clashes)}; keep one of them")
         for name, entry in self.keys.items():
             if entry.required:

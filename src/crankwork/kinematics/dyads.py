@@ -13,25 +13,11 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.mechanism.dyads import RRP, RRR, Guide, Point
 from crankwork.mechanism.mechanism import Crank
 
 _ZERO = np.array(0.0)
-
-
-class Transfer(NamedTuple):
-    """A coordinate and its first and second derivative by the crank angle, arrays of shape (n,)."""
-
-    position: Array
-    position_1: Array
-    position_2: Array
-
-
-class PointMotion(NamedTuple):
-    """The two coordinates of a point. [m]"""
-
-    x: Transfer
-    y: Transfer
 
 
 class LinkMotion(NamedTuple):

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from crankwork.kinematics.crank_grid import Array, CrankGrid, cos_multiple, sin_multiple
-from crankwork.kinematics.motion import piston_motion
+from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.series import acceleration_harmonics
 from crankwork.kinematics.slider_crank import SliderCrank, piston_transfer_3
 from crankwork.method import EXACT, Method
@@ -102,8 +102,10 @@ def velocity_extremes(slider_crank: SliderCrank, method: Method = EXACT) -> tupl
     return angles, piston_motion(slider_crank, CrankGrid.from_degrees(angles), method).piston.position_1
 
 
-def acceleration_extremes(slider_crank: SliderCrank, method: Method = EXACT) -> tuple[Array, Array]:
-    """Return where the piston acceleration is extreme over one revolution, and d2x/dphi2 there.
+def acceleration_extremes(
+    slider_crank: SliderCrank, method: Method = EXACT, *, unsteadiness: float = 0.0
+) -> tuple[Array, Array]:
+    """Return where the piston acceleration is extreme over one revolution, and the acceleration over w^2 there.
 
     Parameters
     ----------
@@ -111,19 +113,29 @@ def acceleration_extremes(slider_crank: SliderCrank, method: Method = EXACT) -> 
         The dimensions.
     method : Method
         Exact, series or textbook.
+    unsteadiness : float
+        Angular acceleration over the square of the angular speed. [-]
 
     Returns
     -------
     tuple of array, shape (k,)
-        Crank angles [deg] and d2x/dphi2 [m].
+        Crank angles [deg] and d2x/dphi2 + unsteadiness dx/dphi [m].
 
     References
     ----------
-    kolchin_demidov_2008, ch. 6; roots of d3x/dphi3.
+    kolchin_demidov_2008, ch. 6; roots of the derivative, d3x/dphi3 where the speed is constant.
     """
-    angles = roots(lambda degrees: _third(slider_crank, CrankGrid.from_degrees(degrees), method), -90.0, 270.0)
-    angles = np.array(sorted(set(np.mod(angles, 360.0).tolist())))
-    return angles, piston_motion(slider_crank, CrankGrid.from_degrees(angles), method).piston.position_2
+
+    def change(degrees: Array) -> Array:
+        grid = CrankGrid.from_degrees(degrees)
+        third = _third(slider_crank, grid, method)
+        if not unsteadiness:
+            return third
+        return third + unsteadiness * piston_motion(slider_crank, grid, method).piston.position_2
+
+    angles = np.array(sorted(set(np.mod(roots(change, -90.0, 270.0), 360.0).tolist())))
+    piston = piston_motion(slider_crank, CrankGrid.from_degrees(angles), method).piston
+    return angles, piston.position_2 + unsteadiness * piston.position_1
 
 
 def _third(slider_crank: SliderCrank, grid: CrankGrid, method: Method) -> Array:

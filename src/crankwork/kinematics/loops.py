@@ -16,15 +16,8 @@ from numpy.typing import NDArray
 
 from crankwork.errors import GeometryError
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.dyads import (
-    Closure,
-    LinkMotion,
-    PointMotion,
-    Transfer,
-    guide_on_link,
-    point_on_link,
-    seen_from,
-)
+from crankwork.kinematics.dyads import Closure, LinkMotion, guide_on_link, point_on_link, seen_from
+from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.mechanism.chain import Chain, ChainLink, Slide
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide, Point
 

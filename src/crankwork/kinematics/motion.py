@@ -5,18 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.errors import MethodError
-from crankwork.kinematics import textbook
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dyads import (
     LinkMotion,
-    PointMotion,
-    Transfer,
     crank_motion,
     crank_pin_motion,
     fixed_guide,
@@ -24,20 +20,10 @@ from crankwork.kinematics.dyads import (
     point_on_guide,
     point_on_link,
 )
+from crankwork.kinematics.piston import as_slider_crank, only_rod, piston_motion
 from crankwork.kinematics.placement import Placed, assembled, place, reached
-from crankwork.kinematics.series import series_transfer
-from crankwork.kinematics.slider_crank import (
-    RodSwing,
-    SliderCrank,
-    check_slider_crank,
-    piston_displacement,
-    piston_displacement_offset,
-    piston_transfer_1,
-    piston_transfer_2,
-    rod_swing,
-    rod_transfer_1,
-    rod_transfer_2,
-)
+from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank
+from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.mechanism.dyads import RRP, Point
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.method import EXACT, Method
@@ -131,157 +117,6 @@ def direction(grid: CrankGrid, link: LinkMotion) -> Transfer:
     return Transfer(angle, rate, link.angle_2 + still)
 
 
-class PistonMotion(NamedTuple):
-    """Motion of a slider-crank in the engine's own terms, arrays of shape (n,).
-
-    `piston` counts from top dead centre towards the crankshaft [m]; `rod` is the swing of the rod from
-    the cylinder axis [rad]; `swing` holds the functions of that angle [-].
-    """
-
-    piston: Transfer
-    rod: Transfer
-    swing: RodSwing
-
-
-def piston_motion(slider_crank: SliderCrank, grid: CrankGrid, method: Method = EXACT) -> PistonMotion:
-    """Return the motion of piston and rod by the method asked for.
-
-    The rod angle itself is exact in every method; the textbook takes its derivatives to first order.
-
-    Parameters
-    ----------
-    slider_crank : SliderCrank
-        The dimensions.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    method : Method
-        Exact, series or textbook.
-
-    Returns
-    -------
-    PistonMotion
-        Displacement, dx/dphi and d2x/dphi2 of the piston [m]; angle and derivatives of the rod [rad].
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 6.
-    """
-    swing = rod_swing(slider_crank, grid)
-    angle = np.arctan2(swing.sin, swing.cos)
-    lam = slider_crank.rod_ratio
-    if method.kinematics == "textbook":
-        piston = textbook_piston(slider_crank, grid)
-        rod_1 = textbook.textbook_rod_transfer_1(lam, grid.cos)
-        rod_2 = textbook.textbook_rod_transfer_2(lam, grid.sin)
-        return PistonMotion(piston, Transfer(angle, rod_1, rod_2), swing)
-    rod_1 = rod_transfer_1(lam, grid.cos, swing.cos)
-    rod_2 = rod_transfer_2(rod_1, lam, grid.sin, swing.sin, swing.cos)
-    rod = Transfer(angle, rod_1, rod_2)
-    if method.kinematics == "series":
-        return PistonMotion(Transfer(*series_transfer(slider_crank, grid, method.order)), rod, swing)
-    return PistonMotion(exact_piston(slider_crank, grid, swing), rod, swing)
-
-
-def exact_piston(slider_crank: SliderCrank, grid: CrankGrid, swing: RodSwing) -> Transfer:
-    """Return the closed-form displacement of the piston and its derivatives.
-
-    Parameters
-    ----------
-    slider_crank : SliderCrank
-        The dimensions.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    swing : RodSwing
-        Functions of the rod angle there.
-
-    Returns
-    -------
-    Transfer of array, shape (n,)
-        x, dx/dphi, d2x/dphi2. [m]
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 6.
-    """
-    r, l, e = slider_crank  # noqa: E741
-    lam = slider_crank.rod_ratio
-    if np.all(np.equal(e, 0)):
-        x = piston_displacement(r, lam, grid.sin, grid.cos, swing.cos)
-    else:
-        x = piston_displacement_offset(r, l, e, grid.cos, swing.cos)
-    return Transfer(
-        x,
-        piston_transfer_1(r, swing.sin_sum, swing.cos),
-        piston_transfer_2(r, lam, grid.cos, swing.cos_sum, swing.cos),
-    )
-
-
-def textbook_piston(slider_crank: SliderCrank, grid: CrankGrid) -> Transfer:
-    """Return the two-term displacement of the piston and its derivatives.
-
-    Parameters
-    ----------
-    slider_crank : SliderCrank
-        The dimensions.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-
-    Returns
-    -------
-    Transfer of array, shape (n,)
-        x, dx/dphi, d2x/dphi2. [m]
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 6.
-    """
-    r, _, e = slider_crank
-    lam = slider_crank.rod_ratio
-    x = textbook.textbook_displacement(r, lam, grid.cos, grid.cos_2)
-    x_1 = textbook.textbook_transfer_1(r, lam, grid.sin, grid.sin_2)
-    x_2 = textbook.textbook_transfer_2(r, lam, grid.cos, grid.cos_2)
-    if np.all(np.equal(e, 0)):
-        return Transfer(x, x_1, x_2)
-    return Transfer(
-        x + textbook.textbook_displacement_offset(lam, e, grid.sin),
-        x_1 + textbook.textbook_transfer_1_offset(lam, e, grid.cos),
-        x_2 + textbook.textbook_transfer_2_offset(lam, e, grid.sin),
-    )
-
-
-def as_slider_crank(mechanism: Mechanism) -> SliderCrank | None:
-    """Return the three lengths of a mechanism that is a slider-crank, or None if it is another one.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A crank and dyads.
-
-    Returns
-    -------
-    SliderCrank or None
-        Radius, rod length and offset. [m]
-    """
-    crank, rod = mechanism.crank, _only_rod(mechanism)
-    if rod is None:
-        return None
-    along_guide = math.isclose(math.sin((rod.guide_angle - crank.start) / 2), 0.0, abs_tol=1e-12)
-    if rod.joint != crank.pin or rod.branch != 1 or not along_guide:
-        return None
-    side = crank.start + crank.direction * math.pi / 2
-    x, y = (rod.guide_point[0] - crank.pivot[0], rod.guide_point[1] - crank.pivot[1])
-    offset = x * math.cos(side) + y * math.sin(side)
-    return SliderCrank(crank.radius, rod.length, 0.0 if abs(offset) < 1e-15 * rod.length else offset)
-
-
-def _only_rod(mechanism: Mechanism) -> RRP | None:
-    """Return the one dyad of a mechanism if it is a link on a fixed guide."""
-    match mechanism.dyads:
-        case (RRP(guide_link="") as rod,):
-            return rod
-    return None
-
-
 def motion(mechanism: Mechanism, grid: CrankGrid, method: Method = EXACT) -> Motion:
     """Return the motion of a mechanism.
 
@@ -306,7 +141,7 @@ def motion(mechanism: Mechanism, grid: CrankGrid, method: Method = EXACT) -> Mot
     MethodError
         If a series or textbook is asked for where none exists.
     """
-    lengths, rod = as_slider_crank(mechanism), _only_rod(mechanism)
+    lengths, rod = as_slider_crank(mechanism), only_rod(mechanism)
     if lengths is None or rod is None:
         if not method.is_exact:
             raise MethodError(f"method {method.name} exists for a slider-crank only; use exact")
@@ -406,28 +241,3 @@ def _along_guide(rod: RRP, pivot: Point) -> float:
     """Return where the foot of the crank pivot lies along the guide, counted from the guide point."""
     (px, py), (qx, qy) = pivot, rod.guide_point
     return (px - qx) * math.cos(rod.guide_angle) + (py - qy) * math.sin(rod.guide_angle)
-
-
-def largest_error(slider_crank: SliderCrank, method: Method) -> tuple[float, ...]:
-    """Return the largest error of a method against exact over one revolution.
-
-    Parameters
-    ----------
-    slider_crank : SliderCrank
-        The dimensions.
-    method : Method
-        Series or textbook; exact gives zeros.
-
-    Returns
-    -------
-    tuple of float
-        Largest absolute errors of x, dx/dphi and d2x/dphi2. [m]
-    """
-    grid = CrankGrid.steps(0.5, 360.0)
-    exact = piston_motion(slider_crank, grid).piston
-    approximate = piston_motion(slider_crank, grid, method).piston
-    return tuple(_largest(one - other) for one, other in zip(approximate, exact, strict=True))
-
-
-def _largest(error: Array) -> float:
-    return float(np.max(np.abs(error)))

@@ -14,8 +14,6 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.dyads import (
     Closure,
     LinkMotion,
-    PointMotion,
-    Transfer,
     crank_motion,
     fixed_guide,
     fixed_point,
@@ -27,6 +25,7 @@ from crankwork.kinematics.dyads import (
 )
 from crankwork.kinematics.loops import chain_motion
 from crankwork.kinematics.sliding_dyads import prp_motion, rpp_motion, rpr_motion
+from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide
 from crankwork.mechanism.mechanism import Mechanism

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from crankwork.errors import GeometryError
 from crankwork.kinematics.assembly import unassembled
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.dyads import Transfer
 from crankwork.kinematics.motion import direction
 from crankwork.kinematics.placement import Placed, assembled, place
+from crankwork.kinematics.transfer import Transfer
 from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.mechanism import Mechanism
 

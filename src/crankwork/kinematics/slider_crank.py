@@ -177,6 +177,10 @@ def rod_transfer_2(beta_1: Value, lam: Value, sin_phi: Value, sin_beta: Value, c
     return (beta_1**2 * sin_beta - lam * sin_phi) / cos_beta
 
 
+# Share of the rod length that adding up lengths may leave.
+_ROUNDING = 1e-12
+
+
 class SliderCrank(NamedTuple):
     """The three lengths of a slider-crank, floats or arrays of designs. [m]"""
 
@@ -214,6 +218,17 @@ class SliderCrank(NamedTuple):
         return 4 * l * r / (np.sqrt(far) + np.sqrt(near))
 
 
+def turns_fully(slider_crank: SliderCrank) -> bool:
+    """Return whether the rod is longer than crank and offset together, by more than rounding.
+
+    Parameters
+    ----------
+    slider_crank : SliderCrank
+        The dimensions.
+    """
+    return bool(np.all(slider_crank.clearance > _ROUNDING * np.asarray(slider_crank.rod_length)))
+
+
 def check_slider_crank(slider_crank: SliderCrank) -> None:
     """Raise if the crank cannot turn fully.
 
@@ -230,7 +245,7 @@ def check_slider_crank(slider_crank: SliderCrank) -> None:
     r, l, e = (float(np.max(np.abs(one))) for one in slider_crank)  # noqa: E741
     if np.any(np.less_equal(slider_crank.crank_radius, 0)) or np.any(np.less_equal(slider_crank.rod_length, 0)):
         raise GeometryError("crank radius and rod length must be more than zero")
-    if not np.all(slider_crank.clearance > 0):
+    if not turns_fully(slider_crank):
         raise GeometryError(
             f"the rod ({l * 1e3:g} mm) must be longer than crank radius and offset together "
             f"({r * 1e3:g} + {e * 1e3:g} mm); it misses {(r + e - l) * 1e3:.6g} mm: lengthen the rod"

@@ -8,7 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.dyads import Closure, LinkMotion, PointMotion, Transfer, point_on_guide, seen_from, turned
+from crankwork.kinematics.dyads import Closure, LinkMotion, point_on_guide, seen_from, turned
+from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.mechanism.dyads import RPP, RPR, Guide
 
 

@@ -325,7 +325,11 @@ class _Solver:
             return float(polytropic_pressure(*state[:2], volume, state[2])) - wanted
 
         if excess(low) * excess(high) > 0:
-            raise DiagramError(key, f'the polytrope does not reach the pressure of "{last}" before {high:g} deg')
+            raise DiagramError(
+                key,
+                f'the polytrope does not reach the pressure of "{last}" before the dead centre at {high:g} deg; begin '
+                f"it at {self.dead_centres[0]:g} or {self.dead_centres[1]:g} deg, or change the pressure",
+            )
         rising = excess(high) > 0 or excess(low) < 0
         for _ in range(60):
             middle = (low + high) / 2
@@ -340,7 +344,9 @@ class _Solver:
         if knots[0] == knots[-1]:
             slopes = np.zeros_like(knots)
         elif np.any(np.diff(knots) <= 0):
-            raise DiagramError(f"{key}.points", "the points of a rounded piece must have rising crank angles")
+            raise DiagramError(
+                f"{key}.points", "the points of a rounded piece must have rising crank angles; order them"
+            )
         else:
             slopes = monotone_slopes(knots, pressures)
         for name, angle, pressure in zip(piece.points, knots, pressures, strict=True):
@@ -377,5 +383,6 @@ def _check_closed(segments: list[Segment]) -> None:
     if abs(first - last) > 0.02 * highest:
         raise DiagramError(
             "gas.pieces",
-            f"the diagram does not close: it starts at {first / 1e6:g} MPa and ends at {last / 1e6:g} MPa",
+            f"the diagram does not close: it starts at {first / 1e6:g} MPa and ends at {last / 1e6:g} MPa; "
+            "let its last piece lead back to the pressure of its first point",
         )

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.dyads import PointMotion
-from crankwork.mechanism.mechanism import RRP, Point
+from crankwork.kinematics.transfer import PointMotion
+from crankwork.mechanism.dyads import RRP, Point
 from crankwork.quantities import Language
 from crankwork.report.language import number as number_text
 from crankwork.report.language import unit_name
@@ -21,6 +21,16 @@ HATCH = 8.0
 GROUND_REACH = ((-34.0, 0.0), (38.0, 36.0))
 FONT = 'font-family="DejaVu Sans, Verdana, Arial, sans-serif" font-size="14"'
 _LINE = 'stroke="black" fill="none"'
+_EDGE = 'stroke="black" stroke-width="1.6"'
+
+
+class Box(NamedTuple):
+    """What a drawing covers. [px]"""
+
+    left: float
+    top: float
+    right: float
+    bottom: float
 
 
 class Stage(NamedTuple):
@@ -32,7 +42,8 @@ class Stage(NamedTuple):
 
     def points(self, point: PointMotion) -> Array:
         """Return the places of a point, shape (n, 2); the picture counts downward."""
-        return np.column_stack([point.x.position, -point.y.position]) * self.scale
+        x, y = np.broadcast_arrays(point.x.position, point.y.position)
+        return np.column_stack([x, -y]) * self.scale
 
     def fixed(self, point: Point) -> Array:
         """Return the place of a fixed point, shape (2,)."""
@@ -103,6 +114,44 @@ def link(stage: Stage, name: str, start: Array, end: Array, width: float) -> str
     return f'<line class="link {html.escape(name)}" {at} {_LINE} stroke-width="{width:g}" {cap}>{moves}</line>'
 
 
+def plate(stage: Stage, name: str, corners: Sequence[Array]) -> str:
+    """Return a link as a polygon with moving corners, arrays of shape (n, 2)."""
+    texts = [" ".join(f"{_text(x)},{_text(y)}" for x, y in frame) for frame in np.stack(corners, axis=1)]
+    moves = animate("points", texts, stage) if len(set(texts)) > 1 else ""
+    style = 'fill="#eee" stroke="black" stroke-width="3" stroke-linejoin="round"'
+    return f'<polygon class="link {html.escape(name)}" points="{texts[stage.still]}" {style}>{moves}</polygon>'
+
+
+def carried(stage: Stage, name: str, place: Array, along: Array, half: tuple[float, float], radius: float = 0) -> str:
+    """Return a rectangle that follows a point and turns with a direction, arrays of shape (n, 2)."""
+    turns = np.degrees(np.unwrap(np.arctan2(along[:, 1], along[:, 0])))
+    x, y, width, height = (_text(one) for one in (-half[0], -half[1], 2 * half[0], 2 * half[1]))
+    fill, rounded = ("white", f' rx="{radius:g}"') if radius else ("#ddd", "")
+    shape = f'<rect x="{x}" y="{y}" width="{width}" height="{height}"{rounded} fill="{fill}" {_EDGE}>'
+    turn = _transform(stage, "rotate", [_text(one) for one in turns])
+    go = _transform(stage, "translate", [f"{_text(u)} {_text(v)}" for u, v in place])
+    return f'<g class="{html.escape(name)}" {go[0]}>{go[1]}{shape[:-1]} {turn[0]}>{turn[1]}</rect></g>'
+
+
+def _transform(stage: Stage, kind: str, texts: list[str]) -> tuple[str, str]:
+    """Return a transformation at rest, and its animation if it changes."""
+    moves = animate("transform", texts, stage).replace("<animate ", f'<animateTransform type="{kind}" ')
+    return f'transform="{kind}({texts[stage.still]})"', moves if len(set(texts)) > 1 else ""
+
+
+def rail(walls: Sequence[tuple[Array, Array]]) -> str:
+    """Return the walls of a guide, from place to place, hatched on the left of the way as the picture shows it."""
+    edges = "".join(_move(one) + _line(other) for one, other in walls)
+    hatches = "".join(_hatch(one, other) for one, other in walls)
+    return f'<path d="{edges}" {_LINE} stroke-width="1.6"/><path d="{hatches}" {_LINE} stroke-width="0.8"/>'
+
+
+def centre_of_mass(stage: Stage, place: Array) -> str:
+    """Return a centre of mass as a dot that follows a point, array of shape (n, 2)."""
+    at, moves = _moving(stage, {"cx": place[:, 0], "cy": place[:, 1]})
+    return f'<circle class="centre" {at} r="3" fill="black">{moves}</circle>'
+
+
 def joint(stage: Stage, place: Array) -> str:
     """Return a turning joint as a circle that follows a point, array of shape (n, 2)."""
     at, moves = _moving(stage, {"cx": place[:, 0], "cy": place[:, 1]})
@@ -129,9 +178,7 @@ def guide(dyad: RRP, stage: Stage, start: float, end: float, half_width: float, 
     walls = [(place(start, half_width), place(end, half_width)), (place(end, -half_width), place(start, -half_width))]
     if is_closed:
         walls.insert(1, (place(end, half_width), place(end, -half_width)))
-    edges = "".join(_move(one) + _line(other) for one, other in walls)
-    hatches = "".join(_hatch(one, other) for one, other in walls)
-    return f'<path d="{edges}" {_LINE} stroke-width="1.6"/><path d="{hatches}" {_LINE} stroke-width="0.8"/>'
+    return rail(walls)
 
 
 def ground_pivot(place: Array) -> str:
@@ -167,7 +214,7 @@ def number(stage: Stage, place: Array, value: int) -> str:
 def _writing(stage: Stage, place: Array, text: str, style: str) -> str:
     at, moves = _moving(stage, {"x": place[:, 0], "y": place[:, 1] + 5})
     halo = 'stroke="white" stroke-width="3" paint-order="stroke" text-anchor="middle"'
-    return f"<text {style} {at} {FONT} {halo}>{text}{moves}</text>"
+    return f"<text {style} {at} {FONT} {halo}>{html.escape(text)}{moves}</text>"
 
 
 def scale_bar(x: float, y: float, scale: float, longest: float, language: Language) -> str:

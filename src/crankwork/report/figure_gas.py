@@ -42,7 +42,7 @@ def pressure(drawn: Drawn) -> bytes:
 
 
 def _space(drawn: Drawn) -> WorkingSpace:
-    space = drawn.results.solved.space
+    space: WorkingSpace | None = drawn.results.solved.space
     if space is None:
         raise CrankworkError("this figure needs the gas of a cylinder")
     return space

@@ -59,7 +59,8 @@ def crankpin_polar(drawn: Drawn) -> bytes:
 
 def _big_end_inertia(drawn: Drawn) -> float:
     """Return the inertia force of the rod mass at the crankpin, never positive. [display unit]"""
-    masses, solved = drawn.results.machine.masses, drawn.results.solved
+    solved = drawn.results.solved
+    masses = solved.machine.masses
     if masses is None or not masses.rod_big_end:
         return 0.0
     force = rotating_inertia_force(masses.rod_big_end, solved.lengths.crank_radius, solved.speed)

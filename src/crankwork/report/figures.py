@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from crankwork.analysis import Results
 from crankwork.errors import MissingExtraError
+from crankwork.machine import Machine
 from crankwork.quantities import Language
 from crankwork.report.figure_data import drawn_from
 from crankwork.report.figure_forces import crankpin_forces, piston_forces, rod_forces, torque
@@ -11,6 +12,7 @@ from crankwork.report.figure_gas import indicator, pressure
 from crankwork.report.figure_look import LOOK
 from crankwork.report.figure_motion import kinematics
 from crankwork.report.figure_polar import crankpin_polar
+from crankwork.report.linkage_figures import linkage_figures
 
 # name: what draws it, the column it needs
 _FIGURES = {
@@ -54,6 +56,8 @@ def figures(results: Results, *, language: Language = "en", per_area: bool = Fal
         import matplotlib as mpl  # noqa: PLC0415 - an optional part
     except ImportError:
         raise MissingExtraError("drawing figures", "figures") from None
+    if not isinstance(results.machine, Machine):
+        return linkage_figures(results, language=language)
     drawn = drawn_from(results, language, per_area=per_area)
     with mpl.rc_context():
         mpl.rcdefaults()

@@ -11,7 +11,7 @@ from crankwork.units import from_si
 _RUSSIAN_UNITS = {
     "mm": "мм", "cm2": "см²", "cm3": "см³", "deg": "°", "rad/s": "рад/с", "rad/s2": "рад/с²", "m/s": "м/с",
     "m/s2": "м/с²", "kg": "кг", "g/cm2": "г/см²", "kg*m2": "кг·м²", "MPa": "МПа", "N": "Н", "N*m": "Н·м",
-    "J": "Дж", "kW": "кВт", "rpm": "мин⁻¹",
+    "J": "Дж", "kW": "кВт", "W": "Вт", "Hz": "Гц", "N/m": "Н/м", "rpm": "мин⁻¹",
 }  # fmt: skip
 _LATIN_UNITS = {
     "cm2": "cm²", "cm3": "cm³", "deg": "°", "rad/s2": "rad/s²", "m/s2": "m/s²", "g/cm2": "g/cm²",
@@ -44,9 +44,22 @@ _WORDS = {
         "forces per piston area", "силы на единицу площади поршня", "lực trên một đơn vị diện tích đỉnh piston"
     ),
     "crankpin_resultant": ("T² + K² = S²", "T² + K² = S²", "T² + Z² = Ptt²"),
+    "crankpin_resultant_rigid": ("T² + K² = S² + S_n²", "T² + K² = S² + S_n²", "T² + Z² = Ptt² + Pn²"),
+    "pin_resultant_rigid": ("F_P² + F_N² = F_Q² + F_q²", "P² + N² = S² + S_n²", "P1² + N² = Ptt² + Pn²"),
     "pin_resultant": ("F_P² + F_N² = F_Q²", "P² + N² = S²", "P1² + N² = Ptt²"),
     "overturning": ("torque = overturning moment", "крутящий момент = опрокидывающий момент", "mômen quay = mômen lật"),
     "work": ("work by p–V = work by torque", "работа по p–V = работа по моменту", "công theo p–V = công theo mômen"),
+    "whole_system": ("joint forces: group by group = all at once", "реакции: по группам = общей системой",
+                     "phản lực: theo nhóm = toàn hệ"),
+    "zhukovsky": ("joint forces = Zhukovsky's lever", "реакции = рычаг Жуковского", "phản lực = đòn Giucôpxki"),
+    "virtual_work": ("joint forces = virtual work", "реакции = возможные мощности", "phản lực = công khả dĩ"),
+    "energy": ("joint forces = derivative of energy", "реакции = производная энергии", "phản lực = đạo hàm năng lượng"),
+    "tabulated": ("transfer functions of the document", "передаточные функции из документа",
+                  "hàm truyền của tài liệu"),
+    "dynamics": ("Reduced inertia and torques", "Приведённый момент инерции и моменты", "Mômen thu gọn"),
+    "points": ("Points", "Точки", "Các điểm"),
+    "links": ("Links and sliders", "Звенья и ползуны", "Khâu và con trượt"),
+    "joint_forces": ("Joint forces", "Реакции в кинематических парах", "Phản lực khớp"),
     "kinematics": ("Piston motion", "Кинематика поршня", "Động học piston"),
     "harmonics": ("First and second order", "Первый и второй порядки", "Cấp một và cấp hai"),
     "forces": ("Forces and torque", "Силы и крутящий момент", "Lực và mômen"),
@@ -70,6 +83,45 @@ _NOTICES = {
         "pressure jumps by {step} MPa at point {point}, {angle}°",
         "скачок давления {step} МПа в точке {point}, {angle}°",
         "áp suất nhảy {step} MPa tại điểm {point}, {angle}°",
+    ),
+    "partial": (
+        "the linkage moves from {from}° to {to}° only: {message}",
+        "механизм движется только от {from}° до {to}°: {message}",
+        "cơ cấu chỉ chuyển động từ {from}° đến {to}°: {message}",
+    ),
+    "positions": ("{count} positions, as the document tabulates them", "{count} положений, как в таблице документа",
+                  "{count} vị trí như trong bảng của tài liệu"),
+    "given_derivative": (
+        "the derivative of the reduced inertia is the document's own",
+        "производная приведённого момента инерции взята из документа",
+        "đạo hàm mômen quán tính thu gọn lấy từ tài liệu",
+    ),
+    "differences": ("derivative of the reduced inertia by {scheme} differences",
+                    "производная приведённого момента инерции по конечным разностям ({scheme})",
+                    "đạo hàm mômen quán tính thu gọn theo sai phân ({scheme})"),
+    "rounded_efficiency": ("efficiency {used} instead of {exact}: rounded as in the document",
+                           "КПД {used} вместо {exact}: округлён, как в документе",
+                           "hiệu suất {used} thay vì {exact}: làm tròn như tài liệu"),
+    "no_flywheel": ("no flywheel: {message}", "маховик не найден: {message}", "không tìm được bánh đà: {message}"),
+    "flywheel_residual": (
+        "with the exact flywheel the simulated fluctuation differs from the wanted one by {residual}",
+        "с точным маховиком расчётный коэффициент неравномерности отличается от заданного на {residual}",
+        "với bánh đà chính xác, hệ số không đều mô phỏng lệch {residual} so với yêu cầu",
+    ),
+    "stalls": (
+        "the motor is weaker than the load: it gives at most {torque} N·m on the crank, and stalls at {angle}°",
+        "двигатель слабее нагрузки: его наибольший момент на кривошипе {torque} Н·м, он остановится при {angle}°",
+        "động cơ yếu hơn tải: mômen lớn nhất trên tay quay là {torque} N·m, dừng tại {angle}°",
+    ),
+    "no_steady_speed": ("no steady speed: {message}", "нет установившегося движения: {message}",
+                        "không có chế độ ổn định: {message}"),
+    "ambient": ("no ambient pressure given: {pressure} MPa is taken",
+                "давление среды не задано: принято {pressure} МПа",
+                "không cho áp suất khí trời: lấy {pressure} MPa"),
+    "no_couple": (
+        "the rod is taken as two masses; its own moment of inertia is left out (method.rod = rigid brings it in)",
+        "шатун заменён двумя массами, его момент инерции не учтён (учитывает method.rod = rigid)",
+        "thanh truyền thay bằng hai khối lượng, bỏ qua mômen quán tính (tính đến khi method.rod = rigid)",
     ),
     "two_terms": (
         "two-term displacement and exact rod angle differ slightly, so the two works do",
@@ -126,9 +178,15 @@ def number(value: float, language: Language, *, digits: int = 6) -> str:
     return text.replace("-", "−")
 
 
+def _is_angle(key: str) -> bool:
+    """Return whether a derived key is the crank angle of something."""
+    kind = key.partition(".")[0]
+    return kind.endswith("_angle") and kind not in QUANTITIES
+
+
 def key_unit(key: str, *, per_area: bool = False) -> str:
     """Return the display unit of a key, a derived one such as `piston_force_max_angle` included."""
-    if key.endswith("_angle") and key not in QUANTITIES:
+    if _is_angle(key):
         return "deg"
     row = QUANTITIES[base_key(key)]
     return row.per_area_unit if per_area and row.per_area_unit else row.unit
@@ -142,36 +200,43 @@ def displayed(key: str, value: float, *, per_area: float | None = None) -> float
 
 
 def _is_per_area(key: str) -> bool:
-    return not (key.endswith("_angle") and key not in QUANTITIES) and bool(QUANTITIES[base_key(key)].per_area_unit)
+    return not _is_angle(key) and bool(QUANTITIES[base_key(key)].per_area_unit)
 
 
 def label(key: str, language: Language) -> str:
-    """Return the name of a key, with words for derived keys, `largest piston velocity`."""
+    """Return the name of a key: `largest piston velocity`, and with its own name `joint force, A`."""
+    kind, dot, name = key.partition(".")
+    return _label(kind, language) + (f", {name}" if dot else "")
+
+
+def _label(key: str, language: Language) -> str:
     if key in QUANTITIES:
         return QUANTITIES[key].label(language)
     if key.endswith(("_max_angle", "_min_angle")):
         return word("max_angle", language)
     for suffix in ("max", "min", "error"):
         if key.endswith(f"_{suffix}"):
-            return word(suffix, language).format(label(key.removesuffix(f"_{suffix}"), language))
+            return word(suffix, language).format(_label(key.removesuffix(f"_{suffix}"), language))
     return word(key.removesuffix("_angle"), language)
 
 
 def symbol(key: str, language: Language) -> str:
     """Return the symbol of a key; derived keys get the mark of what they are."""
-    if key in QUANTITIES:
-        return QUANTITIES[key].symbol(language)
-    if key.endswith("_angle"):
+    if _is_angle(key):
         return QUANTITIES["crank_angle"].symbol(language)
-    base = QUANTITIES[base_key(key.removesuffix("_error"))].symbol(language)
-    if key.endswith("_error"):
+    kind = key.partition(".")[0]
+    if kind in QUANTITIES:
+        return QUANTITIES[kind].symbol(language)
+    base = QUANTITIES[base_key(kind.removesuffix("_error"))].symbol(language)
+    if kind.endswith("_error"):
         return f"Δ{base}"
-    return f"{base}{',' if '_' in base else '_'}{key[-3:]}"
+    return f"{base}{',' if '_' in base else '_'}{kind[-3:]}"
 
 
 def method_name(kinematics: str, order: int, rod: str, language: Language) -> str:
-    """Return how a result was made, in words."""
-    return f"{word(kinematics, language).format(order)}; {word(rod, language)}"
+    """Return how a result was made, in words; `rod` is empty for a machine without one."""
+    name = word(kinematics, language).format(order)
+    return f"{name}; {word(rod, language)}" if rod else name
 
 
 def rounded(value: float, digits: int = 15) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import pairwise, product
 from typing import NamedTuple
 
 import numpy as np
@@ -59,7 +60,7 @@ def _cost(label: Label, extra: float, obstacles: Array, placed: Sequence[Label],
     cost = extra + 10.0 * float(np.mean(np.sum(np.all(np.abs(obstacles - centre) < half, axis=2), axis=1)))
     for other in placed:
         apart = np.abs(other.places[::every, None] - centre)
-        cost += 60.0 * float(np.mean(np.all(apart < half + other.half, axis=2)))
+        cost += 60.0 * float(np.mean(np.all(apart < half + other.half + (7.0, 1.0), axis=2)))
     return cost
 
 
@@ -71,41 +72,51 @@ def _wanted(drawn: Scene) -> Iterator[tuple[str, bool, list[tuple[Array, float]]
         if name in drawn.points and letter not in seen:
             seen.add(letter)
             wide = 4.4 * (len(letter) - 1)
-            yield letter, False, [
-                (drawn.points[name] + (reach + wide * abs(way[0])) * way, reach - 15 + 0.2 * rank)
-                for reach in _REACHES
-                for rank, way in enumerate(_AROUND)
-            ]
-    pivot = drawn.points[shape.crank.points[0]]
-    yield "0", True, [(pivot + [side * x, -y], 0.0) for x, y in ((32, 24), (30, 12), (36, 34)) for side in (1, -1)]
+            yield (
+                letter,
+                False,
+                [
+                    (drawn.points[name] + (reach + wide * abs(way[0])) * way, 0.4 * (reach - 15) + 0.2 * rank)
+                    for reach in _REACHES
+                    for rank, way in enumerate(_AROUND)
+                ],
+            )
+    spots = [(side * x, -y) for x, y in ((32, 24), (30, 12), (36, 36), (12, 46)) for side in (1, -1)]
+    yield (
+        "0",
+        True,
+        [(drawn.points[name] + spot, 3.0 * rank) for rank, name in enumerate(shape.pivots) for spot in spots],
+    )
     for one in shape.members:
         yield str(one.number), True, list(_number_ways(drawn, one.name))
 
 
 def _number_ways(drawn: Scene, name: str) -> Iterator[tuple[Array, float]]:
-    """Yield the places beside a link or block."""
+    """Yield the places beside a link or block, and what each of them costs at least."""
     for block in (one for one in drawn.blocks if one.name == name):
-        for reach in (block.half[1] + 10, block.half[1] + 18, block.half[1] + 26):
-            for share in (-0.6, 0.0, 0.6, -1.3, 1.3):
-                for side in (1, -1):
-                    yield block.pose.place(share * block.half[0], side * reach), 0.3 * (reach - block.half[1])
+        ways = product((10, 18, 26), (-0.6, 0.0, 0.6, -1.3, 1.3), (1, -1))
+        for reach, share, side in ways:
+            yield block.pose.place(share * block.half[0], side * (block.half[1] + reach)), 0.3 * reach
     for slot in (one for one in drawn.slots if one.carrier == name):
-        for share in (0.2, 0.5, 0.8):
-            for side in (1, -1):
-                yield slot.line.place(slot.start + share * (slot.end - slot.start), side * (SLOT + 10)), 6.0
+        for share, side in product((0.2, 0.5, 0.8), (1, -1)):
+            yield slot.line.place(slot.start + share * (slot.end - slot.start), side * (SLOT + 10)), 6.0
     for bar in (one for one in drawn.bars if one.name == name):
         if not bar.is_flat:
             yield np.asarray(np.mean(bar.nodes, axis=0)), -20.0
         for start, end in _edges(bar.nodes, is_flat=bar.is_flat):
-            along = end - start
-            left = np.column_stack([-along[:, 1], along[:, 0]]) / np.maximum(np.hypot(*along.T), 1e-9)[:, None]
-            for share in (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8):
-                for side in (1, -1):
-                    yield start + share * along + side * 13 * left, 8 * abs(share - 0.5)
+            yield from _beside(start, end)
+
+
+def _beside(start: Array, end: Array) -> Iterator[tuple[Array, float]]:
+    """Yield the places beside a line, its middle first."""
+    along = end - start
+    left = np.column_stack([-along[:, 1], along[:, 0]]) / np.maximum(np.hypot(*along.T), 1e-9)[:, None]
+    for share, side in product((0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8), (1, -1)):
+        yield start + share * along + side * 13 * left, 8 * abs(share - 0.5)
 
 
 def _edges(nodes: Sequence[Array], *, is_flat: bool) -> Iterator[tuple[Array, Array]]:
-    yield from zip(nodes, nodes[1:], strict=False)
+    yield from pairwise(nodes)
     if not is_flat:
         yield nodes[-1], nodes[0]
 
@@ -123,8 +134,8 @@ def _samples(drawn: Scene, every: int) -> Array:
         for side in (rail.half, rail.half + 6, -rail.half, -rail.half - 6):
             lines.append((rail.line.place(rail.start, side), rail.line.place(rail.end, side)))
     for at in (place for name, place in drawn.points.items() if name in drawn.skeleton.pivots):
-        lines += [(at, at + [-13.0, -24.0]), (at, at + [13.0, -24.0])]
-        lines += [(at + [-26.0, drop], at + [20.0, drop]) for drop in (-24.0, -31.0)]
+        lines += [(at, np.add(at, foot)) for foot in ((-13.0, -24.0), (13.0, -24.0))]
+        lines += [(np.add(at, (-26.0, drop)), np.add(at, (20.0, drop))) for drop in (-24.0, -31.0)]
     found = [place[::every, None] for place in drawn.points.values()]
     for start, end in lines:
         length = float(np.max(np.hypot(*(end - start).T)))

@@ -8,7 +8,6 @@ import numpy as np
 
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.motion import Motion
-from crankwork.mechanism.mechanism import Mechanism
 from crankwork.report.linkage_skeleton import Member, Pose, Skeleton, guide_pose, pose, tracks
 
 BLOCK = (14.0, 8.0)
@@ -68,13 +67,11 @@ class Scene(NamedTuple):
         return next((one for one in self.bars if one.name == name), None)
 
 
-def scene(mechanism: Mechanism, shape: Skeleton, moving: Motion, size: float) -> tuple[Scene, float]:
+def scene(shape: Skeleton, moving: Motion, size: float) -> tuple[Scene, float]:
     """Return the parts of a linkage and the scale, units of the picture per metre.
 
     Parameters
     ----------
-    mechanism : Mechanism
-        What is drawn.
     shape : Skeleton
         Its links, points and letters.
     moving : Motion
@@ -213,8 +210,9 @@ def _add_stubs(drawn: Scene, slides: list[_Slide]) -> None:
         for node in nodes:
             seen = slot.line.seen(node)[0]
             nearest = slot.line.place(min(max(float(seen[0]), slot.start), slot.end))
-            if float(np.hypot(*(node[0] - nearest[0]))) > 2.0 and not (line and line.is_flat and abs(seen[1]) < 1.0
-                                                                       and _runs_along(line, slot)):
+            if float(np.hypot(*(node[0] - nearest[0]))) > 2.0 and not (
+                line and line.is_flat and abs(seen[1]) < 1.0 and _runs_along(line, slot)
+            ):
                 drawn.bars.append(Bar(member.name, (node, nearest)))
     for one in slides:
         for name in one.member.points:

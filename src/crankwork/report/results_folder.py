@@ -5,10 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from crankwork.analysis import Results
+from crankwork.machine import TabulatedMachine
 from crankwork.quantities import Language
 from crankwork.report.drawing import moving_drawing
 from crankwork.report.figures import figures
 from crankwork.report.tables import csv_table, workbook
+
+# What a results folder may hold, so that a run that overwrites leaves nothing of another machine.
+OUTPUTS = ("tables/*.csv", "tables.xlsx", "machine.svg", "figures/*.svg")
 
 
 def results_folder(
@@ -44,7 +48,8 @@ def results_folder(
         for name in results.tables
     }
     yield {"tables.xlsx": workbook(results, language=language, per_area=per_area)}
-    yield {"machine.svg": moving_drawing(results.machine, language=language).encode()}
+    if not isinstance(results.machine, TabulatedMachine):
+        yield {"machine.svg": moving_drawing(results.machine, language=language).encode()}
     if with_figures:
         drawn = figures(results, language=language, per_area=per_area)
         yield {f"figures/{name}.svg": data for name, data in drawn.items()}

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import importlib
+from collections.abc import Mapping
 from typing import Any
 
 from crankwork.analysis import Results
-from crankwork.machine import Machine
+from crankwork.machine import AnyMachine, LinkageMachine, TabulatedMachine
 from crankwork.quantities import Language
 from crankwork.report.language import (
     displayed,
@@ -57,9 +59,8 @@ def summary_text(results: Results, *, language: Language = "en", per_area: bool 
         Divide forces by the piston area.
     """
     area = results.summary["piston_area"] if per_area else None
-    method = results.method
     lines = [results.machine.title] if results.machine.title else []
-    lines.append(f"{word('method', language)}: {method_name(method.kinematics, method.order, method.rod, language)}")
+    lines.append(f"{word('method', language)}: {results_method(results, language)}")
     if per_area:
         lines.append(word("per_area", language))
     rows = [
@@ -93,23 +94,29 @@ def aligned(rows: list[tuple[str, str, str, str]]) -> list[str]:
     ]
 
 
-def description_text(machine: Machine, results: Results) -> str:
+def results_method(results: Results, language: Language) -> str:
+    """Return how results were made, in words."""
+    match results.machine:
+        case TabulatedMachine():
+            return word("tabulated", language)
+        case LinkageMachine():
+            return method_name("exact", 0, "", language)
+    method = results.method
+    return method_name(method.kinematics, method.order, method.rod, language)
+
+
+def description_text(machine: AnyMachine, results: Results) -> str:
     """Return what a machine file describes, in a few lines of English.
 
     Parameters
     ----------
-    machine : Machine
+    machine : Machine, LinkageMachine or TabulatedMachine
         The machine.
     results : Results
         Its results, for the derived lengths and volumes.
     """
     summary = results.summary
-    parts = ["slider-crank" if not summary.get("offset") else "offset slider-crank"]
-    if machine.gas:
-        source = "measured pressure" if machine.gas.measured else f"{len(machine.gas.pieces)} pieces of gas pressure"
-        parts.append(f"{source} over {machine.gas.cycle:g} deg")
-    parts.append("with masses" if machine.masses else "motion only")
-    keys = [key for key in summary if "_max" not in key and "_min" not in key and not key.endswith("_error")]
+    keys = [key for key in summary if not any(part in key for part in ("_max", "_min")) and not key.endswith("_error")]
     rows = [
         (
             label(key, "en"),
@@ -119,4 +126,31 @@ def description_text(machine: Machine, results: Results) -> str:
         )
         for key in keys
     ]
-    return "\n".join([", ".join(parts), *aligned(rows)])
+    return "\n".join([*_headline(machine, summary), *aligned(rows)])
+
+
+def _headline(machine: AnyMachine, summary: Mapping[str, float]) -> list[str]:
+    match machine:
+        case TabulatedMachine():
+            return [f"transfer functions of {len(machine.bodies)} bodies at {len(machine.angles)} positions"]
+        case LinkageMachine():
+            return _structure_lines(machine)
+    parts = ["slider-crank" if not summary.get("offset") else "offset slider-crank"]
+    if machine.gas:
+        source = "measured pressure" if machine.gas.measured else f"{len(machine.gas.pieces)} pieces of gas pressure"
+        parts.append(f"{source} over {machine.gas.cycle:g} deg")
+    parts.append("with masses" if machine.masses else "motion only")
+    return [", ".join(parts)]
+
+
+def _structure_lines(machine: LinkageMachine) -> list[str]:
+    """Return mobility, groups and formula of structure of a linkage."""
+    found, _ = importlib.import_module("crankwork.mechanism.structure").structure(machine.linkage)
+    if found is None:
+        return ["linkage"]
+    numbered = ", ".join(f"{number} {name}" for number, name in enumerate(found.links, start=1))
+    return [
+        f"linkage of {len(found.links)} moving links: {numbered}",
+        f"mobility W = 3·{len(found.links)} − 2·{found.joints} = {found.mobility} (Chebyshev)",
+        f"structure {found.formula}, mechanism of class {'I' * found.number if found.number < 4 else found.number}",
+    ]

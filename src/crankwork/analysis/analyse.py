@@ -1,0 +1,68 @@
+"""The one function that analyses any machine."""
+
+from __future__ import annotations
+
+import importlib
+from dataclasses import replace
+from typing import cast
+
+from crankwork.analysis.engine import analyse_engine
+from crankwork.analysis.results import Results
+from crankwork.errors import MethodError
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.machine import AnyMachine, LinkageMachine, Machine
+from crankwork.method import Method
+
+
+def analyse(machine: AnyMachine, grid: CrankGrid | None = None, *, method: Method | None = None) -> Results:
+    """Return everything a machine does over one cycle.
+
+    Parameters
+    ----------
+    machine : Machine, LinkageMachine or TabulatedMachine
+        What to compute.
+    grid : CrankGrid, shape (n,), optional
+        Ascending crank angles for the columns, within one cycle; the machine's own table otherwise. [rad]
+    method : Method, optional
+        Instead of the machine's own; an engine has more than one.
+
+    Returns
+    -------
+    Results
+        Columns, summary, checks and notices.
+
+    Raises
+    ------
+    CrankworkError
+        If the mechanism cannot be assembled or cannot turn, or the diagram does not hang together.
+    MethodError
+        If a method is asked for that the machine does not have.
+    """
+    if isinstance(machine, Machine):
+        return analyse_engine(machine, grid, method=method)
+    if method is not None and not method.is_exact:
+        raise MethodError(f"method {method.name} exists for a slider-crank only; use exact")
+    # loaded when needed: an engine would wait longer for these rooms than for its results
+    if isinstance(machine, LinkageMachine):
+        found = importlib.import_module("crankwork.analysis.linkage").analyse_linkage(machine, grid)
+    else:
+        found = importlib.import_module("crankwork.analysis.tabulated").analyse_tabulated(machine)
+    return cast("Results", found)
+
+
+def with_method(machine: Machine, name: str) -> Machine:
+    """Return the machine with another method by name, constants kept.
+
+    Parameters
+    ----------
+    machine : Machine
+        Any machine.
+    name : str
+        `exact`, `textbook` or `series:N`.
+
+    Returns
+    -------
+    Machine
+        The same machine, computed that way.
+    """
+    return replace(machine, method=machine.method.named(name))

@@ -1,0 +1,172 @@
+"""The keys of a machine file that describes a linkage, or the transfer functions of one as a document prints them."""
+
+from __future__ import annotations
+
+import math
+
+from crankwork.description.keys import METHOD, TABLE
+from crankwork.description.schema import Choice, Key, ListOf, Named, NameOr, Nested, Number, Quantity, Table, Text
+
+_LENGTH = Quantity(("length",), 0.0, 100.0, above=True)
+_COORDINATE = Quantity(("length",), -1e3, 1e3)
+_PLACE = ListOf(_COORDINATE, fewest=2, most=2)
+_ANGLE = Quantity(("angle",), -4 * math.pi - 1e-9, 4 * math.pi + 1e-9)
+_TURN = Quantity(("angle",), 0.0, 4 * math.pi + 1e-9)
+_SPEED = Quantity(("speed",), 0.0, 3e4, above=True)
+_INERTIA = Quantity(("inertia",), 0.0, 1e9)
+_TORQUE = Quantity(("torque",), -1e9, 1e9)
+_FORCE = Quantity(("force",), -1e9, 1e9)
+_NAME = Text(60)
+_MASS = {
+    "mass": Key(Quantity(("mass",), 0.0, 1e6, above=True), "its mass"),
+    "inertia": Key(_INERTIA, "moment of inertia about the centre of mass"),
+    "centre": Key(NameOr(_PLACE), "centre of mass: a point of the link, or [along, across]"),
+}
+
+_CRANK = Table({
+    "pivot": Key(_NAME, "the fixed point it turns about", required=True),
+    "pin": Key(_NAME, "name of its moving end", required=True),
+    "radius": Key(_LENGTH, "distance from pivot to pin", required=True),
+    "speed": Key(_SPEED, "rotational speed", required=True),
+    "angular_acceleration": Key(Quantity(("angular_acceleration",), -1e6, 1e6), "change of the angular speed"),
+    "start": Key(_ANGLE, "its direction from the x axis at a crank angle of zero"),
+    "direction": Key(Choice(("anticlockwise", "clockwise")), "which way it turns"),
+    "points": Key(Named(_PLACE), "further points: from the pivot towards the pin, and to the left of that"),
+    "inertia": Key(_INERTIA, "moment of inertia about its axis, all that turns with it included"),
+})  # fmt: skip
+
+_LINK = Table({
+    "joins": Key(ListOf(_NAME, fewest=2), "names of its joints; its frame runs from the first to the second",
+                 required=True),
+    "length": Key(_LENGTH, "distance of the first two joints; may follow from positions"),
+    "points": Key(Named(_PLACE), "further points of the link: [along, across] its frame"),
+    **_MASS,
+})  # fmt: skip
+
+_SLIDER = Table({
+    "guide": Key(_NAME, "the guide it slides on", required=True),
+    "pin": Key(_NAME, "its joint on the line of the guide"),
+    "points": Key(Named(_PLACE), "further points: along and across the guide"),
+    **_MASS,
+})  # fmt: skip
+
+_GUIDE = Table(
+    {
+        "through": Key(NameOr(_PLACE), "a fixed point, or [x, y]; in the frame of the link that carries it"),
+        "angle": Key(_ANGLE, "direction in which distances count"),
+        "link": Key(_NAME, "the link that carries it; fixed without"),
+    }
+)
+
+_LOAD = Table({
+    "kind": Key(Choice(("process", "force", "torque", "spring")), "what pushes", required=True),
+    "slider": Key(_NAME, "the sliding piece it acts on"),
+    "point": Key(_NAME, "the point it acts at"),
+    "link": Key(_NAME, "the link it acts on"),
+    "between": Key(ListOf(_NAME, fewest=2, most=2), "the two points a spring joins"),
+    "x": Key(_FORCE, "component of a force"),
+    "y": Key(_FORCE, "component of a force"),
+    "against": Key(Choice(("stroke", "angle")), "what a table counts by; by default the stroke"),
+    "at": Key(ListOf(Quantity(("length", "angle"), -1e3, 1e3), fewest=2), "strokes or crank angles of a table, rising"),
+    "force": Key(ListOf(_FORCE, fewest=1), "forces of the table, positive against the working stroke"),
+    "torque": Key(ListOf(_TORQUE, fewest=1), "torques of the table, positive anticlockwise"),
+    "curve": Key(Choice(("straight", "smooth")), "between the points of the table"),
+    "stroke": Key(Choice(("growing", "falling")), "whether the distance along the guide grows on the working stroke"),
+    "start": Key(_COORDINATE, "distance along the guide where the working stroke begins"),
+    "acts": Key(Choice(("forward", "both")), "on the working stroke only, or on the way back too"),
+    "stiffness": Key(Quantity(("stiffness",), 0.0, 1e12), "of a spring"),
+    "free_length": Key(Quantity(("length",), 0.0, 1e3), "length of a spring that does not pull, or its position"),
+    "preload": Key(_FORCE, "pull of a spring at its free length"),
+})  # fmt: skip
+
+_EFFICIENCY = Table({
+    "chain": Key(Nested(Number(0.0, 1.0, above=True)), "efficiencies in series; a list within is in parallel",
+                 required=True),
+    "decimals": Key(Number(1, 6), "round the whole to so many decimals, as a document does"),
+})  # fmt: skip
+
+_MOTOR = Table(
+    {
+        "rated_power": Key(Quantity(("power",), 0.0, 1e9, above=True), "power on its shaft", required=True),
+        "rated_speed": Key(_SPEED, "speed at that power", required=True),
+        "overload": Key(Number(1.0, 10.0, above=True), "greatest torque over rated torque", required=True),
+        "pole_pairs": Key(Number(1, 24), "pairs of poles", required=True),
+        "frequency": Key(_SPEED, "of the mains, by default 50 Hz"),
+        "ratio": Key(Number(0.0, 1e4, above=True), "speed of the motor over that of the crank"),
+        "inertia": Key(_INERTIA, "moment of inertia of its rotor"),
+    }
+)
+
+_FLYWHEEL = Table(
+    {
+        "fluctuation": Key(
+            Number(0.0, 1.0, above=True), "wanted: largest less least speed over the mean", required=True
+        ),
+    }
+)
+
+_TRANSIENT = Table(
+    {
+        "torque": Key(_TORQUE, "constant torque on the crank", required=True),
+        "time": Key(Quantity(("time",), 0.0, 1e6, above=True), "how long", required=True),
+        "speed": Key(Quantity(("speed",), 0.0, 3e4), "speed of the crank at the start, at rest without"),
+    }
+)
+
+_TITLE = {"title": Key(Text(), "what the machine is called"),
+          "decimal_mark": Key(Choice((".", ",")), 'put "," here to write 1,1 kg')}  # fmt: skip
+
+LINKAGE_FILE = Table(
+    {
+        **_TITLE,
+        "fixed_points": Key(Named(_PLACE), "pivots of the ground: [x, y]"),
+        "crank": Key(_CRANK, "the driving link", required=True),
+        "links": Key(Named(_LINK), "links by name"),
+        "guides": Key(Named(_GUIDE), "straight guides by name"),
+        "sliders": Key(Named(_SLIDER), "sliding pieces by name"),
+        "branch": Key(Named(Number(-1, 1)), "which way a group is assembled, 1 or -1, by the joint that it places"),
+        "positions": Key(Named(_PLACE), "roughly where joints are at a crank angle of zero"),
+        "loads": Key(ListOf(_LOAD), "what pushes the linkage"),
+        "efficiency": Key(_EFFICIENCY, "of the joints between motor and process"),
+        "motor": Key(_MOTOR, "an asynchronous motor on the crank"),
+        "flywheel": Key(_FLYWHEEL, "a flywheel on the crank, to be found"),
+        "transient": Key(_TRANSIENT, "motion from a crank angle of zero under a constant torque and the springs"),
+        "method": Key(METHOD, "how to compute, and the constants of a document to reproduce"),
+        "table": Key(TABLE, "the rows of the tables"),
+    }
+)
+
+_RATIOS = ListOf(Number(-1e3, 1e3), fewest=2)
+_BODY = Table(
+    {
+        "mass": Key(Quantity(("mass",), 0.0, 1e6), "its mass"),
+        "inertia": Key(_INERTIA, "moment of inertia about the point whose velocity is given"),
+        "velocity": Key(ListOf(_COORDINATE, fewest=2), "velocity over the angular speed of the crank, by position"),
+        "rotation": Key(_RATIOS, "angular velocity over that of the crank, by position"),
+    }
+)
+_TRANSFER = Table({
+    "angles": Key(ListOf(_TURN, fewest=2), "crank angles of the positions", required=True),
+    "bodies": Key(Named(_BODY), "moving masses by name", required=True),
+    "reduced_inertia_1": Key(ListOf(Quantity(("inertia",), -1e9, 1e9), fewest=2),
+                             "derivative of the reduced inertia, where a document prints its own",
+                             instead_of=("differences",)),
+    "differences": Key(Choice(("forward", "central", "spectral")), "how the derivative is taken from the positions",
+                       instead_of=("reduced_inertia_1",)),
+    "static_torque": Key(ListOf(_TORQUE, fewest=2), "torque that balances the loads, by position",
+                         instead_of=("balancing_torque",)),
+    "balancing_torque": Key(ListOf(_TORQUE, fewest=2), "static and dynamic torque together, by position",
+                            instead_of=("static_torque",)),
+})  # fmt: skip
+
+TRANSFER_FILE = Table(
+    {
+        **_TITLE,
+        "crank": Key(
+            Table({"speed": Key(_SPEED, "rotational speed", required=True)}), "the driving link", required=True
+        ),
+        "transfer": Key(_TRANSFER, "transfer functions as numbers", required=True),
+        "efficiency": Key(_EFFICIENCY, "of the joints between motor and process"),
+        "method": Key(METHOD, "the constants of a document to reproduce"),
+    }
+)

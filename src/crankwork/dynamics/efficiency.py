@@ -1,0 +1,142 @@
+"""Efficiency of chains of joints, and the driving torque with it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from crankwork.expressions import Value, formula
+from crankwork.kinematics.crank_grid import Array
+
+
+@dataclass(frozen=True)
+class Series:
+    """Joints or chains through which all power flows, one after the other.
+
+    Parameters
+    ----------
+    parts : tuple of float, Series or Parallel
+        Their efficiencies. [-]
+    """
+
+    parts: tuple[Chain, ...]
+
+
+@dataclass(frozen=True)
+class Parallel:
+    """Joints or chains between which the power divides.
+
+    Parameters
+    ----------
+    parts : tuple of float, Series or Parallel
+        Their efficiencies. [-]
+    shares : tuple of float
+        Share of the power through each; equal where none are given. [-]
+    """
+
+    parts: tuple[Chain, ...]
+    shares: tuple[float, ...] = ()
+
+
+Chain = float | Series | Parallel
+
+
+def efficiency(chain: Chain) -> float:
+    """Return the efficiency of a chain.
+
+    Parameters
+    ----------
+    chain : float, Series or Parallel
+        Efficiencies of joints, from more than 0 to 1, in series and parallel. [-]
+
+    Returns
+    -------
+    float
+        Product of what is in series, weighted mean of what is parallel. [-]
+
+    Raises
+    ------
+    ValueError
+        If an efficiency or the shares are impossible.
+
+    References
+    ----------
+    artobolevsky_1988, ch. 14.
+
+    Examples
+    --------
+    >>> round(efficiency(Series((0.98, Parallel((0.9, 0.8)), 0.99))), 5)
+    0.82467
+    """
+    match chain:
+        case Series(parts):
+            return math.prod(efficiency(part) for part in parts)
+        case Parallel(parts, shares):
+            shares = shares or (1 / len(parts),) * len(parts)
+            if len(shares) != len(parts) or not math.isclose(sum(shares), 1.0) or min(shares) < 0:
+                raise ValueError(f"{len(parts)} parallel chains need as many shares, none negative, that sum to 1")
+            return sum(share * efficiency(part) for share, part in zip(shares, parts, strict=True))
+        case value:
+            if not 0 < value <= 1:
+                raise ValueError(f"an efficiency lies above 0 and not above 1, not at {value:g}")
+            return float(value)
+
+
+@formula("driving_torque", "artobolevsky_1988, ch. 14")
+def driving_torque_as_motor(M_st: Value, M_dyn: Value, eta: Value) -> Value:
+    """Torque of a motor that drives the crank.
+
+    Parameters
+    ----------
+    M_st, M_dyn, eta : array
+        Static and dynamic torque, efficiency; for a positive sum of the torques. [N m], [N m], [-]
+
+    Returns
+    -------
+    array
+        Torque. [N m]
+    """
+    return (M_st + M_dyn) / eta
+
+
+@formula("driving_torque", "artobolevsky_1988, ch. 14")
+def driving_torque_as_brake(M_st: Value, M_dyn: Value, eta: Value) -> Value:
+    """Torque of a motor that the crank drives.
+
+    Parameters
+    ----------
+    M_st, M_dyn, eta : array
+        Static and dynamic torque, efficiency; for a negative sum of the torques. [N m], [N m], [-]
+
+    Returns
+    -------
+    array
+        Torque. [N m]
+    """
+    return (M_st + M_dyn) * eta
+
+
+def driving_torque(static: Array, dynamic: Array, chain_efficiency: float) -> Array:
+    """Return the torque of the motor on the crank with the losses of the chain.
+
+    Parameters
+    ----------
+    static, dynamic : array, shape (n,)
+        Static and dynamic torque. [N m], [N m]
+    chain_efficiency : float
+        Efficiency of the chain. [-]
+
+    Returns
+    -------
+    array, shape (n,)
+        Torque: the sum over the efficiency where the motor drives, times the efficiency where it brakes. [N m]
+
+    Notes
+    -----
+    The slope jumps where the sum passes zero.
+    """
+    motor = driving_torque_as_motor(static, dynamic, chain_efficiency)
+    brake = driving_torque_as_brake(static, dynamic, chain_efficiency)
+    return np.asarray(np.where(static + dynamic > 0, motor, brake), dtype=float)

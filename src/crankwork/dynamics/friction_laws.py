@@ -1,0 +1,117 @@
+"""Dry friction of pins and guides, as laws and formulas."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from crankwork.expressions import Value, formula
+
+
+@dataclass(frozen=True)
+class PinFriction:
+    """Friction in a revolute joint.
+
+    Parameters
+    ----------
+    joint : str
+        Name of the joint, see `mechanism.joints`.
+    radius : float
+        Radius of the pin. [m]
+    coefficient : float
+        Friction moment over joint force and radius, f': from f in a loose bearing to 1.57 f in a tight new one. [-]
+    """
+
+    joint: str
+    radius: float
+    coefficient: float
+
+
+@dataclass(frozen=True)
+class GuideFriction:
+    """Friction of a sliding piece on its guide.
+
+    Parameters
+    ----------
+    slider : str
+        The sliding piece.
+    coefficient : float
+        Friction force over normal force, the tangent of the friction angle. [-]
+    length : float
+        Length of the piece along the guide, its origin in the middle. The moment of the normal force then
+        presses the ends of the piece on both sides; with 0 that moment makes no friction. [m]
+    """
+
+    slider: str
+    coefficient: float
+    length: float = 0.0
+
+
+Friction = PinFriction | GuideFriction
+
+
+@formula("friction_radius", "artobolevsky_1988, ch. 11")
+def friction_radius(f_z: Value, r_z: Value) -> Value:
+    """Radius of the friction circle of a pin.
+
+    Parameters
+    ----------
+    f_z, r_z : float
+        Friction coefficient of the pin, its radius. [-], [m]
+
+    Returns
+    -------
+    float
+        Radius. [m]
+    """
+    return f_z * r_z
+
+
+@formula("friction_torque", "artobolevsky_1988, ch. 11")
+def friction_torque(rho: Value, R: Value) -> Value:
+    """Friction moment in a pin.
+
+    Parameters
+    ----------
+    rho, R : array
+        Radius of the friction circle, force in the pin. [m], [N]
+
+    Returns
+    -------
+    array
+        Moment, against the rotation of one link in the other. [N m]
+    """
+    return rho * R
+
+
+@formula("friction_force", "artobolevsky_1988, ch. 11")
+def friction_force(f: Value, N_s: Value) -> Value:
+    """Friction force of a guide.
+
+    Parameters
+    ----------
+    f, N_s : array
+        Friction coefficient, magnitude of the normal force. [-], [N]
+
+    Returns
+    -------
+    array
+        Force, against the sliding. [N]
+    """
+    return f * N_s
+
+
+@formula("efficiency", "artobolevsky_1988, ch. 14")
+def instantaneous_efficiency(M_0: Value, M_f: Value) -> Value:
+    """Instantaneous efficiency of a mechanism that the crank drives.
+
+    Parameters
+    ----------
+    M_0, M_f : array
+        Torque on the crank without friction and with it. [N m], [N m]
+
+    Returns
+    -------
+    array
+        Efficiency. [-]
+    """
+    return M_0 / M_f

@@ -1,0 +1,92 @@
+"""Forces in the joints of a mechanism, group after group from the last to the crank (Bruyevich)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from crankwork.dynamics.dyad_forces import OnGuide, Vector, prp_forces, rpp_forces, rpr_forces, rrp_forces, rrr_forces
+from crankwork.dynamics.force_system import solved_group
+from crankwork.dynamics.link_loads import Wrench, arm, link_wrenches
+from crankwork.dynamics.reaction import GuideForce, JointForces, PinForce, Reaction, gathered, reaction_wrench
+from crankwork.dynamics.running import Running
+from crankwork.kinematics.motion import Motion
+from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad
+from crankwork.mechanism.joints import Joint, Pin, SlidingJoint, group_links, joints
+from crankwork.mechanism.linkage import GROUND
+
+
+def joint_forces(running: Running) -> JointForces:
+    """Return the forces in all joints and the balancing torque on the crank.
+
+    Parameters
+    ----------
+    running : Running
+        The mechanism at work, without friction.
+
+    Returns
+    -------
+    JointForces, arrays of shape (n,)
+        On each pin the force on the link it holds [N]; on each sliding piece the normal force [N] and its moment
+        [N m]; the torque that the crank needs [N m].
+
+    References
+    ----------
+    artobolevsky_1988, ch. 13; the method of Bruyevich.
+    """
+    mechanism, motion = running.mechanism, running.motion
+    every, wrenches = joints(mechanism), link_wrenches(running)
+    found: dict[Joint, Reaction] = {}
+    for group in reversed(mechanism.dyads):
+        links = group_links(group)
+        held = [joint for joint in every if joint.link in links]
+        reactions = _group_reactions(group, motion, held, wrenches)
+        found |= reactions
+        for reaction in reactions.values():
+            carrier = reaction.joint.other
+            if carrier != GROUND and carrier not in links:
+                wrenches[carrier] = wrenches[carrier].plus(*reaction_wrench(reaction, motion, carrier))
+    pivot, crank = every[0], wrenches[mechanism.crank.link]
+    if isinstance(pivot, Pin):
+        found[pivot] = PinForce(pivot, -crank.x, -crank.y)
+    return gathered(found, every, -mechanism.crank.direction * crank.moment)
+
+
+def _group_reactions(
+    group: Dyad | Chain, motion: Motion, held: Sequence[Joint], wrenches: dict[str, Wrench]
+) -> dict[Joint, Reaction]:
+    """Return the reactions in the joints of a group: of a dyad in closed form."""
+    if isinstance(group, Chain):
+        return solved_group(motion, group_links(group), held, wrenches)
+    forces = _dyad_reactions(group, motion, wrenches)
+    return {joint: _reaction(joint, one) for joint, one in zip(held, forces, strict=True)}
+
+
+def _dyad_reactions(
+    dyad: Dyad, motion: Motion, wrenches: dict[str, Wrench]
+) -> tuple[Vector | OnGuide, Vector | OnGuide, Vector | OnGuide]:
+    """Return the reactions of a dyad in the order of its joints."""
+    one, two = group_links(dyad)
+    first, second = wrenches[one], wrenches[two]
+    origin, other = motion.frames[one].origin, motion.frames[two].origin
+    along_one, along_two = ((motion.frames[link].cos, motion.frames[link].sin) for link in (one, two))
+    match dyad:
+        case RRR():
+            pin = motion.points[dyad.point]
+            return rrr_forces(first, second, arm(origin, pin), arm(other, pin))
+        case RRP():
+            return rrp_forces(first, second, arm(origin, other), along_two)
+        case RPR():
+            return rpr_forces(first, second, arm(origin, other), along_two)
+        case PRP():
+            return prp_forces(first, second, along_one, along_two)
+        case RPP():
+            return rpp_forces(first, second, arm(origin, other), along_two, along_one)
+
+
+def _reaction(joint: Joint, force: Vector | OnGuide) -> Reaction:
+    match joint:
+        case Pin():
+            return PinForce(joint, force[0], force[1])
+        case SlidingJoint():
+            return GuideForce(joint, force[0], force[1])

@@ -1,0 +1,141 @@
+"""What a joint puts on the link that it holds: a force in a pin, a normal force and its moment on a guide."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.dynamics.link_loads import Wrench, arm, cross
+from crankwork.kinematics.crank_grid import Array
+from crankwork.kinematics.motion import Motion
+from crankwork.kinematics.transfer import PointMotion
+from crankwork.mechanism.joints import Joint, Pin, SlidingJoint
+
+
+class PinForce(NamedTuple):
+    """Force of a pin on the link it holds, along the fixed axes, arrays of shape (n,). [N]"""
+
+    joint: Pin
+    x: Array
+    y: Array
+
+    @property
+    def resultant(self) -> Array:
+        """Magnitude of the force. [N]"""
+        return np.hypot(self.x, self.y)
+
+
+class GuideForce(NamedTuple):
+    """Normal force of a guide on its piece, to the left of the way it counts [N], and its moment there [N m].
+
+    Both are arrays of shape (n,); the moment is about the origin of the piece, positive anticlockwise.
+    """
+
+    joint: SlidingJoint
+    normal: Array
+    moment: Array
+
+    @property
+    def application(self) -> Array:
+        """How far from the origin of the piece the normal force acts, along the guide; NaN without force. [m]"""
+        loaded = self.normal != 0
+        return np.where(loaded, self.moment / np.where(loaded, self.normal, 1.0), np.nan)
+
+
+Reaction = PinForce | GuideForce
+
+
+def joint_place(joint: Joint, motion: Motion) -> PointMotion:
+    """Return where a joint is: its pin, or the origin of its sliding piece.
+
+    Parameters
+    ----------
+    joint : Pin or SlidingJoint
+        The joint.
+    motion : Motion
+        How the mechanism moves.
+    """
+    if isinstance(joint, Pin) and joint.point:
+        return motion.points[joint.point]
+    return motion.frames[joint.link].origin
+
+
+def reaction_wrench(reaction: Reaction, motion: Motion, link: str) -> Wrench:
+    """Return what a joint puts on one of its two links.
+
+    Parameters
+    ----------
+    reaction : PinForce or GuideForce
+        The reaction on the link that is held.
+    motion : Motion
+        How the mechanism moves.
+    link : str
+        The link that is held, or the other one.
+
+    Returns
+    -------
+    Wrench, arrays of shape (n,)
+        Force [N] and moment about the origin of the frame of `link` [N m].
+    """
+    joint, sign = reaction.joint, 1.0 if link == reaction.joint.link else -1.0
+    match reaction:
+        case PinForce(_, x, y):
+            couple = np.zeros_like(x)
+        case GuideForce(_, normal, couple):
+            guide = motion.frames[joint.link]
+            x, y = -guide.sin * normal, guide.cos * normal
+    moment = cross(arm(motion.frames[link].origin, joint_place(joint, motion)), (x, y)) + couple
+    return Wrench(sign * x, sign * y, sign * moment)
+
+
+@dataclass(frozen=True)
+class JointForces:
+    """Reactions in all joints, and the torque that the crank needs.
+
+    Parameters
+    ----------
+    pins : mapping of str to PinForce
+        Forces in the revolute joints by name, arrays of shape (n,). [N]
+    guides : mapping of str to GuideForce
+        Normal forces and moments of the guides by sliding piece, arrays of shape (n,). [N], [N m]
+    balancing_torque : array, shape (n,)
+        Torque on the crank, positive with the rotation. [N m]
+    """
+
+    pins: Mapping[str, PinForce]
+    guides: Mapping[str, GuideForce]
+    balancing_torque: Array
+
+    def columns(self) -> dict[str, Array]:
+        """Return the columns of a table: components and resultants by joint, the balancing torque last. [N], [N m]"""
+        return {**dict(self._columns()), "balancing_torque": self.balancing_torque}
+
+    def _columns(self) -> Iterator[tuple[str, Array]]:
+        for name, pin in self.pins.items():
+            yield f"force_{name}_x", pin.x
+            yield f"force_{name}_y", pin.y
+            yield f"force_{name}", pin.resultant
+        for name, guide in self.guides.items():
+            yield f"normal_force_{name}", guide.normal
+            yield f"normal_moment_{name}", guide.moment
+
+
+def gathered(reactions: Mapping[Joint, Reaction], order: tuple[Joint, ...], balancing_torque: Array) -> JointForces:
+    """Return reactions in the order of the joints.
+
+    Parameters
+    ----------
+    reactions : mapping of Joint to PinForce or GuideForce
+        By joint.
+    order : tuple of Joint
+        All joints.
+    balancing_torque : array, shape (n,)
+        Torque on the crank. [N m]
+    """
+    found = [reactions[joint] for joint in order]
+    pins = {one.joint.name: one for one in found if isinstance(one, PinForce)}
+    guides = {one.joint.name: one for one in found if isinstance(one, GuideForce)}
+    return JointForces(pins, guides, balancing_torque)

@@ -1,0 +1,121 @@
+"""Reduced inertia from a table of transfer functions, as a document prints them, and its derivative by differences."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crankwork.expressions import Value, formula
+from crankwork.kinematics.crank_grid import Array
+
+Differences = Literal["forward", "central", "spectral"]
+
+
+@dataclass(frozen=True)
+class TabulatedBody:
+    """A body whose motion is a column of numbers.
+
+    Parameters
+    ----------
+    name : str
+        Its name.
+    mass, inertia : float
+        Mass, and moment of inertia about the point whose speed is given. [kg], [kg m2]
+    velocity_ratio : tuple of float
+        Speed of that point over the angular speed of the crank, one for each crank angle. [m]
+    rotation_ratio : tuple of float
+        Angular speed of the body over that of the crank. [-]
+    """
+
+    name: str
+    mass: float = 0.0
+    inertia: float = 0.0
+    velocity_ratio: tuple[float, ...] = (0.0,)
+    rotation_ratio: tuple[float, ...] = (0.0,)
+
+
+@formula("reduced_inertia", "artobolevsky_1988, ch. 15")
+def reduced_inertia_of_ratios(m_i: Value, v_w: Value, J_S: Value, w_w: Value) -> Value:
+    """Part of one body in the reduced moment of inertia, from its speeds over that of the crank.
+
+    Parameters
+    ----------
+    m_i, v_w, J_S, w_w : array
+        Mass, speed ratio of its centre, moment of inertia, ratio of its angular speed. [kg], [m], [kg m2], [-]
+
+    Returns
+    -------
+    array
+        Moment of inertia. [kg m2]
+    """
+    return m_i * v_w**2 + J_S * w_w**2
+
+
+def tabulated_inertia(bodies: Iterable[TabulatedBody]) -> Array:
+    """Return the reduced moment of inertia from tabulated speed ratios.
+
+    Parameters
+    ----------
+    bodies : iterable of TabulatedBody
+        The bodies.
+
+    Returns
+    -------
+    array, shape (n,)
+        Moment of inertia. [kg m2]
+    """
+    parts = [
+        np.asarray(
+            reduced_inertia_of_ratios(one.mass, np.array(one.velocity_ratio), one.inertia, np.array(one.rotation_ratio))
+        )
+        for one in bodies
+    ]
+    return np.asarray(sum(parts), dtype=float)
+
+
+def difference_derivative(crank_angle: ArrayLike, values: ArrayLike, scheme: Differences = "central") -> Array:
+    """Return the derivative by the crank angle of a column that repeats every revolution.
+
+    Parameters
+    ----------
+    crank_angle : array, shape (n,)
+        Ascending angles of less than a revolution in all. [rad]
+    values : array, shape (n,)
+        The column. [kg m2]
+    scheme : {"forward", "central", "spectral"}
+        To the next angle; from the last to the next; of the trigonometric polynomial through all values.
+
+    Returns
+    -------
+    array, shape (n,)
+        Derivative. [kg m2]
+
+    Raises
+    ------
+    ValueError
+        If the angles do not ascend within a revolution, or are not equidistant for the spectral derivative.
+
+    Notes
+    -----
+    Forward and central differences are how documents are made. For a computed motion the exact derivative is at
+    hand, see `reduction.reduced_inertia`.
+    """
+    angle, column = np.asarray(crank_angle, dtype=float), np.asarray(values, dtype=float)
+    next_angle = np.append(angle[1:], angle[0] + 2 * np.pi)
+    step = next_angle - angle
+    if angle.shape != column.shape or np.any(step <= 0):
+        raise ValueError("crank angles must ascend within one revolution, with one value each")
+    if scheme == "forward":
+        return np.asarray((np.roll(column, -1) - column) / step)
+    if scheme == "central":
+        return np.asarray((np.roll(column, -1) - np.roll(column, 1)) / (step + np.roll(step, 1)))
+    if np.ptp(step) > 1e-9:
+        raise ValueError("the spectral derivative needs equidistant crank angles over the whole revolution")
+    orders = np.fft.rfftfreq(column.size, 1 / column.size)
+    if column.size % 2 == 0:
+        orders[-1] = 0.0
+    return np.fft.irfft(1j * orders * np.fft.rfft(column), column.size)

@@ -1,0 +1,178 @@
+"""What pushes a mechanism, ready for the dynamics: forces at moving points and torques on links."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.errors import GeometryError
+from crankwork.kinematics.crank_grid import Array
+from crankwork.kinematics.dyads import LinkMotion
+from crankwork.kinematics.motion import Motion
+from crankwork.kinematics.transfer import PointMotion, Transfer
+from crankwork.mechanism.joints import bearers
+from crankwork.mechanism.linkage import GROUND
+from crankwork.mechanism.mechanism import Mechanism
+
+
+class AppliedForce(NamedTuple):
+    """A force on a link, where it acts, and its components along the fixed axes, arrays of shape (n,). [m], [N]"""
+
+    link: str
+    at: PointMotion
+    x: Array
+    y: Array
+
+
+class AppliedTorque(NamedTuple):
+    """A torque on a link, positive anticlockwise, an array of shape (n,), and the link's rate of turning. [N m], [-]"""
+
+    link: str
+    torque: Array
+    angle_1: Array
+
+
+@dataclass(frozen=True)
+class AppliedLoads:
+    """Forces and torques on the links of a mechanism.
+
+    Parameters
+    ----------
+    forces : tuple of AppliedForce
+        Forces, in any order.
+    torques : tuple of AppliedTorque
+        Torques.
+    """
+
+    forces: tuple[AppliedForce, ...] = ()
+    torques: tuple[AppliedTorque, ...] = ()
+
+    def also(self, other: AppliedLoads) -> AppliedLoads:
+        """Return these loads and others together."""
+        return AppliedLoads(self.forces + other.forces, self.torques + other.torques)
+
+
+NO_LOADS = AppliedLoads()
+
+
+def together(parts: Iterable[AppliedLoads]) -> AppliedLoads:
+    """Return all loads as one."""
+    parts = list(parts)
+    return AppliedLoads(
+        tuple(force for part in parts for force in part.forces),
+        tuple(torque for part in parts for torque in part.torques),
+    )
+
+
+def check_name(what: str, name: str, known: Iterable[str]) -> None:
+    """Refuse the name of a point, link or sliding piece that does not exist.
+
+    Parameters
+    ----------
+    what : str
+        What it should be the name of.
+    name : str
+        The name.
+    known : iterable of str
+        The names there are.
+
+    Raises
+    ------
+    GeometryError
+        With the names to choose from.
+    """
+    known = list(known)
+    if name not in known:
+        raise GeometryError(f"there is no {what} {name} to load; choose from {', '.join(known)}")
+
+
+def force_at(
+    mechanism: Mechanism, motion: Motion, point: str, force: tuple[Array, Array], link: str = ""
+) -> AppliedLoads:
+    """Return a force at a named point; nothing if the point is fixed.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        Whose point it is.
+    motion : Motion
+        Where the point is.
+    point : str
+        Its name.
+    force : tuple of array, shape (n,)
+        Components along the fixed axes. [N]
+    link : str
+        The link it acts on; empty for the first one of those that meet there.
+    """
+    bearer = bearers(mechanism)
+    check_name("point", point, bearer)
+    link = link or bearer[point]
+    if link == GROUND:
+        return NO_LOADS
+    still = np.zeros_like(motion.grid.angle)
+    return AppliedLoads((AppliedForce(link, motion.points[point], force[0] + still, force[1] + still),))
+
+
+def force_along_guide(motion: Motion, slider: str, force: Array) -> AppliedForce:
+    """Return a force on a sliding piece, along its guide and through the origin of its frame.
+
+    Parameters
+    ----------
+    motion : Motion
+        Where the piece is.
+    slider : str
+        Its name.
+    force : array, shape (n,)
+        Positive in the direction in which the distance of the piece counts. [N]
+    """
+    frame = motion.frames[slider]
+    return AppliedForce(slider, frame.origin, force * frame.cos, force * frame.sin)
+
+
+def torque_on(motion: Motion, link: str, torque: Array) -> AppliedLoads:
+    """Return a torque on a link.
+
+    Parameters
+    ----------
+    motion : Motion
+        How the link turns.
+    link : str
+        Its name.
+    torque : array, shape (n,)
+        Positive anticlockwise. [N m]
+    """
+    check_name("link", link, {**motion.links, **motion.frames})
+    still = np.zeros_like(motion.grid.angle)
+    return AppliedLoads(torques=(AppliedTorque(link, torque + still, _rate(motion, link) + still),))
+
+
+def carried_point(link: LinkMotion, point: PointMotion) -> PointMotion:
+    """Return the motion of the point of a link that is, at each angle, where another point passes.
+
+    Parameters
+    ----------
+    link : LinkMotion, arrays of shape (n,)
+        The frame of the link. [m]
+    point : PointMotion, arrays of shape (n,)
+        The point that passes. [m]
+
+    Returns
+    -------
+    PointMotion, arrays of shape (n,)
+        The place of the one, with the transfer functions of the other. [m]
+    """
+    (x, x_1, x_2), (y, y_1, y_2) = link.origin
+    dx, dy = point.x.position - x, point.y.position - y
+    rate, rate_1 = link.angle_1, link.angle_2
+    return PointMotion(
+        Transfer(point.x.position, x_1 - rate * dy, x_2 - rate_1 * dy - rate * rate * dx),
+        Transfer(point.y.position, y_1 + rate * dx, y_2 + rate_1 * dx - rate * rate * dy),
+    )
+
+
+def _rate(motion: Motion, link: str) -> Array:
+    frame: LinkMotion | None = motion.frames.get(link)
+    return motion.links[link].position_1 if frame is None else frame.angle_1

@@ -1,0 +1,73 @@
+"""Every kind of load, and the forces and torques that a list of them makes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from crankwork.kinematics.motion import Motion
+from crankwork.loads.applied import AppliedLoads, together
+from crankwork.loads.process import (
+    ForceOnPoint,
+    ProcessForce,
+    ProcessForceAtPoint,
+    TorqueOnLink,
+    constant_force,
+    link_torque,
+    process_force,
+    process_force_at_point,
+)
+from crankwork.loads.spring import SliderSpring, Spring, point_spring, slider_spring
+from crankwork.loads.weight import Weight, weight
+from crankwork.mechanism.mechanism import Mechanism
+
+__all__ = [
+    "ForceOnPoint",
+    "Load",
+    "ProcessForce",
+    "ProcessForceAtPoint",
+    "SliderSpring",
+    "Spring",
+    "TorqueOnLink",
+    "Weight",
+    "applied_loads",
+]
+
+Load = ProcessForce | ProcessForceAtPoint | ForceOnPoint | TorqueOnLink | Spring | SliderSpring | Weight
+
+
+def applied_loads(mechanism: Mechanism, motion: Motion, loads: Iterable[Load]) -> AppliedLoads:
+    """Return the forces and torques on the links of a mechanism.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What is loaded.
+    motion : Motion
+        How it moves.
+    loads : iterable of Load
+        What pushes it.
+
+    Returns
+    -------
+    AppliedLoads
+        Forces at moving points and torques, arrays of shape (n,). [N], [N m]
+    """
+    return together(_applied(load, mechanism, motion) for load in loads)
+
+
+def _applied(load: Load, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
+    match load:
+        case ProcessForce():
+            return process_force(load, motion)
+        case ProcessForceAtPoint():
+            return process_force_at_point(load, mechanism, motion)
+        case ForceOnPoint():
+            return constant_force(load, mechanism, motion)
+        case TorqueOnLink():
+            return link_torque(load, motion)
+        case Spring():
+            return point_spring(load, mechanism, motion)
+        case SliderSpring():
+            return slider_spring(load, mechanism, motion)
+        case Weight():
+            return weight(load, mechanism, motion)

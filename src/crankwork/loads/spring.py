@@ -1,0 +1,139 @@
+"""Springs between two points and on sliding pieces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from crankwork.errors import GeometryError
+from crankwork.expressions import Value, formula
+from crankwork.kinematics.motion import Motion
+from crankwork.loads.applied import AppliedForce, AppliedLoads, carried_point, check_name, force_along_guide, force_at
+from crankwork.mechanism.joints import SlidingJoint, joints
+from crankwork.mechanism.linkage import GROUND
+from crankwork.mechanism.mechanism import Mechanism
+
+
+@dataclass(frozen=True)
+class Spring:
+    """A straight spring between two points.
+
+    Parameters
+    ----------
+    start, end : str
+        The points it joins, of links or fixed.
+    stiffness : float
+        Force per length. [N/m]
+    free_length : float
+        Length at which it pulls with the preload only. [m]
+    preload : float
+        Pull at the free length. [N]
+    start_link, end_link : str
+        Links it is fixed to; empty for the first ones of those that meet there.
+    """
+
+    start: str
+    end: str
+    stiffness: float
+    free_length: float
+    preload: float = 0.0
+    start_link: str = ""
+    end_link: str = ""
+
+
+@dataclass(frozen=True)
+class SliderSpring:
+    """A spring along a guide, between a sliding piece and what carries the guide.
+
+    Parameters
+    ----------
+    slider : str
+        The sliding piece.
+    stiffness : float
+        Force per length. [N/m]
+    free_position : float
+        Distance of the piece along its guide at which the spring pulls with the preload only. [m]
+    preload : float
+        Pull there, against the direction in which that distance counts. [N]
+    """
+
+    slider: str
+    stiffness: float
+    free_position: float = 0.0
+    preload: float = 0.0
+
+
+@formula("spring_force", "norton_2012, ch. 8")
+def spring_force(c: Value, s: Value, s_0: Value, F_0: Value) -> Value:
+    """Pull of a linear spring.
+
+    Parameters
+    ----------
+    c, s, s_0, F_0 : array
+        Stiffness, length, free length, preload. [N/m], [m], [m], [N]
+
+    Returns
+    -------
+    array
+        Force, positive as it pulls its ends together. [N]
+    """
+    return c * (s - s_0) + F_0
+
+
+def point_spring(load: Spring, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
+    """Return the forces of a spring on the two links that it joins.
+
+    Parameters
+    ----------
+    load : Spring
+        The spring.
+    mechanism : Mechanism
+        Whose points they are.
+    motion : Motion
+        Where they are.
+
+    Raises
+    ------
+    GeometryError
+        If the ends meet at some angle, where the spring has no direction.
+    """
+    for name in (load.start, load.end):
+        check_name("point", name, motion.points)
+    start, end = motion.points[load.start], motion.points[load.end]
+    x, y = end.x.position - start.x.position, end.y.position - start.y.position
+    length = np.hypot(x, y)
+    if np.any(length == 0):
+        raise GeometryError(f"the ends of the spring from {load.start} to {load.end} meet; move one of them")
+    force = spring_force(load.stiffness, length, load.free_length, load.preload)
+    x, y = x / length * force, y / length * force
+    return force_at(mechanism, motion, load.start, (x, y), load.start_link).also(
+        force_at(mechanism, motion, load.end, (-x, -y), load.end_link)
+    )
+
+
+def slider_spring(load: SliderSpring, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
+    """Return the forces of a spring on a sliding piece and on the link that carries its guide.
+
+    Parameters
+    ----------
+    load : SliderSpring
+        The spring.
+    mechanism : Mechanism
+        Which link carries the guide.
+    motion : Motion
+        Where the piece is.
+
+    Notes
+    -----
+    On a carrier the force acts at the point of it where the piece is: it moves with the carrier, not with the piece.
+    """
+    check_name("sliding piece", load.slider, motion.sliders)
+    force = -spring_force(load.stiffness, motion.sliders[load.slider].position, load.free_position, load.preload)
+    pull = force_along_guide(motion, load.slider, force)
+    slides = (one for one in joints(mechanism) if isinstance(one, SlidingJoint))
+    carrier = next(one.other for one in slides if one.link == load.slider)
+    if carrier == GROUND:
+        return AppliedLoads((pull,))
+    under = carried_point(motion.frames[carrier], pull.at)
+    return AppliedLoads((pull, AppliedForce(carrier, under, -pull.x, -pull.y)))

@@ -1,0 +1,65 @@
+"""Values against angle or stroke as a table, between its points straight or smooth."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from crankwork.kinematics.crank_grid import Array
+from crankwork.loads.monotone import hermite, monotone_slopes
+
+Curve = Callable[[Array], Array]
+
+
+@dataclass(frozen=True)
+class Table:
+    """A curve through points, which is called like a function.
+
+    Parameters
+    ----------
+    at, values : tuple of float
+        Ascending abscissas, angles in radians or lengths in metres, and ordinates. [rad or m], [N or N m]
+    interpolation : {"linear", "monotone"}
+        Straight, or a smooth curve that never overshoots the points.
+    period : float
+        Period of the abscissa, 0 for none: outside the table the value is then zero. [rad]
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> Table((0.0, 0.1), (0.0, 500.0))(np.array([0.05, 0.2]))
+    array([250.,   0.])
+    """
+
+    at: tuple[float, ...]
+    values: tuple[float, ...]
+    interpolation: Literal["linear", "monotone"] = "linear"
+    period: float = 0.0
+
+    def __post_init__(self) -> None:
+        if len(self.at) != len(self.values) or len(self.at) < 2:
+            raise ValueError(f"a table needs two points or more, not {len(self.at)} and {len(self.values)} numbers")
+        if not all(math.isfinite(one) for one in (*self.at, *self.values)):
+            raise ValueError("a table needs finite numbers")
+        if any(after <= before for before, after in zip(self.at, self.at[1:], strict=False)):
+            raise ValueError("the abscissas of a table must ascend")
+        if self.period and self.at[-1] - self.at[0] > self.period * (1 + 1e-12):
+            raise ValueError("a table must not be longer than its period")
+
+    def __call__(self, at: Array) -> Array:
+        """Return the values at some abscissas."""
+        x, y = np.array(self.at), np.array(self.values)
+        if self.period:
+            at = x[0] + np.mod(at - x[0], self.period)
+            if x[-1] - x[0] < self.period * (1 - 1e-12):
+                x, y = np.append(x, x[0] + self.period), np.append(y, y[0])
+        inside = (at >= x[0]) & (at <= x[-1])
+        if self.interpolation == "linear":
+            value = np.interp(at, x, y)
+        else:
+            value = hermite(x, y, monotone_slopes(x, y, periodic=bool(self.period)), np.clip(at, x[0], x[-1]))
+        return np.where(inside, value, 0.0)

@@ -1,0 +1,161 @@
+"""The joints of a mechanism: which pin or guide holds which link to which other one."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad
+from crankwork.mechanism.linkage import GROUND
+from crankwork.mechanism.mechanism import Mechanism
+
+
+@dataclass(frozen=True)
+class Pin:
+    """A revolute joint.
+
+    Parameters
+    ----------
+    name : str
+        Name of the joint: that of its point, with that of the link where several links hang on one point.
+    link, other : str
+        The link that is held, and the one that holds it or `ground`.
+    point : str
+        Where it is; empty for the pivot of the crank, the origin of its frame.
+    """
+
+    name: str
+    link: str
+    other: str
+    point: str
+
+
+@dataclass(frozen=True)
+class SlidingJoint:
+    """A sliding joint, the x axis of the frame of its piece on the guide.
+
+    Parameters
+    ----------
+    name : str
+        Name of the joint, that of its piece.
+    link, other : str
+        The sliding piece, and the link that carries the guide or `ground`.
+    """
+
+    name: str
+    link: str
+    other: str
+
+
+Joint = Pin | SlidingJoint
+
+
+def joints(mechanism: Mechanism) -> tuple[Joint, ...]:
+    """Return the joints of a mechanism, the pivot of the crank first, then group after group.
+
+    Of three and more links on one pin the first that is placed carries the pin, and the others hang on it.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A crank and groups.
+    """
+    bearer = bearers(mechanism)
+    crank = mechanism.crank.link
+    found: list[Joint] = [Pin(f"{crank}_pivot", crank, GROUND, "")]
+    for group in mechanism.dyads:
+        found += _chain_joints(group, bearer) if isinstance(group, Chain) else _dyad_joints(group, bearer)
+    count = Counter(one.point for one in found if isinstance(one, Pin))
+    return tuple(
+        replace(one, name=f"{one.name}_{one.link}") if isinstance(one, Pin) and count[one.point] > 1 else one
+        for one in found
+    )
+
+
+def bearers(mechanism: Mechanism) -> dict[str, str]:
+    """Return the link, or `ground`, that each named point belongs to; the first one of those that meet there.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A crank and groups.
+    """
+    bearer = {**dict.fromkeys(mechanism.ground, GROUND), mechanism.crank.pin: mechanism.crank.link}
+    bearer |= {one.name: one.link for one in mechanism.points}
+    for group in mechanism.dyads:
+        match group:
+            case RRR():
+                bearer[group.point] = group.link_a
+            case RRP():
+                bearer[group.slider] = group.piece
+            case PRP():
+                bearer[group.point] = group.block_a
+            case Chain():
+                for link in group.links:
+                    for name in link.points:
+                        bearer.setdefault(name, link.name)
+    return bearer
+
+
+def group_links(group: Dyad | Chain) -> tuple[str, ...]:
+    """Return the names of the links of a group.
+
+    Parameters
+    ----------
+    group : Dyad or Chain
+        The group.
+    """
+    match group:
+        case RRR():
+            return group.link_a, group.link_b
+        case RRP():
+            return group.link, group.piece
+        case RPR() | RPP():
+            return group.link, group.block
+        case PRP():
+            return group.block_a, group.block_b
+        case Chain():
+            return tuple(link.name for link in group.links)
+
+
+def _dyad_joints(dyad: Dyad, bearer: dict[str, str]) -> list[Joint]:
+    """Return the three joints of a dyad: the outer ones, and between them the inner one."""
+
+    def hung(point: str, link: str) -> Pin:
+        return Pin(point, link, bearer[point], point)
+
+    match dyad:
+        case RRR():
+            inner = Pin(dyad.point, dyad.link_b, dyad.link_a, dyad.point)
+            return [hung(dyad.joint_a, dyad.link_a), inner, hung(dyad.joint_b, dyad.link_b)]
+        case RRP():
+            inner = Pin(dyad.slider, dyad.piece, dyad.link, dyad.slider)
+            return [hung(dyad.joint, dyad.link), inner, _on_guide(dyad.piece, dyad.guide_link)]
+        case RPR():
+            return [hung(dyad.joint, dyad.block), _on_guide(dyad.block, dyad.link), hung(dyad.pivot, dyad.link)]
+        case PRP():
+            inner = Pin(dyad.point, dyad.block_b, dyad.block_a, dyad.point)
+            a, b = _on_guide(dyad.block_a, dyad.guide_a.link), _on_guide(dyad.block_b, dyad.guide_b.link)
+            return [a, inner, b]
+        case RPP():
+            return [
+                hung(dyad.joint, dyad.block),
+                _on_guide(dyad.block, dyad.link),
+                _on_guide(dyad.link, dyad.guide.link),
+            ]
+
+
+def _on_guide(piece: str, carrier: str) -> SlidingJoint:
+    return SlidingJoint(piece, piece, carrier or GROUND)
+
+
+def _chain_joints(chain: Chain, bearer: dict[str, str]) -> Iterator[Joint]:
+    for link in chain.links:
+        for name in link.points:
+            shared = sum(name in one.points for one in chain.links) > 1
+            if name in chain.known or (shared and bearer[name] != link.name):
+                yield Pin(name, link.name, bearer[name], name)
+    for slide in chain.slides:
+        yield _on_guide(slide.link, slide.guide.link)

@@ -1,0 +1,26 @@
+"""The one table of quantities: key, symbols, display unit, label in three languages, definition.
+
+Tables, figures, notes, the studio and the nomenclature page all read it. Symbols are written as
+`base_subscript`; where Russian or Vietnamese books use the English symbol, it is not repeated.
+"""
+
+from __future__ import annotations
+
+from crankwork.quantities import engine, linkage, shaft
+from crankwork.quantities.quantity import LANGUAGES, Language, Quantity
+
+__all__ = ["LANGUAGES", "Language", "QUANTITIES", "Quantity", "base_key"]
+
+QUANTITIES: dict[str, Quantity] = {row.key: row for row in (*engine.ROWS, *linkage.ROWS, *shaft.ROWS)}
+
+
+def base_key(key: str) -> str:
+    """Return the key of the table row behind a derived key.
+
+    `piston_velocity_max_angle` is derived from `piston_velocity`, and `joint_force_max.A` from `joint_force`.
+    """
+    key = key.partition(".")[0]
+    for suffix in ("_angle", "_max", "_min", "_error"):
+        if key not in QUANTITIES:
+            key = key.removesuffix(suffix)
+    return key

@@ -1,0 +1,116 @@
+"""Any quantities over the crank angle as line charts, one panel below the other."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from crankwork.errors import CrankworkError
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.quantities import Quantity
+from crankwork.report.figure_look import (
+    BOTTOM,
+    DASH_DOT,
+    DASHED,
+    DOTTED,
+    SOLID,
+    Curve,
+    add_axes,
+    draw_curves,
+    math_symbol,
+    new_figure,
+    over_crank_angle,
+    svg,
+    through_zero,
+)  # fmt: skip
+from crankwork.report.language import unit_name
+from crankwork.report.linkage_look import PLAIN, Style, axis_title, displayed_values, figure_look, quantity_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_STYLES = (SOLID, DASHED, DASH_DOT, DOTTED)
+_PANEL, _GAP, _LEGEND_ROW = 1.75, 0.2, 0.185
+
+
+def curves(
+    grid: CrankGrid,
+    columns: Mapping[str, Array],
+    panels: Sequence[str | Sequence[str]],
+    title: str,
+    style: Style = PLAIN,
+    *,
+    rows: Mapping[str, Quantity] | None = None,
+) -> bytes:
+    """Return quantities over the crank angle, one panel below the other.
+
+    Parameters
+    ----------
+    grid : CrankGrid, shape (n,)
+        Crank angles. [rad]
+    columns : mapping of str to array, shape (n,)
+        Values in SI by key, `joint_force.A` for what belongs to a point or link.
+    panels : sequence of str or sequence of str
+        Keys of each panel; those of one panel share a unit.
+    title : str
+        For readers who cannot see it.
+    style : Style
+        Language, and how the numbers were made.
+    rows : mapping of str to Quantity, optional
+        Name, symbol and unit of keys that the table of quantities lacks.
+
+    Returns
+    -------
+    bytes
+        SVG.
+
+    Raises
+    ------
+    CrankworkError
+        If a key is not known, has no column, or its unit differs from that of its panel.
+    """
+    sets = [_panel((one,) if isinstance(one, str) else tuple(one), columns, rows or {}) for one in panels]
+    if not sets:
+        raise CrankworkError("curves need at least one key")
+    legends = [_LEGEND_ROW * len(one) + 0.06 if len(one) > 1 else 0.0 for one in sets]
+    tall = 3.0 if len(sets) == 1 else _PANEL
+    with figure_look():
+        figure = new_figure(BOTTOM + len(sets) * (tall + _GAP) + sum(legends))
+        foot = BOTTOM
+        for count, (quantities, legend) in enumerate(zip(reversed(sets), reversed(legends), strict=True)):
+            axes = add_axes(figure, style.language, foot, tall)
+            _draw(axes, grid, [(row, columns[row.key]) for row in quantities], style)
+            if count:
+                axes.set_xlabel("")
+                axes.tick_params(labelbottom=False)
+            foot += tall + _GAP + legend
+        return svg(figure, title, style.method)
+
+
+def _panel(keys: tuple[str, ...], columns: Mapping[str, Array], rows: Mapping[str, Quantity]) -> list[Quantity]:
+    """Return the quantities of a panel."""
+    missing = [key for key in keys if key not in columns]
+    if missing:
+        raise CrankworkError(f"there is no column {missing[0]}; there is {', '.join(columns)}")
+    found = [quantity_of(key, rows)._replace(key=key) for key in keys]
+    units = {row.unit for row in found}
+    if len(units) > 1:
+        raise CrankworkError(f"{', '.join(keys)} have different units; give each a panel of its own")
+    return found
+
+
+def _draw(axes: Axes, grid: CrankGrid, values: Sequence[tuple[Quantity, Array]], style: Style) -> None:
+    lines = [
+        Curve(row.symbol(style.language), row.label(style.language), displayed_values(row, column), _STYLES[i % 4])
+        for i, (row, column) in enumerate(values)
+    ]
+    first = values[0][0]
+    unit = unit_name(first.unit, style.language)
+    draw_curves(axes, grid.degrees, lines, one_row=len(lines) == 1)
+    over_crank_angle(axes, float(grid.degrees[-1]), style.language)
+    through_zero(axes, *(one.values for one in lines))
+    if len(lines) == 1:
+        axes.set_ylabel(axis_title(first, style.language).replace(" $", "\n$", 1))
+    else:
+        names = ", ".join(dict.fromkeys(math_symbol(one.symbol) for one in lines)) if len(lines) < 5 else ""
+        axes.set_ylabel(f"{names}, {unit}" if names and unit else names or unit)

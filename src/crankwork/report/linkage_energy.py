@@ -1,0 +1,179 @@
+"""The energy-mass diagram with its tangents, and the angular speed that follows."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.quantities import QUANTITIES, Language, Quantity
+from crankwork.report.figure_labels import Line, label_points
+from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED, over_crank_angle, single_axes, svg
+from crankwork.report.language import number, symbol, unit_name
+from crankwork.report.linkage_look import PLAIN, Style, axis_title, figure_look, linkage_title, quantity_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+class Fluctuation(NamedTuple):
+    """How evenly the crank turns: mean angular speed [rad/s] and its coefficient of fluctuation [-]."""
+
+    mean: float
+    delta: float
+
+
+class Tangents(NamedTuple):
+    """The tangents of the energy-mass curve at largest and smallest speed, y = slope x + foot. [J], [kg m2]
+
+    `flywheel` is the reduced inertia that has to be added: where they meet, counted to the left.
+    """
+
+    slope_max: float
+    slope_min: float
+    foot_max: float
+    foot_min: float
+    touch_max: int
+    touch_min: int
+
+    @property
+    def flywheel(self) -> float:
+        """Reduced moment of inertia that keeps the speed within its limits. [kg m2]"""
+        return (self.foot_max - self.foot_min) / (self.slope_max - self.slope_min)
+
+
+def tangents(inertia: Array, energy: Array, wanted: Fluctuation) -> Tangents:
+    """Return the two tangents of the energy-mass curve.
+
+    Parameters
+    ----------
+    inertia, energy : array, shape (n,)
+        Reduced moment of inertia [kg m2] and change of the kinetic energy [J] over one cycle.
+    wanted : Fluctuation
+        Mean speed and coefficient.
+
+    Notes
+    -----
+    tan psi = w^2 (1 +- delta) / 2; the upper tangent touches the curve from above, the lower one from below.
+
+    References
+    ----------
+    artobolevsky_1988
+    """
+    high, low = (0.5 * wanted.mean**2 * (1 + side * wanted.delta) for side in (1, -1))
+    above, below = energy - high * inertia, energy - low * inertia
+    i, j = int(np.argmax(above)), int(np.argmin(below))
+    return Tangents(high, low, float(above[i]), float(below[j]), i, j)
+
+
+def wittenbauer(inertia: Array, energy: Array, wanted: Fluctuation, degrees: Array, style: Style = PLAIN) -> bytes:
+    """Return the energy-mass diagram, its tangents and the piece kl that they cut from the energy axis.
+
+    Parameters
+    ----------
+    inertia, energy : array, shape (n,)
+        Reduced moment of inertia [kg m2] and change of the kinetic energy [J] over one cycle.
+    wanted : Fluctuation
+        Mean speed and coefficient.
+    degrees : array, shape (n,)
+        Crank angles; every thirtieth degree is marked. [deg]
+    style : Style
+        Language, and how the numbers were made.
+
+    Returns
+    -------
+    bytes
+        SVG.
+    """
+    found, language = tangents(inertia, energy, wanted), style.language
+    with figure_look():
+        figure, axes = single_axes(language, 2, height=4.6)
+        _lines(axes, inertia, energy, found, degrees, language)
+        axes.set_xlabel(_title("reduced_inertia", language))
+        axes.set_ylabel(_title("kinetic_energy_change", language))
+        axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=1, handlelength=3.2, borderpad=0.2)
+        flywheel = {"en": "flywheel", "ru": "маховик", "vi": "bánh đà"}[language]
+        shown = f"{number(found.flywheel, language, digits=4)} {unit_name('kg*m2', language)}"
+        slopes = r"\tan ψ_{\text{max}} - \tan ψ_{\text{min}}"
+        return svg(
+            figure, linkage_title("wittenbauer", language), style.method, f"{flywheel}: $kl/({slopes})$ = {shown}"
+        )
+
+
+def _lines(axes: Axes, inertia: Array, energy: Array, found: Tangents, degrees: Array, language: Language) -> None:
+    """Draw the curve, its tangents down to the energy axis, and the angles on it."""
+    width = 1.08 * float(np.max(inertia))
+    feet = (found.foot_max, found.foot_min)
+    through = np.array([*energy, *feet, 0.0])
+    margin = 0.06 * float(np.ptp(through))
+    axes.set_xlim(0, width)
+    axes.set_ylim(float(through.min()) - margin, float(through.max()) + margin)
+    axes.plot(inertia, energy, color="black")
+    axes.axhline(0, color="black", linewidth=0.8)
+    lines: list[Line] = [(inertia, energy)]
+    looks = ((found.slope_max, DASHED, "max"), (found.slope_min, DASH_DOT, "min"))
+    for foot, (slope, line, name) in zip(feet, looks, strict=True):
+        ends = ([0.0, width], [foot, foot + slope * width])
+        axes.plot(*ends, color="black", linestyle=line, linewidth=0.9, label=_angle(axes, slope, name, language))
+        lines.append(ends)
+    marks = [int(np.argmin(np.abs(degrees - one))) for one in np.arange(0, float(degrees[-1]) - 1, 30)]
+    points = [(f"{degrees[i]:g}", float(inertia[i]), float(energy[i])) for i in marks]
+    label_points(axes, [*points, ("k", 0.0, feet[0]), ("l", 0.0, feet[1])], *lines)
+
+
+# rows for the diagram until the table of quantities holds them
+_ROWS = {
+    "reduced_inertia": Quantity("reduced_inertia", "kg*m2", ("J", "J_пр", "J_tt"), (
+        "reduced moment of inertia", "приведённый момент инерции", "mômen quán tính thu gọn"), ""),
+    "kinetic_energy_change": Quantity("kinetic_energy_change", "J", ("ΔT", "ΔT", "ΔT"), (
+        "change of kinetic energy", "изменение кинетической энергии", "độ biến thiên động năng"), ""),
+}  # fmt: skip
+
+
+def _title(key: str, language: Language) -> str:
+    return axis_title(QUANTITIES.get(key) or _ROWS[key], language)
+
+
+def _angle(axes: Axes, slope: float, name: str, language: Language) -> str:
+    """Return the angle of a tangent on paper, in words of the legend."""
+    (left, right), (bottom, top), box = axes.get_xlim(), axes.get_ylim(), axes.get_window_extent()
+    angle = math.degrees(math.atan(slope * (right - left) / box.width * box.height / (top - bottom)))
+    words = {"en": "slope", "ru": "наклон", "vi": "hệ số góc"}[language]
+    unit = f"{unit_name('J', language)}/({unit_name('kg*m2', language)})"
+    shown = f"{words} {number(slope, language, digits=4)} {unit}"
+    return f"$ψ_{{\\text{{{name}}}}}$ = {number(angle, language, digits=4)}°; {shown}"
+
+
+def speed_curve(grid: CrankGrid, speed: Array, style: Style = PLAIN) -> bytes:
+    """Return the angular speed of the crank over one cycle, with its largest, mean and smallest value.
+
+    Parameters
+    ----------
+    grid : CrankGrid, shape (n,)
+        Crank angles. [rad]
+    speed : array, shape (n,)
+        Angular speed. [rad/s]
+    style : Style
+        Language, and how the numbers were made.
+    """
+    language, row = style.language, quantity_of("speed", {})
+    low, high = float(np.min(speed)), float(np.max(speed))
+    with figure_look():
+        figure, axes = single_axes(language, 1)
+        axes.plot(grid.degrees, speed, color="black")
+        sign = symbol("speed", language)
+        for value, name, line in ((high, "max", DOTTED), ((low + high) / 2, "m", DASHED), (low, "min", DOTTED)):
+            text = f"${sign}_{{\\text{{{name}}}}}$ = {number(value, language, digits=5)}"
+            axes.axhline(value, color="black", linewidth=0.8, linestyle=line, label=text)
+        delta = 2 * (high - low) / (high + low)
+        axes.plot([], [], " ", label=f"$δ$ = {number(delta, language, digits=3)}")
+        axes.legend(
+            loc="lower left", bbox_to_anchor=(0, 1), ncols=4, handlelength=2.4, borderpad=0.2, columnspacing=1.4
+        )
+        spare = 0.08 * (high - low) or 0.01 * high
+        axes.set_ylim(low - spare, high + spare)
+        over_crank_angle(axes, float(grid.degrees[-1]), language)
+        axes.set_ylabel(axis_title(row, language))
+        return svg(figure, linkage_title("speed", language), style.method)

@@ -1,0 +1,199 @@
+"""Velocity and acceleration plans as figures: vectors from the pole to scale, and what each of them is."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from crankwork.kinematics.motion import Motion
+from crankwork.mechanism.mechanism import Mechanism
+from crankwork.quantities import Language
+from crankwork.report.figure_labels import Line, label_points
+from crankwork.report.figure_look import DASH_DOT, DASHED, WIDTH, math_symbol, new_figure, svg
+from crankwork.report.language import number, symbol, unit_name
+from crankwork.report.linkage_look import (
+    PLAIN,
+    POINTS_PER_MM,
+    Style,
+    figure_look,
+    linkage_title,
+    round_scale,
+    scale_text,
+)
+from crankwork.report.linkage_plans import Kind, Plan, Vector, accelerations, velocities
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_SIDE, _TALL, _MARGIN, _LIST, _ROW = 290.0, 330.0, 26.0, 150.0, 13.5
+_UNDER = 3
+_LOOKS: dict[Kind, tuple[float, str | tuple[float, tuple[float, ...]]]] = {
+    "absolute": (1.6, "-"), "relative": (0.9, "-"), "tangential": (0.9, "-"), "sliding": (0.9, "-"),
+    "normal": (0.9, DASHED), "coriolis": (0.9, DASH_DOT),
+}  # fmt: skip
+_MARKS: dict[Kind, str] = {
+    "absolute": "", "relative": "", "normal": "^n", "tangential": "^t", "coriolis": "^k", "sliding": "^r"
+}  # fmt: skip
+
+
+class _Kind(NamedTuple):
+    """Velocities or accelerations: title, symbol, unit, symbol and unit of turning, pole, the plan's own letter."""
+
+    title: str
+    sign: str
+    unit: str
+    turning: str
+    turning_unit: str
+    pole: str
+
+
+def velocity_plan(mechanism: Mechanism, moving: Motion, index: int, speed: float, style: Style = PLAIN) -> bytes:
+    """Return the velocity plan of a linkage at one crank angle.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A crank and groups.
+    moving : Motion
+        Its exact motion.
+    index : int
+        Which of the crank angles.
+    speed : float
+        Of the crank. [rad/s]
+    style : Style
+        Language, order of the links.
+
+    Returns
+    -------
+    bytes
+        SVG; vectors from the pole p bold, between points of one link or along a slot thin.
+    """
+    kind = _Kind("velocity_plan", "v", "m/s", symbol("speed", style.language), "rad/s", "p")
+    return _figure(velocities(mechanism, moving, index, speed, style.links), kind, moving.grid.degrees[index], style)
+
+
+def acceleration_plan(
+    mechanism: Mechanism,
+    moving: Motion,
+    index: int,
+    speed: float,
+    angular_acceleration: float = 0.0,
+    style: Style = PLAIN,
+) -> bytes:
+    """Return the acceleration plan of a linkage at one crank angle.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A crank and groups.
+    moving : Motion
+        Its exact motion.
+    index : int
+        Which of the crank angles.
+    speed, angular_acceleration : float
+        Of the crank. [rad/s], [rad/s2]
+    style : Style
+        Language, order of the links.
+
+    Returns
+    -------
+    bytes
+        SVG; vectors from the pole bold, normal parts dashed, Coriolis parts dash-dotted.
+    """
+    plan = accelerations(mechanism, moving, index, speed, angular_acceleration, style.links)
+    pole = "q" if style.language == "en" else "π"
+    kind = _Kind("acceleration_plan", "a", "m/s2", symbol("angular_acceleration", style.language), "rad/s2", pole)
+    return _figure(plan, kind, moving.grid.degrees[index], style)
+
+
+def _figure(plan: Plan, kind: _Kind, degrees: float, style: Style) -> bytes:
+    """Draw a plan, and beside it what its vectors and the turning of the links are."""
+    language = style.language
+    seen = [one for one in plan.vectors if one.length > 1e-9 * max(other.length for other in plan.vectors)]
+    places = np.array([[0.0, 0.0], *(end for one in seen for end in (one.start, one.end))])
+    width, height = np.maximum(np.ptp(places, axis=0), 1e-12)
+    scale = round_scale(float(POINTS_PER_MM * max(width / (_SIDE - 2 * _MARGIN), height / (_TALL - 2 * _MARGIN))))
+    unit = POINTS_PER_MM / scale
+    rows = _rows(seen, plan, kind, language)
+    tall = max(float(height) * unit + 2 * _MARGIN, _ROW * len(rows) + 30) + 34
+    with figure_look():
+        figure = new_figure(tall / 72, WIDTH)
+        axes = figure.add_axes((0, 0, 1, 1))
+        axes.set_axis_off()
+        middle = (places.min(axis=0) + places.max(axis=0)) / 2 * unit
+        left, bottom = middle[0] - _SIDE / 2, middle[1] - (tall + 34) / 2
+        axes.set_xlim(left, left + WIDTH * 72)
+        axes.set_ylim(bottom, bottom + tall)
+        _vectors(axes, seen, unit)
+        _nodes(axes, plan, kind.pole, seen, unit)
+        for count, row in enumerate(rows):
+            axes.text(left + WIDTH * 72 - _LIST, bottom + tall - 20 - _ROW * count, row, size=8.5, va="center")
+        axes.text(left + 14, bottom + 20, scale_text(f"μ_{kind.sign}", scale, kind.unit, language), size=9)
+        shown = f"${symbol('crank_angle', language)}$ = {number(float(degrees), language)}°"
+        axes.text(left + WIDTH * 72 - 14, bottom + 20, shown, size=9, ha="right")
+        title = f"{linkage_title(kind.title, language)}, {number(float(degrees), language)}°"
+        return svg(figure, title, style.method, _remark(plan, kind, language))
+
+
+def _remark(plan: Plan, kind: _Kind, language: Language) -> str:
+    """Return what the sign of turning means, and what a point with the number of a link is."""
+    turning = {
+        "en": "{} > 0 anticlockwise",
+        "ru": "{} > 0 – против часовой стрелки",
+        "vi": "{} > 0: ngược chiều kim đồng hồ",
+    }
+    under = {"en": "{}: points of links {} under {}", "ru": "{} – точки звеньев {}, совпадающие с {}",
+             "vi": "{}: các điểm thuộc khâu {} trùng với {}"}  # fmt: skip
+    remarks = [turning[language].format(kind.turning)]
+    if plan.beneath:
+        some = list(plan.beneath.items())[:_UNDER]
+        names = (
+            (_plain(name) for name, _ in some),
+            (str(link) for _, (link, _) in some),
+            (_plain(one) for _, (_, one) in some),
+        )
+        remarks.append(under[language].format(*(", ".join(one) for one in names)))
+    return "; ".join(remarks)
+
+
+def _vectors(axes: Axes, vectors: list[Vector], unit: float) -> None:
+    for one in vectors:
+        width, line = _LOOKS[one.kind]
+        head = "-|>,head_length=0.45,head_width=0.16" if one.length * unit > 6 else "-"
+        look = {"arrowstyle": head, "linewidth": width, "linestyle": line, "color": "black", "shrinkA": 0, "shrinkB": 0}
+        axes.annotate("", tuple(one.end * unit), tuple(one.start * unit), arrowprops={**look, "mutation_scale": 14.0})
+
+
+def _nodes(axes: Axes, plan: Plan, pole: str, vectors: list[Vector], unit: float) -> None:
+    """Name the pole and the ends of the vectors."""
+    points = [(pole, 0.0, 0.0)]
+    points += [(node_name(name), float(at[0] * unit), float(at[1] * unit)) for name, at in plan.nodes.items()
+               if np.hypot(*at) * unit > 1.0]  # fmt: skip
+    lines: list[Line] = [tuple(np.array([one.start, one.end]).T * unit) for one in vectors]
+    label_points(axes, points, *lines)
+
+
+def node_name(letter: str) -> str:
+    """Return the letter of the end of a vector: that of its point, small."""
+    return letter[0].lower() + letter[1:] if len(letter) <= 3 else letter
+
+
+def _rows(vectors: list[Vector], plan: Plan, kind: _Kind, language: Language) -> list[str]:
+    """Return the magnitudes of the vectors and the turning of the links."""
+    rows, unit = [], unit_name(kind.unit, language)
+    for one in vectors:
+        mark = _MARKS[one.kind] if kind.sign == "a" else ""
+        name = math_symbol(f"{kind.sign}_{_plain(one.of)}").removesuffix("$")
+        rows.append(f"{name}{mark}$ = {number(one.length, language, digits=4)} {unit}")
+    unit = unit_name(kind.turning_unit, language)
+    for link, value in plan.turning.items():
+        if abs(value) > 1e-9 * max(abs(one) for one in plan.turning.values()):
+            name = math_symbol(f"{kind.turning}_{link}")
+            rows.append(f"{name} = {number(value, language, digits=4)} {unit}")
+    return rows
+
+
+def _plain(name: str) -> str:
+    """Return a name without what mathtext would read."""
+    return "".join(one if one.isalnum() or one in "′'. " else "-" for one in name)

@@ -1,0 +1,191 @@
+"""One equation y' = f(x, y) on panels of Gauss points, all panels at once: from a start value, or periodic.
+
+On each panel y is a polynomial that satisfies the equation at the Gauss points, which is the implicit Runge-Kutta
+method of order 16. Newton's method acts on the whole row of panels; each is condensed to what it does to its start
+value, so that the row is closed by one short recurrence. A panel whose polynomial does not die out is halved.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial import legendre
+
+from crankwork.kinematics.crank_grid import Array
+
+Rate = Callable[[Array, Array], Array]
+
+POINTS = 8
+_X, _W = legendre.leggauss(POINTS)
+NODES, WEIGHTS = (_X + 1) / 2, _W / 2
+# values at the points -> Legendre coefficients -> integral from the start of the panel, at any point of it
+_TO_SERIES = (np.arange(POINTS) + 0.5)[:, None] * legendre.legvander(_X, POINTS - 1).T * _W
+_TO_INTEGRAL = legendre.legint(np.eye(POINTS), lbnd=-1) / 2
+INTEGRATION = legendre.legvander(_X, POINTS) @ _TO_INTEGRAL @ _TO_SERIES
+
+# a solution that wants to pass zero step after step has no place above it
+_MOST_HELD = 6
+_STEPS, _ROUNDS, _MOST_PANELS = 40, 12, 20000
+TOLERANCE = 1e-13
+
+
+@dataclass(frozen=True)
+class Panels:
+    """A solution on panels.
+
+    Parameters
+    ----------
+    edges, values : array, shape (n + 1,)
+        Where panels meet, and the solution there. [unit of x], [unit of y]
+    points, inside, rate : array, shape (n, 8)
+        Gauss points of the panels, solution and its derivative there. [unit of x], [unit of y], [y / x]
+    converged : bool
+        Whether Newton's method settled and every polynomial died out.
+    multiplier : float
+        Change of the last value per change of the first. [-]
+    """
+
+    edges: Array
+    values: Array
+    points: Array
+    inside: Array
+    rate: Array
+    converged: bool
+    multiplier: float
+
+    def __call__(self, x: Array) -> Array:
+        """Return the solution anywhere on the panels."""
+        panel = np.clip(np.searchsorted(self.edges, x, side="right") - 1, 0, len(self.edges) - 2)
+        h = np.diff(self.edges)[panel]
+        place = 2 * (x - self.edges[panel]) / h - 1
+        series = self.rate[panel] @ (_TO_INTEGRAL @ _TO_SERIES).T
+        return np.asarray(self.values[panel] + h * np.sum(legendre.legvander(place, POINTS) * series, axis=-1))
+
+
+def panel_points(edges: Array) -> Array:
+    """Return the Gauss points of panels, shape (n, 8)."""
+    return edges[:-1, None] + np.diff(edges)[:, None] * NODES
+
+
+def tails(values: Array) -> Array:
+    """Return, for each panel, how large the last two Legendre coefficients of a function are, shape (n,).
+
+    Parameters
+    ----------
+    values : array, shape (n, 8)
+        The function at the Gauss points. [its unit]
+    """
+    series = np.abs(values @ _TO_SERIES.T)
+    return np.asarray(series[:, -1] + series[:, -2])
+
+
+def integrate(rate: Rate, edges: Array, start: float, *, guess: Array | None = None, positive: bool = False) -> Panels:
+    """Return the solution with a given first value.
+
+    Parameters
+    ----------
+    rate : callable
+        f(x, y), of arrays of any one shape.
+    edges : array, shape (n + 1,)
+        Panels to begin with; f is smooth inside each. [unit of x]
+    start : float
+        The first value. [unit of y]
+    guess : array, shape (n + 1,), optional
+        Values at the edges to begin with. [unit of y]
+    positive : bool
+        Whether the solution must stay above zero.
+
+    References
+    ----------
+    hairer_wanner_1996, sec. IV.5, Gauss methods.
+    """
+    values = np.full_like(edges, start) if guess is None else guess
+    return _refined(rate, edges, values, start, positive=positive)
+
+
+def integrate_periodic(rate: Rate, edges: Array, guess: Array, *, positive: bool = False) -> Panels:
+    """Return the solution whose last value is its first.
+
+    Parameters
+    ----------
+    rate : callable
+        f(x, y), of arrays of any one shape; it must depend on y.
+    edges : array, shape (n + 1,)
+        Panels to begin with, over one period. [unit of x]
+    guess : array, shape (n + 1,)
+        Values at the edges to begin with. [unit of y]
+    positive : bool
+        Whether the solution must stay above zero.
+
+    References
+    ----------
+    hairer_wanner_1996, sec. IV.5, Gauss methods.
+    """
+    return _refined(rate, edges, guess, None, positive=positive)
+
+
+def _refined(rate: Rate, edges: Array, values: Array, start: float | None, *, positive: bool) -> Panels:
+    for _ in range(_ROUNDS):
+        solved = _newton(rate, edges, values, start, positive=positive)
+        if not solved.converged:
+            return solved
+        bad = tails(solved.rate) * np.diff(edges) > TOLERANCE * np.max(np.abs(solved.values))
+        if not bad.any() or len(edges) > _MOST_PANELS:
+            return solved
+        edges = np.sort(np.concatenate([edges, (edges[1:] + edges[:-1])[bad] / 2]))
+        values = solved(edges)
+    return solved
+
+
+def _newton(rate: Rate, edges: Array, values: Array, start: float | None, *, positive: bool) -> Panels:
+    h, x = np.diff(edges), panel_points(edges)
+    y = values[:-1, None] + np.diff(values)[:, None] * NODES
+    values = values.copy()
+    multiplier, last, held = np.nan, np.inf, 0
+    for _ in range(_STEPS):
+        f = rate(x, y)
+        # the slope only steers Newton's method; what it converges to does not depend on it
+        step = 1e-7 * np.maximum(np.abs(y), 1e-9 * np.max(np.abs(y)) + 1e-300)
+        slope = (rate(x, y + step) - f) / step
+        if not (np.all(np.isfinite(f)) and np.all(np.isfinite(slope))):
+            break
+        matrix = np.eye(POINTS) - h[:, None, None] * INTEGRATION * slope[:, None, :]
+        miss = values[:-1, None] + h[:, None] * (f @ INTEGRATION.T) - y
+        answer = np.linalg.solve(matrix, np.stack([miss, np.ones_like(miss)], axis=-1))
+        own, by_start = answer[..., 0], answer[..., 1]
+        added = h * ((f + slope * own) @ WEIGHTS) + values[:-1] - values[1:]
+        factor = 1 + h * ((slope * by_start) @ WEIGHTS)
+        change, multiplier = _closed(added.tolist(), factor.tolist(), None if start is None else start - values[0])
+        move = own + by_start * change[:-1, None]
+        part = _allowed(y, move, values, change) if positive else 1.0
+        held += part < 1
+        if held > _MOST_HELD:
+            break
+        y, values = y + part * move, values + part * change
+        size = float(np.max(np.abs(move)) / max(float(np.max(np.abs(y))), 1e-300))
+        if part == 1 and (size <= 1e-14 or (size <= 1e-10 and size >= last / 4)):
+            return Panels(edges, values, x, y, rate(x, y), converged=True, multiplier=multiplier)
+        last = size
+    return Panels(edges, values, x, y, np.full_like(y, np.nan), converged=False, multiplier=multiplier)
+
+
+def _closed(added: list[float], factor: list[float], first: float | None) -> tuple[Array, float]:
+    """Return the changes at all edges, e -> factor e + added, from the first or closing on itself."""
+    total, constant = 1.0, 0.0
+    if first is None:
+        for a, b in zip(added, factor, strict=True):
+            total, constant = total * b, constant * b + a
+        first = constant / (1 - total) if total != 1 else np.nan
+    changes, product = [first], 1.0
+    for a, b in zip(added, factor, strict=True):
+        changes.append(changes[-1] * b + a)
+        product *= b
+    return np.array(changes), product
+
+
+def _allowed(y: Array, move: Array, values: Array, change: Array) -> float:
+    """Return the part of a step that takes no value more than nine tenths of the way to zero."""
+    worst = max(float(np.max(-move / y)), float(np.max(-change / values)))
+    return min(1.0, 0.9 / worst) if worst > 0 else 1.0

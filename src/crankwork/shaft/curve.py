@@ -1,0 +1,296 @@
+"""Quantities over the crank angle as piecewise polynomials: their integral, extremes and zeros without sampling."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from crankwork.errors import MethodError
+from crankwork.kinematics.crank_grid import Array
+from crankwork.loads.monotone import monotone_slopes
+
+# Where a polynomial is looked at for changes of sign, inside each of its intervals.
+_PARTS = 8
+_BISECTIONS = 100
+
+
+class Extremes(NamedTuple):
+    """The least and the largest value of a curve over its cycle, and the first angles where they occur. [rad]"""
+
+    least: float
+    at_least: float
+    largest: float
+    at_largest: float
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A quantity over one cycle of the crank, repeated in every cycle. Made by `linear`, `hermite` or `smooth`.
+
+    Parameters
+    ----------
+    angle : array, shape (n + 1,)
+        Ascending angles between which it is a polynomial; the last is the first, one cycle on. [rad]
+    coefficients : array, shape (k, n)
+        Coefficients of ascending powers of the angle from the start of each interval. [unit of the quantity / rad^i]
+    growth : float
+        How much it grows per cycle; zero unless it is the integral of a quantity with a mean. [unit of the quantity]
+    """
+
+    angle: Array
+    coefficients: Array
+    growth: float = 0.0
+
+    @classmethod
+    def linear(cls, angle: ArrayLike, value: ArrayLike) -> Self:
+        """Return the broken line through given corners; an angle given twice is a jump.
+
+        Parameters
+        ----------
+        angle : array, shape (n,)
+            Angles that do not descend, over one whole cycle. [rad]
+        value : array, shape (n,)
+            The quantity there. [its unit]
+
+        Examples
+        --------
+        >>> Curve.linear([0.0, 1.0, 3.0], [0.0, 6.0, 0.0]).mean
+        3.0
+        """
+        angle, value = _checked(angle, value)
+        step = np.diff(angle)
+        real = step > 0
+        left, rise = value[:-1][real], np.diff(value)[real] / step[real]
+        return cls(np.concatenate([angle[:-1][real], angle[-1:]]), np.stack([left, rise]))
+
+    @classmethod
+    def hermite(cls, angle: ArrayLike, value: ArrayLike, slope: ArrayLike) -> Self:
+        """Return the piecewise cubic with given values and slopes.
+
+        Parameters
+        ----------
+        angle : array, shape (n,)
+            Ascending angles over one whole cycle. [rad]
+        value, slope : array, shape (n,)
+            The quantity and its derivative by the angle. [its unit], [its unit / rad]
+        """
+        angle, value = _checked(angle, value)
+        slope = np.asarray(slope, dtype=float)
+        h = np.diff(angle)
+        if np.any(h <= 0):
+            raise MethodError("angles must ascend; give a quantity with jumps as corners of a broken line")
+        rise = np.diff(value) / h
+        second = (3 * rise - 2 * slope[:-1] - slope[1:]) / h
+        third = (slope[:-1] + slope[1:] - 2 * rise) / h**2
+        return cls(angle, np.stack([value[:-1], slope[:-1], second, third]))
+
+    @classmethod
+    def smooth(cls, angle: ArrayLike, value: ArrayLike) -> Self:
+        """Return the smooth closed curve through given points that never overshoots them.
+
+        Parameters
+        ----------
+        angle : array, shape (n,)
+            Ascending angles over one whole cycle. [rad]
+        value : array, shape (n,)
+            The quantity there; the last repeats the first. [its unit]
+        """
+        angle, value = _checked(angle, value)
+        return cls.hermite(angle, value, monotone_slopes(angle, value, periodic=True))
+
+    @classmethod
+    def constant(cls, value: float, cycle: float = 2 * np.pi) -> Self:
+        """Return a quantity that does not change.
+
+        Parameters
+        ----------
+        value, cycle : float
+            The quantity, and the length of the cycle. [its unit], [rad]
+        """
+        return cls(np.array([0.0, cycle]), np.array([[float(value)]]))
+
+    @property
+    def cycle(self) -> float:
+        """Length of the cycle. [rad]"""
+        return float(self.angle[-1] - self.angle[0])
+
+    def __call__(self, angle: ArrayLike) -> Array:
+        """Return the quantity at any angles, from the right at a jump."""
+        turns, interval, u = self._place(angle)
+        value = self.coefficients[-1][interval]
+        for power in self.coefficients[-2::-1]:
+            value = value * u + power[interval]
+        return np.asarray(value + turns * self.growth)
+
+    def _place(self, angle: ArrayLike) -> tuple[Array, NDArray[np.intp], Array]:
+        """Return whole cycles, interval and angle from the start of the interval."""
+        from_start = np.asarray(angle, dtype=float) - self.angle[0]
+        turns = np.floor(from_start / self.cycle)
+        rest = np.minimum(from_start - turns * self.cycle, self.cycle) + self.angle[0]
+        interval = np.clip(np.searchsorted(self.angle, rest, side="right") - 1, 0, len(self.angle) - 2)
+        return turns, interval, rest - self.angle[interval]
+
+    @property
+    def derivative(self) -> Self:
+        """Derivative by the angle."""
+        powers = np.arange(1, len(self.coefficients))
+        derived = self.coefficients[1:] * powers[:, None] if powers.size else np.zeros_like(self.coefficients)
+        return type(self)(self.angle, derived)
+
+    @property
+    def integral(self) -> Self:
+        """Integral over the angle, zero at the start of the cycle."""
+        k, n = self.coefficients.shape
+        h = np.diff(self.angle)
+        powers = np.arange(1, k + 1)
+        integrated = np.concatenate([np.zeros((1, n)), self.coefficients / powers[:, None]])
+        ends = np.concatenate([[0.0], np.cumsum(np.sum(integrated[1:] * h ** powers[:, None], axis=0))])
+        integrated[0] = ends[:-1]
+        return type(self)(self.angle, integrated, float(ends[-1]))
+
+    @property
+    def mean(self) -> float:
+        """Mean over the cycle."""
+        return self.integral.growth / self.cycle
+
+    @property
+    def rms(self) -> float:
+        """Root of the mean square over the cycle."""
+        return float(np.sqrt((self * self).mean))
+
+    def __add__(self, other: Curve | float) -> Self:
+        if not isinstance(other, Curve):
+            shifted = self.coefficients.copy()
+            shifted[0] += other
+            return type(self)(self.angle, shifted, self.growth)
+        one, two = self._on_common_intervals(other)
+        k = max(len(one.coefficients), len(two.coefficients))
+        total = np.zeros((k, one.coefficients.shape[1]))
+        for curve in (one, two):
+            total[: len(curve.coefficients)] += curve.coefficients
+        return type(self)(one.angle, total, self.growth + other.growth)
+
+    def __mul__(self, other: Curve | float) -> Self:
+        if not isinstance(other, Curve):
+            return type(self)(self.angle, other * self.coefficients, other * self.growth)
+        if self.growth or other.growth:
+            raise MethodError("a quantity that grows from cycle to cycle cannot be multiplied")
+        one, two = self._on_common_intervals(other)
+        p, q = one.coefficients, two.coefficients
+        product = np.zeros((len(p) + len(q) - 1, p.shape[1]))
+        for i, coefficient in enumerate(p):
+            product[i : i + len(q)] += coefficient * q
+        return type(self)(one.angle, product)
+
+    def __neg__(self) -> Self:
+        return self * -1.0
+
+    def __sub__(self, other: Curve | float) -> Self:
+        return self + -other
+
+    def delayed(self, by: float) -> Self:
+        """Return the same quantity, every value later by an angle: the next cylinder of an engine.
+
+        Parameters
+        ----------
+        by : float
+            The angle. [rad]
+        """
+        if self.growth:
+            raise MethodError("a quantity that grows from cycle to cycle cannot be delayed")
+        first, last = self.angle[0], self.angle[-1]
+        cut = float(first + (first - by - first) % self.cycle)
+        whole = self if np.any(self.angle == cut) else self._refined(np.union1d(self.angle, [cut]))
+        at = int(np.searchsorted(whole.angle, cut))
+        if cut in (first, last):
+            return self
+        angle = np.concatenate([whole.angle[at:], whole.angle[1 : at + 1] + self.cycle]) - cut + first
+        rolled = np.roll(whole.coefficients, -at, axis=1)
+        angle[-1] = last
+        return type(self)(angle, rolled)
+
+    def _on_common_intervals(self, other: Curve) -> tuple[Curve, Curve]:
+        if np.array_equal(self.angle, other.angle):
+            return self, other
+        reach = 1e-9 * self.cycle
+        if abs(self.cycle - other.cycle) > reach or abs(self.angle[0] - other.angle[0]) > reach:
+            raise MethodError(
+                f"quantities over different cycles cannot be combined: one from {np.degrees(self.angle[0]):g} to "
+                f"{np.degrees(self.angle[-1]):g} deg, one from {np.degrees(other.angle[0]):g} to "
+                f"{np.degrees(other.angle[-1]):g} deg"
+            )
+        inside = np.union1d(self.angle[1:-1], other.angle[1:-1])
+        angle = np.concatenate([self.angle[:1], inside, self.angle[-1:]])
+        return self._refined(angle), other._refined(angle)
+
+    def _refined(self, angle: Array) -> Curve:
+        """Return the same curve on more intervals."""
+        middle = (angle[1:] + angle[:-1]) / 2
+        interval = np.clip(np.searchsorted(self.angle, middle, side="right") - 1, 0, len(self.angle) - 2)
+        u = angle[:-1] - self.angle[interval]
+        shifted = self.coefficients[:, interval].copy()
+        for low in range(len(shifted) - 1):
+            for i in range(len(shifted) - 2, low - 1, -1):
+                shifted[i] += u * shifted[i + 1]
+        return Curve(angle, shifted, self.growth)
+
+    def zeros(self) -> Array:
+        """Return every angle of the cycle where the quantity changes its sign inside an interval. [rad]"""
+        if len(self.coefficients) == 1:
+            return np.empty(0)
+        h = np.diff(self.angle)
+        parts = _PARTS if len(self.coefficients) > 2 else 1
+        u = h * np.linspace(0.0, 1.0, parts + 1)[:, None]
+        value = _horner(self.coefficients, u)
+        part, interval = np.nonzero((value[:-1] < 0) != (value[1:] < 0))
+        if not interval.size:
+            return np.empty(0)
+        low, high = u[part, interval], u[part + 1, interval]
+        return np.unique(self.angle[interval] + _root(self.coefficients[:, interval], low, high))
+
+    def extremes(self) -> Extremes:
+        """Return the least and the largest value, over all corners, jumps and points of zero slope."""
+        angles = np.concatenate([self.angle, self.derivative.zeros()])
+        before = _horner(self.coefficients, np.diff(self.angle))
+        angles, values = np.concatenate([angles, self.angle[1:]]), np.concatenate([self(angles), before])
+        order = np.argsort(angles, kind="stable")
+        angles, values = angles[order], values[order]
+        low, high = int(np.argmin(values)), int(np.argmax(values))
+        return Extremes(float(values[low]), float(angles[low]), float(values[high]), float(angles[high]))
+
+
+def _checked(angle: ArrayLike, value: ArrayLike) -> tuple[Array, Array]:
+    angle, value = np.asarray(angle, dtype=float), np.asarray(value, dtype=float)
+    if angle.ndim != 1 or angle.shape != value.shape or angle.size < 2:
+        raise MethodError(f"angles and values must be rows of equal length, not of shapes {angle.shape}, {value.shape}")
+    if np.any(np.diff(angle) < 0) or angle[-1] <= angle[0] or not np.all(np.isfinite(value)):
+        raise MethodError("angles must ascend over one whole cycle, and all values must be finite")
+    return angle, value
+
+
+def _horner(coefficients: Array, u: Array) -> Array:
+    value = np.broadcast_to(coefficients[-1], u.shape)
+    for power in coefficients[-2::-1]:
+        value = value * u + power
+    return value
+
+
+def _root(coefficients: Array, low: Array, high: Array) -> Array:
+    """Return a root between `low` and `high`, by Newton's method where it stays between them, else by halving."""
+    derived = coefficients[1:] * np.arange(1, len(coefficients))[:, None]
+    below = _horner(coefficients, low) < 0
+    u = (low + high) / 2
+    for _ in range(_BISECTIONS):
+        value, slope = _horner(coefficients, u), _horner(derived, u)
+        left = (value < 0) == below
+        low, high = np.where(left, u, low), np.where(left, high, u)
+        step = np.divide(value, slope, out=np.full_like(u, np.inf), where=slope != 0)
+        moved = u - step
+        following = np.where((moved >= low) & (moved <= high), moved, (low + high) / 2)
+        if np.all(np.abs(following - u) <= 4e-16 * (np.abs(u) + high)):
+            return following
+        u = following
+    return u

@@ -1,0 +1,307 @@
+"""The flywheel that keeps the speed within a wanted fluctuation, four ways side by side."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from crankwork.errors import MethodError
+from crankwork.expressions import Value, formula
+from crankwork.shaft.curve import Curve
+from crankwork.shaft.fluctuation import TrueSpeed, excess_work, true_speed
+
+Way = Literal["energy", "mertsalov", "wittenbauer", "exact"]
+WAYS: tuple[Way, ...] = ("energy", "mertsalov", "wittenbauer", "exact")
+
+
+@formula("flywheel_inertia", "artobolevsky_1988, ch. 16")
+def inertia_for_fluctuation(L_exc: Value, delta: Value, w: Value) -> Value:
+    """Moment of inertia that keeps the speed within a fluctuation.
+
+    Parameters
+    ----------
+    L_exc, delta, w : float
+        Excess work, fluctuation of the speed, mean speed. [J], [-], [rad/s]
+
+    Returns
+    -------
+    float
+        Moment of inertia. [kg m2]
+    """
+    return L_exc / (delta * w**2)
+
+
+@formula("wittenbauer_slope", "wittenbauer_1923")
+def wittenbauer_slope_largest(w: Value, delta: Value) -> Value:
+    """Slope of the upper tangent of the mass-energy curve, with the square of delta left out.
+
+    Parameters
+    ----------
+    w, delta : float
+        Mean speed, fluctuation. [rad/s], [-]
+
+    Returns
+    -------
+    float
+        Half the square of the greatest speed. [J/(kg m2)]
+    """
+    return w**2 / 2 * (1 + delta)
+
+
+@formula("wittenbauer_slope", "wittenbauer_1923")
+def wittenbauer_slope_least(w: Value, delta: Value) -> Value:
+    """Slope of the lower tangent of the mass-energy curve, with the square of delta left out.
+
+    Parameters
+    ----------
+    w, delta : float
+        Mean speed, fluctuation. [rad/s], [-]
+
+    Returns
+    -------
+    float
+        Half the square of the least speed. [J/(kg m2)]
+    """
+    return w**2 / 2 * (1 - delta)
+
+
+@formula("wittenbauer_slope", "artobolevsky_1988, ch. 16")
+def slope_largest(w: Value, delta: Value) -> Value:
+    """Slope of the upper tangent of the mass-energy curve, exact.
+
+    Parameters
+    ----------
+    w, delta : float
+        Mean speed, fluctuation. [rad/s], [-]
+
+    Returns
+    -------
+    float
+        Half the square of the greatest speed. [J/(kg m2)]
+    """
+    return w**2 / 2 * (1 + delta / 2) ** 2
+
+
+@formula("wittenbauer_slope", "artobolevsky_1988, ch. 16")
+def slope_least(w: Value, delta: Value) -> Value:
+    """Slope of the lower tangent of the mass-energy curve, exact.
+
+    Parameters
+    ----------
+    w, delta : float
+        Mean speed, fluctuation. [rad/s], [-]
+
+    Returns
+    -------
+    float
+        Half the square of the least speed. [J/(kg m2)]
+    """
+    return w**2 / 2 * (1 - delta / 2) ** 2
+
+
+@dataclass(frozen=True)
+class Flywheel:
+    """A flywheel found in one of the four ways.
+
+    Parameters
+    ----------
+    way : str
+        `energy`, `mertsalov`, `wittenbauer` or `exact`.
+    inertia : float
+        Moment of inertia of the flywheel on the crank; negative where the machine needs none. [kg m2]
+    excess : float
+        Excess work in the sense of this way, which over delta w^2 gives the inertia. [J]
+    at_least, at_largest : float
+        Crank angles where this way sees the least and the greatest speed. [rad]
+    fluctuation : float
+        Fluctuation that the machine really has with it, from its true speed; NaN if the machine would stop. [-]
+    residual : float
+        That less the fluctuation asked for. [-]
+    """
+
+    way: Way
+    inertia: float
+    excess: float
+    at_least: float
+    at_largest: float
+    fluctuation: float
+    residual: float
+
+
+@dataclass(frozen=True)
+class MassEnergyCurve:
+    """Wittenbauer's diagram: kinetic energy over reduced moment of inertia, with its two tangents.
+
+    Parameters
+    ----------
+    inertia, excess : Curve
+        Abscissa and ordinate over the crank angle. [kg m2], [J]
+    slope_largest, slope_least : float
+        Slopes of the tangents. [J/(kg m2)]
+    upper, lower : float
+        Where the tangents cut the axis of ordinates. [J]
+    at_upper, at_lower : float
+        Crank angles where they touch: of the greatest and the least speed. [rad]
+    """
+
+    inertia: Curve
+    excess: Curve
+    slope_largest: float
+    slope_least: float
+    upper: float
+    lower: float
+    at_upper: float
+    at_lower: float
+
+    @property
+    def origin(self) -> tuple[float, float]:
+        """Where the tangents meet: minus the flywheel's inertia, minus the energy at angle zero. [kg m2], [J]"""
+        x = (self.lower - self.upper) / (self.slope_largest - self.slope_least)
+        return x, self.upper + self.slope_largest * x
+
+
+def mass_energy_curve(inertia: Curve, excess: Curve, slope_largest: float, slope_least: float) -> MassEnergyCurve:
+    """Return the mass-energy curve with its tangents of given slopes.
+
+    Parameters
+    ----------
+    inertia, excess : Curve
+        Reduced moment of inertia without flywheel, excess work. [kg m2], [J]
+    slope_largest, slope_least : float
+        Half the squares of the greatest and the least speed. [J/(kg m2)]
+
+    Returns
+    -------
+    MassEnergyCurve
+        Tangents from above with the one slope and from below with the other, over the whole cycle.
+
+    References
+    ----------
+    wittenbauer_1923; artobolevsky_1988, ch. 16.
+    """
+    above = (excess - inertia * slope_largest).extremes()
+    below = (excess - inertia * slope_least).extremes()
+    return MassEnergyCurve(
+        inertia,
+        excess,
+        slope_largest,
+        slope_least,
+        above.largest,
+        below.least,
+        above.at_largest,
+        below.at_least,
+    )
+
+
+def flywheel(
+    inertia: Curve,
+    torque: Curve,
+    mean_speed: float,
+    fluctuation: float,
+    way: Way = "exact",
+    *,
+    constant_part: float | None = None,
+) -> Flywheel:
+    """Return the flywheel for a wanted fluctuation of the speed, where all torques depend on the angle alone.
+
+    Parameters
+    ----------
+    inertia : Curve
+        Moment of inertia of the machine reduced to the crank, without the flywheel. [kg m2]
+    torque : Curve
+        Torque over the angle, of engine or load (negative), which a constant torque balances. [N m]
+    mean_speed, fluctuation : float
+        Mean of the extreme speeds; their difference over it. [rad/s], [-]
+    way : {"energy", "mertsalov", "wittenbauer", "exact"}
+        Constant inertia; energy of the second group of bodies at mean speed; tangents without the square of the
+        fluctuation; tangents with it, which is Gutyar's exact condition.
+    constant_part : float, optional
+        For Mertsalov: what of the inertia belongs to the first group, of bodies that turn with the crank; if it is
+        not given, the least value of the inertia. [kg m2]
+
+    Returns
+    -------
+    Flywheel
+        Its inertia, and the fluctuation that the machine really has with it.
+
+    Raises
+    ------
+    MethodError
+        If the fluctuation is not between 0 and 2, beyond which the least speed is negative.
+
+    Notes
+    -----
+    T_0 + A(phi) = (J_f + J(phi)) w^2 / 2 stays below the line of slope w_max^2 / 2 and above that of slope
+    w_min^2 / 2 in the plane of J and A, and touches both. With a and b the ordinates where they cut the axis,
+    J_f = (a - b) / (w_max^2 / 2 - w_min^2 / 2), and w_max^2 - w_min^2 = 2 delta w^2 exactly. Mertsalov gives
+    both lines the slope w^2 / 2; constant inertia makes all ways the same. The relative error vanishes with
+    delta for Mertsalov and with its square for Wittenbauer.
+
+    References
+    ----------
+    artobolevsky_1988, ch. 16; wittenbauer_1923.
+    """
+    if not 0 < fluctuation < 2 or mean_speed <= 0:
+        raise MethodError(
+            f"no flywheel gives a speed fluctuation of {fluctuation:g} at {mean_speed:g} rad/s; "
+            "take a fluctuation between 0 and 2, usually 0.002 to 0.2, and a speed above zero"
+        )
+    excess = excess_work(torque)
+    if way == "energy":
+        found, upper, lower = excess.work, excess.at_largest, excess.at_least
+        less = inertia.mean
+    else:
+        diagram = mass_energy_curve(inertia, excess.curve, *_slopes(way, mean_speed, fluctuation))
+        found, upper, lower = diagram.upper - diagram.lower, diagram.at_upper, diagram.at_lower
+        less = 0.0
+        if way == "mertsalov":
+            less = inertia.extremes().least if constant_part is None else constant_part
+    size = float(inertia_for_fluctuation(found, fluctuation, mean_speed)) - less
+    got = _fluctuation_with(inertia + size, torque, mean_speed)
+    return Flywheel(way, size, found, lower, upper, got, got - fluctuation)
+
+
+def _slopes(way: Way, w: float, delta: float) -> tuple[float, float]:
+    """Return half the squares of greatest and least speed as each way takes them."""
+    match way:
+        case "mertsalov":
+            return w**2 / 2, w**2 / 2
+        case "wittenbauer":
+            return float(wittenbauer_slope_largest(w, delta)), float(wittenbauer_slope_least(w, delta))
+        case _:
+            return float(slope_largest(w, delta)), float(slope_least(w, delta))
+
+
+def _fluctuation_with(inertia: Curve, torque: Curve, mean_speed: float) -> float:
+    try:
+        return _turning(inertia, torque, mean_speed).fluctuation
+    except MethodError:
+        return float("nan")
+
+
+def _turning(inertia: Curve, torque: Curve, mean_speed: float) -> TrueSpeed:
+    if inertia.extremes().least <= 0:
+        raise MethodError("with a negative moment of inertia there is no motion")
+    return true_speed(inertia, torque, mean_speed)
+
+
+def flywheels(
+    inertia: Curve, torque: Curve, mean_speed: float, fluctuation: float, *, constant_part: float | None = None
+) -> tuple[Flywheel, ...]:
+    """Return the flywheel in all four ways, side by side.
+
+    Parameters
+    ----------
+    inertia, torque : Curve
+        Reduced moment of inertia without flywheel, torque over the angle. [kg m2], [N m]
+    mean_speed, fluctuation : float
+        Mean of the extreme speeds; their difference over it. [rad/s], [-]
+    constant_part : float, optional
+        For Mertsalov: what of the inertia belongs to the bodies that turn with the crank. [kg m2]
+
+    Returns
+    -------
+    tuple of Flywheel
+        Energy, Mertsalov, Wittenbauer, exact.
+    """
+    return tuple(flywheel(inertia, torque, mean_speed, fluctuation, way, constant_part=constant_part) for way in WAYS)

@@ -1,0 +1,345 @@
+"""Motors: the torque that each kind gives at a speed."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Protocol, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crankwork.errors import MethodError
+from crankwork.expressions import Value, formula
+from crankwork.kinematics.crank_grid import Array
+
+
+@formula("synchronous_speed", "chilikin_sandler_1981, ch. 2")
+def synchronous_speed(f_m: Value, p_pairs: Value, pi: Value) -> Value:
+    """Synchronous speed of an alternating-current motor, 60 f / p in revolutions per minute.
+
+    Parameters
+    ----------
+    f_m, p_pairs, pi : float
+        Frequency of the mains [Hz], pairs of poles [-], the ratio of circumference to diameter [-].
+
+    Returns
+    -------
+    float
+        Speed. [rad/s]
+    """
+    return 2 * pi * f_m / p_pairs
+
+
+@formula("breakdown_slip", "chilikin_sandler_1981, ch. 2")
+def breakdown_slip(s_n: Value, lam_m: Value) -> Value:
+    """Slip of the greatest torque, from rated slip and overload capacity, stator resistance left out.
+
+    Parameters
+    ----------
+    s_n, lam_m : float
+        Rated slip, greatest over rated torque. [-]
+
+    Returns
+    -------
+    float
+        Slip. [-]
+    """
+    return s_n * (lam_m + np.sqrt(lam_m**2 - 1))
+
+
+@formula("breakdown_slip", "chilikin_sandler_1981, ch. 2")
+def breakdown_slip_full(s_n: Value, lam_m: Value, a_r: Value) -> Value:
+    """Slip of the greatest torque, with the resistance of the stator.
+
+    Parameters
+    ----------
+    s_n, lam_m, a_r : float
+        Rated slip, greatest over rated torque, resistance of stator over that of rotor. [-]
+
+    Returns
+    -------
+    float
+        The larger root of 2 lam_m (1 + a s_k) = s_n / s_k + s_k / s_n + 2 a s_k. [-]
+    """
+    d = 2 * a_r * s_n * (lam_m - 1)
+    return s_n * (lam_m + np.sqrt(lam_m**2 - 1 + d)) / (1 - d)
+
+
+@formula("motor_torque", "chilikin_sandler_1981, ch. 2")
+def kloss_torque(M_k: Value, s_k: Value, a_r: Value, slip: Value) -> Value:
+    """Torque of an asynchronous motor by the full Kloss formula; with a_r zero it is the simplified one.
+
+    Parameters
+    ----------
+    M_k, s_k, a_r : float
+        Breakdown torque [N m], its slip [-], resistance of stator over that of rotor [-].
+    slip : array, shape (..., n)
+        Slip. [-]
+
+    Returns
+    -------
+    array, shape (..., n)
+        2 M_k (1 + a s_k) / (s / s_k + s_k / s + 2 a s_k), written so that it holds at zero slip. [N m]
+    """
+    return 2 * M_k * (1 + a_r * s_k) * slip * s_k / (slip**2 + s_k**2 + 2 * a_r * s_k**2 * slip)
+
+
+class Motor(Protocol):
+    """Anything that gives a torque at a speed."""
+
+    def torque(self, speed: ArrayLike) -> Array:
+        """Return the torque on its own shaft. [N m]"""
+        ...
+
+
+@dataclass(frozen=True)
+class AsynchronousMotor:
+    """An induction motor by the formula of Kloss.
+
+    Parameters
+    ----------
+    breakdown_torque : float
+        Greatest torque as a motor. [N m]
+    breakdown_slip : float
+        Slip at which it occurs. [-]
+    synchronous_speed : float
+        Speed without load. [rad/s]
+    resistance_ratio : float
+        Resistance of the stator over that of the rotor; zero for the simplified formula. [-]
+    """
+
+    breakdown_torque: float
+    breakdown_slip: float
+    synchronous_speed: float
+    resistance_ratio: float = 0.0
+
+    @classmethod
+    def of_catalogue(
+        cls,
+        rated_power: float,
+        rated_speed: float,
+        overload: float,
+        *,
+        frequency: float = 50.0,
+        pole_pairs: int = 2,
+        resistance_ratio: float = 0.0,
+    ) -> Self:
+        """Return the motor of a line of a catalogue.
+
+        Parameters
+        ----------
+        rated_power, rated_speed : float
+            Power on the shaft, speed at that power. [W], [rad/s]
+        overload : float
+            Greatest torque over rated torque. [-]
+        frequency : float
+            Frequency of the mains. [Hz]
+        pole_pairs : int
+            Pairs of poles.
+        resistance_ratio : float
+            Resistance of the stator over that of the rotor. [-]
+
+        Raises
+        ------
+        MethodError
+            If the rated speed is not below the synchronous one, or the overload capacity not above one.
+        """
+        w_0 = float(synchronous_speed(frequency, pole_pairs, math.pi))
+        if not 0 < rated_speed < w_0 or overload <= 1:
+            raise MethodError(
+                f"a motor with {pole_pairs} pairs of poles turns at {w_0 * 30 / math.pi:g} rev/min without load; its "
+                f"rated speed of {rated_speed * 30 / math.pi:g} rev/min must be below that, and its greatest torque "
+                f"above the rated one (given: {overload:g} times)"
+            )
+        s_n = 1 - rated_speed / w_0
+        if 2 * resistance_ratio * s_n * (overload - 1) >= 1:
+            raise MethodError(
+                f"with a resistance ratio of {resistance_ratio:g} and a rated slip of {s_n:g} the torque never "
+                f"reaches {overload:g} times the rated one; take a smaller ratio"
+            )
+        rated = rated_power / rated_speed
+        s_k = float(breakdown_slip_full(s_n, overload, resistance_ratio))
+        return cls(overload * rated, s_k, w_0, resistance_ratio)
+
+    def torque(self, speed: ArrayLike) -> Array:
+        """Return the torque on its own shaft.
+
+        Parameters
+        ----------
+        speed : array, shape (..., n)
+            Speed of its shaft. [rad/s]
+        """
+        slip = 1 - np.asarray(speed) / self.synchronous_speed
+        return np.asarray(kloss_torque(self.breakdown_torque, self.breakdown_slip, self.resistance_ratio, slip))
+
+
+@dataclass(frozen=True)
+class LinearMotor:
+    """The working branch of a motor as a straight line, or a direct-current motor with shunt or separate excitation.
+
+    Parameters
+    ----------
+    stiffness : float
+        Torque per speed below that without load. [N m s/rad]
+    no_load_speed : float
+        Speed without load. [rad/s]
+    """
+
+    stiffness: float
+    no_load_speed: float
+
+    @classmethod
+    def of_rating(cls, rated_power: float, rated_speed: float, no_load_speed: float) -> Self:
+        """Return the line through the rated point.
+
+        Parameters
+        ----------
+        rated_power, rated_speed, no_load_speed : float
+            Power on the shaft, speed at that power, speed without load. [W], [rad/s], [rad/s]
+        """
+        return cls(rated_power / rated_speed / (no_load_speed - rated_speed), no_load_speed)
+
+    @classmethod
+    def of_direct_current(cls, voltage: float, resistance: float, flux: float) -> Self:
+        """Return a direct-current motor with constant flux.
+
+        Parameters
+        ----------
+        voltage, resistance : float
+            Voltage of the armature, its resistance. [V], [ohm]
+        flux : float
+            Torque per current, which is also voltage per speed. [N m/A]
+
+        References
+        ----------
+        chilikin_sandler_1981, ch. 2.
+        """
+        return cls(flux**2 / resistance, voltage / flux)
+
+    def torque(self, speed: ArrayLike) -> Array:
+        """Return the torque on its own shaft.
+
+        Parameters
+        ----------
+        speed : array, shape (..., n)
+            Speed of its shaft. [rad/s]
+        """
+        return np.asarray(self.stiffness * (self.no_load_speed - np.asarray(speed)))
+
+
+@dataclass(frozen=True)
+class SeriesMotor:
+    """A direct-current motor whose field carries the current of its armature, unsaturated.
+
+    Parameters
+    ----------
+    voltage, resistance : float
+        Voltage, resistance of armature and field. [V], [ohm]
+    flux_per_current : float
+        Torque per square of the current. [N m/A2]
+    """
+
+    voltage: float
+    resistance: float
+    flux_per_current: float
+
+    def torque(self, speed: ArrayLike) -> Array:
+        """Return the torque on its own shaft.
+
+        Parameters
+        ----------
+        speed : array, shape (..., n)
+            Speed of its shaft. [rad/s]
+
+        References
+        ----------
+        chilikin_sandler_1981, ch. 2.
+        """
+        current = self.voltage / (self.resistance + self.flux_per_current * np.asarray(speed))
+        return np.asarray(self.flux_per_current * current**2)
+
+
+@dataclass(frozen=True)
+class ConstantMotor:
+    """A motor that gives the same torque at every speed.
+
+    Parameters
+    ----------
+    value : float
+        The torque. [N m]
+    """
+
+    value: float
+
+    def torque(self, speed: ArrayLike) -> Array:
+        """Return the torque on its own shaft.
+
+        Parameters
+        ----------
+        speed : array, shape (..., n)
+            Speed of its shaft. [rad/s]
+        """
+        return np.full_like(np.asarray(speed, dtype=float), self.value)
+
+
+@dataclass(frozen=True)
+class TableMotor:
+    """A motor or engine given as a table, straight between its rows and level beyond them.
+
+    Parameters
+    ----------
+    speeds, torques : array, shape (n,)
+        Ascending speeds of its shaft, torques there. [rad/s], [N m]
+    """
+
+    speeds: Array
+    torques: Array
+
+    def torque(self, speed: ArrayLike) -> Array:
+        """Return the torque on its own shaft.
+
+        Parameters
+        ----------
+        speed : array, shape (..., n)
+            Speed of its shaft. [rad/s]
+        """
+        return np.asarray(np.interp(np.asarray(speed, dtype=float), self.speeds, self.torques))
+
+
+@dataclass(frozen=True)
+class GearedMotor:
+    """A motor behind a gear, as the crank feels it.
+
+    Parameters
+    ----------
+    motor : Motor
+        The motor.
+    ratio : float
+        Speed of the motor over speed of the crank. [-]
+    inertia : float
+        Moment of inertia on the shaft of the motor. [kg m2]
+    efficiency : float
+        Of the gear; a braking torque is divided by it. [-]
+    """
+
+    motor: Motor
+    ratio: float = 1.0
+    inertia: float = 0.0
+    efficiency: float = 1.0
+
+    @property
+    def reduced_inertia(self) -> float:
+        """Moment of inertia on the crank, J i^2. [kg m2]"""
+        return self.inertia * self.ratio**2
+
+    def torque(self, speed: ArrayLike) -> Array:
+        """Return the torque on the crank.
+
+        Parameters
+        ----------
+        speed : array, shape (..., n)
+            Speed of the crank. [rad/s]
+        """
+        torque = self.ratio * self.motor.torque(self.ratio * np.asarray(speed))
+        return np.where(torque > 0, torque * self.efficiency, torque / self.efficiency)

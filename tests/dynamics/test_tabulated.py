@@ -1,0 +1,63 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from crankwork.dynamics.reduction import reduced_inertia
+from crankwork.dynamics.tabulated import TabulatedBody, difference_derivative, tabulated_inertia
+from crankwork.kinematics.bodies import body_motions
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.motion import linkage_motion
+from crankwork.mechanism.catalog import slotted_press
+
+ANGLE = np.radians(np.arange(0, 360, 10))
+
+
+def test_a_table_of_computed_ratios_gives_the_computed_inertia():
+    press, grid = slotted_press(), CrankGrid.from_degrees(np.arange(0.0, 360, 30))
+    moved = linkage_motion(press, grid)
+    table = [
+        TabulatedBody(
+            one.body.link,
+            one.body.mass,
+            one.body.inertia,
+            tuple(np.hypot(one.centre.x.position_1, one.centre.y.position_1)),
+            tuple(np.abs(one.angle_1)),
+        )
+        for one in body_motions(press, moved)
+    ]
+    assert tabulated_inertia(table) == pytest.approx(reduced_inertia(press, moved).inertia, rel=1e-14)
+
+
+@pytest.mark.parametrize(("scheme", "error"), [("forward", 0.2), ("central", 0.03), ("spectral", 1e-13)])
+def test_differences_approach_the_derivative(scheme, error):
+    found = difference_derivative(ANGLE, np.sin(2 * ANGLE) + 3, scheme)
+    miss = np.max(np.abs(found - 2 * np.cos(2 * ANGLE)))
+    assert miss < 2 * error
+    assert scheme == "spectral" or miss > error / 2
+
+
+def test_differences_of_unequal_steps():
+    angle = np.array([0.0, 1.0, 3.0])
+    values = np.array([1.0, 2.0, 6.0])
+    last = 2 * np.pi - 3
+    assert difference_derivative(angle, values, "forward") == pytest.approx([1, 2, -5 / last])
+    assert difference_derivative(angle, values, "central") == pytest.approx([-4 / (last + 1), 5 / 3, -1 / (last + 2)])
+
+
+def test_the_highest_even_order_has_no_slope():
+    values = np.cos(np.pi * np.arange(8))
+    assert difference_derivative(np.arange(8) * np.pi / 4, values, "spectral") == pytest.approx(0, abs=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("angle", "values"), [([0.0, 1.0, 1.0], [1, 2, 3]), ([0.0, 1.0, 7.0], [1, 2, 3]), ([0.0, 1.0], [1, 2, 3])]
+)
+def test_angles_that_do_not_make_a_revolution(angle, values):
+    with pytest.raises(ValueError, match="ascend within one revolution"):
+        difference_derivative(angle, values)
+
+
+def test_spectral_needs_equal_steps():
+    with pytest.raises(ValueError, match="equidistant"):
+        difference_derivative([0.0, 1.0, 3.0], [1, 2, 3], "spectral")

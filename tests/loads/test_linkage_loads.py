@@ -1,0 +1,236 @@
+"""Loads on a linkage: tables, process forces, springs, weights."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from crankwork.dynamics.reduction import reduced_torque
+from crankwork.errors import GeometryError
+from crankwork.kinematics.bodies import body_motions
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.motion import linkage_motion
+from crankwork.loads.load import (
+    ForceOnPoint,
+    ProcessForce,
+    ProcessForceAtPoint,
+    SliderSpring,
+    Spring,
+    TorqueOnLink,
+    Weight,
+    applied_loads,
+)
+from crankwork.loads.table import Table
+from crankwork.mechanism.catalog import crank_shaper, four_bar, slotted_press
+from crankwork.mechanism.mechanism import Crank, Mechanism, body_at
+
+GRID = CrankGrid.from_degrees(np.arange(0.0, 360, 5))
+CRANK = Mechanism(Crank(0.1), (), ground={"Q": (0.5, 0.0)})
+
+
+@pytest.fixture(scope="module")
+def shaper():
+    mechanism = crank_shaper(0.05, 0.15, 0.3, 0.2, 0.14)
+    return mechanism, linkage_motion(mechanism, GRID)
+
+
+def derivative(values):
+    order = np.fft.rfftfreq(len(GRID), 1 / len(GRID))
+    return np.fft.irfft(1j * order * np.fft.rfft(values), len(GRID))
+
+
+class TestTable:
+    def test_passes_its_points_and_is_zero_outside(self):
+        at, values = (0.0, 0.1, 0.4), (0.0, 5.0, 3.0)
+        for interpolation in ("linear", "monotone"):
+            table = Table(at, values, interpolation)
+            assert table(np.array(at)) == pytest.approx(values)
+            assert table(np.array([-0.01, 0.41])).tolist() == [0, 0]
+
+    def test_straight_between_points(self):
+        assert Table((0.0, 2.0), (1.0, 5.0))(np.array([0.5])) == pytest.approx([2.0])
+
+    def test_smooth_without_overshoot(self):
+        values = Table((0.0, 1.0, 2.0, 3.0), (0.0, 0.0, 1.0, 1.0), "monotone")(np.linspace(0, 3, 301))
+        assert values.min() == 0
+        assert values.max() == 1
+        assert np.all(np.diff(values) >= -1e-15)
+
+    @pytest.mark.parametrize("interpolation", ["linear", "monotone"])
+    def test_a_period_closes_the_curve(self, interpolation):
+        open_end = Table((0.0, 1.0, 2.0), (1.0, 4.0, 2.0), interpolation, period=3.0)
+        closed = Table((0.0, 1.0, 2.0, 3.0), (1.0, 4.0, 2.0, 1.0), interpolation, period=3.0)
+        at = np.linspace(-3, 6, 50)
+        assert open_end(at) == pytest.approx(closed(at))
+        assert open_end(at) == pytest.approx(open_end(at + 3))
+
+    @pytest.mark.parametrize(
+        ("at", "values", "period", "message"),
+        [
+            ((0.0,), (1.0,), 0.0, "two points"),
+            ((0.0, 1.0), (1.0,), 0.0, "two points"),
+            ((0.0, float("nan")), (1.0, 2.0), 0.0, "finite"),
+            ((0.0, 0.0), (1.0, 2.0), 0.0, "ascend"),
+            ((0.0, 7.0), (1.0, 2.0), 6.0, "longer than its period"),
+        ],
+    )
+    def test_refuses_what_is_no_table(self, at, values, period, message):
+        with pytest.raises(ValueError, match=message):
+            Table(at, values, period=period)
+
+
+class TestProcess:
+    def test_a_force_resists_the_forward_stroke_only(self, shaper):
+        mechanism, moved = shaper
+        loads = applied_loads(mechanism, moved, [ProcessForce("ram", lambda way: np.full_like(way, 500.0))])
+        (force,) = loads.forces
+        forward = moved.sliders["ram"].position_1 > 0
+        assert force.link == "ram"
+        assert force.x[forward] == pytest.approx(-500)
+        assert force.x[~forward] == pytest.approx(0)
+        assert force.y == pytest.approx(0)
+
+    def test_on_both_strokes_and_the_other_way(self, shaper):
+        mechanism, moved = shaper
+        load = ProcessForce("ram", lambda way: np.full_like(way, 500.0), forward=-1, acts="both")
+        (force,) = applied_loads(mechanism, moved, [load]).forces
+        assert force.x == pytest.approx(500)
+
+    def test_counts_the_stroke_from_its_start(self, shaper):
+        mechanism, moved = shaper
+        position = moved.sliders["ram"].position
+        table = Table((0.0, 1.0), (0.0, 1000.0))
+        load = ProcessForce("ram", table, forward=-1, start=float(position.max()), acts="both")
+        (force,) = applied_loads(mechanism, moved, [load]).forces
+        assert force.x == pytest.approx(1000 * (position.max() - position), abs=1e-9)
+
+    def test_against_the_crank_angle(self, shaper):
+        mechanism, moved = shaper
+        load = ProcessForce("ram", lambda angle: 100 * np.sin(angle), against="angle", acts="both")
+        (force,) = applied_loads(mechanism, moved, [load]).forces
+        assert force.x == pytest.approx(-100 * GRID.sin)
+
+    def test_the_work_of_a_stroke_is_the_area_of_its_table(self, shaper):
+        mechanism, _ = shaper
+        fine = CrankGrid.from_degrees(np.arange(0.0, 360, 0.05))
+        moved = linkage_motion(mechanism, fine)
+        ram = moved.sliders["ram"].position
+        load = ProcessForce("ram", Table((0.02, 0.05), (800.0, 200.0)), start=float(ram.min()))
+        torque = reduced_torque(moved, applied_loads(mechanism, moved, [load]))
+        assert np.mean(torque) * 2 * np.pi == pytest.approx(-500 * 0.03, rel=2e-3)
+
+    def test_at_a_point_in_a_fixed_direction(self):
+        moved = linkage_motion(CRANK, GRID)
+        load = ProcessForceAtPoint("crank_pin", np.pi / 2, Table((0.0, 0.2), (0.0, 20.0)), start=-0.1)
+        (force,) = applied_loads(CRANK, moved, [load]).forces
+        expected = np.where(GRID.cos > -1e-12, -10 * (1 + GRID.sin), 0)
+        assert force.link == "crank"
+        assert force.x == pytest.approx(0, abs=1e-14)
+        assert force.y == pytest.approx(expected, abs=1e-12)
+
+    def test_torque_by_the_crank_angle(self):
+        moved = linkage_motion(CRANK, GRID)
+        (torque,) = applied_loads(CRANK, moved, [TorqueOnLink("crank", np.cos)]).torques
+        assert torque.torque == pytest.approx(GRID.cos)
+
+    def test_a_force_on_a_fixed_point_does_nothing(self):
+        moved = linkage_motion(CRANK, GRID)
+        assert applied_loads(CRANK, moved, [ForceOnPoint("Q", 1.0, 2.0)]).forces == ()
+
+    def test_a_force_names_its_link_where_several_meet(self):
+        bar = four_bar(0.05, 0.2, 0.12, 0.18)
+        moved = linkage_motion(bar, GRID)
+        loads = [ForceOnPoint("coupler_pin", 1.0, 0.0), ForceOnPoint("coupler_pin", 1.0, 0.0, "rocker")]
+        assert [one.link for one in applied_loads(bar, moved, loads).forces] == ["coupler", "rocker"]
+
+
+class TestSpring:
+    def test_between_points_does_the_work_of_its_energy(self):
+        bar = four_bar(0.05, 0.2, 0.12, 0.18)
+        moved = linkage_motion(bar, GRID)
+        x, y = (
+            a.position - b.position for a, b in zip(moved.points["crank_pin"], moved.points["coupler_pin"], strict=True)
+        )
+        assert np.hypot(x, y) == pytest.approx(0.2)
+        spring = Spring("rocker_pivot", "crank_pin", 3000.0, 0.1, 20.0)
+        x, y = (one.position for one in moved.points["crank_pin"])
+        length = np.hypot(x - 0.18, y)
+        energy = 1500 * (length - 0.1) ** 2 + 20 * length
+        found = reduced_torque(moved, applied_loads(bar, moved, [spring]))
+        assert found == pytest.approx(-derivative(energy), abs=1e-9)
+
+    def test_ends_that_meet_have_no_direction(self):
+        moved = linkage_motion(CRANK, GRID)
+        with pytest.raises(GeometryError, match="ends of the spring"):
+            applied_loads(CRANK, moved, [Spring("crank_pin", "crank_pin", 1.0, 0.0)])
+
+    def test_on_a_fixed_guide(self, shaper):
+        mechanism, moved = shaper
+        loads = applied_loads(mechanism, moved, [SliderSpring("ram", 100.0, 0.05, 7.0)])
+        (force,) = loads.forces
+        assert force.x == pytest.approx(-100 * (moved.sliders["ram"].position - 0.05) - 7)
+
+    def test_on_a_moving_guide_pulls_piece_and_carrier(self, shaper):
+        mechanism, moved = shaper
+        loads = applied_loads(mechanism, moved, [SliderSpring("block", 100.0, 0.15, 7.0)])
+        piece, carrier = loads.forces
+        assert (piece.link, carrier.link) == ("block", "lever")
+        assert carrier.x == pytest.approx(-piece.x)
+        way = moved.sliders["block"].position - 0.15
+        assert reduced_torque(moved, loads) == pytest.approx(-derivative(50 * way**2 + 7 * way), abs=1e-9)
+
+
+class TestWeight:
+    def test_pulls_each_body_at_its_centre(self):
+        press = slotted_press()
+        moved = linkage_motion(press, GRID)
+        loads = applied_loads(press, moved, [Weight(10.0, 0.0)])
+        assert [one.link for one in loads.forces] == ["rod", "block", "punch", "rocker"]
+        assert loads.forces[0].x == pytest.approx(2551)
+        assert loads.forces[0].y == pytest.approx(0)
+
+    def test_centre_between_two_points(self):
+        body = replace(body_at("coupler", 2.0, 0.1, "crank_pin"), end="coupler_pin", share=0.25)
+        bar = replace(four_bar(0.05, 0.2, 0.12, 0.18), bodies=(body,))
+        (found,) = body_motions(bar, linkage_motion(bar, GRID))
+        start, end = (found.centre.x, linkage_motion(bar, GRID).points["crank_pin"].x)
+        other = linkage_motion(bar, GRID).points["coupler_pin"].x
+        for order in range(3):
+            assert start[order] == pytest.approx(0.75 * end[order] + 0.25 * other[order], abs=1e-15)
+
+
+def test_a_body_whose_turning_is_unknown_is_refused_if_it_has_inertia():
+    moved = replace(linkage_motion(CRANK, GRID), frames={}, links={})
+    with pytest.raises(GeometryError, match="does not say how it turns"):
+        body_motions(replace(CRANK, bodies=(body_at("crank", 1.0, 0.5, "crank_pin"),)), moved)
+    (found,) = body_motions(replace(CRANK, bodies=(body_at("crank", 1.0, 0.0, "crank_pin"),)), moved)
+    assert not found.angle_1.any()
+
+
+def test_rates_of_a_table_are_read_where_there_are_no_frames():
+    moved = replace(linkage_motion(CRANK, GRID), frames={})
+    (found,) = body_motions(replace(CRANK, bodies=(body_at("crank", 1.0, 0.5, "crank_pin"),)), moved)
+    assert found.angle_1 == pytest.approx(1)
+
+
+@pytest.mark.parametrize(
+    "load",
+    [
+        ForceOnPoint("nowhere", 1.0, 0.0),
+        TorqueOnLink("nowhere", 1.0),
+        ProcessForce("nowhere", np.cos),
+        ProcessForceAtPoint("nowhere", 0.0, np.cos),
+        Spring("nowhere", "tip", 1.0, 1.0),
+        Spring("tip", "nowhere", 1.0, 1.0),
+        SliderSpring("nowhere", 1.0),
+    ],
+)
+def test_a_load_on_nothing_names_what_there_is(shaper, load):
+    with pytest.raises(GeometryError, match=r"no [a-z ]+ nowhere to load; choose from .*(tip|ram|lever)"):
+        applied_loads(shaper[0], shaper[1], [load])
+
+
+def test_no_loads():
+    assert applied_loads(CRANK, linkage_motion(CRANK, GRID), []).forces == ()

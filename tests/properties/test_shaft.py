@@ -1,0 +1,140 @@
+"""What holds for every machine: energy balances, steady motion repeats, the flywheel gives what was asked."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from crankwork.dynamics.reduction import kinetic_energy
+from crankwork.errors import MethodError
+from crankwork.shaft.curve import Curve
+from crankwork.shaft.fluctuation import excess_work, true_speed
+from crankwork.shaft.flywheel import flywheel, flywheels
+from crankwork.shaft.motor import LinearMotor
+from crankwork.shaft.motor_choice import motor_need
+from crankwork.shaft.motor_flywheel import flywheel_by_simulation
+from crankwork.shaft.speed import ReducedMachine, steady_speed
+from crankwork.shaft.transient import run
+
+TURN = 2 * math.pi
+small = st.floats(-0.3, 0.3)
+
+
+@st.composite
+def inertias(draw):
+    angle = np.linspace(0, TURN, 181)
+    value, slope = np.ones_like(angle), np.zeros_like(angle)
+    for order in (1, 2, 3):
+        a, b = draw(small), draw(small)
+        value += (a * np.cos(order * angle) + b * np.sin(order * angle)) / 2
+        slope += order * (b * np.cos(order * angle) - a * np.sin(order * angle)) / 2
+    assume(np.min(value) > 0.05)
+    size = draw(st.floats(0.1, 10))
+    return Curve.hermite(angle, size * value, size * slope)
+
+
+@st.composite
+def torques(draw):
+    """Broken lines with up to eight corners, and jumps."""
+    inner = sorted(draw(st.lists(st.integers(1, 359), min_size=1, max_size=8)))
+    values = draw(st.lists(st.floats(-100, 100), min_size=len(inner) + 2, max_size=len(inner) + 2))
+    curve = Curve.linear(np.radians([0, *inner, 360]), values)
+    assume(excess_work(curve).work > 1)
+    return curve
+
+
+fluctuations = st.floats(0.002, 0.3)
+
+
+@given(inertias(), torques(), fluctuations, st.floats(1, 200))
+def test_the_exact_flywheel_gives_the_fluctuation_asked_for(inertia, torque, delta, speed):
+    found = flywheel(inertia, torque, speed, delta)
+    assume(found.inertia > -inertia.extremes().least + 1e-6)
+    assert abs(found.residual) < 1e-9
+
+
+@given(st.floats(0.0, 5.0), torques(), fluctuations)
+def test_constant_inertia_makes_all_ways_the_same(inertia, torque, delta):
+    found = flywheels(Curve.constant(inertia), torque, 10.0, delta)
+    assert [one.inertia for one in found] == pytest.approx([found[0].inertia] * 4, rel=1e-9, abs=1e-9)
+
+
+@given(inertias(), torques())
+def test_the_other_ways_tend_to_the_exact_one(inertia, torque):
+    delta, speed = 1e-4, 10.0
+    _, mertsalov, wittenbauer, exact = flywheels(inertia, torque, speed, delta)
+    swing = inertia.extremes().largest
+    assert abs(mertsalov.inertia - exact.inertia) <= 2 * swing
+    assert abs(wittenbauer.inertia - exact.inertia) <= delta * swing
+
+
+@given(inertias(), torques(), st.floats(5, 50))
+def test_kinetic_energy_gained_is_work_done(inertia, torque, speed):
+    total = inertia + 50.0
+    found = true_speed(total, torque, speed)
+    angle = np.linspace(0, TURN, 73)
+    energy = kinetic_energy(total(angle), found.speed(angle))
+    work = (torque - torque.mean).integral(angle)
+    assert energy - energy[0] == pytest.approx(work - work[0], abs=1e-12 * float(np.max(energy)))
+    assert found.mean_speed == pytest.approx(speed, rel=1e-12)
+
+
+@given(torques(), st.floats(0, TURN))
+def test_where_the_cycle_begins_does_not_matter(torque, by):
+    """Mean, rms and excess work of a torque that comes later."""
+    later = torque.delayed(by)
+    assert (later.mean, later.rms) == pytest.approx((torque.mean, torque.rms), rel=1e-9, abs=1e-9)
+    assert excess_work(later).work == pytest.approx(excess_work(torque).work, rel=1e-9)
+
+
+@given(torques())
+def test_mean_rms_and_largest_are_in_order(torque):
+    need = motor_need(torque, 1.0)
+    assert abs(need.mean_torque) <= need.rms_torque * (1 + 1e-12)
+    assert need.mean_torque <= need.largest_torque + 1e-9
+
+
+@settings(max_examples=25)
+@given(inertias(), torques(), st.floats(5, 40), st.floats(0.5, 20))
+def test_steady_motion_repeats_and_balances(inertia, torque, speed, stiffness):
+    motor = LinearMotor(stiffness, speed - torque.mean / stiffness)
+    machine = ReducedMachine.of_curves(inertia, torque, motor, flywheel=100.0)
+    found = steady_speed(machine, speed)
+    assume(found.status == "steady")
+    assert found.speed[-1] == pytest.approx(found.speed[0], rel=1e-13)
+    assert found.energy_drift < 1e-12
+    assert found.multiplier < 1
+    once_more = run(machine, speed=float(found.speed[0]), cycles=2, until_steady=False)
+    assert once_more.speed[-1] == pytest.approx(found.speed[0], rel=1e-10)
+
+
+@settings(max_examples=10)
+@given(inertias(), torques(), st.floats(0.005, 0.05))
+def test_the_simulated_flywheel_gives_the_fluctuation_asked_for(inertia, torque, delta):
+    speed, stiffness = 15.0, 5.0
+    motor = LinearMotor(stiffness, speed - torque.mean / stiffness)
+    guess = max(flywheel(inertia, torque, speed, delta).inertia, 0.1)
+    found = flywheel_by_simulation(
+        lambda size: ReducedMachine.of_curves(inertia, torque, motor, flywheel=size), speed, delta, guess
+    )
+    assume(not found.message)
+    assert abs(found.run.fluctuation - delta) < 1e-6
+
+
+@settings(max_examples=25)
+@given(st.floats(0.1, 10), st.floats(0.5, 50), st.just(0.0) | st.floats(0.001, 2.0), st.floats(1, 50))
+def test_run_down_takes_the_time_of_the_closed_form(inertia, dry, viscous, speed):
+    assume(inertia * speed**2 / dry < 5000)
+    down = run(ReducedMachine(lambda at: (inertia + 0 * at, 0 * at), lambda _, w: -dry - viscous * w), speed=speed)
+    closed = inertia * speed / dry if viscous == 0 else inertia / viscous * math.log1p(viscous * speed / dry)
+    assert down.status == "stopped"
+    assert down.time[-1] == pytest.approx(closed, rel=1e-9)
+
+
+def test_what_cannot_be_is_refused():
+    with pytest.raises(MethodError):
+        true_speed(Curve.constant(0.01), Curve.linear([0, 3, 3, TURN], [9, 9, -9, -9]), 0.1)

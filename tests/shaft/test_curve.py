@@ -1,0 +1,100 @@
+"""Quantities over the crank angle as piecewise polynomials."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from crankwork.errors import MethodError
+from crankwork.shaft.curve import Curve
+
+TRIANGLES = Curve.linear(np.radians([0, 80, 180, 270, 360]), [0.0, 2000.0, 0.0, 1500.0, 0.0])
+
+
+def test_a_broken_line_goes_through_its_corners_and_repeats():
+    assert TRIANGLES(np.radians([40, 80, 360, 440])) == pytest.approx([1000, 2000, 0, 2000])
+
+
+def test_the_mean_of_triangles():
+    assert TRIANGLES.mean == pytest.approx((2000 * 180 + 1500 * 180) / 2 / 360, rel=1e-15)
+
+
+def test_the_rms_of_a_triangle():
+    assert Curve.linear([0, 1, 2], [0, 3, 0]).rms == pytest.approx(math.sqrt(3), rel=1e-15)
+
+
+def test_a_jump_is_taken_from_the_right():
+    step = Curve.linear([0, 1, 1, 2], [3.0, 3.0, 5.0, 5.0])
+    assert step([0.5, 1.0, 1.5, 2.0]) == pytest.approx([3, 5, 5, 3])
+    assert step.extremes() == (3.0, 0.0, 5.0, 1.0)
+
+
+def test_the_integral_grows_from_cycle_to_cycle():
+    assert TRIANGLES.integral(6 * math.pi) == pytest.approx(3 * TRIANGLES.integral.growth)
+
+
+def test_derivative_undoes_integral():
+    angle = np.linspace(0, 7, 50)
+    assert TRIANGLES.integral.derivative(angle) == pytest.approx(TRIANGLES(angle))
+
+
+def test_sums_and_products_on_different_corners():
+    other = Curve.linear(np.radians([0, 100, 360]), [1.0, -2.0, 1.0])
+    angle = np.linspace(0, 2 * math.pi, 97)
+    assert (TRIANGLES + other)(angle) == pytest.approx(TRIANGLES(angle) + other(angle))
+    assert (TRIANGLES * other)(angle) == pytest.approx(TRIANGLES(angle) * other(angle))
+    assert (TRIANGLES - 2 * math.pi)(angle) == pytest.approx(TRIANGLES(angle) - 2 * math.pi)
+
+
+@pytest.mark.parametrize("by", [0.0, 1.0, 2 * math.pi / 3, 2 * math.pi, -1.0])
+def test_a_delayed_curve(by):
+    angle = np.linspace(0, 2 * math.pi, 50)
+    assert TRIANGLES.delayed(by)(angle) == pytest.approx(TRIANGLES(angle - by), abs=1e-9)
+
+
+def test_hermite_has_the_slopes_asked_for():
+    angle = np.linspace(0, 2 * math.pi, 181)
+    curve = Curve.hermite(angle, np.sin(angle), np.cos(angle))
+    between = angle[:-1] + 0.01
+    assert curve(between) == pytest.approx(np.sin(between), abs=1e-8)
+    assert curve.derivative(angle[:-1]) == pytest.approx(np.cos(angle[:-1]))
+
+
+def test_smooth_goes_through_its_points():
+    angle = np.linspace(0, 2 * math.pi, 13)
+    assert Curve.smooth(angle, np.cos(angle))(angle) == pytest.approx(np.cos(angle))
+
+
+def test_extremes_between_the_points():
+    angle = np.linspace(0, 2 * math.pi, 181) + 0.004
+    curve = Curve.hermite(angle, np.sin(angle), np.cos(angle))
+    least, at_least, largest, at_largest = curve.extremes()
+    assert (least, largest) == pytest.approx((-1, 1), abs=1e-8)
+    assert (at_least, at_largest) == pytest.approx((1.5 * math.pi, 0.5 * math.pi), abs=1e-6)
+
+
+def test_every_crossing_is_found():
+    curve = Curve.linear(np.arange(9.0), [1.0, -1.0] * 4 + [1.0])
+    assert curve.zeros() == pytest.approx(np.arange(8) + 0.5)
+
+
+@pytest.mark.parametrize(
+    ("angle", "value"),
+    [([0, 1], [1, 2, 3]), ([0, 2, 1], [0, 0, 0]), ([0, 0], [1, 2]), ([0, 1], [0, math.nan]), ([0], [1])],
+)
+def test_what_is_no_curve(angle, value):
+    with pytest.raises(MethodError):
+        Curve.linear(angle, value)
+
+
+def test_what_cannot_be_combined():
+    with pytest.raises(MethodError, match="different cycles"):
+        TRIANGLES + Curve.constant(1.0, 4 * math.pi)
+    with pytest.raises(MethodError, match="grows"):
+        TRIANGLES.integral * TRIANGLES
+    with pytest.raises(MethodError, match="grows"):
+        TRIANGLES.integral.delayed(1.0)
+    with pytest.raises(MethodError, match="jumps"):
+        Curve.hermite([0, 1, 1, 2], [0, 0, 0, 0], [0, 0, 0, 0])

@@ -1,0 +1,131 @@
+"""Excess work, true speed, the flywheel four ways, and its body."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from crankwork.errors import MethodError
+from crankwork.shaft.curve import Curve
+from crankwork.shaft.fluctuation import excess_work, fluctuation_of_inertia, true_speed
+from crankwork.shaft.flywheel import WAYS, flywheel, flywheels, mass_energy_curve
+from crankwork.shaft.flywheel_body import (
+    Rim,
+    disc_of_inertia,
+    inertia_on_other_shaft,
+    largest_diameter,
+    rim_mass,
+    rim_of_inertia,
+)
+
+ANGLE = np.linspace(0, 2 * math.pi, 361)
+INERTIA = Curve.hermite(
+    ANGLE,
+    0.5 + 0.2 * np.cos(2 * ANGLE) + 0.05 * np.sin(ANGLE),
+    -0.4 * np.sin(2 * ANGLE) + 0.05 * np.cos(ANGLE),
+)
+LOAD = Curve.linear(np.radians([0, 200, 230, 250, 360]), [-40.0, -40.0, -400.0, -40.0, -40.0])
+
+
+def test_all_crossings_count():
+    """Three lobes of which the outer two together exceed the middle one: the extremes are not neighbours."""
+    torque = Curve.linear([0, 1, 1, 2, 2, 3, 3, 4], [3.0, 3.0, -1.0, -1.0, 3.0, 3.0, -5.0, -5.0])
+    excess = excess_work(torque)
+    assert excess.work == pytest.approx(5.0)
+    assert (excess.at_least, excess.at_largest) == (0.0, 3.0)
+    assert excess.coefficient == math.inf
+
+
+def test_true_speed_has_the_mean_asked_for_and_the_extremes_are_extremes():
+    speed = true_speed(INERTIA + 3.0, LOAD, 10.0)
+    angle = np.linspace(0, 2 * math.pi, 100001)
+    w = speed.speed(angle)
+    assert speed.mean_speed == pytest.approx(10, rel=1e-14)
+    assert (w.min(), w.max()) == pytest.approx((speed.extremes.least, speed.extremes.largest), rel=1e-7)
+    assert w.min() >= speed.extremes.least * (1 - 1e-14)
+
+
+def test_acceleration_is_the_derivative_of_the_speed():
+    speed = true_speed(INERTIA + 3.0, LOAD, 10.0)
+    angle, step = np.array([0.3, 1.7, 4.1, 5.5]), 1e-5
+    slope = (speed.speed(angle + step) - speed.speed(angle - step)) / (2 * step)
+    assert speed.acceleration(angle) == pytest.approx(speed.speed(angle) * slope, rel=1e-5)
+
+
+@pytest.mark.parametrize("fluctuation", [0.3, 0.1, 0.02, 0.001])
+def test_the_exact_flywheel_gives_the_fluctuation_asked_for(fluctuation):
+    found = flywheel(INERTIA, LOAD, 10.0, fluctuation)
+    assert abs(found.residual) < 1e-12
+
+
+def test_the_ways_agree_where_the_inertia_is_constant():
+    found = flywheels(Curve.constant(0.5), LOAD, 10.0, 0.05)
+    assert [one.way for one in found] == list(WAYS)
+    assert [one.inertia for one in found] == pytest.approx([found[0].inertia] * 4, rel=1e-13)
+    assert found[0].inertia + 0.5 == pytest.approx(excess_work(LOAD).work / (0.05 * 100))
+
+
+def test_order_of_convergence():
+    def error(way, fluctuation):
+        exact = flywheel(INERTIA, LOAD, 10.0, fluctuation).inertia
+        return abs(flywheel(INERTIA, LOAD, 10.0, fluctuation, way).inertia / exact - 1)
+
+    assert math.log2(error("mertsalov", 0.02) / error("mertsalov", 0.01)) == pytest.approx(1, abs=0.1)
+    assert math.log2(error("wittenbauer", 0.02) / error("wittenbauer", 0.01)) == pytest.approx(2, abs=0.1)
+
+
+def test_the_tangents_meet_in_the_origin_of_the_whole_machine():
+    found = flywheel(INERTIA, LOAD, 10.0, 0.1)
+    high, low = 10.5**2 / 2, 9.5**2 / 2
+    diagram = mass_energy_curve(INERTIA, excess_work(LOAD).curve, high, low)
+    x, y = diagram.origin
+    assert -x == pytest.approx(found.inertia, rel=1e-12)
+    assert -y == pytest.approx(true_speed(INERTIA + found.inertia, LOAD, 10.0).energy, rel=1e-12)
+
+
+def test_a_machine_that_needs_no_flywheel():
+    heavy = flywheel(Curve.constant(1000.0), LOAD, 10.0, 0.1)
+    assert heavy.inertia < 0
+    assert heavy.fluctuation == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize(("speed", "fluctuation"), [(10, 0), (10, 2), (10, -0.1), (0, 0.1)])
+def test_what_cannot_be_asked(speed, fluctuation):
+    with pytest.raises(MethodError, match="between 0 and 2"):
+        flywheel(INERTIA, LOAD, speed, fluctuation)
+
+
+def test_a_machine_that_would_stop_says_where():
+    with pytest.raises(MethodError, match=r"stops at a crank angle of 2\d\d"):
+        true_speed(INERTIA, LOAD, 1.0)
+
+
+def test_a_negative_inertia_has_no_motion():
+    swinging = Curve.hermite(ANGLE, 5 + 4 * np.cos(ANGLE), -4 * np.sin(ANGLE))
+    assert math.isnan(flywheel(swinging, LOAD * 0.001, 10.0, 0.5, "energy").fluctuation)
+
+
+class TestBody:
+    def test_a_rim_of_inertia(self):
+        rim = rim_of_inertia(100.0, 1.2, width_ratio=1.5)
+        assert rim.inertia == pytest.approx(100, rel=1e-13)
+        assert rim.width / rim.thickness == pytest.approx(1.5)
+        inner, outer = 0.6 - rim.thickness / 2, 0.6 + rim.thickness / 2
+        ring = 7200 * math.pi / 2 * rim.width * (outer**4 - inner**4)
+        assert rim.inertia == pytest.approx(ring, rel=1e-13)
+
+    def test_rim_stress(self):
+        assert Rim(2.0, 0.1, 0.05, density=7000).stress(10.0) == pytest.approx(7000 * 10.0**2)
+        assert largest_diameter(7000 * 100, 10.0, 7000) == pytest.approx(2.0)
+
+    def test_a_disc_of_inertia(self):
+        disc = disc_of_inertia(2.0, 0.5)
+        assert disc.inertia == pytest.approx(2.0)
+        assert disc.stress(100.0) == pytest.approx(3.3 / 8 * 7850 * 25**2)
+
+    def test_mass_and_another_shaft(self):
+        assert rim_mass(18.0, 3.0) == 2.0
+        assert inertia_on_other_shaft(2.0, 3.0) == 18.0
+        assert fluctuation_of_inertia(10.0, 2.0, 5.0) == 0.2

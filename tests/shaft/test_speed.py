@@ -1,0 +1,153 @@
+"""Equation of motion: steady speed with a motor, start, run-down, stall."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from crankwork.errors import MethodError
+from crankwork.shaft.collocation import integrate, integrate_periodic
+from crankwork.shaft.curve import Curve
+from crankwork.shaft.fluctuation import true_speed
+from crankwork.shaft.motor import AsynchronousMotor, GearedMotor, LinearMotor
+from crankwork.shaft.motor_flywheel import flywheel_by_simulation
+from crankwork.shaft.speed import ReducedMachine, steady_speed
+from crankwork.shaft.transient import run
+
+ANGLE = np.linspace(0, 2 * math.pi, 361)
+INERTIA = Curve.hermite(
+    ANGLE,
+    0.5 + 0.2 * np.cos(2 * ANGLE) + 0.05 * np.sin(ANGLE),
+    -0.4 * np.sin(2 * ANGLE) + 0.05 * np.cos(ANGLE),
+)
+LOAD = Curve.linear(np.radians([0, 40, 80, 120, 360]), [-5.0, -5.0, -100.0, -5.0, -5.0])
+MOTOR = GearedMotor(AsynchronousMotor.of_catalogue(750.0, 148.0, 2.2), 14.0, 0.002)
+
+
+def machine(flywheel=3.0, load=LOAD, motor=MOTOR):
+    return ReducedMachine.of_curves(INERTIA, load, motor, flywheel=flywheel + MOTOR.reduced_inertia)
+
+
+class TestCollocation:
+    def test_an_exponential(self):
+        solved = integrate(lambda x, y: -y + 0 * x, np.linspace(0.0, 5.0, 6), 1.0)
+        assert solved.converged
+        assert solved.values == pytest.approx(np.exp(-solved.edges), rel=1e-13)
+        x = np.linspace(0, 5, 37)
+        assert solved(x) == pytest.approx(np.exp(-x), rel=1e-12)
+
+    def test_a_periodic_solution(self):
+        """The solution of y' = -y + cos x that repeats is (cos x + sin x) / 2."""
+        edges = np.linspace(0, 2 * math.pi, 5)
+        solved = integrate_periodic(lambda x, y: np.cos(x) - y, edges, np.ones(5))
+        assert solved.values == pytest.approx((np.cos(solved.edges) + np.sin(solved.edges)) / 2, abs=1e-13)
+        assert solved.multiplier == pytest.approx(math.exp(-2 * math.pi))
+
+    def test_an_explosion_is_not_solved(self):
+        assert not integrate(lambda x, y: y**2 + 0 * x, np.linspace(0.0, 2.0, 9), 1.0).converged
+
+
+class TestSteady:
+    def test_the_speed_repeats_and_the_energy_balances(self):
+        found = steady_speed(machine(), 11.0)
+        assert found.status == "steady"
+        assert found.speed[0] == pytest.approx(found.speed[-1], rel=1e-14)
+        assert found.energy_drift < 1e-13
+        assert found.multiplier < 1
+
+    def test_it_does_not_depend_on_the_guess(self):
+        one, two = (steady_speed(machine(), guess) for guess in (10.0, 11.2))
+        assert one.mean_speed == pytest.approx(two.mean_speed, rel=1e-13)
+
+    def test_extremes_are_extremes(self):
+        found = steady_speed(machine(), 11.0)
+        assert found.least <= found.speed.min()
+        assert found.largest >= found.speed.max()
+        assert found.fluctuation == pytest.approx(2 * (found.largest - found.least) / (found.largest + found.least))
+
+    def test_a_start_ends_in_the_same_motion(self):
+        started = run(machine())
+        steady = steady_speed(machine(), 11.0)
+        assert started.status == "steady"
+        assert started.speed[-1] == pytest.approx(steady.speed[0], rel=1e-9)
+        assert started.energy_drift < 1e-12
+
+    def test_a_soft_motor_is_nearly_a_constant_torque(self):
+        """With a motor whose torque hardly changes, w is that of the energy quadrature."""
+        soft = LinearMotor(1e-4, 10.0 - LOAD.mean / 1e-4)
+        found = steady_speed(ReducedMachine.of_curves(INERTIA, LOAD, soft, flywheel=3.0), 10.0)
+        middle = (found.largest + found.least) / 2
+        exact = true_speed(INERTIA + 3.0, LOAD, middle)
+        assert found.speed == pytest.approx(exact.speed(found.angle), rel=1e-5)
+
+    def test_a_load_beyond_the_motor_is_not_solved(self):
+        found = steady_speed(machine(load=Curve.constant(-400.0)), 10.0)
+        assert found.status == "not solved"
+        assert "weaker than the load" in found.message
+
+    def test_no_steady_speed_without_a_motor(self):
+        assert steady_speed(ReducedMachine.of_curves(INERTIA, LOAD - LOAD.mean), 10.0).status == "not solved"
+
+
+class TestRunDown:
+    def test_constant_torque(self):
+        down = run(ReducedMachine.of_curves(Curve.constant(2.0), Curve.constant(-4.0)), speed=20.0, angle=0.3)
+        assert down.status == "stopped"
+        assert down.time[-1] == pytest.approx(10.0, rel=1e-11)
+        assert down.angle[-1] == pytest.approx(0.3 + 100.0, rel=1e-13)
+        assert down.speed[-1] == 0.0
+
+    def test_viscous_and_dry_friction(self):
+        down = run(ReducedMachine(lambda at: (2.0 + 0 * at, 0 * at), lambda _, w: -4.0 - 0.5 * w), speed=20.0)
+        assert down.time[-1] == pytest.approx(2 / 0.5 * math.log((4 + 10) / 4), rel=1e-12)
+
+    def test_a_swinging_inertia_spends_the_same_energy(self):
+        down = run(ReducedMachine.of_curves(INERTIA, Curve.constant(-0.7)), speed=8.0)
+        assert down.angle[-1] == pytest.approx(float(INERTIA(0.0)) * 64 / 2 / 0.7, rel=1e-12)
+
+
+class TestFailure:
+    def test_a_stall_names_the_angle(self):
+        heavy = Curve.linear(np.radians([0, 40, 80, 120, 360]), [-5.0, -5.0, -450.0, -5.0, -5.0])
+        stalled = run(machine(0.2, heavy))
+        assert stalled.status == "stalled"
+        assert "75.88 deg" in stalled.message
+        assert stalled.speed[-1] == 0.0
+
+    def test_the_start_is_that_of_another_solver(self):
+        integrate_ivp = pytest.importorskip("scipy.integrate").solve_ivp
+        light = machine(0.2)
+        started = run(light, cycles=2, until_steady=False)
+
+        def rate(_, state):
+            angle, speed = state[:1], state[1:]
+            return [speed[0], light.acceleration(angle, speed)[0]]
+
+        other = integrate_ivp(rate, (0.0, started.time[-1]), [0.0, 0.0], rtol=1e-9, atol=1e-9, max_step=2e-3)
+        assert other.y[:, -1] == pytest.approx((started.angle[-1], started.speed[-1]), rel=1e-6)
+
+    def test_it_does_not_start(self):
+        stuck = run(machine(load=Curve.constant(-400.0)))
+        assert stuck.status == "not started"
+        assert stuck.angle.size == 1
+
+    def test_it_gives_up(self):
+        assert run(machine(1000.0), cycles=3).status == "turning"
+
+    def test_backwards(self):
+        with pytest.raises(MethodError, match="against it"):
+            run(machine(), speed=-1.0)
+
+
+class TestFlywheel:
+    def test_the_simulated_speed_has_the_fluctuation_asked_for(self):
+        found = flywheel_by_simulation(machine, 11.0, 0.03, 5.0)
+        assert abs(found.residual) < 1e-9
+        assert abs(steady_speed(machine(found.inertia), 11.0).fluctuation - 0.03) < 1e-6
+
+    def test_none_is_needed(self):
+        found = flywheel_by_simulation(machine, 11.0, 1.9, 5.0)
+        assert math.isnan(found.inertia)
+        assert found.message
