@@ -5,20 +5,27 @@ from __future__ import annotations
 import math
 import re
 import time
+from pathlib import Path
 
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from crankwork.analysis import analyse
 from crankwork.description.keys import MACHINE_FILE
+from crankwork.description.linkage_keys import LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.machine_file import read_machine, template, template_names
 from crankwork.description.schema import Table
 from crankwork.errors import CrankworkError, InputError
 from crankwork.units import UNITS
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
 TEMPLATES = [template(name) for name in template_names()]
-TABLES = [entry.kind for entry in MACHINE_FILE.keys.values() if isinstance(entry.kind, Table)]
-KEYS = sorted({key for table in TABLES for key in table.keys} | set(MACHINE_FILE.keys))
+# a transient, and a table of transfer functions
+TEMPLATES += [(EXAMPLES / f"{name}.toml").read_text("utf-8") for name in ("andrews-squeezer", "press")]
+FILES = (MACHINE_FILE, LINKAGE_FILE, TRANSFER_FILE)
+HEADS = sorted({key for one in FILES for key in one.keys})
+TABLES = [entry.kind for one in FILES for entry in one.keys.values() if isinstance(entry.kind, Table)]
+KEYS = sorted({key for table in TABLES for key in table.keys} | set(HEADS))
 SET_KEYS = st.sampled_from(["rod.ratio", "crank", "gas.pieces", "x.y", "method.pi", "title"])
 SETTINGS = st.lists(st.builds("{}={}".format, SET_KEYS, st.text(max_size=20)) | st.text(max_size=20), max_size=3)
 VALUES = st.one_of(
@@ -114,7 +121,7 @@ def test_a_template_with_damaged_text_is_a_machine_or_refused(data) -> None:
     st.lists(
         st.one_of(
             st.builds("{} = {}".format, st.sampled_from([*KEYS, "x", "a.b", '"\\n"', "'a.b'"]), VALUES),
-            st.sampled_from([f"[{name}]" for name in MACHINE_FILE.keys] + ["[[gas.pieces]]", "[gas.points]", "[x]"]),
+            st.sampled_from([f"[{name}]" for name in HEADS] + ["[[gas.pieces]]", "[gas.points]", "[x]"]),
             st.builds("{} = {{ angle = {}, pressure = {} }}".format, st.sampled_from("abc"), VALUES, VALUES),
             st.text(max_size=20),
         ),

@@ -11,8 +11,9 @@ import jsonschema
 import pytest
 
 from crankwork.description.keys import MACHINE_FILE
+from crankwork.description.linkage_keys import LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.machine_file import json_schema, read_machine, template, template_names
-from crankwork.description.schema import ListOf, Named, Table
+from crankwork.description.schema import ListOf, Named, NameOr, Nested, Table
 from crankwork.errors import CrankworkError
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
@@ -49,7 +50,33 @@ def test_what_the_reader_refuses_the_schema_refuses_too(wrong) -> None:
 
 @pytest.mark.parametrize("text", TEXTS.values(), ids=TEXTS)
 def test_templates_and_examples_use_documented_keys_only(text) -> None:
-    assert list(_undocumented(tomllib.loads(text), MACHINE_FILE, "")) == []
+    values = tomllib.loads(text)
+    of_linkage = LINKAGE_FILE if "fixed_points" in values else MACHINE_FILE
+    assert list(_undocumented(values, TRANSFER_FILE if "transfer" in values else of_linkage, "")) == []
+
+
+@pytest.mark.parametrize("key", ["two kinds", "nothing"])
+def test_a_file_is_of_one_kind_only(key) -> None:
+    values = {} if key == "nothing" else tomllib.loads(template("engine")) | tomllib.loads(template("four-bar"))
+    assert not jsonschema.Draft202012Validator(SCHEMA).is_valid(values)
+
+
+@pytest.mark.parametrize(
+    ("chain", "fits"),
+    [
+        ([0.98], True), ([0.98, [0.9, 0.8], 1], True), ([], False), ([[]], False), ([0.9, [[0.8]]], False),
+        ([1.2], False), ([0], False), ("0.9", False), (["0.9"], False),
+    ],
+)  # fmt: skip
+def test_a_chain_of_efficiencies_is_the_same_to_schema_and_reader(chain, fits) -> None:
+    values = tomllib.loads(template("four-bar")) | {"efficiency": {"chain": chain}}
+    assert jsonschema.Draft202012Validator(SCHEMA).is_valid(values) == fits
+    text = f"{template('four-bar')}\n[efficiency]\nchain = {json.dumps(chain)}\n"
+    if fits:
+        assert read_machine(text)
+    else:
+        with pytest.raises(CrankworkError, match=r"efficiency\.chain"):
+            read_machine(text)
 
 
 def _undocumented(value, kind, path):
@@ -63,6 +90,8 @@ def _undocumented(value, kind, path):
         case Named():
             for name, one in value.items():
                 yield from _undocumented(one, kind.entry, f"{path}.{name}")
+        case Nested() | NameOr():
+            assert not isinstance(value, dict)
         case ListOf():
             for one in value:
                 yield from _undocumented(one, kind.entry, path)
@@ -72,11 +101,27 @@ COMMENTED = re.compile(r"# (?P<key>\w+) = (?P<value>\"[^\"]*\"|\[[^\]]*\]|[\w.]+
 ALTERNATIVE = re.compile(r"(?:or|;|which is r/l;|add) (?P<key>\w+) = (?P<value>\"[^\"]*\"|[\d.]+)")
 
 
+HEADER = re.compile(r"# \[+(?!gas\.)[a-z_.]+\]")
+
+
+def _header_above(lines: list[str], number: int) -> int | None:
+    """Return the line of the commented table header that a commented line belongs to."""
+    while number > 0 and lines[number].startswith("# "):
+        number -= 1
+        if HEADER.match(lines[number]):
+            return number
+    return None
+
+
 def _comments():
     """Give every setting that stands in a comment of a template: alone on a line, or after `or`."""
     for name in template_names():
         lines = template(name).split("\n")
         for number, line in enumerate(lines):
+            if HEADER.match(line):
+                yield pytest.param(name, number, line.removeprefix("# "), id=f"{name}-{line.split()[1]}")
+            if _header_above(lines, number) is not None:
+                continue
             alone = COMMENTED.match(line)
             if alone and "gas.measured" not in "".join(lines[max(0, number - 3) : number]):
                 yield pytest.param(name, number, line.removeprefix("# "), id=f"{name}-{alone['key']}")
@@ -91,6 +136,10 @@ def _comments():
 def test_every_setting_in_a_comment_of_a_template_can_be_used(name, number, line) -> None:
     lines = template(name).split("\n")
     is_alternative = not lines[number].startswith("#")
+    for below in range(number + 1, len(lines)) if HEADER.match(lines[number]) else ():
+        if not lines[below].startswith("# "):
+            break
+        lines[below] = lines[below].removeprefix("# ")
     lines[number] = line
     # a zero, and a decimal mark where no comma stands, change nothing
     is_neutral = '"0 ' in line or "decimal_mark" in line
@@ -99,7 +148,7 @@ def test_every_setting_in_a_comment_of_a_template_can_be_used(name, number, line
 
 
 def test_comments_of_the_templates_are_found() -> None:
-    assert len(list(_comments())) >= 25
+    assert len(list(_comments())) >= 50
 
 
 @pytest.mark.parametrize(

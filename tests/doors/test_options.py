@@ -75,7 +75,7 @@ def test_forces_per_area_need_the_bore(crankwork, machine_file, check_mistakes) 
 @pytest.mark.parametrize(
     ("arguments", "answered"),
     [
-        (("new", "steam"), 'there is no template "steam"; there are: compressor, engine, slider-crank'),
+        (("new", "steam"), 'there is no template "steam"; there are: compressor, crank-shaper, engine, four-bar, '),
         (("new", "../../engine"), "there is no template"),
         (("new", "a\x1b[31m"), '"a\\x1b[31m"'),
         (("check",), "FILE: is missing; write it after the command"),
@@ -146,7 +146,10 @@ def test_a_title_with_emoji_and_any_script_is_printed_as_it_is(crankwork, machin
 
 
 def test_new_prints_the_names_or_the_template(crankwork) -> None:
-    assert crankwork("new").out.split() == ["compressor", "engine", "slider-crank"]
+    assert crankwork("new").out.split() == [
+        "compressor", "crank-shaper", "engine", "four-bar", "press", "scotch-yoke", "slider-crank",
+        "stephenson-six-bar", "toggle-press", "watt-six-bar", "whitworth",
+    ]  # fmt: skip
     assert crankwork("new", "engine").out == template("engine")
 
 

@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 
 from crankwork.analysis import Results, analyse
-from crankwork.description.machine_file import read
+from crankwork.description.machine_file import read, read_machine
 from crankwork.errors import CrankworkError, MissingExtraError
+from crankwork.machine import LinkageMachine, Machine
 from crankwork.quantities import LANGUAGES, QUANTITIES
 from crankwork.report.figure_data import drawn_from, figure_title
 from crankwork.report.figures import figures
@@ -22,6 +23,8 @@ pytest.importorskip("matplotlib")
 ROOT = Path(__file__).parents[2]
 TEMPLATES = ROOT / "src" / "crankwork" / "description" / "templates"
 FILES = [*sorted((ROOT / "examples").glob("*.toml")), *sorted(TEMPLATES.glob("*.toml"))]
+ENGINES = [path for path in FILES if isinstance(read(path), Machine)]
+LINKAGES = [path for path in FILES if path not in ENGINES]
 FORCES = ["piston_forces", "rod_forces", "crankpin_forces", "torque", "crankpin_polar"]
 ALL = ["kinematics", "pressure", "indicator", *FORCES]
 SVG = "{http://www.w3.org/2000/svg}"
@@ -37,7 +40,7 @@ def engine() -> Results:
     return _results(TEMPLATES / "engine.toml")
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: f"{path.parent.name}-{path.stem}")
+@pytest.mark.parametrize("path", ENGINES, ids=lambda path: f"{path.parent.name}-{path.stem}")
 @pytest.mark.parametrize("method", ["exact", "textbook"])
 def test_every_machine_has_the_figures_of_what_is_known(path, method):
     results = _results(path, method)
@@ -48,6 +51,26 @@ def test_every_machine_has_the_figures_of_what_is_known(path, method):
     assert list(drawn) == expected
     for data in drawn.values():
         assert ET.fromstring(data).tag == f"{SVG}svg"  # noqa: S314 - our own bytes
+
+
+@pytest.mark.parametrize("path", LINKAGES, ids=lambda path: f"{path.parent.name}-{path.stem}")
+def test_every_linkage_has_its_plans_and_the_curves_of_what_is_known(path):
+    results = analyse(read(path))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        drawn = figures(results, language=LANGUAGES[len(path.stem) % 3])
+    expected = {"reduced_inertia", "torques"}
+    if isinstance(results.machine, LinkageMachine):
+        expected |= {"position_plans", "velocity_plan", "acceleration_plan", "joint_forces"}
+        expected |= {"sliders"} if any(key.startswith("slider_") for key in results.columns) else set()
+    assert set(drawn) == expected
+    for data in drawn.values():
+        assert ET.fromstring(data).tag == f"{SVG}svg"  # noqa: S314 - our own bytes
+
+
+def test_a_wanted_flywheel_adds_the_energy_mass_diagram_and_the_speed():
+    text = (TEMPLATES / "crank-shaper.toml").read_text(encoding="utf-8") + "\n[flywheel]\nfluctuation = 0.04\n"
+    assert {"wittenbauer", "speed"} <= set(figures(analyse(read_machine(text)), language="ru"))
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -75,7 +75,9 @@ def reachable(machine: LinkageMachine, grid: CrankGrid) -> tuple[CrankGrid, tupl
         if reached.size < 2:
             raise
         kept = grid[slice(int(reached[0]), int(reached[-1]) + 1)]
-        return kept, (Notice("partial", {"message": str(error), "from": kept.degrees[0], "to": kept.degrees[-1]}),)
+        return kept, (
+            Notice("partial", {"message": str(error), "from": float(kept.degrees[0]), "to": float(kept.degrees[-1])}),
+        )
     return grid, ()
 
 
@@ -186,11 +188,14 @@ def analyse_linkage(machine: LinkageMachine, grid: CrankGrid | None = None) -> R
         If the linkage can be assembled nowhere.
     """
     solved = solve_linkage(machine)
+    own_table = grid is None
     if grid is None:
         grid = CrankGrid.steps(machine.table_step, 360.0, special=machine.table_special)
     dense, notices = reachable(machine, CrankGrid.steps(_DENSE_STEP, 360.0))
     low, high = dense.degrees[0], dense.degrees[-1]
     inside = np.flatnonzero((grid.degrees >= low) & (grid.degrees <= high))
+    if inside.size == 0 and own_table:
+        grid, inside = dense, np.arange(len(dense))
     if inside.size == 0:
         raise CrankworkError(f"no angle of the table can be reached; the linkage moves from {low:g} to {high:g} deg")
     grid = grid[slice(int(inside[0]), int(inside[-1]) + 1)]

@@ -55,7 +55,9 @@ def speed_summary(
         result |= {f"flywheel_inertia.{one.way}": one.inertia for one in found}
         added = max(found[-1].inertia, 0.0)
         notices += (Notice("flywheel_residual", {"residual": found[-1].residual}),)
-    if drive.motor is not None:
+    if drive.motor is not None and not np.any(known["reduced_inertia"]) and not added + drive.motor.reduced_inertia:
+        notices += (Notice("no_steady_speed", {"message": "nothing has a mass; give masses, or motor.inertia"}),)
+    elif drive.motor is not None:
         need = motor_need(Curve.linear(angle, known["static_torque"]), speed, efficiency=drive.efficiency)
         result["motor_power"] = need.mean_power
         more, told = _steady(drive.motor, speed, inertia, load, added)

@@ -8,23 +8,36 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
+from crankwork.analysis.linkage import reachable
+from crankwork.analysis.linkage_speed import transient_summary
 from crankwork.description.build import build_method
 from crankwork.description.schema import Measure, Reader
 from crankwork.dynamics.efficiency import Chain, Parallel, Series, efficiency
 from crankwork.dynamics.tabulated import TabulatedBody
-from crankwork.errors import MethodError
-from crankwork.loads.load import Load
+from crankwork.dynamics.reduction import reduced_inertia
+from crankwork.errors import CrankworkError, GeometryError, MethodError
+from crankwork.kinematics.assembly import unassembled
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.motion import linkage_motion
+from crankwork.kinematics.placement import place
+from crankwork.loads.load import Load, applied_loads
 from crankwork.loads.process import ForceOnPoint, ProcessForce, TorqueOnLink
 from crankwork.loads.spring import SliderSpring, Spring
 from crankwork.loads.table import Table as LoadTable
 from crankwork.loads.weight import Weight
 from crankwork.machine import Drive, LinkageMachine, TabulatedMachine, Transient
+from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.decomposition import mechanism_of
 from crankwork.mechanism.description import linkage_from
 from crankwork.mechanism.linkage import Linkage
 from crankwork.shaft.motor import AsynchronousMotor, GearedMotor
 
 _GEOMETRY = ("fixed_points", "crank", "links", "guides", "sliders", "branch", "positions")
+_STEP = 1.0
+_REVOLUTION = math.tau + 1e-9
+_MOST_TURNS = 10_000
 _ELSEWHERE = ("speed", "angular_acceleration", "inertia")
 # what each kind of load needs, and what it may have besides
 _LOAD_KEYS = {
@@ -66,7 +79,7 @@ def build_linkage(values: Mapping[str, Any], reader: Reader) -> LinkageMachine |
     if values.get("method", {}).get("weights"):
         loads = (*loads, Weight(method.gravity))
     crank, table = values["crank"], values.get("table", {})
-    return LinkageMachine(
+    machine = LinkageMachine(
         mechanism=mechanism,
         linkage=linkage,
         speed=crank["speed"].value,
@@ -79,6 +92,53 @@ def build_linkage(values: Mapping[str, Any], reader: Reader) -> LinkageMachine |
         table_step=round(math.degrees(_value(table, "step", math.radians(10.0))), 9),
         table_special=tuple(round(math.degrees(one.value), 9) for one in table.get("special_angles", []) if one),
     )
+    _check_motion(machine, reader)
+    return None if reader.problems else machine
+
+
+def _check_motion(machine: LinkageMachine, reader: Reader) -> None:
+    """Complain of a linkage that can be assembled nowhere, and of a transient that does not come to its end."""
+    grid = CrankGrid.steps(_STEP, 360.0)
+    try:
+        reached, _ = reachable(machine, grid)
+        motion = linkage_motion(machine.mechanism, reached)
+    except GeometryError as error:
+        reader.complain(_unassembled_key(machine, grid), str(error))
+        return
+    try:
+        applied_loads(machine.mechanism, motion, machine.loads)
+    except GeometryError as error:
+        reader.complain("loads", str(error))
+        return
+    if machine.transient is None:
+        return
+    inertia = float(np.mean(reduced_inertia(machine.mechanism, motion).inertia)) + machine.drive.inertia
+    if inertia <= 0:
+        reader.complain("transient", "nothing has a mass, so nothing limits the speed; give masses or crank.inertia")
+        return
+    wanted = machine.transient
+    turns = (wanted.torque / inertia * wanted.time / 2 + wanted.speed) * wanted.time / math.tau
+    if turns > _MOST_TURNS:
+        reader.complain("transient.time", (
+            f"is too long: the crank would turn about {turns:.2g} times; write a time for at most {_MOST_TURNS} turns"
+        ))  # fmt: skip
+        return
+    try:
+        transient_summary(machine)
+    except GeometryError as error:
+        reader.complain("transient", str(error))
+    except CrankworkError as error:
+        reader.complain("transient", f"{error}; write a larger torque, a speed to start with, or another crank.start")
+
+
+def _unassembled_key(machine: LinkageMachine, grid: CrankGrid) -> str:
+    """Return the key of the first link of the group that can be assembled nowhere."""
+    for group, closure in zip(machine.mechanism.dyads, place(machine.mechanism, grid).closures, strict=True):
+        if unassembled(closure) is not None:
+            names = [one.name for one in group.links] if isinstance(group, Chain) else vars(group).values()
+            member = next(one for one in machine.linkage.members if one.name in names)
+            return f"{'sliders' if member.guide else 'links'}.{member.name}"
+    return "links"
 
 
 def build_tabulated(values: Mapping[str, Any], reader: Reader) -> TabulatedMachine | None:
@@ -92,14 +152,18 @@ def build_tabulated(values: Mapping[str, Any], reader: Reader) -> TabulatedMachi
         Collects the complaints.
     """
     method = build_method(values.get("method", {}), reader)
+    if not method.is_exact:
+        reader.complain("method.kinematics", "the motion is that of the table; write exact or leave it out")
     drive = _drive(values, reader)
     if reader.problems:
         return None
     transfer = values["transfer"]
     angles = _plain(transfer["angles"])
     count = len(angles)
-    if any(after <= before for before, after in itertools.pairwise(angles)):
+    if any(after <= before for before, after in itertools.pairwise(angles)) or angles[-1] - angles[0] > _REVOLUTION:
         reader.complain("transfer.angles", "must rise from position to position, within one revolution")
+    if not transfer["bodies"]:
+        reader.complain("transfer.bodies", "is empty; write a table [transfer.bodies.NAME] for each moving mass")
     bodies = []
     for name, body in transfer["bodies"].items():
         columns = {key: tuple(_plain(body[key])) for key in ("velocity", "rotation") if key in body}
@@ -148,7 +212,10 @@ def _drive(values: Mapping[str, Any], reader: Reader) -> Drive:
         whole = efficiency(Series(tuple(parts)))
         drive = replace(drive, efficiency=whole)
         if "decimals" in table:
-            drive = replace(drive, efficiency=round(whole, int(table["decimals"])), exact_efficiency=whole)
+            used = round(whole, int(table["decimals"]))
+            drive = replace(drive, efficiency=used, exact_efficiency=whole)
+            if used <= 0:
+                reader.complain("efficiency.decimals", f"rounds an efficiency of {whole:.6g} to 0; write more of them")
     motor = values.get("motor")
     if motor and {"rated_power", "rated_speed", "overload", "pole_pairs"} <= set(motor):
         frequency = _value(motor, "frequency", 2 * math.pi * 50) / (2 * math.pi)
@@ -197,6 +264,9 @@ def _check_load(key: str, load: Mapping[str, Any], linkage: Linkage | None, read
         reader.complain(f"{key}.{name}", f"means nothing for this kind; it takes {', '.join(needed + allowed)}")
     if load["kind"] == "spring" and ("between" in load) == ("slider" in load):
         reader.complain(f"{key}.between", "a spring joins two points or holds a slider; give between or slider")
+    if len(set(load.get("between", "  x"))) < 2:
+        reader.complain(f"{key}.between", f"names {load['between'][0]} twice; a spring joins two different points")
+    _check_table(key, load, reader)
     if linkage is not None:
         names = {"slider": {one.name for one in linkage.members if one.guide},
                  "link": {one.name for one in linkage.members} | {linkage.crank.link},
@@ -208,8 +278,36 @@ def _check_load(key: str, load: Mapping[str, Any], linkage: Linkage | None, read
                 )
         for point in load.get("between", []):
             if point not in names["point"]:
-                reader.complain(f"{key}.between", f'there is no point "{point}"')
+                reader.complain(
+                    f"{key}.between", f'there is no point "{point}"; there is {", ".join(sorted(names["point"]))}'
+                )
+        owners = linkage.owners().get(load.get("point", ""), [])
+        if load["kind"] == "force" and owners and load.get("link", owners[0]) not in owners:
+            reader.complain(f"{key}.link", f"{load['point']} is no point of it; it is one of {', '.join(owners)}")
     return not any(problem.key.startswith(key) for problem in reader.problems)
+
+
+def _check_table(key: str, load: Mapping[str, Any], reader: Reader) -> None:
+    """Complain of a table of a load whose columns do not match, do not rise, or count by the wrong quantity."""
+    column = "torque" if load["kind"] == "torque" else "force"
+    values, at = load.get(column, []), load.get("at")
+    if None in values or at is None or None in at:
+        if at is None and len(values) > 1:
+            reader.complain(f"{key}.at", (
+                f"is missing: {len(values)} values of {column} need as many; a single value holds everywhere"
+            ))  # fmt: skip
+        return
+    wanted = "angle" if column == "torque" or load.get("against") == "angle" else "length"
+    if any(one.dimension != wanted for one in at):
+        example = '["0 deg", "90 deg", ...]' if wanted == "angle" else '["0 mm", "50 mm", ...]'
+        advice = '; for crank angles add against = "angle"' if wanted == "length" else ""
+        reader.complain(f"{key}.at", f"must hold values of one kind, {wanted}s, like {example}{advice}")
+    elif any(after.value <= before.value for before, after in itertools.pairwise(at)):
+        reader.complain(f"{key}.at", "must rise from value to value; sort it, together with the column beside it")
+    elif wanted == "angle" and at[-1].value - at[0].value > _REVOLUTION:
+        reader.complain(f"{key}.at", "spans more than one revolution; write angles from 0 deg to 360 deg")
+    if len(at) != len(values):
+        reader.complain(f"{key}.at", f"has {len(at)} values for {len(values)} of {column}; give as many")
 
 
 def _load(load: Mapping[str, Any]) -> Load:
@@ -236,8 +334,6 @@ def _curve(load: Mapping[str, Any], key: str) -> LoadTable:
     values = tuple(_plain(load[key]))
     smooth = load.get("curve") == "smooth"
     if "at" not in load:
-        if len(values) != 1:
-            raise ValueError(f"{len(values)} values need as many in at = [...]; a single one holds everywhere")
         return LoadTable((-1e3, 1e3), (values[0], values[0]))
     at = tuple(_plain(load["at"]))
     period = 2 * math.pi if load.get("against") == "angle" or load["kind"] == "torque" else 0.0

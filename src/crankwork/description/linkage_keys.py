@@ -82,7 +82,7 @@ _LOAD = Table({
 _EFFICIENCY = Table({
     "chain": Key(Nested(Number(0.0, 1.0, above=True)), "efficiencies in series; a list within is in parallel",
                  required=True),
-    "decimals": Key(Number(1, 6), "round the whole to so many decimals, as a document does"),
+    "decimals": Key(Number(1, 6, whole=True), "round the whole to so many decimals, as a document does"),
 })  # fmt: skip
 
 _MOTOR = Table(
@@ -90,7 +90,7 @@ _MOTOR = Table(
         "rated_power": Key(Quantity(("power",), 0.0, 1e9, above=True), "power on its shaft", required=True),
         "rated_speed": Key(_SPEED, "speed at that power", required=True),
         "overload": Key(Number(1.0, 10.0, above=True), "greatest torque over rated torque", required=True),
-        "pole_pairs": Key(Number(1, 24), "pairs of poles", required=True),
+        "pole_pairs": Key(Number(1, 24, whole=True), "pairs of poles", required=True),
         "frequency": Key(_SPEED, "of the mains, by default 50 Hz"),
         "ratio": Key(Number(0.0, 1e4, above=True), "speed of the motor over that of the crank"),
         "inertia": Key(_INERTIA, "moment of inertia of its rotor"),
@@ -124,7 +124,7 @@ LINKAGE_FILE = Table(
         "links": Key(Named(_LINK), "links by name"),
         "guides": Key(Named(_GUIDE), "straight guides by name"),
         "sliders": Key(Named(_SLIDER), "sliding pieces by name"),
-        "branch": Key(Named(Number(-1, 1)), "which way a group is assembled, 1 or -1, by the joint that it places"),
+        "branch": Key(Named(Choice((1, -1))), "which way a group is assembled, 1 or -1, by the joint that it places"),
         "positions": Key(Named(_PLACE), "roughly where joints are at a crank angle of zero"),
         "loads": Key(ListOf(_LOAD), "what pushes the linkage"),
         "efficiency": Key(_EFFICIENCY, "of the joints between motor and process"),

@@ -246,7 +246,12 @@ def _input_error(source: str, name: str, reader: Reader, settings: Sequence[Sett
 
 def _concerns(blamed: str, key: str, lines: Mapping[str, int]) -> bool:
     """Return whether a problem is that of a setting: of its key, of what is in it, or of a table it has made."""
-    return blamed == key or blamed.startswith(f"{key}.") or (key.startswith(f"{blamed}.") and blamed not in lines)
+    made = [blamed, *(blamed[:at] for at, mark in enumerate(blamed) if mark == ".")]
+    return (
+        blamed == key
+        or blamed.startswith(f"{key}.")
+        or any(key.startswith(f"{one}.") and one not in lines for one in made)
+    )
 
 
 def _printable(text: str) -> str:

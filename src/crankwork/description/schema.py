@@ -14,6 +14,7 @@ from crankwork.errors import Problem
 
 _MAX_ENTRIES = 10_000
 _MAX_PROBLEMS = 50
+_LONGEST_NAME = 60
 
 
 class Measure(NamedTuple):
@@ -124,11 +125,12 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Number:
-    """A plain number between `low` and `high`."""
+    """A plain number between `low` and `high`; a whole one if it counts something."""
 
     low: float
     high: float
     above: bool = False
+    whole: bool = False
 
     def read(self, value: object, key: str, reader: Reader) -> float | None:
         """Return the number."""
@@ -141,6 +143,9 @@ class Number:
         if not (self.low < number if self.above else self.low <= number) or not number <= self.high:
             reader.complain(key, f"{_shown(value)} is out of range; write a number {self._range()}")
             return None
+        if self.whole and not number.is_integer():
+            reader.complain(key, f"{_shown(value)} is not possible here; write a whole number {self._range()}")
+            return None
         return number
 
     def _range(self) -> str:
@@ -148,24 +153,26 @@ class Number:
 
     def example(self) -> str:
         """Return a number in range, for advice."""
-        return f"{min(self.high, max(self.low, 0.25)):g}"
+        lowest = self.low + 1 if self.above and self.low >= 1 else self.low
+        return f"{min(self.high, max(lowest, 0.25)):g}"
 
     def schema(self) -> dict[str, Any]:
         """Return the schema of a number in range."""
-        return {"type": "number", "exclusiveMinimum" if self.above else "minimum": self.low, "maximum": self.high}
+        kind = "integer" if self.whole else "number"
+        return {"type": kind, "exclusiveMinimum" if self.above else "minimum": self.low, "maximum": self.high}
 
 
 @dataclass(frozen=True)
 class Choice:
-    """One of a few words."""
+    """One of a few words or numbers."""
 
-    options: tuple[str, ...]
+    options: tuple[str | int, ...]
 
-    def read(self, value: object, key: str, reader: Reader) -> str | None:
-        """Return the word."""
-        if value in self.options:
-            return str(value)
-        options = " or ".join(f'"{one}"' for one in self.options)
+    def read(self, value: object, key: str, reader: Reader) -> str | int | None:
+        """Return the word or number."""
+        if not isinstance(value, bool) and value in self.options:
+            return next(one for one in self.options if one == value)
+        options = " or ".join(_shown(one) for one in self.options)
         reader.complain(key, f"{_shown(value)} is not possible here; write {options}")
         return None
 
@@ -293,11 +300,17 @@ class Named:
         if not isinstance(value, dict):
             reader.complain(key, f"must be a table; put its keys below a line [{key}]")
             return None
+        for name in value:
+            if not name or len(name) > _LONGEST_NAME or not is_one_line(name):
+                reader.complain(
+                    f"{key}.{name}", f"is no name; write 1 to {_LONGEST_NAME} characters without line breaks"
+                )
         return {name: self.entry.read(one, f"{key}.{name}", reader) for name, one in value.items()}
 
     def schema(self) -> dict[str, Any]:
         """Return the schema of a mapping."""
-        return {"type": "object", "additionalProperties": self.entry.schema()}
+        names = {"minLength": 1, "maxLength": _LONGEST_NAME}
+        return {"type": "object", "additionalProperties": self.entry.schema(), "propertyNames": names}
 
 
 @dataclass(frozen=True)
@@ -318,6 +331,9 @@ class Table:
 
     def read(self, value: object, key: str, reader: Reader) -> dict[str, Any] | None:
         """Return the values by key; keys not given are absent."""
+        if isinstance(value, list) and all(isinstance(one, dict) for one in value):
+            reader.complain(key, f"is a list of {len(value)}; there is only one: put its keys below a line [{key}]")
+            return None
         if not isinstance(value, dict):
             header = f"put its keys below a line [{key}]" if "[" not in key else "write { key = value, ... }"
             reader.complain(key, f"must be a table; {header}")
@@ -359,7 +375,7 @@ class Table:
         prefix = f"{key}." if key else ""
         if any(one in value for one in alternatives) or reader.doubts(*(f"{prefix}{one}" for one in alternatives)):
             return
-        advice = [_advice(one, self.keys[one].kind) for one in alternatives]
+        advice = [_advice(one, self.keys[one].kind, prefix) for one in alternatives]
         reader.complain(f"{prefix}{name}", f"is missing; write {' or '.join(advice)}")
 
     def schema(self) -> dict[str, Any]:
@@ -401,21 +417,27 @@ def _shown(value: object) -> str:
     return text if len(text) <= 40 else f"{text[:37]}..."
 
 
-def _advice(name: str, kind: Kind) -> str:
-    """Return what to write for a missing key."""
+def _advice(name: str, kind: Kind, prefix: str) -> str:
+    """Return what to write for a missing key of the table whose keys begin with `prefix`."""
     match kind:
         case Quantity():
             return f'{name} = "{units.EXAMPLES[kind.dimensions[0]]}"'
         case Number():
             return f"{name} = {kind.example()}"
         case Choice():
-            return f'{name} = "{kind.options[0]}"'
+            return f"{name} = {_shown(kind.options[0])}"
         case Text():
             return f'{name} = "..."'
         case Table():
-            return f"a table [{name}]"
+            return f"a table [{prefix}{name}]"
+        case Named():
+            return f"tables [{prefix}{name}.NAME]"
+        case ListOf(Text()):
+            return f'{name} = ["A", "B"]'
+        case ListOf(Quantity() as entry):
+            return f'{name} = ["{units.EXAMPLES[entry.dimensions[0]]}", ...]'
         case _:
-            return name
+            return f"{name} = [...]"
 
 
 def _float(text: str) -> float | str:

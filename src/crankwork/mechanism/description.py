@@ -177,6 +177,10 @@ class _Reader:
                 self._problem(f"{key}.joins", f"names a joint twice: {', '.join(joins)}; a link joins different points")
                 continue
             points = self._points(key, table)
+            for point in {*points, ""}.intersection(joins[:2]):
+                self._problem(f"{key}.points.{point}", (
+                    f"{point} is one of the first two joints, whose places follow from the length; leave it out"
+                ))  # fmt: skip
             places = self._joint_places(key, table, list(joins), points, drawn)
             yield self._with_mass(key, table, Member(name, {**places, **points}))
 

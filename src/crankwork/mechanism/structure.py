@@ -187,8 +187,11 @@ def _loose_ends(linkage: Linkage) -> list[Problem]:
         count = len(joints) + bool(one.guide) + (one.name in carriers)
         if count < 2:
             what = f"only on {joints[0]}" if joints else "on nothing else" if not one.guide else "only on its guide"
+            alone = [name for name in one.points if len(owners[name]) == 1 and name != one.centre]
+            also = f", and nothing else is joined at {' or '.join(alone)}" if joints and alone else ""
             problems.append(Problem(_key(linkage, one.name), (
-                f"{one.name} hangs {what}; a link needs two joints: join it to another link, a fixed point or a guide"
+                f"{one.name} hangs {what}{also}; a link needs two joints: join it to another link, a fixed point or "
+                "a guide"
             )))  # fmt: skip
     return problems
 

@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 
 _STYLES = (SOLID, DASHED, DASH_DOT, DOTTED)
 _PANEL, _GAP, _LEGEND_ROW = 1.75, 0.2, 0.185
+# characters of a name that still fit beside a panel
+_LONG = 20
 
 
 def curves(
@@ -72,7 +74,7 @@ def curves(
     sets = [_panel((one,) if isinstance(one, str) else tuple(one), columns, rows or {}) for one in panels]
     if not sets:
         raise CrankworkError("curves need at least one key")
-    legends = [_LEGEND_ROW * len(one) + 0.06 if len(one) > 1 else 0.0 for one in sets]
+    legends = [_LEGEND_ROW * len(one) + 0.06 if _has_legend(one, style) else 0.0 for one in sets]
     tall = 3.0 if len(sets) == 1 else _PANEL
     with figure_look():
         figure = new_figure(BOTTOM + len(sets) * (tall + _GAP) + sum(legends))
@@ -99,6 +101,11 @@ def _panel(keys: tuple[str, ...], columns: Mapping[str, Array], rows: Mapping[st
     return found
 
 
+def _has_legend(quantities: Sequence[Quantity], style: Style) -> bool:
+    """Return whether names stand above a panel: there are several, or one too long for the axis."""
+    return len(quantities) > 1 or len(quantities[0].label(style.language)) > _LONG
+
+
 def _draw(axes: Axes, grid: CrankGrid, values: Sequence[tuple[Quantity, Array]], style: Style) -> None:
     lines = [
         Curve(row.symbol(style.language), row.label(style.language), displayed_values(row, column), _STYLES[i % 4])
@@ -106,10 +113,11 @@ def _draw(axes: Axes, grid: CrankGrid, values: Sequence[tuple[Quantity, Array]],
     ]
     first = values[0][0]
     unit = unit_name(first.unit, style.language)
-    draw_curves(axes, grid.degrees, lines, one_row=len(lines) == 1)
+    has_legend = _has_legend([row for row, _ in values], style)
+    draw_curves(axes, grid.degrees, lines, one_row=not has_legend)
     over_crank_angle(axes, float(grid.degrees[-1]), style.language)
     through_zero(axes, *(one.values for one in lines))
-    if len(lines) == 1:
+    if not has_legend:
         axes.set_ylabel(axis_title(first, style.language).replace(" $", "\n$", 1))
     else:
         names = ", ".join(dict.fromkeys(math_symbol(one.symbol) for one in lines)) if len(lines) < 5 else ""

@@ -61,7 +61,7 @@ def csv_table(results: Results, name: str, *, per_area: bool = False, for_excel:
     """
     keys = results.tables[name]
     separator = ";" if for_excel else ","
-    headings = [f"{key} [{key_unit(key, per_area=per_area) or '-'}]" for key in keys]
+    headings = [_quoted(f"{key} [{key_unit(key, per_area=per_area) or '-'}]") for key in keys]
     rows = zip(*(table_column(results, key, per_area=per_area).tolist() for key in keys), strict=True)
     lines = [separator.join(headings), *(separator.join(map(repr, row)) for row in rows)]
     text = "\r\n".join([*lines, ""])
@@ -69,6 +69,11 @@ def csv_table(results: Results, name: str, *, per_area: bool = False, for_excel:
         head, _, body = text.partition("\r\n")
         return ("\ufeff" + head + "\r\n" + body.replace(".", ",")).encode()
     return text.encode()
+
+
+def _quoted(heading: str) -> str:
+    """Return a heading as CSV has it: names of joints are the user's and may hold separators and quotes."""
+    return '"' + heading.replace('"', '""') + '"' if any(mark in heading for mark in ',;"') else heading
 
 
 def workbook(results: Results, *, language: Language = "en", per_area: bool = False) -> bytes:
