@@ -14,7 +14,8 @@ import pytest
 from crankwork.analysis import Results, analyse
 from crankwork.description.machine_file import read, read_machine
 from crankwork.errors import CrankworkError, MissingExtraError
-from crankwork.machine import LinkageMachine, Machine
+from crankwork.linkage_machine import LinkageMachine
+from crankwork.machine import Machine
 from crankwork.quantities import LANGUAGES, QUANTITIES
 from crankwork.report.figure_data import drawn_from, figure_title
 from crankwork.report.figures import figures

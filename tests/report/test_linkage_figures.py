@@ -14,7 +14,7 @@ import pytest
 from crankwork.errors import CrankworkError, MissingExtraError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import motion
-from crankwork.machine import LinkageMachine
+from crankwork.linkage_machine import LinkageMachine
 from crankwork.mechanism.catalog import (
     crank_shaper,
     four_bar,

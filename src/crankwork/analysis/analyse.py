@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import importlib
 from dataclasses import replace
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 from crankwork.analysis.engine import analyse_engine
 from crankwork.analysis.results import Results
 from crankwork.errors import MethodError
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.machine import AnyMachine, LinkageMachine, Machine
+from crankwork.machine import Machine
 from crankwork.method import Method
+
+if TYPE_CHECKING:
+    from crankwork.linkage_machine import AnyMachine
 
 
 def analyse(machine: AnyMachine, grid: CrankGrid | None = None, *, method: Method | None = None) -> Results:
@@ -43,11 +46,8 @@ def analyse(machine: AnyMachine, grid: CrankGrid | None = None, *, method: Metho
     if method is not None and not method.is_exact:
         raise MethodError(f"method {method.name} exists for a slider-crank only; use exact")
     # loaded when needed: an engine would wait longer for these rooms than for its results
-    if isinstance(machine, LinkageMachine):
-        found = importlib.import_module("crankwork.analysis.linkage").analyse_linkage(machine, grid)
-    else:
-        found = importlib.import_module("crankwork.analysis.tabulated").analyse_tabulated(machine)
-    return cast("Results", found)
+    linkages = importlib.import_module("crankwork.analysis.linkage")
+    return cast("Results", linkages.analyse_any_linkage(machine, grid))
 
 
 def with_method(machine: Machine, name: str) -> Machine:

@@ -11,6 +11,7 @@ import numpy as np
 from crankwork.analysis.linkage_speed import speed_summary, transient_summary
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import Notice
+from crankwork.analysis.tabulated import analyse_tabulated
 from crankwork.dynamics.efficiency import driving_torque
 from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.dynamics.joint_forces import joint_forces
@@ -21,8 +22,8 @@ from crankwork.dynamics.zhukovsky import virtual_work_torque, zhukovsky_torque
 from crankwork.errors import CrankworkError, GeometryError
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import Motion, linkage_motion
+from crankwork.linkage_machine import LinkageMachine, TabulatedMachine
 from crankwork.loads.load import applied_loads
-from crankwork.machine import LinkageMachine
 from crankwork.method import Method
 
 _DENSE_STEP = 1.0
@@ -209,6 +210,19 @@ def analyse_linkage(machine: LinkageMachine, grid: CrankGrid | None = None) -> R
         notices += told
     summary |= transient_summary(machine)
     return Results(solved, grid, columns, summary, _checks(solved, dense), notices, _groups(columns))
+
+
+def analyse_any_linkage(machine: LinkageMachine | TabulatedMachine, grid: CrankGrid | None = None) -> Results:
+    """Return the results of a linkage, or of a table of transfer functions at its own positions.
+
+    Parameters
+    ----------
+    machine : LinkageMachine or TabulatedMachine
+        What to compute.
+    grid : CrankGrid, shape (n,), optional
+        Crank angles of a linkage. [rad]
+    """
+    return analyse_linkage(machine, grid) if isinstance(machine, LinkageMachine) else analyse_tabulated(machine)
 
 
 def _summary(solved: SolvedLinkage, dense: CrankGrid, known: Mapping[str, Array]) -> dict[str, float]:

@@ -9,8 +9,8 @@ import numpy as np
 from crankwork.analysis.solved import Notice
 from crankwork.errors import MethodError
 from crankwork.kinematics.crank_grid import Array
+from crankwork.linkage_machine import LinkageMachine
 from crankwork.loads.spring import Spring
-from crankwork.machine import LinkageMachine
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.energy_machine import energy_machine
 from crankwork.shaft.energy_motion import moment_after

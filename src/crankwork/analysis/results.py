@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from crankwork.analysis.solved import Notice
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.machine import AnyMachine
 from crankwork.method import Method
+
+if TYPE_CHECKING:
+    from crankwork.linkage_machine import AnyMachine
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from crankwork.dynamics.efficiency import driving_torque
 from crankwork.dynamics.reduction import dynamic_torque_steady
 from crankwork.dynamics.tabulated import difference_derivative, tabulated_inertia
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.machine import TabulatedMachine
+from crankwork.linkage_machine import TabulatedMachine
 from crankwork.method import Method
 
 GROUPS = {

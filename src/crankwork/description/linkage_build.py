@@ -14,20 +14,21 @@ from crankwork.analysis.linkage import reachable
 from crankwork.analysis.linkage_speed import transient_summary
 from crankwork.description.build import build_method
 from crankwork.description.schema import Measure, Reader
-from crankwork.dynamics.efficiency import Chain, Parallel, Series, efficiency
-from crankwork.dynamics.tabulated import TabulatedBody
+from crankwork.dynamics.efficiency import Chain as EfficiencyChain
+from crankwork.dynamics.efficiency import Parallel, Series, efficiency
 from crankwork.dynamics.reduction import reduced_inertia
+from crankwork.dynamics.tabulated import TabulatedBody
 from crankwork.errors import CrankworkError, GeometryError, MethodError
 from crankwork.kinematics.assembly import unassembled
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.motion import linkage_motion
+from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.placement import place
+from crankwork.linkage_machine import Drive, LinkageMachine, TabulatedMachine, Transient
 from crankwork.loads.load import Load, applied_loads
 from crankwork.loads.process import ForceOnPoint, ProcessForce, TorqueOnLink
 from crankwork.loads.spring import SliderSpring, Spring
 from crankwork.loads.table import Table as LoadTable
 from crankwork.loads.weight import Weight
-from crankwork.machine import Drive, LinkageMachine, TabulatedMachine, Transient
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.decomposition import mechanism_of
 from crankwork.mechanism.description import linkage_from
@@ -92,43 +93,47 @@ def build_linkage(values: Mapping[str, Any], reader: Reader) -> LinkageMachine |
         table_step=round(math.degrees(_value(table, "step", math.radians(10.0))), 9),
         table_special=tuple(round(math.degrees(one.value), 9) for one in table.get("special_angles", []) if one),
     )
-    _check_motion(machine, reader)
-    return None if reader.problems else machine
+    return machine if _moves(machine, reader) else None
 
 
-def _check_motion(machine: LinkageMachine, reader: Reader) -> None:
-    """Complain of a linkage that can be assembled nowhere, and of a transient that does not come to its end."""
+def _moves(machine: LinkageMachine, reader: Reader) -> bool:
+    """Complain of a linkage that can be assembled nowhere, or whose transient does not come to its end."""
     grid = CrankGrid.steps(_STEP, 360.0)
     try:
         reached, _ = reachable(machine, grid)
         motion = linkage_motion(machine.mechanism, reached)
     except GeometryError as error:
         reader.complain(_unassembled_key(machine, grid), str(error))
-        return
+        return False
     try:
         applied_loads(machine.mechanism, motion, machine.loads)
     except GeometryError as error:
         reader.complain("loads", str(error))
-        return
-    if machine.transient is None:
-        return
+        return False
+    return machine.transient is None or _ends(machine, machine.transient, motion, reader)
+
+
+def _ends(machine: LinkageMachine, wanted: Transient, motion: Motion, reader: Reader) -> bool:
+    """Complain of a transient that cannot be followed to its end."""
     inertia = float(np.mean(reduced_inertia(machine.mechanism, motion).inertia)) + machine.drive.inertia
     if inertia <= 0:
         reader.complain("transient", "nothing has a mass, so nothing limits the speed; give masses or crank.inertia")
-        return
-    wanted = machine.transient
+        return False
     turns = (wanted.torque / inertia * wanted.time / 2 + wanted.speed) * wanted.time / math.tau
     if turns > _MOST_TURNS:
         reader.complain("transient.time", (
             f"is too long: the crank would turn about {turns:.2g} times; write a time for at most {_MOST_TURNS} turns"
         ))  # fmt: skip
-        return
+        return False
     try:
         transient_summary(machine)
     except GeometryError as error:
         reader.complain("transient", str(error))
     except CrankworkError as error:
         reader.complain("transient", f"{error}; write a larger torque, a speed to start with, or another crank.start")
+    else:
+        return True
+    return False
 
 
 def _unassembled_key(machine: LinkageMachine, grid: CrankGrid) -> str:
@@ -164,18 +169,7 @@ def build_tabulated(values: Mapping[str, Any], reader: Reader) -> TabulatedMachi
         reader.complain("transfer.angles", "must rise from position to position, within one revolution")
     if not transfer["bodies"]:
         reader.complain("transfer.bodies", "is empty; write a table [transfer.bodies.NAME] for each moving mass")
-    bodies = []
-    for name, body in transfer["bodies"].items():
-        columns = {key: tuple(_plain(body[key])) for key in ("velocity", "rotation") if key in body}
-        for key, column in columns.items():
-            _check_count(f"transfer.bodies.{name}.{key}", column, count, reader)
-        if not columns:
-            reader.complain(f"transfer.bodies.{name}", "needs velocity or rotation, a number for each position")
-        still = (0.0,) * count
-        bodies.append(TabulatedBody(
-            name, _value(body, "mass"), _value(body, "inertia"),
-            columns.get("velocity", still), columns.get("rotation", still),
-        ))  # fmt: skip
+    bodies = [_body(name, body, count, reader) for name, body in transfer["bodies"].items()]
     optional: dict[str, tuple[float, ...] | None] = {}
     for key in ("reduced_inertia_1", "static_torque", "balancing_torque"):
         column = tuple(_plain(transfer[key])) if key in transfer else None
@@ -198,6 +192,20 @@ def build_tabulated(values: Mapping[str, Any], reader: Reader) -> TabulatedMachi
     )
 
 
+def _body(name: str, body: Mapping[str, Any], count: int, reader: Reader) -> TabulatedBody:
+    """Return a body of a table of transfer functions; complain where it has not a value for each position."""
+    columns = {key: tuple(_plain(body[key])) for key in ("velocity", "rotation") if key in body}
+    for key, column in columns.items():
+        _check_count(f"transfer.bodies.{name}.{key}", column, count, reader)
+    if not columns:
+        reader.complain(f"transfer.bodies.{name}", "needs velocity or rotation, a number for each position")
+    still = (0.0,) * count
+    return TabulatedBody(
+        name, _value(body, "mass"), _value(body, "inertia"),
+        columns.get("velocity", still), columns.get("rotation", still),
+    )  # fmt: skip
+
+
 def _check_count(key: str, column: tuple[float, ...], count: int, reader: Reader) -> None:
     if len(column) != count:
         reader.complain(key, f"has {len(column)} values for {count} positions; give one for each of transfer.angles")
@@ -208,7 +216,9 @@ def _drive(values: Mapping[str, Any], reader: Reader) -> Drive:
     drive = Drive(fluctuation=values.get("flywheel", {}).get("fluctuation"))
     if values.get("efficiency", {}).get("chain"):
         table = values["efficiency"]
-        parts: list[Chain] = [Parallel(tuple(one)) if isinstance(one, list) else one for one in table["chain"]]
+        parts: list[EfficiencyChain] = [
+            Parallel(tuple(one)) if isinstance(one, list) else one for one in table["chain"]
+        ]
         whole = efficiency(Series(tuple(parts)))
         drive = replace(drive, efficiency=whole)
         if "decimals" in table:
@@ -268,23 +278,26 @@ def _check_load(key: str, load: Mapping[str, Any], linkage: Linkage | None, read
         reader.complain(f"{key}.between", f"names {load['between'][0]} twice; a spring joins two different points")
     _check_table(key, load, reader)
     if linkage is not None:
-        names = {"slider": {one.name for one in linkage.members if one.guide},
-                 "link": {one.name for one in linkage.members} | {linkage.crank.link},
-                 "point": set(linkage.owners())}  # fmt: skip
-        for name, known in names.items():
-            if name in load and load[name] not in known:
-                reader.complain(
-                    f"{key}.{name}", f'there is no {name} "{load[name]}"; there is {", ".join(sorted(known))}'
-                )
-        for point in load.get("between", []):
-            if point not in names["point"]:
-                reader.complain(
-                    f"{key}.between", f'there is no point "{point}"; there is {", ".join(sorted(names["point"]))}'
-                )
-        owners = linkage.owners().get(load.get("point", ""), [])
-        if load["kind"] == "force" and owners and load.get("link", owners[0]) not in owners:
-            reader.complain(f"{key}.link", f"{load['point']} is no point of it; it is one of {', '.join(owners)}")
+        _check_names(key, load, linkage, reader)
     return not any(problem.key.startswith(key) for problem in reader.problems)
+
+
+def _check_names(key: str, load: Mapping[str, Any], linkage: Linkage, reader: Reader) -> None:
+    """Complain of sliders, links and points that are not there, and of a point that is not on the link."""
+    names = {"slider": {one.name for one in linkage.members if one.guide},
+             "link": {one.name for one in linkage.members} | {linkage.crank.link},
+             "point": set(linkage.owners())}  # fmt: skip
+    for name, known in names.items():
+        if name in load and load[name] not in known:
+            reader.complain(f"{key}.{name}", f'there is no {name} "{load[name]}"; there is {", ".join(sorted(known))}')
+    for point in load.get("between", []):
+        if point not in names["point"]:
+            reader.complain(
+                f"{key}.between", f'there is no point "{point}"; there is {", ".join(sorted(names["point"]))}'
+            )
+    owners = linkage.owners().get(load.get("point", ""), [])
+    if load["kind"] == "force" and owners and load.get("link", owners[0]) not in owners:
+        reader.complain(f"{key}.link", f"{load['point']} is no point of it; it is one of {', '.join(owners)}")
 
 
 def _check_table(key: str, load: Mapping[str, Any], reader: Reader) -> None:

@@ -9,7 +9,7 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from crankwork import files
 from crankwork.analysis import solve
@@ -21,7 +21,9 @@ from crankwork.description.measured_file import read_measured
 from crankwork.description.schema import Reader, Table, is_one_line
 from crankwork.errors import CrankworkError, InputError, Problem
 from crankwork.loads.indicator import DiagramError
-from crankwork.machine import AnyMachine
+
+if TYPE_CHECKING:
+    from crankwork.linkage_machine import AnyMachine
 
 TEMPLATES = "description/templates"
 _MAX_PARTS = 8
@@ -204,6 +206,8 @@ def _setting(text: str) -> Setting:
 
 def _lay(values: dict[str, Any], setting: Setting) -> None:
     """Lay a setting over the values; what says the same gives way."""
+    if setting.option == "--step" and "transfer" in values:
+        raise CrankworkError("--step: the positions are those of transfer.angles in the file; leave the option out")
     *path, last = setting.key.split(".")
     table: Any = values
     entry: Any = _file_keys(values)

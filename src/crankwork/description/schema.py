@@ -6,7 +6,6 @@ import difflib
 import math
 import unicodedata
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
 
 from crankwork import units
@@ -72,8 +71,7 @@ class Kind(Protocol):
         """Return the JSON Schema of the value as written."""
 
 
-@dataclass(frozen=True)
-class Quantity:
+class Quantity(NamedTuple):
     """Number and unit as text; the SI value must lie within `low` and `high`, whichever dimension it has."""
 
     dimensions: tuple[str, ...]
@@ -123,8 +121,7 @@ class Quantity:
         }
 
 
-@dataclass(frozen=True)
-class Number:
+class Number(NamedTuple):
     """A plain number between `low` and `high`; a whole one if it counts something."""
 
     low: float
@@ -162,8 +159,7 @@ class Number:
         return {"type": kind, "exclusiveMinimum" if self.above else "minimum": self.low, "maximum": self.high}
 
 
-@dataclass(frozen=True)
-class Choice:
+class Choice(NamedTuple):
     """One of a few words or numbers."""
 
     options: tuple[str | int, ...]
@@ -181,8 +177,7 @@ class Choice:
         return {"enum": list(self.options)}
 
 
-@dataclass(frozen=True)
-class Text:
+class Text(NamedTuple):
     """A text, at most `longest` characters."""
 
     longest: int = 200
@@ -205,8 +200,7 @@ class Text:
         return {"type": "string", "maxLength": self.longest}
 
 
-@dataclass(frozen=True)
-class Flag:
+class Flag(NamedTuple):
     """true or false."""
 
     def read(self, value: object, key: str, reader: Reader) -> bool | None:
@@ -221,8 +215,7 @@ class Flag:
         return {"type": "boolean"}
 
 
-@dataclass(frozen=True)
-class ListOf:
+class ListOf(NamedTuple):
     """A list whose entries are of one kind."""
 
     entry: Kind
@@ -251,8 +244,7 @@ class ListOf:
         return {"type": "array", "items": self.entry.schema(), "minItems": self.fewest, "maxItems": self.most}
 
 
-@dataclass(frozen=True)
-class Nested:
+class Nested(NamedTuple):
     """A list whose entries are of one kind or lists of it."""
 
     entry: Kind
@@ -271,11 +263,14 @@ class Nested:
     def schema(self) -> dict[str, Any]:
         """Return the schema of an array with arrays in it."""
         one = self.entry.schema()
-        return {"type": "array", "items": {"anyOf": [one, {"type": "array", "items": one}]}, "minItems": 1}
+        return {
+            "type": "array",
+            "items": {"anyOf": [one, {"type": "array", "items": one, "minItems": 1}]},
+            "minItems": 1,
+        }
 
 
-@dataclass(frozen=True)
-class NameOr:
+class NameOr(NamedTuple):
     """A name, or a value of another kind."""
 
     other: Kind
@@ -289,8 +284,7 @@ class NameOr:
         return {"anyOf": [{"type": "string"}, self.other.schema()]}
 
 
-@dataclass(frozen=True)
-class Named:
+class Named(NamedTuple):
     """A table whose keys are names of the user's own, all values of one kind."""
 
     entry: Kind
@@ -313,8 +307,7 @@ class Named:
         return {"type": "object", "additionalProperties": self.entry.schema(), "propertyNames": names}
 
 
-@dataclass(frozen=True)
-class Key:
+class Key(NamedTuple):
     """A key of a table: its kind, what it means, and the keys that say the same and exclude it."""
 
     kind: Kind
@@ -323,8 +316,7 @@ class Key:
     instead_of: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
-class Table:
+class Table(NamedTuple):
     """A table with a fixed set of keys."""
 
     keys: Mapping[str, Key]

@@ -5,9 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
-from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.dyads import RRP, Branch, Dyad, Point
+from crankwork.mechanism.dyads import RRP
+
+if TYPE_CHECKING:
+    from crankwork.mechanism.chain import Chain
+    from crankwork.mechanism.dyads import Branch, Dyad, Point
 
 
 @dataclass(frozen=True)

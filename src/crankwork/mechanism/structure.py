@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import combinations
@@ -9,6 +10,8 @@ from itertools import combinations
 from crankwork.errors import Problem
 from crankwork.mechanism.linkage import GROUND, Linkage
 
+# sets of members looked at for one group; larger groups than any linkage has
+_MOST_CANDIDATES = 20_000
 _ROMAN = ("0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 
 
@@ -114,7 +117,7 @@ def structure(linkage: Linkage) -> tuple[Structure | None, list[Problem]]:
         found = _smallest_group(linkage, rest, solved)
         if found is None:
             return None, [Problem("", _too_free(linkage, rest))]
-        if _excess(linkage, found, solved) > 0:
+        if _Equations(linkage, solved).excess(found) > 0:
             return None, [Problem(_key(linkage, found[0]), _too_stiff(linkage, found))]
         groups.append(AssurGroup(found, _class(linkage, found, solved)))
         solved |= set(found)
@@ -123,10 +126,20 @@ def structure(linkage: Linkage) -> tuple[Structure | None, list[Problem]]:
 
 def _smallest_group(linkage: Linkage, rest: list[str], solved: set[str]) -> tuple[str, ...] | None:
     """Return the fewest members that what is solved determines, or overdetermines; those named first go first."""
-    for size in range(1, len(rest) + 1):
-        for some in combinations(rest, size):
-            if _excess(linkage, some, solved) >= 0:
+    beside = _beside(linkage, rest, known_points(linkage, solved))
+    order = {name: number for number, name in enumerate(rest)}
+    equations = _Equations(linkage, solved)
+    # only members that hang together: of two groups that do not, one alone is determined
+    candidates: set[tuple[str, ...]] = {(name,) for name in rest}
+    while candidates and len(candidates) <= _MOST_CANDIDATES:
+        for some in sorted(candidates, key=lambda names: [order[name] for name in names]):
+            if equations.excess(some) >= 0:
                 return some
+        candidates = {
+            tuple(sorted((*some, other), key=order.__getitem__))
+            for some in candidates
+            for other in set().union(*(beside[name] for name in some)).difference(some)
+        }
     return None
 
 
@@ -136,38 +149,48 @@ def known_points(linkage: Linkage, solved: Iterable[str]) -> set[str]:
     return {name for name, owners in linkage.owners().items() if members.intersection(owners)}
 
 
-def _excess(linkage: Linkage, some: tuple[str, ...], solved: set[str]) -> int:
-    """Return the equations less the coordinates of some members: 0 for a group, more if it is over-constrained."""
-    known = known_points(linkage, solved)
-    carriers = {"", linkage.crank.link, *solved, *some}
-    equations = 0
-    for name, owners in linkage.owners().items():
-        pinned = len(set(owners).intersection(some))
-        equations += 2 * (pinned if name in known else max(pinned - 1, 0))
-    for name in some:
-        guide = linkage.member(name).guide
-        equations += 2 * bool(guide and linkage.guides[guide].link in carriers)
-    return equations - 3 * len(some)
+class _Equations:
+    """Counts what the joints demand of members, while some others are solved."""
+
+    def __init__(self, linkage: Linkage, solved: set[str]) -> None:
+        self.members = {one.name: one for one in linkage.members}
+        self.guides = linkage.guides
+        self.known = known_points(linkage, solved)
+        self.carriers = {"", linkage.crank.link, *solved}
+
+    def excess(self, some: tuple[str, ...]) -> int:
+        """Return the equations less the coordinates of members: 0 for a group, more if it is over-constrained."""
+        pinned = Counter(point for name in some for point in self.members[name].points)
+        equations = sum(2 * (count if point in self.known else count - 1) for point, count in pinned.items())
+        for name in some:
+            guide = self.members[name].guide
+            equations += 2 * bool(guide and (self.guides[guide].link in self.carriers.union(some)))
+        return equations - 3 * len(some)
 
 
 def _class(linkage: Linkage, some: tuple[str, ...], solved: set[str]) -> int:
     """Return the class of a group: the links of its longest closed loop of inner joints, and at least three."""
     if len(some) == 2:
         return 2
+    beside = _beside(linkage, some, known_points(linkage, solved))
+    return max([3, *(_longest_loop(beside, name) for name in some)])
+
+
+def _beside(linkage: Linkage, some: Iterable[str], known: set[str]) -> dict[str, set[str]]:
+    """Return for each of some members those that are joined to it at a point not known, or by a guide."""
     beside: dict[str, set[str]] = {name: set() for name in some}
-    known = known_points(linkage, solved)
     for point, owners in linkage.owners().items():
         inner = [name for name in owners if name in beside]
         if point not in known:
             for one, other in combinations(inner, 2):
                 beside[one].add(other)
                 beside[other].add(one)
-    for name in some:
-        guide = linkage.member(name).guide
-        if guide and linkage.guides[guide].link in beside:
-            beside[name].add(linkage.guides[guide].link)
-            beside[linkage.guides[guide].link].add(name)
-    return max([3, *(_longest_loop(beside, name) for name in some)])
+    for member in linkage.members:
+        carrier = linkage.guides[member.guide].link if member.guide else ""
+        if member.name in beside and carrier in beside:
+            beside[member.name].add(carrier)
+            beside[carrier].add(member.name)
+    return beside
 
 
 def _longest_loop(beside: dict[str, set[str]], first: str) -> int:

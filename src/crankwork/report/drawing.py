@@ -12,7 +12,8 @@ import numpy as np
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import motion
-from crankwork.machine import LinkageMachine, Machine
+from crankwork.linkage_machine import LinkageMachine
+from crankwork.machine import Machine
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import LANGUAGES, Language

@@ -11,7 +11,7 @@ from crankwork.analysis.linkage import linkage_columns, reachable
 from crankwork.analysis.linkage_speed import speed_columns
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import linkage_motion
-from crankwork.machine import LinkageMachine
+from crankwork.linkage_machine import LinkageMachine
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import Language
 from crankwork.report.language import label, word

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from crankwork.analysis import Results
-from crankwork.machine import TabulatedMachine
+from crankwork.linkage_machine import TabulatedMachine
 from crankwork.quantities import Language
 from crankwork.report.drawing import moving_drawing
 from crankwork.report.figures import figures

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Mapping
-from typing import Any
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
 
 from crankwork.analysis import Results
-from crankwork.machine import AnyMachine, LinkageMachine, TabulatedMachine
+from crankwork.machine import Machine
 from crankwork.quantities import Language
 from crankwork.report.language import (
     displayed,
@@ -21,6 +22,9 @@ from crankwork.report.language import (
     unit_name,
     word,
 )
+
+if TYPE_CHECKING:
+    from crankwork.linkage_machine import AnyMachine
 
 
 def summary_data(results: Results, *, per_area: bool = False) -> dict[str, Any]:
@@ -96,13 +100,15 @@ def aligned(rows: list[tuple[str, str, str, str]]) -> list[str]:
 
 def results_method(results: Results, language: Language) -> str:
     """Return how results were made, in words."""
-    match results.machine:
-        case TabulatedMachine():
-            return word("tabulated", language)
-        case LinkageMachine():
-            return method_name("exact", 0, "", language)
+    if not isinstance(results.machine, Machine):
+        return str(_linkages().method_words(results.machine, language))
     method = results.method
     return method_name(method.kinematics, method.order, method.rod, language)
+
+
+def _linkages() -> ModuleType:
+    """Return the words for linkages, loaded when there is one: an engine starts faster without them."""
+    return importlib.import_module("crankwork.report.linkage_summary")
 
 
 def description_text(machine: AnyMachine, results: Results) -> str:
@@ -130,27 +136,11 @@ def description_text(machine: AnyMachine, results: Results) -> str:
 
 
 def _headline(machine: AnyMachine, summary: Mapping[str, float]) -> list[str]:
-    match machine:
-        case TabulatedMachine():
-            return [f"transfer functions of {len(machine.bodies)} bodies at {len(machine.angles)} positions"]
-        case LinkageMachine():
-            return _structure_lines(machine)
+    if not isinstance(machine, Machine):
+        return list(_linkages().headline(machine))
     parts = ["slider-crank" if not summary.get("offset") else "offset slider-crank"]
     if machine.gas:
         source = "measured pressure" if machine.gas.measured else f"{len(machine.gas.pieces)} pieces of gas pressure"
         parts.append(f"{source} over {machine.gas.cycle:g} deg")
     parts.append("with masses" if machine.masses else "motion only")
     return [", ".join(parts)]
-
-
-def _structure_lines(machine: LinkageMachine) -> list[str]:
-    """Return mobility, groups and formula of structure of a linkage."""
-    found, _ = importlib.import_module("crankwork.mechanism.structure").structure(machine.linkage)
-    if found is None:
-        return ["linkage"]
-    numbered = ", ".join(f"{number} {name}" for number, name in enumerate(found.links, start=1))
-    return [
-        f"linkage of {len(found.links)} moving links: {numbered}",
-        f"mobility W = 3·{len(found.links)} − 2·{found.joints} = {found.mobility} (Chebyshev)",
-        f"structure {found.formula}, mechanism of class {'I' * found.number if found.number < 4 else found.number}",
-    ]

@@ -1,0 +1,171 @@
+"""Mistakes in the file of a linkage: each is told on its line, with what to write instead."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from pathlib import Path
+
+import pytest
+
+from crankwork.analysis import analyse
+from crankwork.description.machine_file import read
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+DYAD = 'rocker  = { joins = ["C", "B"]'
+ROCKER = 'length = "112.5 mm"'
+LINKS = "[links]\n{}\n"
+AT = 'at = ["330 mm", "345 mm", "360 mm"]'
+MOTOR = '[motor]\nrated_power = "2.2 kW"\nrated_speed = "{}"\noverload = {}\npole_pairs = {}\n[table]'
+
+# template or example, the original text, what a user writes, the key blamed, and words of the advice
+MISTAKES = {
+    "two cranks": ("four-bar", "[crank]", '[[crank]]\npin = "Z"\n[[crank]]', "crank", "a list of 2; there is only one"),
+    "floating link": ("four-bar", "[links]", LINKS.format('z = { joins = ["X", "Y"], length = "1 m" }'), "links.z",
+                      "hangs on nothing else; a link needs two joints"),
+    "hanging link": ("four-bar", "[links]", LINKS.format('z = { joins = ["B", "Y"], length = "1 m" }'), "links.z",
+                     "hangs only on B, and nothing else is joined at Y"),
+    "joint twice": ("four-bar", '["A", "B"]', '["A", "A"]', "links.coupler.joins", "names a joint twice: A, A"),
+    "joint as a point": ("four-bar", "points = { P =", 'points = { B = ["1 mm", "2 mm"], P =',
+                         "links.coupler.points.B", "leave it out"),
+    "over-constrained": ("four-bar", "[branch]", 'z = { joins = ["P", "C"], length = "150 mm" }\n[branch]', "links.z",
+                         "(mobility 0); take away a joint or a link"),
+    "mobility 2": ("four-bar", DYAD, f'z = {{ joins = ["B", "D"], length = "1 m" }}\n{DYAD.replace("B", "D")}',
+                   "links", "2 degrees of freedom with one crank: coupler, z, rocker can move on their own; add"),
+    "zero length": ("four-bar", "175 mm", "0 mm", "links.coupler.length", 'write more than "0 mm"'),
+    "branch 2": ("four-bar", "B = 1 ", "B = 2 ", "branch.B", "2 is not possible here; write 1 or -1"),
+    "branch of no joint": ("four-bar", "B = 1 ", "Z = 1 ", "branch.Z", "Z has no branch; there is one for: B"),
+    "nowhere": ("toggle-press", 'through = "E"', 'through = ["900 mm", "0 mm"]', "links.lower",
+                "543.6 mm too short; lengthen it by more than that or move the guide"),
+    "unknown pivot": ("four-bar", 'pivot = "O"', 'pivot = "Q"', "crank.pivot", "give it in [fixed_points]"),
+    "unknown centre": ("four-bar", 'centre = "P"', 'centre = "Q"', "links.coupler.centre", "Q is not a point of"),
+    "unknown guide": ("toggle-press", 'guide = "bed"', 'guide = "bad"', "sliders.ram.guide", "give it in [guides.bad]"),
+    "unknown carrier": ("toggle-press", 'through = "E"', 'link = "zz"', "guides.bed.link", "neither a link nor"),
+    "unknown slider": ("toggle-press", 'slider = "ram"', 'slider = "rm"', "loads[1].slider", "there is ram"),
+    "unknown load": ("toggle-press", '"process"', '"proces"', "loads[1].kind", 'write "process" or "force"'),
+    "key of another kind": ("toggle-press", '"process"', '"process"\npoint = "D"', "loads[1].point", "it takes slider"),
+    "no kind": ("toggle-press", 'kind = "process"', "", "loads[1].kind", 'write kind = "process"'),
+    "not rising": ("toggle-press", AT, AT.replace("360", "340"), "loads[1].at", "must rise from value to value"),
+    "too few": ("toggle-press", AT, 'at = ["1 mm", "2 mm"]', "loads[1].at", "has 2 values for 3 of force"),
+    "no column": ("toggle-press", AT, "", "loads[1].at", "3 values of force need as many"),
+    "angles for a stroke": ("toggle-press", AT, 'at = ["1 deg", "2 deg", "3 deg"]', "loads[1].at", 'add against = "an'),
+    "spring of nothing": ("four-bar", "[table]", '[[loads]]\nkind = "spring"\nstiffness = "1 N/m"\n[table]',
+                          "loads[1].between", "give between or slider"),
+    "spring of one point": ("four-bar", "[table]",
+                            '[[loads]]\nkind = "spring"\nstiffness = "1 N/m"\nbetween = ["B", "B"]\n[table]',
+                            "loads[1].between", "joins two different points"),
+    "efficiency 0": ("four-bar", "[table]", "[efficiency]\nchain = [0]\n[table]", "efficiency.chain[1]", "above 0"),
+    "efficiency 1.2": ("four-bar", "[table]", "[efficiency]\nchain = [1.2]\n[table]", "efficiency.chain[1]", "up to 1"),
+    "efficiency rounded away": ("four-bar", "[table]", "[efficiency]\nchain = [0.01]\ndecimals = 1\n[table]",
+                                "efficiency.decimals", "rounds an efficiency of 0.01 to 0"),
+    "motor too quick": ("four-bar", "[table]", MOTOR.format("1600 rpm", 2.2, 2), "motor.rated_speed", "must be below"),
+    "motor of no overload": ("four-bar", "[table]", MOTOR.format("1430 rpm", 1, 2), "motor.overload", "above 1"),
+    "half a pair of poles": ("four-bar", "[table]", MOTOR.format("1430 rpm", 2, 1.5), "motor.pole_pairs", "whole"),
+    "fluctuation 0": ("four-bar", "[table]", "[flywheel]\nfluctuation = 0\n[table]", "flywheel.fluctuation", "above 0"),
+    "fluctuation 3": ("four-bar", "[table]", "[flywheel]\nfluctuation = 3\n[table]", "flywheel.fluctuation", "up to 1"),
+    "never starts": ("andrews-squeezer", '"0.033 N*m"', '"-0.033 N*m"', "transient", "write a larger torque"),
+    "spring too strong": ("andrews-squeezer", 'start = "-0.06171389001427645 rad"\nspeed = "1000 rad/s"',
+                          'start = "2 rad"\nspeed = "1000 rad/s"', "transient", "over the hill of its springs"),
+    "too long": ("andrews-squeezer", '"30 ms"', '"60 min"', "transient.time", "time for at most 10000 turns"),
+    "transient with weights": ("andrews-squeezer", "[transient]", "[method]\nweights = true\n[transient]", "transient",
+                               "takes springs between points"),
+    "positions short of one": ("press", '"0.028 m", "0.042 m"', '"0.028 m"', "transfer.bodies.punch.velocity",
+                               "has 11 values for 12 positions"),
+    "positions not rising": ("press", '"60 deg", "90 deg"', '"90 deg", "60 deg"', "transfer.angles", "must rise"),
+    "long name": ("stephenson-six-bar", "output ", f"{'x' * 61} ", f"links.{'x' * 61}", "write 1 to 60 characters"),
+    "name of two lines": ("stephenson-six-bar", "output ", '"a\\nb" ', "links.a\\nb", "without line breaks"),
+}  # fmt: skip
+
+
+def _source(name):
+    path = EXAMPLES / f"{name}.toml"
+    return path.read_text("utf-8") if name in ("andrews-squeezer", "press") else None
+
+
+@pytest.mark.parametrize("mistake", MISTAKES.values(), ids=MISTAKES)
+def test_a_mistake_is_told_once_on_its_line_with_what_to_write(
+    crankwork, machine_file, check_mistakes, mistake
+) -> None:
+    name, old, new, key, advice = mistake
+    file = machine_file((old, new), name=name, text=_source(name))
+    answer = crankwork("check", file)
+    check_mistakes(answer)
+    assert len(answer.mistakes) == 1, answer.err
+    told = re.fullmatch(r"my\.toml:(\d+): ([^:]+): (.+)", answer.mistakes[0])
+    assert told, answer.err
+    assert (told[2], advice in told[3]) == (key, True), answer.err
+    line = Path(file).read_text("utf-8").split("\n")[int(told[1]) - 1]
+    assert any(part in line for part in re.sub(r"\[\d+\]", "", key).split(".")) or "\\n" in key
+
+
+SETTINGS = {
+    "links.copler.length=1 m": "--set links.copler.joins: is missing",
+    "links.coupler.lenght=1 m": "--set links.coupler.lenght: unknown key; did you mean length?",
+    "links.coupler.length=1": "--set links.coupler.length: 1 has no unit",
+    "links=1": "--set links: must be a table",
+    "branch.B=2": "--set branch.B: 2 is not possible here; write 1 or -1",
+    "method.kinematics=textbook": "--set method.kinematics: a linkage is computed exactly",
+}
+
+
+@pytest.mark.parametrize("setting", SETTINGS)
+def test_a_wrong_setting_is_named(crankwork, machine_file, check_mistakes, setting) -> None:
+    answer = crankwork("run", machine_file(name="four-bar"), "--set", setting)
+    check_mistakes(answer)
+    assert answer.mistakes[0].startswith(SETTINGS[setting])
+
+
+@pytest.mark.parametrize("method", ["textbook", "series:3"])
+def test_another_method_is_refused(crankwork, machine_file, check_mistakes, method) -> None:
+    answer = crankwork("run", machine_file(name="four-bar"), "--method", method)
+    check_mistakes(answer)
+    assert answer.mistakes == ["--method: a linkage is computed exactly; write exact or leave it out"]
+
+
+def test_a_step_is_refused_where_the_document_gives_the_positions(crankwork, check_mistakes) -> None:
+    answer = crankwork("run", str(EXAMPLES / "press.toml"), "--step", "5")
+    check_mistakes(answer)
+    assert "the positions are those of transfer.angles" in answer.err
+
+
+def test_a_motor_weaker_than_the_load_is_told_with_the_angle_where_it_stalls(crankwork, machine_file) -> None:
+    motor = MOTOR.format("1430 rpm", 2.2, 2).replace("2.2 kW", "0.1 kW").replace("[table]", "ratio = 24\n[table]")
+    answer = crankwork("run", machine_file(("[table]", motor), name="toggle-press"))
+    assert answer.code == 0
+    assert "35.257 N·m on the crank" in answer.out
+    assert "stalls at 228.72°" in answer.out
+
+
+def test_results_up_to_a_position_that_cannot_be_reached_are_kept(crankwork, machine_file) -> None:
+    answer = crankwork("run", machine_file((ROCKER, 'length = "75 mm"'), name="four-bar"))
+    assert answer.code == 0, answer.err
+    assert "the linkage moves from 0° to 138° only: links coupler and rocker do not meet at B" in answer.out
+    assert analyse(read("my.toml")).grid.degrees.tolist() == [10.0 * number for number in range(14)]
+    nothing_else = crankwork("run", "my.toml", "--step", "180", "--set", "links.rocker.length=10 mm")
+    assert nothing_else.code == 0
+    assert "moves from 49° to 67° only" in nothing_else.out
+
+
+def test_a_singular_position_on_the_way_is_named(crankwork, machine_file) -> None:
+    """A parallelogram: at half a turn all links lie in line."""
+    changes = (('"62.5 mm"', '"100 mm"'), ('"175 mm"', '"200 mm"'), (ROCKER, 'length = "100 mm"'))
+    answer = crankwork("run", machine_file(*changes, ('# start = "0 deg" ', 'start = "30 deg" '), name="four-bar"))
+    assert answer.code == 0, answer.err
+    assert "only: links coupler and rocker are in line at a crank angle of 150 deg: a singular position" in answer.out
+
+
+def test_two_hundred_links_and_a_loose_chain_are_answered_quickly(crankwork, machine_file, check_mistakes) -> None:
+    fixed, links, last = ['O = ["0 mm", "0 mm"]'], [], "A"
+    for number in range(100):
+        fixed.append(f'F{number} = ["{200 * (number + 1)} mm", "0 mm"]')
+        links.append(f'c{number} = {{ joins = ["{last}", "B{number}"], length = "200 mm" }}')
+        links.append(f'r{number} = {{ joins = ["F{number}", "B{number}"], length = "150 mm" }}')
+        last = f"B{number}"
+    crank = '[crank]\npivot = "O"\npin = "A"\nradius = "20 mm"\nspeed = "60 rpm"'
+    text = "\n".join(["[fixed_points]", *fixed, crank, "[links]", *links, ""])
+    assert crankwork("check", machine_file(text=text)).code == 0
+    joints = [last, *(f"L{number}" for number in range(30)), "F0"]
+    loose = [f'{a}{b} = {{ joins = ["{a}", "{b}"], length = "1 m" }}' for a, b in itertools.pairwise(joints)]
+    answer = crankwork("check", machine_file(text="\n".join([text, *loose])))
+    check_mistakes(answer)
+    assert "30 degrees of freedom" in answer.err
