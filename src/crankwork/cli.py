@@ -153,6 +153,8 @@ def run(  # noqa: PLR0913 - one argument per option of the command
     if method is not None:
         overrides.append(door.Setting("--method", "method.kinematics", method))
     machine = door.read(file, overrides)
+    if per_area and not hasattr(machine, "cylinder"):
+        raise CrankworkError("--per-area: is for machines with a piston; leave it out for a linkage")
     if per_area and machine.cylinder is None:
         raise CrankworkError("--per-area: needs the piston area; give cylinder.bore in the file")
     if output is not None:

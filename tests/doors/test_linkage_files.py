@@ -81,7 +81,7 @@ F = ["300 mm", "-50 mm"]
 [crank]
 pivot = "O"
 pin = "A"
-radius = "20 mm"
+radius = "10 mm"
 speed = "60 rpm"
 [positions]
 B = ["150 mm", "30 mm"]

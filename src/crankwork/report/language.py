@@ -109,9 +109,9 @@ _NOTICES = {
         "với bánh đà chính xác, hệ số không đều mô phỏng lệch {residual} so với yêu cầu",
     ),
     "stalls": (
-        "the motor is weaker than the load: it gives at most {torque} N·m on the crank, and stalls at {angle}°",
-        "двигатель слабее нагрузки: его наибольший момент на кривошипе {torque} Н·м, он остановится при {angle}°",
-        "động cơ yếu hơn tải: mômen lớn nhất trên tay quay là {torque} N·m, dừng tại {angle}°",
+        "the motor gives at most {torque} N·m on the crank, stalling at {angle}°; take a larger ratio or a stronger one",
+        "двигатель даёт не более {torque} Н·м и остановится при {angle}°; увеличьте передаточное отношение",
+        "động cơ cho tối đa {torque} N·m trên tay quay và dừng tại {angle}°; hãy tăng tỉ số truyền hoặc công suất",
     ),
     "no_steady_speed": ("no steady speed: {message}", "нет установившегося движения: {message}",
                         "không có chế độ ổn định: {message}"),

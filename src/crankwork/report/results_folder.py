@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Iterator
 
 from crankwork.analysis import Results
+from crankwork.errors import GeometryError
 from crankwork.linkage_machine import TabulatedMachine
 from crankwork.quantities import Language
 from crankwork.report.drawing import moving_drawing
@@ -49,7 +51,9 @@ def results_folder(
     }
     yield {"tables.xlsx": workbook(results, language=language, per_area=per_area)}
     if not isinstance(results.machine, TabulatedMachine):
-        yield {"machine.svg": moving_drawing(results.machine, language=language).encode()}
+        # a linkage that cannot turn fully has a notice that says so, and no moving drawing
+        with contextlib.suppress(GeometryError):
+            yield {"machine.svg": moving_drawing(results.machine, language=language).encode()}
     if with_figures:
         drawn = figures(results, language=language, per_area=per_area)
         yield {f"figures/{name}.svg": data for name, data in drawn.items()}
