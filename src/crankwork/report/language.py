@@ -109,7 +109,7 @@ _NOTICES = {
         "với bánh đà chính xác, hệ số không đều mô phỏng lệch {residual} so với yêu cầu",
     ),
     "stalls": (
-        "the motor gives at most {torque} N·m on the crank, stalling at {angle}°; take a larger ratio or a stronger one",
+        "the motor gives at most {torque} N·m on the crank and stalls at {angle}°; take a larger ratio",
         "двигатель даёт не более {torque} Н·м и остановится при {angle}°; увеличьте передаточное отношение",
         "động cơ cho tối đa {torque} N·m trên tay quay và dừng tại {angle}°; hãy tăng tỉ số truyền hoặc công suất",
     ),
