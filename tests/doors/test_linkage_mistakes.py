@@ -15,7 +15,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 DYAD = 'rocker  = { joins = ["C", "B"]'
 ROCKER = 'length = "112.5 mm"'
 LINKS = "[links]\n{}\n"
-AT = 'at = ["330 mm", "345 mm", "360 mm"]'
+AT = 'at = ["11 mm", "21 mm", "31 mm"]'
 MOTOR = '[motor]\nrated_power = "2.2 kW"\nrated_speed = "{}"\noverload = {}\npole_pairs = {}\n[table]'
 
 # template or example, the original text, what a user writes, the key blamed, and words of the advice
@@ -45,7 +45,7 @@ MISTAKES = {
     "unknown load": ("toggle-press", '"process"', '"proces"', "loads[1].kind", 'write "process" or "force"'),
     "key of another kind": ("toggle-press", '"process"', '"process"\npoint = "D"', "loads[1].point", "it takes slider"),
     "no kind": ("toggle-press", 'kind = "process"', "", "loads[1].kind", 'write kind = "process"'),
-    "not rising": ("toggle-press", AT, AT.replace("360", "340"), "loads[1].at", "must rise from value to value"),
+    "not rising": ("toggle-press", AT, AT.replace("31", "15"), "loads[1].at", "must rise from value to value"),
     "too few": ("toggle-press", AT, 'at = ["1 mm", "2 mm"]', "loads[1].at", "has 2 values for 3 of force"),
     "no column": ("toggle-press", AT, "", "loads[1].at", "3 values of force need as many"),
     "angles for a stroke": ("toggle-press", AT, 'at = ["1 deg", "2 deg", "3 deg"]', "loads[1].at", 'add against = "an'),
@@ -133,7 +133,7 @@ def test_a_motor_weaker_than_the_load_is_told_with_the_angle_where_it_stalls(cra
     answer = crankwork("run", machine_file(("[table]", motor), name="toggle-press"))
     assert answer.code == 0
     assert "35.257 N·m on the crank" in answer.out
-    assert "stalls at 228.72°" in answer.out
+    assert "stalls at 247.58°" in answer.out
 
 
 def test_results_up_to_a_position_that_cannot_be_reached_are_kept(crankwork, machine_file) -> None:

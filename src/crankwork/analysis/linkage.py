@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from crankwork.analysis.linkage_speed import speed_summary, transient_summary
+from crankwork.analysis.linkage_speed import flywheel_residual, speed_columns, speed_summary, transient_summary
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import Notice
 from crankwork.analysis.tabulated import analyse_tabulated
@@ -22,8 +22,10 @@ from crankwork.dynamics.zhukovsky import virtual_work_torque, zhukovsky_torque
 from crankwork.errors import CrankworkError, GeometryError
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import Motion, linkage_motion
+from crankwork.kinematics.quality import limits, time_ratio, transmission_extremes
 from crankwork.linkage_machine import LinkageMachine, TabulatedMachine
 from crankwork.loads.load import applied_loads
+from crankwork.mechanism.dyads import RRP, RRR
 from crankwork.method import Method
 
 _DENSE_STEP = 1.0
@@ -116,7 +118,7 @@ def linkage_columns(solved: SolvedLinkage, grid: CrankGrid) -> dict[str, Array]:
             "dynamic_torque": dynamic,
             "balancing_torque": torque.static + dynamic,
             "driving_torque": driving_torque(torque.static, dynamic, machine.drive.efficiency),
-            **dict(_force_columns(joint_forces(running))),
+            **dict(_force_columns(machine, joint_forces(running))),
         }
     return columns
 
@@ -158,8 +160,12 @@ def _motion_columns(machine: LinkageMachine, motion: Motion, w: float) -> Iterat
             yield f"{third}.{name}", one.position_2 * w**2 + one.position_1 * eps
 
 
-def _force_columns(found: JointForces) -> Iterator[tuple[str, Array]]:
-    for name, pin in found.pins.items():
+def _force_columns(machine: LinkageMachine, found: JointForces) -> Iterator[tuple[str, Array]]:
+    """Yield the forces in joints and guides; the joint of crank and ground has the name of its fixed point."""
+    crank = machine.mechanism.crank
+    pivot = next((name for name, place in machine.mechanism.ground.items() if place == crank.pivot), "")
+    for joint, pin in found.pins.items():
+        name = pivot if pivot and joint == f"{crank.link}_pivot" else joint
         yield f"joint_force_x.{name}", pin.x
         yield f"joint_force_y.{name}", pin.y
         yield f"joint_force.{name}", pin.resultant
@@ -203,13 +209,16 @@ def analyse_linkage(machine: LinkageMachine, grid: CrankGrid | None = None) -> R
     known = linkage_columns(solved, dense)
     summary = _summary(solved, dense, known)
     columns = linkage_columns(solved, grid)
+    checks = _checks(solved, dense)
     whole = not notices
     if whole and "reduced_inertia" in known:
+        columns |= speed_columns(machine, solved.speed, known, grid.angle) if machine.drive.fluctuation else {}
+        checks |= flywheel_residual(machine, solved.speed, known)
         found, told = speed_summary(machine, solved.speed, known)
         summary |= found
         notices += told
     summary |= transient_summary(machine)
-    return Results(solved, grid, columns, summary, _checks(solved, dense), notices, _groups(columns))
+    return Results(solved, grid, columns, summary, checks, notices, _groups(columns))
 
 
 def analyse_any_linkage(machine: LinkageMachine | TabulatedMachine, grid: CrankGrid | None = None) -> Results:
@@ -232,6 +241,8 @@ def _summary(solved: SolvedLinkage, dense: CrankGrid, known: Mapping[str, Array]
         result["angular_acceleration"] = machine.angular_acceleration
     if machine.drive.efficiency != 1:
         result["efficiency"] = machine.drive.efficiency
+    if len(dense) == len(CrankGrid.steps(_DENSE_STEP, 360.0)):
+        result |= _quality(machine)
     for key, values in known.items():
         kind, _, name = key.partition(".")
         if kind == "slider_displacement":
@@ -243,6 +254,19 @@ def _summary(solved: SolvedLinkage, dense: CrankGrid, known: Mapping[str, Array]
     if machine.loads and len(dense) == len(CrankGrid.steps(_DENSE_STEP, 360.0)):
         mean = float(np.mean(known["static_torque"][:-1]))
         result["mean_torque"] = mean if abs(mean) > _ROUNDING * np.max(np.abs(known["static_torque"])) else 0.0
+    return result
+
+
+def _quality(machine: LinkageMachine) -> dict[str, float]:
+    """Return time ratios and the least transmission angles of a linkage that turns fully."""
+    mechanism, result = machine.mechanism, {}
+    for index, dyad in enumerate(mechanism.dyads):
+        if isinstance(dyad, RRR | RRP):
+            name = dyad.point if isinstance(dyad, RRR) else dyad.slider
+            result[f"transmission_angle_min.{name}"] = math.radians(transmission_extremes(mechanism, index).least)
+        for output in (dyad.piece,) if isinstance(dyad, RRP) else ():
+            if limits(mechanism, output).degrees.size == 2:
+                result[f"time_ratio.{output}"] = time_ratio(mechanism, output)
     return result
 
 
@@ -280,6 +304,7 @@ def _groups(columns: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
         "points": ("point_x", "point_y", "point_velocity", "point_acceleration"),
         "links": ("link_angle", "link_angular_velocity", "link_angular_acceleration",
                   "slider_displacement", "slider_velocity", "slider_acceleration"),
+        "speed": ("crank_speed", "kinetic_energy_change"),
         "joint_forces": ("joint_force_x", "joint_force_y", "joint_force", "normal_force", "normal_moment"),
     }  # fmt: skip
     groups = {name: tuple(key for key in columns if key.partition(".")[0] in keys) for name, keys in kinds.items()}

@@ -52,17 +52,40 @@ def speed_summary(
         except MethodError as error:
             return result, (Notice("no_flywheel", {"message": str(error)}),)
         result |= {"excess_work": found[0].excess, "speed_fluctuation": drive.fluctuation}
-        result |= {f"flywheel_inertia.{one.way}": one.inertia for one in found}
+        # a way that finds a negative inertia says that it needs none
+        result |= {f"flywheel_inertia.{one.way}": max(one.inertia, 0.0) for one in found}
         added = max(found[-1].inertia, 0.0)
-        notices += (Notice("flywheel_residual", {"residual": found[-1].residual}),)
     if drive.motor is not None and not np.any(known["reduced_inertia"]) and not added + drive.motor.reduced_inertia:
         notices += (Notice("no_steady_speed", {"message": "nothing has a mass; give masses, or motor.inertia"}),)
     elif drive.motor is not None:
         need = motor_need(Curve.linear(angle, known["static_torque"]), speed, efficiency=drive.efficiency)
         result["motor_power"] = need.mean_power
+        if need.mean_power > drive.rated_power:
+            powers: dict[str, float | str] = {"needed": need.mean_power / 1e3, "rated": drive.rated_power / 1e3}
+            notices += (Notice("overloaded", powers),)
         more, told = _steady(drive.motor, speed, inertia, load, added)
         result, notices = result | more, notices + told
     return result, notices
+
+
+def flywheel_residual(machine: LinkageMachine, speed: float, known: Mapping[str, Array]) -> dict[str, float]:
+    """Return how far the simulated fluctuation is from the wanted one, with the exact flywheel.
+
+    Parameters
+    ----------
+    machine : LinkageMachine
+        Its drive says what is wanted.
+    speed : float
+        Mean angular speed of the crank. [rad/s]
+    known : mapping of str to array, shape (n,)
+        Columns over one revolution from 0 to 360 degrees. [SI]
+    """
+    if machine.drive.fluctuation is None:
+        return {}
+    try:
+        return {"flywheel": abs(flywheel(*_curves(known), speed, machine.drive.fluctuation).residual)}
+    except MethodError:
+        return {}
 
 
 def speed_columns(machine: LinkageMachine, speed: float, known: Mapping[str, Array], angle: Array) -> dict[str, Array]:

@@ -33,6 +33,7 @@ from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.decomposition import mechanism_of
 from crankwork.mechanism.description import linkage_from
 from crankwork.mechanism.linkage import Linkage
+from crankwork.mechanism.mechanism import Mechanism
 from crankwork.shaft.motor import AsynchronousMotor, GearedMotor
 
 _GEOMETRY = ("fixed_points", "crank", "links", "guides", "sliders", "branch", "positions")
@@ -77,6 +78,7 @@ def build_linkage(values: Mapping[str, Any], reader: Reader) -> LinkageMachine |
     transient = _transient(values, loads, reader)
     if reader.problems or mechanism is None or linkage is None:
         return None
+    loads = _with_starts(loads, values, mechanism)
     if values.get("method", {}).get("weights"):
         loads = (*loads, Weight(method.gravity))
     crank, table = values["crank"], values.get("table", {})
@@ -111,6 +113,21 @@ def _moves(machine: LinkageMachine, reader: Reader) -> bool:
         reader.complain("loads", str(error))
         return False
     return machine.transient is None or _ends(machine, machine.transient, motion, reader)
+
+
+def _with_starts(loads: tuple[Load, ...], values: Mapping[str, Any], mechanism: Mechanism) -> tuple[Load, ...]:
+    """Return the loads, process forces counted from the beginning of the working stroke where no start is given."""
+    moved = None
+    result = []
+    for load, written in zip(loads, values.get("loads", []), strict=True):
+        if isinstance(load, ProcessForce) and load.against == "stroke" and "start" not in written:
+            moved = moved or linkage_motion(mechanism, CrankGrid.steps(_STEP, 360.0), partial=True)
+            way = moved.sliders[load.slider].position
+            way = way[np.isfinite(way)]
+            if way.size:
+                load = replace(load, start=float(np.min(way) if load.forward > 0 else np.max(way)))  # noqa: PLW2901
+        result.append(load)
+    return tuple(result)
 
 
 def _ends(machine: LinkageMachine, wanted: Transient, motion: Motion, reader: Reader) -> bool:

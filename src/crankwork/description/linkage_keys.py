@@ -72,7 +72,7 @@ _LOAD = Table({
     "torque": Key(ListOf(_TORQUE, fewest=1), "torques of the table, positive anticlockwise"),
     "curve": Key(Choice(("straight", "smooth")), "between the points of the table"),
     "stroke": Key(Choice(("growing", "falling")), "whether the distance along the guide grows on the working stroke"),
-    "start": Key(_COORDINATE, "distance along the guide where the working stroke begins"),
+    "start": Key(_COORDINATE, "distance along the guide where the working stroke begins; by default its end position"),
     "acts": Key(Choice(("forward", "both")), "on the working stroke only, or on the way back too"),
     "stiffness": Key(Quantity(("stiffness",), 0.0, 1e12), "of a spring"),
     "free_length": Key(Quantity(("length",), 0.0, 1e3), "length of a spring that does not pull, or its position"),

@@ -14,7 +14,7 @@ from crankwork.dynamics.running import Running
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.dyads import LinkMotion
 from crankwork.kinematics.motion import Motion
-from crankwork.mechanism.joints import Joint, Pin, joints
+from crankwork.mechanism.joints import Joint, Pin, group_links, joints
 from crankwork.mechanism.mechanism import Crank
 
 Vector = tuple[Array, Array]
@@ -146,9 +146,12 @@ def whole_system(running: Running) -> Equilibrium:
     running : Running
         The mechanism at work.
     """
-    held = joints(running.mechanism)
-    links = tuple(dict.fromkeys(joint.link for joint in held))
-    return equilibrium(running.motion, links, held, crank=running.mechanism.crank)
+    mechanism = running.mechanism
+    held = joints(mechanism)
+    # a link of a chain may only hold others
+    holding = (name for group in mechanism.dyads for name in group_links(group))
+    links = tuple(dict.fromkeys([*(joint.link for joint in held), *holding]))
+    return equilibrium(running.motion, links, held, crank=mechanism.crank)
 
 
 def solve_positions(matrix: Array, right: Array) -> Array:

@@ -120,4 +120,8 @@ ROWS = (
         " | độ biến thiên động năng", "Work of loads and driving torque since the start of the cycle."),
     row("crank_speed", "rad/s", "ω|ω₁|ω₁", "true speed of the crank | угловая скорость кривошипа"
         " | vận tốc góc tay quay", "Angular speed of the crank over the cycle."),
+    row("time_ratio", "", "K", "time ratio | коэффициент изменения средней скорости | hệ số về nhanh",
+        "Time of the slower stroke over that of the faster one."),
+    row("transmission_angle", "deg", "μ|γ|γ", "transmission angle | угол передачи | góc truyền động",
+        "Angle between the links of a dyad, or between a link and the normal of its guide."),
 )  # fmt: skip

@@ -51,7 +51,8 @@ ROWS = (
          "Greatest torque of an asynchronous motor."),
     row("motor_torque", "N*m", "M_m|M_дв|M_đc", "motor torque | момент двигателя | mômen động cơ",
          "Torque of the motor on its own shaft."),
-    row("motor_power", "kW", "P_m|P_дв|P_đc", "motor power | мощность двигателя | công suất động cơ",
+    row("motor_power", "kW", "P_m|P_дв|P_đc", "motor power needed | потребная мощность двигателя"
+         " | công suất động cơ cần thiết",
          "Power that the motor must have."),
     row("power_reserve", "", "k_s|k_з|k_s", "safety factor on the power | коэффициент запаса мощности"
          " | hệ số dự trữ công suất", "Rated power over the power that is needed."),

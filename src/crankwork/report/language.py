@@ -49,6 +49,9 @@ _WORDS = {
     "pin_resultant": ("F_P² + F_N² = F_Q²", "P² + N² = S²", "P1² + N² = Ptt²"),
     "overturning": ("torque = overturning moment", "крутящий момент = опрокидывающий момент", "mômen quay = mômen lật"),
     "work": ("work by p–V = work by torque", "работа по p–V = работа по моменту", "công theo p–V = công theo mômen"),
+    "flywheel": ("simulated fluctuation = wanted", "расчётная неравномерность = заданная",
+                 "hệ số không đều mô phỏng = yêu cầu"),
+    "speed": ("Speed", "Скорость кривошипа", "Vận tốc tay quay"),
     "whole_system": ("joint forces: group by group = all at once", "реакции: по группам = общей системой",
                      "phản lực: theo nhóm = toàn hệ"),
     "zhukovsky": ("joint forces = Zhukovsky's lever", "реакции = рычаг Жуковского", "phản lực = đòn Giucôpxki"),
@@ -103,10 +106,10 @@ _NOTICES = {
                            "КПД {used} вместо {exact}: округлён, как в документе",
                            "hiệu suất {used} thay vì {exact}: làm tròn như tài liệu"),
     "no_flywheel": ("no flywheel: {message}", "маховик не найден: {message}", "không tìm được bánh đà: {message}"),
-    "flywheel_residual": (
-        "with the exact flywheel the simulated fluctuation differs from the wanted one by {residual}",
-        "с точным маховиком расчётный коэффициент неравномерности отличается от заданного на {residual}",
-        "với bánh đà chính xác, hệ số không đều mô phỏng lệch {residual} so với yêu cầu",
+    "overloaded": (
+        "the load needs {needed} kW, the motor is rated for {rated} kW; take a stronger one",
+        "нагрузке нужно {needed} кВт, номинальная мощность двигателя {rated} кВт; возьмите более мощный",
+        "tải cần {needed} kW, động cơ định mức {rated} kW; hãy chọn động cơ mạnh hơn",
     ),
     "stalls": (
         "the motor gives at most {torque} N·m on the crank and stalls at {angle}°; take a larger ratio",
