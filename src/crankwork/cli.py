@@ -6,6 +6,7 @@ import contextlib
 import importlib
 import io
 import json
+import os
 import sys
 import time
 from collections.abc import Callable, Iterable
@@ -20,6 +21,8 @@ _LANGUAGE = click.Choice(["en", "ru", "vi"])
 
 def main() -> None:
     """Run the command line; a mistake of the user ends with code 2 and a sentence."""
+    # linear systems are small here, and starting threads for them takes longer than solving them
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             # names of files need not be text, and a terminal need not know Unicode
