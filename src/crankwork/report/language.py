@@ -126,11 +126,6 @@ _NOTICES = {
         "шатун заменён двумя массами, его момент инерции не учтён (учитывает method.rod = rigid)",
         "thanh truyền thay bằng hai khối lượng, bỏ qua mômen quán tính (tính đến khi method.rod = rigid)",
     ),
-    "two_terms": (
-        "two-term displacement and exact rod angle differ slightly, so the two works do",
-        "двучленное перемещение и точный угол шатуна не вполне согласованы, поэтому работы различаются",
-        "chuyển vị hai số hạng và góc lắc chính xác không hoàn toàn khớp nên hai công khác nhau",
-    ),
 }  # fmt: skip
 
 

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.quantities import QUANTITIES, Language, Quantity
+from crankwork.quantities import QUANTITIES, Language
 from crankwork.report.figure_labels import Line, label_points
 from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED, over_crank_angle, single_axes, svg
 from crankwork.report.language import number, symbol, unit_name
 from crankwork.report.linkage_look import PLAIN, Style, axis_title, figure_look, linkage_title, quantity_of
+from crankwork.shaft.flywheel import wittenbauer_slope_largest, wittenbauer_slope_least
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -62,7 +63,8 @@ def tangents(inertia: Array, energy: Array, wanted: Fluctuation) -> Tangents:
     ----------
     artobolevsky_1988
     """
-    high, low = (0.5 * wanted.mean**2 * (1 + side * wanted.delta) for side in (1, -1))
+    high = float(wittenbauer_slope_largest(wanted.mean, wanted.delta))
+    low = float(wittenbauer_slope_least(wanted.mean, wanted.delta))
     above, below = energy - high * inertia, energy - low * inertia
     i, j = int(np.argmax(above)), int(np.argmin(below))
     return Tangents(high, low, float(above[i]), float(below[j]), i, j)
@@ -124,16 +126,10 @@ def _lines(axes: Axes, inertia: Array, energy: Array, found: Tangents, degrees: 
 
 
 # rows for the diagram until the table of quantities holds them
-_ROWS = {
-    "reduced_inertia": Quantity("reduced_inertia", "kg*m2", ("J", "J_пр", "J_tt"), (
-        "reduced moment of inertia", "приведённый момент инерции", "mômen quán tính thu gọn"), ""),
-    "kinetic_energy_change": Quantity("kinetic_energy_change", "J", ("ΔT", "ΔT", "ΔT"), (
-        "change of kinetic energy", "изменение кинетической энергии", "độ biến thiên động năng"), ""),
-}  # fmt: skip
 
 
 def _title(key: str, language: Language) -> str:
-    return axis_title(QUANTITIES.get(key) or _ROWS[key], language)
+    return axis_title(QUANTITIES[key], language)
 
 
 def _angle(axes: Axes, slope: float, name: str, language: Language) -> str:
