@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import re
 
-ROOMS = ("kinematics/", "loads/", "dynamics/", "shaft/")
+ROOMS = ("kinematics/", "loads/", "working_cycle/", "dynamics/", "shaft/", "cylinders/")
 NUMERIC = re.compile(r"\b(array|arrays|float|ArrayLike|Array|CrankGrid)\b")
 UNIT = re.compile(r"\[[^\]\s][^\]]*\]")
 HEADER = re.compile(r"(?P<names>[*\w]+(?:, [*\w]+)*) : (?P<type>.+)")

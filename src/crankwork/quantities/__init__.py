@@ -6,12 +6,13 @@ Tables, figures, notes, the studio and the nomenclature page all read it. Symbol
 
 from __future__ import annotations
 
-from crankwork.quantities import engine, linkage, shaft
+from crankwork.quantities import balance, bearings, cycle, cylinders, engine, linkage, shaft
 from crankwork.quantities.quantity import LANGUAGES, Language, Quantity
 
 __all__ = ["LANGUAGES", "Language", "QUANTITIES", "Quantity", "base_key"]
 
-QUANTITIES: dict[str, Quantity] = {row.key: row for row in (*engine.ROWS, *linkage.ROWS, *shaft.ROWS)}
+_ROOMS = (engine, cycle, cylinders, bearings, balance, linkage, shaft)
+QUANTITIES: dict[str, Quantity] = {row.key: row for room in _ROOMS for row in room.ROWS}
 
 
 def base_key(key: str) -> str:

@@ -1,23 +1,9 @@
-"""What the short names in formulas stand for.
-
-A formula is written with the symbols of its subject; this table gives each argument its quantity and,
-for arguments that are functions of one, the function: `cos_phi` is the cosine of the crank angle.
-"""
+"""Arguments of the formulas of motion, forces, linkages and shafts."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from crankwork.notation.argument import Argument
 
-
-class Argument(NamedTuple):
-    """The quantity behind an argument of a formula; `pattern` places its symbol, `cos {}`."""
-
-    quantity: str
-    pattern: str = "{}"
-    extra: str = ""
-
-
-# `extra` is a second quantity where the pattern takes two, or a literal symbol where there is no quantity.
 ARGUMENTS: dict[str, Argument] = {
     "r": Argument("crank_radius"),
     "l": Argument("rod_length"),

@@ -1,0 +1,7 @@
+"""Arguments of the formulas of balance."""
+
+from __future__ import annotations
+
+from crankwork.notation.argument import Argument
+
+ARGUMENTS: dict[str, Argument] = {}

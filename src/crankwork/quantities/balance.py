@@ -1,0 +1,7 @@
+"""Quantities of balance."""
+
+from __future__ import annotations
+
+from crankwork.quantities.quantity import Quantity
+
+ROWS: tuple[Quantity, ...] = ()

@@ -1,0 +1,7 @@
+"""Quantities of the working cycle."""
+
+from __future__ import annotations
+
+from crankwork.quantities.quantity import Quantity
+
+ROWS: tuple[Quantity, ...] = ()
