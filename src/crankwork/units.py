@@ -13,10 +13,11 @@ from typing import Any, NamedTuple
 
 
 class Unit(NamedTuple):
-    """A unit: the dimension it measures and its size in SI."""
+    """A unit: the dimension it measures, its size in SI and, for a temperature scale, where its zero lies."""
 
     dimension: str
     factor: float
+    zero: float = 0.0
 
 
 KGF = 9.80665
@@ -79,6 +80,9 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (KGF, "kgf*m kgf·m кгс·м кгс*м"),
     ],
     "energy": [(1.0, "J Дж"), (1e3, "kJ кДж")],
+    "temperature": [(1.0, "K К")],
+    "specific_energy": [(1e6, "MJ/kg МДж/кг"), (1e3, "kJ/kg кДж/кг"), (1.0, "J/kg Дж/кг")],
+    "mass_moment": [(1.0, "kg*m kg·m кг·м кг*м"), (1e-3, "kg*mm kg·mm кг·мм кг*мм"), (1e-5, "g*cm g·cm г·см г*см")],
     "power": [(1e3, "kW кВт"), (1.0, "W Вт"), (735.49875, "hp PS л.с. лс mã_lực")],
 }
 
@@ -87,11 +91,11 @@ UNITS: dict[str, Unit] = {
     for dimension, rows in _SPELLINGS.items()
     for factor, names in rows
     for name in names.split()
-}
+} | {name: Unit("temperature", 1.0, 273.15) for name in ("degC", "°C", "°С")}
 
 # "ratio" has no unit; the display of a share in per cent stays a choice of the report.
 EXAMPLES = {
-    dimension: (f"30 {rows[0][1].split()[0]}" if dimension != "speed" else "2300 rpm")
+    dimension: {"speed": "2300 rpm", "temperature": "293 K"}.get(dimension, f"30 {rows[0][1].split()[0]}")
     for dimension, rows in _SPELLINGS.items()
 }
 
@@ -177,7 +181,9 @@ def to_si(value: Any, unit: str) -> Any:  # noqa: ANN401 - a float or an array, 
 
     Small units divide by their whole reciprocal, so that 120 cm3 is the double nearest to 0.00012.
     """
-    factor = UNITS[unit].factor
+    _, factor, zero = UNITS[unit]
+    if zero:
+        return value * factor + zero
     inverse = round(1 / factor)
     return value / inverse if inverse > 1 and abs(inverse * factor - 1) < 1e-12 else value * factor
 
@@ -186,7 +192,9 @@ def from_si(value: Any, unit: str) -> Any:  # noqa: ANN401 - a float or an array
     """Return an SI value (or array) expressed in `unit`; `""` leaves it alone."""
     if not unit:
         return value
-    factor = UNITS[unit].factor
+    _, factor, zero = UNITS[unit]
+    if zero:
+        return (value - zero) / factor
     inverse = round(1 / factor)
     return value * inverse if inverse > 1 and abs(inverse * factor - 1) < 1e-12 else value / factor
 

@@ -1,0 +1,372 @@
+"""Firing orders: which angles they give, whether a crankshaft allows them, and the customary ones."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice, permutations, product
+from typing import NamedTuple
+
+from crankwork.errors import CrankworkError
+
+# Angles closer than this are the same. [deg]
+SAME_ANGLE = 1e-6
+_DECIMALS = 9
+_TURN = 360.0
+
+
+class LayoutError(CrankworkError):
+    """Cylinders, crank and firing order that do not belong together; `key` is the part of the description at fault."""
+
+    def __init__(self, key: str, message: str) -> None:
+        super().__init__(message)
+        self.key = key
+
+
+class LayoutNotice(NamedTuple):
+    """Something the reader should know about a layout: a code and its values."""
+
+    code: str
+    values: Mapping[str, float | str]
+
+
+def wrapped(angle: float, cycle: float = _TURN) -> float:
+    """Return an angle less whole cycles, a decimal where rounding alone keeps it from being one.
+
+    Parameters
+    ----------
+    angle, cycle : float
+        The angle, and the length of the cycle. [deg], [deg]
+
+    Returns
+    -------
+    float
+        At least 0 and less than the cycle. [deg]
+
+    Examples
+    --------
+    >>> wrapped(-240.0), wrapped(0.1 + 0.2 + 720.0, 720.0)
+    (120.0, 0.3)
+    """
+    rest = angle % cycle
+    near = round(rest, _DECIMALS)
+    if abs(rest - near) <= 1e-15 * (abs(angle) + cycle):
+        rest = near
+    return 0.0 if cycle - rest <= 1e-12 * cycle else rest
+
+
+def order_text(order: Sequence[int]) -> str:
+    """Return a firing order as it is written, `1-3-4-2`."""
+    return "-".join(str(one) for one in order)
+
+
+def angle_list(angles: Sequence[float]) -> str:
+    """Return angles as text, `180, 270, 180, 90`.
+
+    Parameters
+    ----------
+    angles : sequence of float
+        The angles. [deg]
+    """
+    return ", ".join(f"{one:.7g}" for one in angles)
+
+
+def checked_order(order: Sequence[int], cylinders: int) -> tuple[int, ...]:
+    """Return a firing order turned so that it begins with cylinder 1.
+
+    Parameters
+    ----------
+    order : sequence of int
+        Numbers of the cylinders as they fire.
+    cylinders : int
+        How many there are.
+
+    Raises
+    ------
+    LayoutError
+        If a cylinder is missing, named twice or does not exist.
+    """
+    key, given = "engine.firing_order", [int(one) for one in order]
+    unknown = sorted({one for one in given if not 1 <= one <= cylinders})
+    if unknown:
+        raise LayoutError(
+            key, f"there is no cylinder {unknown[0]}; an engine of {cylinders} has the numbers 1 to {cylinders}"
+        )
+    twice = sorted({one for one in given if given.count(one) > 1})
+    missing = [one for one in range(1, cylinders + 1) if one not in given]
+    if twice or missing:
+        faults = [f"names cylinder {twice[0]} twice"] if twice else []
+        faults += [f"leaves out cylinder {missing[0]}"] if missing else []
+        raise LayoutError(
+            key,
+            f"{order_text(given)} {' and '.join(faults)}; every number from 1 to {cylinders} must stand in it once",
+        )
+    first = given.index(1)
+    return tuple(given[first:] + given[:first])
+
+
+def even_angles(order: Sequence[int], cycle: float) -> tuple[float, ...]:
+    """Return the firing angles of equal intervals.
+
+    Parameters
+    ----------
+    order : sequence of int
+        Firing order, starting with 1.
+    cycle : float
+        720 or 360. [deg]
+
+    Returns
+    -------
+    tuple of float
+        By number of the cylinder, from the firing of cylinder 1. [deg]
+    """
+    index = {number: at for at, number in enumerate(order)}
+    return tuple(index[number] * cycle / len(order) for number in sorted(index))
+
+
+def firing_angles(order: Sequence[int], dead_centres: Sequence[float], cycle: float) -> tuple[float, ...] | None:
+    """Return the firing angles of an order on a given crankshaft, the most even ones, or None if there are none.
+
+    Parameters
+    ----------
+    order : sequence of int
+        Firing order, starting with 1.
+    dead_centres : sequence of float
+        First top dead centre of each cylinder from that of cylinder 1, by number. [deg]
+    cycle : float
+        720 or 360; in a cycle of 720 a cylinder fires at every other dead centre. [deg]
+
+    Returns
+    -------
+    tuple of float or None
+        By number of the cylinder, from the firing of cylinder 1. [deg]
+    """
+    turns = round(cycle / _TURN)
+    best: tuple[float, tuple[float, ...]] | None = None
+    # in the order, the cylinders of the first turn come before those of the second
+    for first in range(1, len(order) + 1) if turns > 1 else (len(order),):
+        angles = tuple(dead_centres[number - 1] + _TURN * (at >= first) for at, number in enumerate(order))
+        steps = intervals(angles, cycle)
+        if min(steps) > SAME_ANGLE:
+            unevenness = sum(step * step for step in steps)
+            if best is None or unevenness < best[0] - SAME_ANGLE:
+                best = unevenness, angles
+    if best is None:
+        return None
+    by_number = dict(zip(order, best[1], strict=True))
+    return tuple(by_number[number] for number in sorted(by_number))
+
+
+def intervals(angles: Sequence[float], cycle: float) -> tuple[float, ...]:
+    """Return the angles from each firing to the next, around the cycle.
+
+    Parameters
+    ----------
+    angles : sequence of float
+        Firing angles in the order of firing; an interval is negative where they descend. [deg]
+    cycle : float
+        720 or 360. [deg]
+
+    Returns
+    -------
+    tuple of float
+        As many intervals as firings. [deg]
+    """
+    following = (*angles[1:], angles[0] + cycle)
+    return tuple(_decimal(later - one) for one, later in zip(angles, following, strict=True))
+
+
+def _decimal(angle: float) -> float:
+    near = round(angle, _DECIMALS)
+    return near if abs(angle - near) < 1e-12 else angle
+
+
+def is_even(steps: Sequence[float]) -> bool:
+    """Return whether all intervals are the same.
+
+    Parameters
+    ----------
+    steps : sequence of float
+        Intervals. [deg]
+    """
+    return max(steps) - min(steps) <= SAME_ANGLE
+
+
+def even_orders(dead_centres: Sequence[float], cycle: float, *, limit: int = 1000) -> tuple[tuple[int, ...], ...]:
+    """Return the firing orders of equal intervals that a crankshaft allows.
+
+    Parameters
+    ----------
+    dead_centres : sequence of float
+        First top dead centre of each cylinder from that of cylinder 1, by number. [deg]
+    cycle : float
+        720 or 360. [deg]
+    limit : int
+        How many to return at most.
+
+    Returns
+    -------
+    tuple of tuple of int
+        Orders that start with 1, in ascending order.
+
+    Examples
+    --------
+    >>> even_orders((0.0, 180.0, 180.0, 0.0), 720.0)
+    ((1, 2, 4, 3), (1, 3, 4, 2))
+    """
+    return tuple(sorted(islice(_even_orders(dead_centres, cycle), limit)))
+
+
+def _even_orders(dead_centres: Sequence[float], cycle: float) -> Iterator[tuple[int, ...]]:
+    """Give every way to put the cylinders of one dead centre into the firings that fall on it."""
+    count = len(dead_centres)
+    slots: dict[float, list[int]] = {}
+    for at in range(count):
+        slots.setdefault(round(wrapped(at * cycle / count), 5) % _TURN, []).append(at)
+    waiting: dict[float, list[int]] = {}
+    for number, angle in enumerate(dead_centres, start=1):
+        waiting.setdefault(round(wrapped(angle), 5) % _TURN, []).append(number)
+    if {angle: len(at) for angle, at in slots.items()} != {angle: len(at) for angle, at in waiting.items()}:
+        return
+    for choice in product(*(permutations(waiting[angle]) for angle in slots)):
+        order = [0] * count
+        for at, numbers in zip(slots.values(), choice, strict=True):
+            for one, number in zip(at, numbers, strict=True):
+                order[one] = number
+        if order[0] == 1:
+            yield tuple(order)
+
+
+def possible_order(dead_centres: Sequence[float], cycle: float) -> tuple[int, ...] | None:
+    """Return a firing order that a crankshaft allows, equal intervals or not, or None if two must fire at once.
+
+    Parameters
+    ----------
+    dead_centres : sequence of float
+        First top dead centre of each cylinder from that of cylinder 1, by number. [deg]
+    cycle : float
+        720 or 360. [deg]
+
+    Returns
+    -------
+    tuple of int or None
+        It starts with 1; in a cycle of 720 every other cylinder fires in the second turn.
+    """
+    turns = round(cycle / _TURN)
+    ranked = sorted(range(len(dead_centres)), key=lambda at: (dead_centres[at], at))
+    angles = {at + 1: dead_centres[at] + _TURN * (rank % turns) for rank, at in enumerate(ranked)}
+    order = tuple(sorted(angles, key=lambda number: angles[number]))
+    return order if order[0] == 1 and firing_angles(order, dead_centres, cycle) else None
+
+
+class StandardOrder(NamedTuple):
+    """A customary engine: kind, strokes, firing order, throws [deg], axes of the banks [deg], split of pins [deg]."""
+
+    kind: str
+    strokes: int
+    order: tuple[int, ...]
+    throws: tuple[float, ...]
+    axes: tuple[float, ...] = (0.0,)
+    pin_offset: float = 0.0
+    numbering: str = "banks"
+
+    @property
+    def cylinders(self) -> int:
+        """How many cylinders it has."""
+        return len(self.order)
+
+
+def _row(kind: str, strokes: int, order: str, throws: str, banks: str = "0", *rest: object) -> StandardOrder:
+    numbers = tuple(int(one) for one in order.split("-"))
+    angles = tuple(tuple(float(one) for one in text.split()) for text in (throws, banks))
+    return StandardOrder(kind, strokes, numbers, *angles, *rest)  # type: ignore[arg-type]
+
+
+STANDARD_ORDERS = (
+    _row("inline", 4, "1", "0"),
+    _row("inline", 4, "1-2", "0 0"),
+    _row("inline", 4, "1-2", "0 180"),
+    _row("inline", 4, "1-2", "0 270"),
+    _row("inline", 4, "1-3-2", "0 240 120"),
+    _row("inline", 4, "1-2-3", "0 120 240"),
+    _row("inline", 4, "1-3-4-2", "0 180 180 0"),
+    _row("inline", 4, "1-2-4-3", "0 180 180 0"),
+    _row("inline", 4, "1-3-2-4", "0 270 90 180"),
+    _row("inline", 4, "1-2-4-5-3", "0 216 144 72 288"),
+    _row("inline", 4, "1-5-3-6-2-4", "0 240 120 120 240 0"),
+    _row("inline", 4, "1-4-2-6-3-5", "0 120 240 240 120 0"),
+    _row("inline", 4, "1-6-2-5-8-3-7-4", "0 180 270 90 90 270 180 0"),
+    _row("inline", 4, "1-5-2-6-8-4-7-3", "0 180 90 270 270 90 180 0"),
+    _row("inline", 4, "1-3-2-5-8-6-7-4", "0 180 270 90 90 270 180 0"),
+    _row("inline", 2, "1", "0"),
+    _row("inline", 2, "1-2", "0 180"),
+    _row("inline", 2, "1-3-2", "0 120 240"),
+    _row("inline", 2, "1-2-3", "0 240 120"),
+    _row("inline", 2, "1-3-4-2", "0 90 270 180"),
+    _row("inline", 2, "1-3-2-4", "0 180 270 90"),
+    _row("inline", 2, "1-4-3-2-5", "0 144 216 288 72"),
+    _row("inline", 2, "1-5-3-4-2-6", "0 120 240 180 300 60"),
+    _row("inline", 2, "1-5-3-6-2-4", "0 120 240 60 300 180"),
+    _row("V", 4, "1-2", "0", "-22.5 22.5"),
+    _row("V", 4, "1-2", "0", "-45 45"),
+    _row("V", 4, "1-3-2-4", "0 180", "-45 45", 0.0, "pairs"),
+    _row("V", 4, "1-2-3-4", "0 0", "-45 45", 0.0, "pairs"),
+    _row("V", 4, "1-4-2-5-3-6", "0 120 240", "-45 45"),
+    _row("V", 4, "1-2-3-4-5-6", "0 120 240", "-30 30", -60.0, "pairs"),
+    _row("V", 4, "1-2-3-4-5-6", "0 120 240", "-45 45", -30.0, "pairs"),
+    _row("V", 4, "1-6-5-4-3-2", "0 240 120", "45 -45", 30.0, "pairs"),
+    _row("V", 4, "1-2-3-4-5-6", "0 120 240", "-60 60", 0.0, "pairs"),
+    _row("V", 4, "1-5-4-2-6-3-7-8", "0 90 270 180", "-45 45"),
+    _row("V", 4, "1-8-4-3-6-5-7-2", "0 90 270 180", "45 -45", 0.0, "pairs"),
+    _row("V", 4, "1-5-3-7-4-8-2-6", "0 180 180 0", "-45 45"),
+    _row("V", 4, "1-6-2-7-4-9-5-10-3-8", "0 216 144 72 288", "-36 36"),
+    _row("V", 4, "1-6-5-10-2-7-3-8-4-9", "0 72 288 144 216", "-45 45"),
+    _row("V", 4, "1-7-5-11-3-9-6-12-2-8-4-10", "0 240 120 120 240 0", "-30 30"),
+    _row("boxer", 4, "1-2", "0 180", "-90 90"),
+    _row("boxer", 4, "1-3-2-4", "0 180 180 0", "-90 90", 0.0, "pairs"),
+    _row("boxer", 4, "1-4-3-2", "0 180 180 0", "-90 90"),
+    _row("boxer", 4, "1-6-2-4-3-5", "0 180 120 300 240 60", "-90 90"),
+    _row("boxer", 4, "1-6-3-2-5-4", "0 180 120 300 240 60", "-90 90", 0.0, "pairs"),
+    _row("W", 4, "1-5-9-3-7-11-4-8-12-2-6-10", "0 180 180 0", "-60 0 60"),
+)
+
+
+def radial_order(cylinders: int, strokes: int) -> tuple[int, ...]:
+    """Return the firing order of a single-row radial engine numbered with the rotation.
+
+    Parameters
+    ----------
+    cylinders, strokes : int
+        How many; 4 strokes need an odd number, and every other cylinder fires.
+
+    Raises
+    ------
+    LayoutError
+        If the number is even in four strokes.
+    """
+    step = strokes // 2
+    if step == 2 and cylinders % 2 == 0 and cylinders:
+        raise LayoutError(
+            "engine.cylinders",
+            f"one row of {cylinders} radial cylinders cannot fire evenly in four strokes; take "
+            f"{cylinders - 1} or {cylinders + 1}, or write the firing order and allow uneven intervals",
+        )
+    return tuple(at * step % cylinders + 1 for at in range(cylinders))
+
+
+def standard_orders(kind: str, cylinders: int, strokes: int = 4) -> tuple[StandardOrder, ...]:
+    """Return the customary firing orders and crankshafts of an engine, the most usual first.
+
+    Parameters
+    ----------
+    kind : str
+        inline, V, boxer, W or radial.
+    cylinders, strokes : int
+        How many.
+    """
+    if kind == "radial":
+        if strokes == 4 and cylinders % 2 == 0:
+            return ()
+        axes = tuple(at * _TURN / cylinders for at in range(cylinders))
+        return (StandardOrder(kind, strokes, radial_order(cylinders, strokes), (0.0,), axes),)
+    wanted = (kind, strokes, cylinders)
+    return tuple(one for one in STANDARD_ORDERS if (one.kind, one.strokes, one.cylinders) == wanted)

@@ -1,0 +1,127 @@
+"""The keys of the whole engine: its cylinders, bearings, counterweights, flywheel and calculated cycle."""
+
+from __future__ import annotations
+
+import math
+
+from crankwork.description.schema import Choice, Flag, Key, ListOf, NameOr, Number, Quantity, Table, Text
+
+_LENGTH = Quantity(("length",), 0.0, 100.0, above=True)
+_SPACING = Quantity(("length",), 0.0, 100.0)
+_ANGLE = Quantity(("angle",), -4 * math.pi - 1e-9, 4 * math.pi + 1e-9)
+_PRESSURE = Quantity(("pressure",), 0.0, 1e9, above=True)
+_TEMPERATURE = Quantity(("temperature",), 0.0, 5000.0, above=True)
+_RISE = Quantity(("temperature",), -300.0, 1000.0)
+_EXPONENT = Number(0.5, 3.0)
+_SHARE = Number(0.0, 1.0)
+
+_ARTICULATED = Table({
+    "knuckle_radius": Key(_LENGTH, "distance of the knuckle pins from the crankpin", required=True),
+    "rod_length": Key(_LENGTH, "of the articulated rods; by default the master rod less the knuckle radius"),
+    "knuckle_angles": Key(ListOf(_ANGLE, fewest=1),
+                          "of the knuckle pins from the master rod, by cylinder after the master; "
+                          "by default the angles between the cylinders"),
+})  # fmt: skip
+
+ENGINE = Table({
+    "layout": Key(Choice(("inline", "V", "boxer", "W", "radial")), "how the cylinders stand", required=True),
+    "cylinders": Key(Number(1, 28, whole=True), "how many there are", required=True),
+    "firing_order": Key(ListOf(Number(1, 28, whole=True), fewest=1, most=28),
+                        "numbers of the cylinders as they fire; by default a usual order"),
+    "bank_angle": Key(_ANGLE, "between the banks of a V"),
+    "bank_angles": Key(ListOf(_ANGLE, fewest=2, most=8), "directions of the banks of a W from the upward vertical"),
+    "throws": Key(ListOf(_ANGLE, fewest=1, most=28),
+                  "angles of the crank throws from the first, with the rotation; by default from the firing order"),
+    "pin_offset": Key(_ANGLE, "between the two pins of a split crankpin of a V"),
+    "numbering": Key(Choice(("banks", "pairs")), "of a V: one bank after the other, or throw by throw"),
+    "spacing": Key(_SPACING, "between neighbouring crank throws along the shaft"),
+    "bank_stagger": Key(_SPACING, "between the rods of one throw along the shaft"),
+    "uneven": Key(Flag(), "say true where uneven firing intervals are meant"),
+    "articulated": Key(_ARTICULATED, "rods of a radial or V engine that turn on the master rod"),
+})  # fmt: skip
+
+BEARINGS = Table({
+    "crankpin_diameter": Key(_LENGTH, "of the crankpin"),
+    "crankpin_length": Key(_LENGTH, "working length of the crankpin bearing"),
+    "main_diameter": Key(_LENGTH, "of the main journals"),
+    "main_length": Key(_LENGTH, "working length of the main bearings"),
+    "pin_diameter": Key(_LENGTH, "of the piston pin"),
+    "pin_length": Key(_LENGTH, "working length of the small-end bearing"),
+    "rays": Key(Choice((12, 24)), "rays of the wear diagram; by default 12"),
+    "counterweight": Key(Quantity(("mass_moment",), 0.0, 1e6),
+                         "mass times radius opposite each throw; by default none"),
+})  # fmt: skip
+
+BALANCE = Table({
+    "rotating_share": Key(Number(0.0, 2.0), "share of the rotating mass balanced by counterweights; by default 0"),
+    "reciprocating_share": Key(Number(0.0, 2.0), "share of the reciprocating mass balanced as well; by default 0"),
+    "shafts": Key(ListOf(Choice((1, 2)), fewest=1, most=2), "orders that pairs of balance shafts take out"),
+})  # fmt: skip
+
+FLYWHEEL = Table({
+    "fluctuation": Key(Number(0.0, 1.0, above=True), "wanted: largest less least speed over the mean"),
+    "inertia": Key(Quantity(("inertia",), 0.0, 1e9),
+                   "of everything that turns with the crankshaft, without the flywheel to be found"),
+})  # fmt: skip
+
+_FUEL = Table({
+    "carbon": Key(_SHARE, "mass of carbon in 1 kg", required=True),
+    "hydrogen": Key(_SHARE, "mass of hydrogen in 1 kg", required=True),
+    "oxygen": Key(_SHARE, "mass of oxygen in 1 kg"),
+    "molar_mass": Key(Number(1.0, 1000.0), "of the vapour, in kg/kmol; petrol needs it"),
+    "heating_value": Key(Quantity(("specific_energy",), 1e6, 2e8), "lower heating value", required=True),
+})  # fmt: skip
+
+_TIMING = Table({
+    "intake_opens": Key(_ANGLE, "before the top dead centre of gas exchange"),
+    "intake_closes": Key(_ANGLE, "after the bottom dead centre"),
+    "exhaust_opens": Key(_ANGLE, "before the bottom dead centre"),
+    "exhaust_closes": Key(_ANGLE, "after the top dead centre of gas exchange"),
+    "ignition": Key(_ANGLE, "before the top dead centre of firing"),
+    "ignition_delay": Key(_ANGLE, "from ignition to the rise of pressure"),
+    "peak": Key(_ANGLE, "of the greatest pressure after the top dead centre, 10 to 15 degrees as a rule"),
+})  # fmt: skip
+
+CYCLE = Table({
+    "kind": Key(Choice(("petrol", "diesel", "otto", "ideal-diesel", "dual", "wiebe")),
+                "calculation by Grinevetsky and Mazing for petrol or diesel, an ideal cycle, or heat release by Wiebe",
+                required=True),
+    "cycle": Key(Choice(("720 deg", "360 deg")), "four strokes or two; by default 720 deg"),
+    "fuel": Key(NameOr(_FUEL), "petrol, diesel, or its composition"),
+    "excess_air": Key(Number(0.2, 20.0), "air over what the fuel needs"),
+    "ambient_pressure": Key(_PRESSURE, "of the surroundings and under the piston"),
+    "ambient_temperature": Key(_TEMPERATURE, "of the surroundings"),
+    "charge_pressure": Key(_PRESSURE, "behind the compressor of a charged engine"),
+    "charge_temperature": Key(_TEMPERATURE, "behind the compressor and cooler"),
+    "intake_pressure": Key(_PRESSURE, "at the end of intake"),
+    "intake_temperature": Key(_TEMPERATURE, "at the start of compression, of ideal cycles and Wiebe"),
+    "residual_pressure": Key(_PRESSURE, "of the residual gas"),
+    "residual_temperature": Key(_TEMPERATURE, "of the residual gas"),
+    "heating": Key(_RISE, "of the fresh charge on its way in"),
+    "charge_up": Key(Number(0.5, 1.5), "factor of charging after the bottom dead centre"),
+    "scavenging": Key(Number(0.0, 1.5), "factor of scavenging the residual gas"),
+    "compression_exponent": Key(_EXPONENT, "n1 of the polytrope"),
+    "expansion_exponent": Key(_EXPONENT, "n2 of the polytrope"),
+    "heat_use": Key(Number(0.2, 1.2), "heat used up to the point z over that of the fuel"),
+    "pressure_ratio": Key(Number(1.0, 5.0), "rise of pressure at constant volume, of diesel and dual cycles"),
+    "cut_off": Key(Number(1.0, 10.0), "rise of volume at constant pressure, of ideal cycles"),
+    "heat": Key(Quantity(("specific_energy",), 0.0, 1e8), "added to 1 kg of gas, of ideal cycles"),
+    "peak_temperature": Key(_TEMPERATURE, "of an ideal cycle"),
+    "adiabatic_exponent": Key(Number(1.0, 2.0, above=True), "of ideal cycles and Wiebe; by default 1.4 and 1.35"),
+    "filling": Key(Number(0.5, 1.0), "of the rounded diagram: mean pressure over that of the sharp one"),
+    "mechanical_loss": Key(ListOf(Number(0.0, 1.0), fewest=2, most=2),
+                           "a and b of p_m = a + b v_p in MPa and MPa s/m; by default from the kind of engine"),
+    "heat_capacities": Key(Choice(("kolchin", "vietnamese", "linear")), "law of the mean molar heats"),
+    "power": Key(Quantity(("power",), 0.0, 1e9, above=True), "wanted effective power; bore and stroke follow"),
+    "stroke_bore_ratio": Key(Number(0.2, 5.0), "stroke over bore, where they follow from the power"),
+    "lost_stroke": Key(Number(0.0, 0.6), "share of the stroke that the ports of a two-stroke engine take"),
+    "corners": Key(Choice(("rounded", "sharp")), "of the diagram; by default rounded"),
+    "school": Key(Choice(("ru", "vi")), "whose construction rounds the corners"),
+    "timing": Key(_TIMING, "of valves or ports and ignition"),
+    "combustion_start": Key(_ANGLE, "before the top dead centre, for Wiebe"),
+    "combustion_duration": Key(_ANGLE, "for Wiebe"),
+    "shape": Key(Number(-0.9, 10.0), "exponent m of Wiebe"),
+    "cycle_heat": Key(Quantity(("energy",), 0.0, 1e9), "heat of the fuel of one cycle in one cylinder, for Wiebe"),
+    "wall_temperature": Key(_TEMPERATURE, "of the walls, for Woschni; without it there is no heat loss"),
+    "source": Key(Text(), "where the data come from"),
+})  # fmt: skip
