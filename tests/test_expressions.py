@@ -51,9 +51,9 @@ every_formula = pytest.mark.parametrize("formula", FORMULAS.values(), ids=FORMUL
 def _random_arguments(formula: Formula, size: int | None = None) -> dict[str, Any]:
     """Return arguments between 0.1 and 0.9, other ones for each formula but always the same.
 
-    An offset is smaller, so that no rod is too short for it; a greatest torque exceeds the rated one.
+    An offset is smaller and a rod longer, so that no rod is too short for it; a greatest torque exceeds the rated one.
     """
-    ranges = {"e": (0.02, 0.18), "lam_m": (1.5, 3.0)}
+    ranges = {"e": (0.02, 0.18), "l": (1.2, 2.0), "lam_m": (1.5, 3.0)}
     generator = np.random.default_rng(sum(map(ord, formula.name)))
     return {name: generator.uniform(*ranges.get(name, (0.1, 0.9)), size) for name in formula.arguments}
 

@@ -4,12 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
+from crankwork.cylinders.layout import Layout
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.loads.measured import MeasuredPressure
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.method import EXACT, Method
+
+if TYPE_CHECKING:
+    from crankwork.cylinders.articulated import ArticulatedRod
+    from crankwork.working_cycle.calculated import CalculatedPressure
 
 
 @dataclass(frozen=True)
@@ -57,6 +63,8 @@ class Gas:
         Whether the description gives it.
     back_pressure : float
         Gauge pressure on the crank side of a double-acting piston. [Pa]
+    calculated : CalculatedPressure or None
+        A calculation of the working cycle instead of points and pieces.
     """
 
     cycle: float = 720.0
@@ -69,6 +77,66 @@ class Gas:
     ambient: float = 101325.0
     names_ambient: bool = False
     back_pressure: float = 0.0
+    calculated: CalculatedPressure | None = None
+
+
+@dataclass(frozen=True)
+class Bearings:
+    """Sizes of the bearings, as far as known, and how their wear is drawn.
+
+    Parameters
+    ----------
+    crankpin_diameter, crankpin_length, main_diameter, main_length, pin_diameter, pin_length : float or None
+        Diameters and working lengths of crankpin, main journals and piston pin. [m]
+    rays : int
+        Rays of the wear diagram, 12 or 24.
+    """
+
+    crankpin_diameter: float | None = None
+    crankpin_length: float | None = None
+    main_diameter: float | None = None
+    main_length: float | None = None
+    pin_diameter: float | None = None
+    pin_length: float | None = None
+    rays: int = 12
+
+
+@dataclass(frozen=True)
+class Engine:
+    """What makes a whole engine of one crank gear.
+
+    Parameters
+    ----------
+    layout : Layout
+        Where the cylinders stand and when they fire.
+    slaves : tuple of ArticulatedRod or None
+        The articulated rod of each cylinder, None where the rod turns on the crankpin; empty if none is articulated.
+    bearings : Bearings
+        Their sizes.
+    counterweight : float
+        Mass moment opposite each throw. [kg m]
+    rotating_share, reciprocating_share : float
+        Shares of the masses that counterweights balance, beyond `counterweight`. [-]
+    balance_shafts : tuple of int
+        Orders that pairs of balance shafts take out.
+    fluctuation : float or None
+        Wanted fluctuation of the speed. [-]
+    inertia : float
+        What turns with the crankshaft, without the flywheel to be found. [kg m2]
+    notices : tuple of (str, mapping)
+        What the reader should know of the layout: code and values.
+    """
+
+    layout: Layout
+    slaves: tuple[ArticulatedRod | None, ...] = ()
+    bearings: Bearings = field(default_factory=Bearings)
+    counterweight: float = 0.0
+    rotating_share: float = 0.0
+    reciprocating_share: float = 0.0
+    balance_shafts: tuple[int, ...] = ()
+    fluctuation: float | None = None
+    inertia: float = 0.0
+    notices: tuple[tuple[str, Mapping[str, float | str]], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -91,6 +159,8 @@ class Machine:
         How to compute unless told otherwise.
     table_step, table_special : float and tuple of float
         Step of the tables and further angles. [deg]
+    engine : Engine or None
+        The whole engine that this crank gear is a cylinder of.
     """
 
     mechanism: Mechanism
@@ -104,6 +174,7 @@ class Machine:
     method: Method = EXACT
     table_step: float = 10.0
     table_special: tuple[float, ...] = ()
+    engine: Engine | None = None
 
     @property
     def cycle(self) -> float:

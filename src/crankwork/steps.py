@@ -1,8 +1,14 @@
-"""Worked steps: a registered formula, the numbers put into it, and what it gave."""
+"""Worked steps: a registered formula, the numbers put into it, and what it gave.
+
+What adds up over bodies, loads or orders has no formula of a fixed number of arguments: a `SumStep` or `ProductStep`
+has its terms as steps of their own and adds or multiplies their values in order. A `Given` is a number that enters
+such a sum, or a group, without a formula of its own there: it was given, found by a solver, or shown before.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 from crankwork.expressions import FORMULAS, Formula
@@ -27,6 +33,78 @@ class Step(NamedTuple):
     formula: Formula
     values: Mapping[str, float]
     value: float
+
+
+class Given(NamedTuple):
+    """A value without a formula of its own: given, read from a diagram, found by a solver, or shown before.
+
+    Parameters
+    ----------
+    key : str
+        Key of the value in a summary or table.
+    value : float
+        The value. [SI]
+    """
+
+    key: str
+    value: float
+
+
+class SumStep(NamedTuple):
+    """A value that is the sum of others; made by `sum_step`.
+
+    Parameters
+    ----------
+    key : str
+        Key of the value in a summary or table.
+    terms : tuple of Step, Given, SumStep or ProductStep
+        What is added, in order; their keys are `key.NAME` where they are parts of the same quantity.
+    value : float
+        The sum. [SI]
+    """
+
+    key: str
+    terms: tuple[AnyStep, ...]
+    value: float
+
+
+class ProductStep(NamedTuple):
+    """A value that is the product of others; made by `product_step`.
+
+    Parameters
+    ----------
+    key : str
+        Key of the value in a summary or table.
+    terms : tuple of Step, Given, SumStep or ProductStep
+        What is multiplied, in order.
+    value : float
+        The product. [SI]
+    """
+
+    key: str
+    terms: tuple[AnyStep, ...]
+    value: float
+
+
+AnyStep = Step | Given | SumStep | ProductStep
+
+
+class StepGroup(NamedTuple):
+    """Steps that belong together, in order of calculation.
+
+    Parameters
+    ----------
+    name : str
+        What they are about, for example `geometry`.
+    steps : tuple of Step, Given, SumStep or ProductStep
+        The steps.
+    crank_angle : float or None
+        Where they hold, if they vary with the crank angle. [rad]
+    """
+
+    name: str
+    steps: tuple[AnyStep, ...]
+    crank_angle: float | None = None
 
 
 class Worked:
@@ -77,3 +155,68 @@ def worked_step(function: Callable[..., Any], *values: float, key: str = "") -> 
     formula = FORMULAS[function.__name__]
     put_in = {name: float(value) for name, value in zip(formula.arguments, values, strict=True)}
     return Step(key or formula.quantity, formula, put_in, float(function(*put_in.values())))
+
+
+def named_step(function: Callable[..., Any], known: Mapping[str, float], *, key: str = "", **others: float) -> Step:
+    """Return the step of a registered formula whose arguments are known by name.
+
+    Parameters
+    ----------
+    function : callable
+        A function registered by `expressions.formula`.
+    known : mapping of str to float
+        Values by name of the argument; more than the formula takes do no harm. [SI, or as the formula states]
+    key : str
+        Key of the value; by default the quantity that the formula gives.
+    **others : float
+        Arguments that are not known, or have another value here. [SI, or as the formula states]
+    """
+    values = {**known, **others}
+    return worked_step(function, *(values[name] for name in FORMULAS[function.__name__].arguments), key=key)
+
+
+def sum_step(key: str, terms: Iterable[AnyStep]) -> SumStep:
+    """Return the sum of steps, added in order.
+
+    Parameters
+    ----------
+    key : str
+        Key of the sum.
+    terms : iterable of Step, Given, SumStep or ProductStep
+        What is added.
+
+    Examples
+    --------
+    >>> sum_step("efficiency", [Given("efficiency.one", 0.25), Given("efficiency.two", 0.5)]).value
+    0.75
+    """
+    terms = tuple(terms)
+    return SumStep(key, terms, float(sum(one.value for one in terms)))
+
+
+def product_step(key: str, terms: Iterable[AnyStep]) -> ProductStep:
+    """Return the product of steps, multiplied in order.
+
+    Parameters
+    ----------
+    key : str
+        Key of the product.
+    terms : iterable of Step, Given, SumStep or ProductStep
+        What is multiplied.
+    """
+    terms = tuple(terms)
+    return ProductStep(key, terms, math.prod(one.value for one in terms))
+
+
+def all_steps(steps: Iterable[AnyStep]) -> Iterator[AnyStep]:
+    """Yield steps and, before each sum or product, its terms.
+
+    Parameters
+    ----------
+    steps : iterable of Step, Given, SumStep or ProductStep
+        For example the steps of a group.
+    """
+    for one in steps:
+        if isinstance(one, SumStep | ProductStep):
+            yield from all_steps(one.terms)
+        yield one

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import math
 from collections.abc import Mapping
 
@@ -52,7 +53,15 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
     dense = columns(solved, CrankGrid.steps(_DENSE_STEP, machine.cycle))
     table = columns(solved, grid) | harmonic_columns(solved, grid)
     summary = {**_geometry_summary(solved), **_motion_summary(solved), **_force_summary(solved, dense)}
-    return Results(solved, grid, table, summary, _checks(solved, dense, summary), solved.notices, GROUPS)
+    steps = solved.space.steps if solved.space is not None else ()
+    results = Results(
+        solved, grid, table, summary, _checks(solved, dense, summary), solved.notices, GROUPS, steps=steps
+    )
+    if machine.engine is None:
+        return results
+    # loaded when needed, as linkages are
+    whole: Results = importlib.import_module("crankwork.analysis.whole_engine").with_whole_engine(results)
+    return whole
 
 
 def _geometry_summary(solved: Solved) -> dict[str, float]:
@@ -143,6 +152,7 @@ def _force_summary(solved: Solved, dense: Mapping[str, Array]) -> dict[str, floa
     result["mean_torque"] = mean if abs(mean) > _ROUNDING * float(np.max(np.abs(torque))) else 0.0
     if solved.space is not None:
         work = solved.space.work
+        result |= solved.space.values
         result |= {
             "indicated_work": work,
             "indicated_mean_pressure": float(gas_formulas.indicated_mean_pressure(work, solved.space.swept)),

@@ -3,15 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from crankwork.analysis.solved import Notice
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.method import Method
+from crankwork.steps import Step
 
 if TYPE_CHECKING:
     from crankwork.linkage_machine import AnyMachine
+
+
+class Listing(NamedTuple):
+    """A table that does not run over the crank angle: orders, rays, cylinders, bearings.
+
+    Parameters
+    ----------
+    columns : mapping of str to array, shape (n,)
+        Columns by key of `quantities.QUANTITIES`, the first of which says what each row is. [SI]
+    names : tuple of str
+        What rows are called where they are things, such as `crankpin.1`; empty where the first column says it.
+    """
+
+    columns: Mapping[str, Array]
+    names: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -34,6 +50,10 @@ class Results:
         What the reader should know.
     groups : mapping of str to tuple of str
         Keys of each table; those without a column are left out.
+    listings : mapping of str to Listing
+        Tables over something else than the crank angle, by name.
+    steps : tuple of Step
+        How calculated values of the working cycle came about, in order.
     """
 
     solved: Any
@@ -43,6 +63,8 @@ class Results:
     checks: Mapping[str, float]
     notices: tuple[Notice, ...]
     groups: Mapping[str, tuple[str, ...]]
+    listings: Mapping[str, Listing] = field(default_factory=dict)
+    steps: tuple[Step, ...] = ()
 
     @property
     def machine(self) -> AnyMachine:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import importlib
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import NamedTuple
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from types import ModuleType
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -13,13 +15,17 @@ from crankwork.dynamics.piston_forces import angular_speed
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.extremes import dead_centres
-from crankwork.kinematics.piston import as_slider_crank, piston_motion
+from crankwork.kinematics.piston import PistonMotion, as_slider_crank, piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.indicator import IndicatorDiagram, solve_diagram
 from crankwork.loads.measured import measured_diagram, wrap_is_rough
-from crankwork.machine import Cylinder, Machine
+from crankwork.machine import Cylinder, Gas, Machine
 from crankwork.method import Method
+from crankwork.steps import Step
+
+if TYPE_CHECKING:
+    from crankwork.cylinders.articulated import ArticulatedRod
 
 
 class Notice(NamedTuple):
@@ -40,13 +46,16 @@ class WorkingSpace(NamedTuple):
     work: float
     rod_area: float = 0.0
     back_pressure: float = 0.0
+    steps: tuple[Step, ...] = ()
+    values: Mapping[str, float] = {}
 
 
 @dataclass(frozen=True)
 class Solved:
     """A machine made ready for one method: lengths, speed and diagram known.
 
-    `speed` is the angular speed with the method's own pi. [rad/s]
+    `speed` is the angular speed with the method's own pi [rad/s]; `slave` the articulated rod of a cylinder that hangs
+    on the master rod.
     """
 
     machine: Machine
@@ -55,6 +64,22 @@ class Solved:
     speed: float
     space: WorkingSpace | None
     notices: tuple[Notice, ...]
+    slave: ArticulatedRod | None = None
+
+    def motion(self, grid: CrankGrid) -> PistonMotion:
+        """Return the motion of piston and rod at crank angles of this cylinder."""
+        if self.slave is None:
+            return piston_motion(self.lengths, grid, self.method)
+        moving = _articulated().articulated_motion(self.lengths, self.slave, grid)
+        return PistonMotion(moving.piston, moving.rod, moving.swing)
+
+    @property
+    def stroke(self) -> tuple[float, float, float]:
+        """Stroke [m], and the crank angles of top and bottom dead centre [deg]."""
+        if self.slave is None:
+            return (self.lengths.stroke, *dead_centres(self.lengths))
+        found = _articulated().slave_stroke(self.lengths, self.slave)
+        return found.stroke, found.top_angle, found.bottom_angle
 
 
 def solve(machine: Machine, method: Method) -> Solved:
@@ -91,39 +116,85 @@ def solve(machine: Machine, method: Method) -> Solved:
         notices.append(Notice("ambient", {"pressure": machine.gas.ambient / 1e6}))
     if machine.masses is not None and machine.masses.rod_inertia_excess and method.rod != "rigid":
         notices.append(Notice("no_couple", {}))
-    space = _working_space(machine, method, lengths, notices)
-    return Solved(machine, method, lengths, float(speed), space, tuple(notices))
+    solved = Solved(machine, method, lengths, float(speed), None, ())
+    return _with_space(solved, notices)
 
 
-def _working_space(
-    machine: Machine, method: Method, lengths: SliderCrank, notices: list[Notice]
-) -> WorkingSpace | None:
+def solve_slave(solved: Solved, slave: ArticulatedRod) -> Solved:
+    """Return a cylinder of the same engine whose rod hangs on the master rod.
+
+    Parameters
+    ----------
+    solved : Solved
+        The master cylinder.
+    slave : ArticulatedRod
+        The articulated rod.
+
+    Returns
+    -------
+    Solved
+        The same machine with the stroke, dead centres and diagram of that rod.
+
+    Raises
+    ------
+    CrankworkError
+        If the rod cannot be assembled all round, or the diagram does not hang together.
+    """
+    return _with_space(replace(solved, slave=slave, space=None, notices=()), [])
+
+
+def _articulated() -> ModuleType:
+    """Return the room of articulated rods, loaded when an engine has some."""
+    return importlib.import_module("crankwork.cylinders.articulated")
+
+
+def _with_space(solved: Solved, notices: list[Notice]) -> Solved:
+    """Return a cylinder with its working space, if it has one."""
+    machine, method = solved.machine, solved.method
     gas, cylinder = machine.gas, machine.cylinder
     if gas is None or cylinder is None:
-        return None
+        return replace(solved, notices=tuple(notices))
     area = float(gas_formulas.piston_area(method.pi, cylinder.bore))
-    swept = float(gas_formulas.swept_volume(area, lengths.stroke))
+    stroke, top, bottom = solved.stroke
+    swept = float(gas_formulas.swept_volume(area, stroke))
     clearance = _clearance(cylinder, swept)
     ambient = gas.ambient if gas.is_absolute else 0.0
 
     def volume_at(degrees: Array) -> Array:
-        x = piston_motion(lengths, CrankGrid.from_degrees(degrees), method).piston.position
+        x = solved.motion(CrankGrid.from_degrees(degrees)).piston.position
         return np.asarray(gas_formulas.cylinder_volume(clearance, area, x))
 
+    def volume_rate_at(degrees: Array) -> Array:
+        return np.asarray(area * solved.motion(CrankGrid.from_degrees(degrees)).piston.position_1)
+
+    steps: tuple[Step, ...] = ()
+    values: Mapping[str, float] = {}
+    if gas.calculated is not None:
+        calculated = gas.calculated.pressure(volume_at, volume_rate_at, (top, bottom))
+        diagram, steps, values = calculated.diagram, calculated.steps, calculated.values
+        notices += [Notice(*one) for one in calculated.notices]
+    else:
+        diagram = _given_diagram(gas, volume_at, (top, bottom), notices)
+    rod_area = float(gas_formulas.piston_area(method.pi, cylinder.piston_rod_diameter))
+    work = diagram.work(volume_at)
+    space = WorkingSpace(area, clearance, swept, diagram, ambient, work, rod_area, gas.back_pressure, steps, values)
+    return replace(solved, space=space, notices=tuple(notices))
+
+
+def _given_diagram(
+    gas: Gas, volume_at: Callable[[Array], Array], centres: tuple[float, float], notices: list[Notice]
+) -> IndicatorDiagram:
+    """Return the diagram that the description or a measurement gives."""
     if gas.measured is not None:
         diagram, cycles, wrap = measured_diagram(gas.measured, gas.cycle, shift=gas.angle_shift, step=gas.resample)
         if cycles > 1:
             notices.append(Notice("cycles_averaged", {"cycles": cycles}))
         if wrap_is_rough(diagram, wrap):
             notices.append(Notice("wrap", {"step": wrap}))
-    else:
-        diagram = solve_diagram(gas.points, gas.pieces, gas.cycle, volume_at, dead_centres=dead_centres(lengths))
-        notices += [
-            Notice("jump", {"point": name, "angle": angle, "step": step}) for name, angle, step in diagram.jumps
-        ]
-    rod_area = float(gas_formulas.piston_area(method.pi, cylinder.piston_rod_diameter))
-    work = diagram.work(volume_at)
-    return WorkingSpace(area, clearance, swept, diagram, ambient, work, rod_area, gas.back_pressure)
+        return diagram
+    diagram = solve_diagram(gas.points, gas.pieces, gas.cycle, volume_at, dead_centres=centres)
+    notices += [Notice("jump", {"point": name, "angle": angle, "step": step}) for name, angle, step in diagram.jumps]
+    return diagram
 
 
 def _clearance(cylinder: Cylinder, swept: float) -> float:

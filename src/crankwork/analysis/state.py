@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import math
 from collections.abc import Mapping
 
@@ -52,7 +53,7 @@ def columns(solved: Solved, grid: CrankGrid) -> dict[str, Array]:
     kolchin_demidov_2008, ch. 6 and 7.
     """
     machine, w, eps = solved.machine, solved.speed, solved.machine.angular_acceleration
-    motion = piston_motion(solved.lengths, grid, solved.method)
+    motion = solved.motion(grid)
     result = {
         "crank_angle": grid.angle,
         "piston_displacement": motion.piston.position,
@@ -86,6 +87,8 @@ def _forces(solved: Solved, grid: CrankGrid, motion: PistonMotion, known: Mappin
     r, l, e = lengths  # noqa: E741
     result = _axial_forces(solved, grid, known)
     P = result["piston_force"]
+    if solved.slave is not None:
+        return result | _slave_forces(solved, grid, P)
     rod = forces.rod_forces(P, swing)
     masses = machine.masses
     if masses is not None and masses.rod_inertia_excess and solved.method.rod == "rigid":
@@ -104,12 +107,39 @@ def _forces(solved: Solved, grid: CrankGrid, motion: PistonMotion, known: Mappin
         "overturning_moment": forces.overturning_moment(side, r * grid.cos + l * swing.cos, P, e),
     }
     if masses is not None:
-        centrifugal = forces.rotating_inertia_force(masses.rotating, r, solved.speed)
-        result["rotating_inertia_force"] = np.full_like(grid.angle, centrifugal)
+        result["rotating_inertia_force"] = _centrifugal(solved, grid)
         if machine.has_gravity or machine.angular_acceleration:
             result["rotating_torque"] = _rotating_torque(solved, masses.rotating, grid)
             result["crank_torque"] = result["crank_torque"] + result["rotating_torque"]
     return result
+
+
+def _centrifugal(solved: Solved, grid: CrankGrid) -> Array:
+    masses = solved.machine.masses
+    rotating = masses.rotating if masses else 0.0
+    force = forces.rotating_inertia_force(rotating, solved.lengths.crank_radius, solved.speed)
+    return np.full_like(grid.angle, force)
+
+
+def _slave_forces(solved: Solved, grid: CrankGrid, P: Array) -> dict[str, Array]:
+    """Return the forces of a cylinder whose rod hangs on the master rod; those on the crankpin come through that."""
+    room = importlib.import_module("crankwork.cylinders.articulated_forces")
+    moving = importlib.import_module("crankwork.cylinders.articulated").articulated_motion(
+        solved.lengths, solved.slave, grid
+    )
+    found = room.slave_forces(P, solved.lengths, solved.slave, grid, moving)
+    torque = np.asarray(forces.crank_torque(found.tangential, solved.lengths.crank_radius))
+    result = {
+        "side_force": found.side,
+        "rod_force": found.along,
+        "radial_force": found.radial,
+        "tangential_force": found.tangential,
+        "knuckle_side_force": found.master_side,
+        "knuckle_couple": found.couple,
+        "crank_torque": torque,
+        "overturning_moment": -torque,
+    }
+    return result | ({"rotating_inertia_force": _centrifugal(solved, grid)} if solved.machine.masses else {})
 
 
 def _axial_forces(solved: Solved, grid: CrankGrid, known: Mapping[str, Array]) -> dict[str, Array]:

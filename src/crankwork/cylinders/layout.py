@@ -29,6 +29,8 @@ class Place:
         throws. [m]
     firing_angle : float
         Crank angle of cylinder 1 by which it comes after cylinder 1, at least 0 and less than the cycle. [deg]
+    master : int
+        Number of the cylinder whose rod carries its rod, 0 if its rod turns on the crankpin itself.
     """
 
     number: int
@@ -38,6 +40,7 @@ class Place:
     pin_angle: float
     position: float
     firing_angle: float
+    master: int = 0
 
 
 @dataclass(frozen=True)
@@ -63,3 +66,40 @@ class Layout:
     cycle: float
     firing_order: tuple[int, ...]
     journal_positions: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class Banks:
+    """How the cylinders of an engine are arranged, before its firing order is known.
+
+    Parameters
+    ----------
+    kind : str
+        inline, V, boxer, W or radial.
+    cylinders : int
+        How many there are.
+    axes : tuple of float
+        Direction of each bank from the crankshaft, positive with the rotation; the first holds cylinder 1. [deg]
+    spacing : float
+        Distance between neighbouring cylinders of a bank. [m]
+    stagger : float
+        How much farther along the shaft each bank stands than the one before. [m]
+    pin_offset : float
+        Angle of the crankpin of each bank ahead of that of the bank before, on the same throw. [deg]
+    numbering : str
+        banks: along the first bank, then the next. pairs: across the banks, throw by throw.
+    own_throws : bool
+        Whether every cylinder has a throw of its own, as in a boxer.
+    articulated : bool
+        Whether the rods of a throw hang on the rod of its first cylinder.
+    """
+
+    kind: str
+    cylinders: int
+    axes: tuple[float, ...] = (0.0,)
+    spacing: float = 0.0
+    stagger: float = 0.0
+    pin_offset: float = 0.0
+    numbering: str = "banks"
+    own_throws: bool = False
+    articulated: bool = False

@@ -4,4 +4,14 @@ from __future__ import annotations
 
 from crankwork.notation.argument import Argument
 
-ARGUMENTS: dict[str, Argument] = {}
+ARGUMENTS: dict[str, Argument] = {
+    "A_q": Argument("acceleration_coefficient"),
+    "F_jq": Argument("order_inertia_force"),
+    "K_F": Argument("force_factor"),
+    "K_M": Argument("moment_factor"),
+    "a_z": Argument("balance_pitch"),
+    "k_b": Argument("balanced_share"),
+    "Q_b": Argument("counterweight_moment"),
+    "r_b": Argument("counterweight_radius"),
+    "Q_s": Argument("balance_shaft_moment"),
+}

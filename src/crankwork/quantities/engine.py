@@ -71,6 +71,55 @@ ROWS = (
          " | угловая скорость шатуна | vận tốc góc thanh truyền", "Time derivative of the rod angle."),
     row("rod_angular_acceleration", "rad/s2", "α_r|ε_ш|ε_tt", "rod angular acceleration"
          " | угловое ускорение шатуна | gia tốc góc thanh truyền", "Second time derivative of the rod angle."),
+    row("rod_sine", "", "sin β", "sine of the rod angle | синус угла отклонения шатуна"
+         " | sin góc lắc thanh truyền", "Sine of the swing of the rod from the cylinder axis."),
+    row("rod_cosine", "", "cos β", "cosine of the rod angle | косинус угла отклонения шатуна"
+         " | cos góc lắc thanh truyền", "Cosine of the swing of the rod from the cylinder axis."),
+    row("crank_rod_sine", "", "sin(φ+β)|sin(φ+β)|sin(α+β)", "sine of crank and rod angle"
+         " | синус суммы углов кривошипа и шатуна | sin tổng góc quay và góc lắc",
+         "Sine of the angle between crank and rod."),
+    row("crank_rod_cosine", "", "cos(φ+β)|cos(φ+β)|cos(α+β)", "cosine of crank and rod angle"
+         " | косинус суммы углов кривошипа и шатуна | cos tổng góc quay và góc lắc",
+         "Cosine of crank and rod angle together."),
+    row("side_factor", "", "tan β|tg β|tan β", "side force per piston force"
+         " | отношение боковой силы к суммарной | tỉ số lực ngang trên lực tác dụng lên chốt piston",
+         "Side force over the force on the piston pin, without a correction couple."),
+    row("rod_factor", "", "1/cos β", "rod force per piston force | отношение силы вдоль шатуна к суммарной"
+         " | tỉ số lực dọc thanh truyền trên lực tác dụng lên chốt piston",
+         "Force along the rod over the force on the piston pin, without a correction couple."),
+    row("radial_factor", "", "cos(φ+β)/cos β|cos(φ+β)/cos β|cos(α+β)/cos β", "radial force per piston force"
+         " | отношение радиальной силы к суммарной | tỉ số lực pháp tuyến trên lực tác dụng lên chốt piston",
+         "Radial force over the force on the piston pin, without a correction couple."),
+    row("tangential_factor", "", "sin(φ+β)/cos β|sin(φ+β)/cos β|sin(α+β)/cos β", "tangential force per piston force"
+         " | отношение тангенциальной силы к суммарной | tỉ số lực tiếp tuyến trên lực tác dụng lên chốt piston",
+         "Tangential force over the force on the piston pin, without a correction couple."),
+    row("piston_transfer_1", "mm", "x′|S′|x′", "first transfer function of the piston"
+         " | аналог скорости поршня | hàm truyền bậc một của piston",
+         "Derivative of the piston displacement by the crank angle in radians."),
+    row("piston_transfer_2", "mm", "x″|S″|x″", "second transfer function of the piston"
+         " | аналог ускорения поршня | hàm truyền bậc hai của piston",
+         "Second derivative of the piston displacement by the crank angle in radians."),
+    *(
+        row(f"piston_transfer_{rank}_{order}_order", "mm", f"x{prime}_{mark}|S{prime}_{mark}|x{prime}_{mark}",
+             f"{rank_en} transfer function of the piston, {order} order"
+             f" | аналог {rank_ru} поршня {order_ru} порядка | hàm truyền bậc {rank_vi} của piston, cấp {order_vi}",
+             f"Part of the {rank_en} transfer function of the piston of {order} order.")
+        for rank, prime, rank_en, rank_ru, rank_vi in (
+            (1, "′", "first", "скорости", "một"), (2, "″", "second", "ускорения", "hai"),
+        )
+        for order, mark, order_ru, order_vi in (("first", "I", "первого", "1"), ("second", "II", "второго", "2"))
+    ),
+    row("rod_transfer_1", "", "β′", "first transfer function of the rod | аналог угловой скорости шатуна"
+         " | hàm truyền bậc một của thanh truyền", "Derivative of the rod angle by the crank angle."),
+    row("rod_transfer_2", "", "β″", "second transfer function of the rod | аналог углового ускорения шатуна"
+         " | hàm truyền bậc hai của thanh truyền", "Second derivative of the rod angle by the crank angle."),
+    row("pin_distance", "mm", "h", "distance of the piston pin from the crankshaft"
+         " | расстояние от оси пальца до оси коленчатого вала | khoảng cách từ chốt piston đến trục khuỷu",
+         "Distance of the piston pin from the crankshaft axis along the cylinder axis."),
+    row("top_dead_centre_angle", "deg", "φ_t|φ_вмт|α_đct", "crank angle of top dead centre"
+         " | угол верхней мёртвой точки | góc điểm chết trên", "Crank angle at which the piston is farthest out."),
+    row("bottom_dead_centre_angle", "deg", "φ_b|φ_нмт|α_đcd", "crank angle of bottom dead centre"
+         " | угол нижней мёртвой точки | góc điểm chết dưới", "Crank angle at which the piston is farthest in."),
     # masses
     row("piston_mass", "kg", "m_p|m_п|m_np", "piston group mass | масса поршневой группы"
          " | khối lượng nhóm piston", "Piston, rings and pin.", "g/cm2"),
@@ -95,6 +144,9 @@ ROWS = (
     # gas
     row("gas_pressure", "MPa", "p_g|Δp_г|p_kt", "gas pressure on the piston | избыточное давление газов"
          " | áp suất khí thể", "Pressure above that on the crankcase side."),
+    row("diagram_pressure", "MPa", "p", "pressure of the indicator diagram | давление по индикаторной диаграмме"
+         " | áp suất trên đồ thị công",
+         "Pressure in the cylinder, absolute or above that in the crankcase, as the diagram is given."),
     row("ambient_pressure", "MPa", "p_0", "pressure on the crankcase side | давление в картере"
          " | áp suất khí trời", "Absolute pressure under the piston."),
     row("indicated_work", "J", "W_i|L_i|L_i", "indicated work per cycle | индикаторная работа цикла"

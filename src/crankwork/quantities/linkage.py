@@ -5,6 +5,13 @@ from __future__ import annotations
 from crankwork.quantities.quantity import row
 
 ROWS = (
+    # structure
+    row("mobility", "", "W", "degrees of freedom | степень подвижности | bậc tự do",
+         "Independent motions of a planar chain, by the formula of Chebyshev."),
+    row("moving_links", "", "n", "moving links | число подвижных звеньев | số khâu động",
+         "Number of links that move, the crank among them."),
+    row("lower_pairs", "", "p_5", "joints of one freedom | число пар пятого класса | số khớp loại năm",
+         "Number of revolute and sliding joints; a pin of k links counts k - 1."),
     # reduction of a linkage to its crank
     row("reduced_inertia", "kg*m2", "J|J_пр|J_tt", "reduced moment of inertia | приведённый момент инерции"
          " | mômen quán tính thu gọn", "Moment of inertia on the crank with the kinetic energy of the mechanism."),

@@ -20,6 +20,9 @@ ROWS = (
          " | коэффициент избыточной работы | hệ số dao động năng lượng", "Excess work over work per cycle."),
     row("wittenbauer_slope", "J", "tan ψ", "slope of the tangent | тангенс угла наклона касательной"
          " | hệ số góc tiếp tuyến", "Half the square of the speed: kinetic energy per moment of inertia."),
+    row("whole_inertia", "kg*m2", "J_Σ", "inertia of machine and flywheel"
+         " | суммарный приведённый момент инерции | tổng mômen quán tính thu gọn",
+         "Moment of inertia on the crank that the wanted fluctuation needs."),
     row("flywheel_inertia", "kg*m2", "J_f|J_м|J_đ", "flywheel inertia | момент инерции маховика"
          " | mômen quán tính bánh đà", "Moment of inertia of the flywheel about its shaft."),
     row("inertia_on_crank", "kg*m2", "J_red|J_прив|J_qd",

@@ -9,13 +9,19 @@ from crankwork.quantities import LANGUAGES, QUANTITIES, Language, base_key
 from crankwork.units import from_si
 
 _RUSSIAN_UNITS = {
-    "mm": "мм", "cm2": "см²", "cm3": "см³", "deg": "°", "rad/s": "рад/с", "rad/s2": "рад/с²", "m/s": "м/с",
+    "m": "м", "mm": "мм", "cm2": "см²", "cm3": "см³", "deg": "°", "rad/s": "рад/с", "rad/s2": "рад/с²", "m/s": "м/с",
     "m/s2": "м/с²", "kg": "кг", "g/cm2": "г/см²", "kg*m2": "кг·м²", "MPa": "МПа", "N": "Н", "N*m": "Н·м",
     "J": "Дж", "kW": "кВт", "W": "Вт", "Hz": "Гц", "N/m": "Н/м", "rpm": "мин⁻¹",
+    "kg/m3": "кг/м³", "kmol/kg": "кмоль/кг", "kg/kmol": "кг/кмоль", "kJ/kmol": "кДж/кмоль", "K": "К",
+    "kJ/(kmol*K)": "кДж/(кмоль·К)", "g/(kW*h)": "г/(кВт·ч)", "kg/h": "кг/ч", "kW/l": "кВт/л", "l": "л",
+    "MJ/kg": "МДж/кг", "kJ/kg": "кДж/кг", "g": "г",
+    "MPa/deg": "МПа/°", "W/(m2*K)": "Вт/(м²·К)", "J/(kg*K)": "Дж/(кг·К)", "1/K": "К⁻¹", "m/(s*K)": "м/(с·К)",
 }  # fmt: skip
 _LATIN_UNITS = {
     "cm2": "cm²", "cm3": "cm³", "deg": "°", "rad/s2": "rad/s²", "m/s2": "m/s²", "g/cm2": "g/cm²",
     "kg*m2": "kg·m²", "N*m": "N·m",
+    "kg/m3": "kg/m³", "kJ/(kmol*K)": "kJ/(kmol·K)", "g/(kW*h)": "g/(kW·h)",
+    "MPa/deg": "MPa/°", "W/(m2*K)": "W/(m²·K)", "J/(kg*K)": "J/(kg·K)", "1/K": "K⁻¹", "m/(s*K)": "m/(s·K)",
 }  # fmt: skip
 _VIETNAMESE_UNITS = {**_LATIN_UNITS, "rpm": "vg/ph"}
 _UNITS: Mapping[Language, Mapping[str, str]] = {"en": _LATIN_UNITS, "ru": _RUSSIAN_UNITS, "vi": _VIETNAMESE_UNITS}

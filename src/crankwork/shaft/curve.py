@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple, Self
 
@@ -15,6 +16,7 @@ from crankwork.loads.monotone import monotone_slopes
 # Where a polynomial is looked at for changes of sign, inside each of its intervals.
 _PARTS = 8
 _BISECTIONS = 100
+_NODES = (np.polynomial.legendre.leggauss(8)[0] + 1) / 2
 
 
 class Extremes(NamedTuple):
@@ -100,6 +102,34 @@ class Curve:
         """
         angle, value = _checked(angle, value)
         return cls.hermite(angle, value, monotone_slopes(angle, value, periodic=True))
+
+    @classmethod
+    def fitted(cls, function: Callable[[Array], Array], breaks: ArrayLike, *, width: float = np.pi / 24) -> Self:
+        """Return the polynomials that agree with a function at Gauss points between the breaks.
+
+        Parameters
+        ----------
+        function : callable
+            The quantity at ascending angles, smooth between the breaks. [rad] -> [its unit]
+        breaks : array, shape (m,)
+            Ascending angles over one whole cycle; the function is never asked at a break itself. [rad]
+        width : float
+            Longest interval of one polynomial. [rad]
+
+        Examples
+        --------
+        >>> curve = Curve.fitted(np.cos, [0.0, 2 * np.pi])
+        >>> bool(abs(curve(1.0) - np.cos(1.0)) < 1e-14)
+        True
+        """
+        breaks = np.asarray(breaks, dtype=float)
+        parts = np.maximum(1, np.ceil(np.diff(breaks) / width - _PARTS * np.finfo(float).eps)).astype(int)
+        starts = [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(breaks, breaks[1:], parts, strict=False)]
+        angle = np.append(np.concatenate(starts), breaks[-1])
+        steps = np.diff(angle)
+        values = function((angle[:-1, None] + steps[:, None] * _NODES).ravel()).reshape(steps.size, _NODES.size)
+        scaled = np.linalg.solve(np.vander(_NODES, increasing=True), values.T)
+        return cls(angle, scaled / steps ** np.arange(_NODES.size)[:, None])
 
     @classmethod
     def constant(cls, value: float, cycle: float = 2 * np.pi) -> Self:

@@ -1,0 +1,155 @@
+"""Worked steps of an engine: lengths, speed, motion, masses, gas, forces and power."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+
+from crankwork.analysis.results import Results
+from crankwork.analysis.solved import Solved
+from crankwork.analysis.steps_forces import force_steps
+from crankwork.analysis.steps_motion import EngineMoment, extreme_steps, harmonic_steps, motion_steps
+from crankwork.dynamics import masses as mass_formulas
+from crankwork.dynamics import piston_forces as forces
+from crankwork.kinematics import lengths as length_formulas
+from crankwork.loads import gas as gas_formulas
+from crankwork.loads.indicator import Segment
+from crankwork.machine import Machine
+from crankwork.steps import AnyStep, Given, Step, StepGroup, named_step, worked_step
+
+
+def engine_steps(results: Results, crank_angle: float, force_angle: float) -> tuple[StepGroup, ...]:
+    """Return the worked steps of an engine.
+
+    Parameters
+    ----------
+    results : Results
+        Of an engine.
+    crank_angle, force_angle : float
+        Where the motion and the forces are shown. [deg]
+
+    Returns
+    -------
+    tuple of StepGroup
+        Groups `cycle` (the steps that the results themselves hold), `geometry`, `speed`, `motion`, `harmonics`,
+        `extremes`, `masses`, `gas`, `forces`, `force_extremes`, `power`; those without a step are left out.
+    """
+    solved: Solved = results.solved
+    moving, loaded = EngineMoment.at(solved, crank_angle), EngineMoment.at(solved, force_angle)
+    at, there = float(moving.grid.angle[0]), float(loaded.grid.angle[0])
+    groups = (
+        StepGroup("cycle", tuple(results.steps)),
+        StepGroup("geometry", tuple(_geometry(solved))),
+        StepGroup("speed", tuple(_speed(solved))),
+        StepGroup("motion", tuple(motion_steps(moving)), at),
+        StepGroup("harmonics", tuple(harmonic_steps(moving)), at),
+        StepGroup("extremes", tuple(extreme_steps(solved, results.summary))),
+        StepGroup("masses", tuple(_masses(solved.machine))),
+        StepGroup("gas", tuple(_gas(solved))),
+        StepGroup("forces", tuple(force_steps(loaded)), there),
+        StepGroup("force_extremes", tuple(_force_extremes(solved, results.summary))),
+        StepGroup("power", tuple(_power(solved, results.summary))),
+    )
+    return tuple(group for group in groups if group.steps)
+
+
+def _geometry(solved: Solved) -> Iterator[Step]:
+    r, l, e = (float(one) for one in solved.lengths)  # noqa: E741
+    known = {"r": r, "l": l, "e": e, "pi": math.pi}
+    yield named_step(length_formulas.rod_ratio, known)
+    if not e:
+        yield named_step(length_formulas.stroke_central, known)
+        return
+    yield named_step(length_formulas.relative_offset, known)
+    yield named_step(length_formulas.stroke_offset, known)
+    top = length_formulas.top_dead_centre_angle if e > 0 else length_formulas.top_dead_centre_angle_before
+    yield named_step(top, known)
+    yield named_step(length_formulas.bottom_dead_centre_angle, known)
+
+
+def _speed(solved: Solved) -> Iterator[Step]:
+    n = solved.machine.speed * 30 / math.pi
+    yield worked_step(forces.angular_speed, solved.method.pi, n)
+    yield worked_step(forces.mean_piston_speed, float(solved.lengths.stroke), n)
+
+
+def _masses(machine: Machine) -> Iterator[Step]:
+    masses = machine.masses
+    if masses is not None:
+        yield worked_step(mass_formulas.reciprocating_mass, masses.piston, masses.rod_small_end)
+        yield worked_step(mass_formulas.rotating_mass, masses.crank, masses.rod_big_end)
+
+
+def _gas(solved: Solved) -> Iterator[AnyStep]:
+    """Yield areas and volumes of the cylinder, and both ends of each polytrope of the indicator diagram."""
+    cylinder, space = solved.machine.cylinder, solved.space
+    if cylinder is None:
+        return
+    yield worked_step(gas_formulas.piston_area, solved.method.pi, cylinder.bore)
+    if space is None:
+        return
+    yield worked_step(gas_formulas.swept_volume, space.area, float(solved.lengths.stroke))
+    if cylinder.clearance_volume is None and cylinder.compression_ratio is not None:
+        yield worked_step(gas_formulas.clearance_volume, space.swept, cylinder.compression_ratio)
+    yield worked_step(gas_formulas.compression_ratio, space.swept, space.clearance)
+    gas = solved.machine.gas
+    for piece in gas.pieces if gas and gas.measured is None else ():
+        if piece.law == "polytropic":
+            for name in (piece.points[0], piece.points[-1]):
+                if name != (piece.reference or piece.points[0]):
+                    yield from _polytrope_end(solved, name, piece.points[-1])
+
+
+def _polytrope_end(solved: Solved, name: str, end: str) -> Iterator[AnyStep]:
+    """Yield volume and pressure of the polytrope that ends at `end`, at one of its points."""
+    if solved.space is None:
+        return
+    named = solved.space.diagram.named
+    segment = next((one for one in _polytropes(solved) if abs(one.end - named[end][0]) < 1e-9), None)
+    if segment is None:
+        return
+    x = EngineMoment.at(solved, named[name][0]).known["piston_displacement"]
+    volume = worked_step(
+        gas_formulas.cylinder_volume, solved.space.clearance, solved.space.area, x, key=f"cylinder_volume.{name}"
+    )
+    yield volume
+    pressure, reference, exponent = segment.state
+    yield worked_step(
+        gas_formulas.polytropic_pressure, pressure, reference, volume.value, exponent, key=f"diagram_pressure.{name}"
+    )
+
+
+def _polytropes(solved: Solved) -> tuple[Segment, ...]:
+    segments = solved.space.diagram.segments if solved.space else ()
+    return tuple(one for one in segments if one.law == "polytropic")
+
+
+def _force_extremes(solved: Solved, summary: Mapping[str, float]) -> Iterator[AnyStep]:
+    """Yield largest and smallest forces and torque, each at the crank angle where the results have found it."""
+    for key in ("inertia_force", "piston_force", "side_force", "tangential_force", "crank_torque"):
+        for end in ("max", "min"):
+            angle = summary.get(f"{key}_{end}_angle")
+            if angle is not None:
+                # the angle has been through radians, and a vertical line of the diagram has two sides
+                moment = EngineMoment.at(solved, round(math.degrees(angle), 9))
+                step = next(one for one in force_steps(moment) if one.key == key)
+                yield step._replace(key=f"{key}_{end}")
+
+
+def _power(solved: Solved, summary: Mapping[str, float]) -> Iterator[AnyStep]:
+    """Yield mean pressure, power and mean torque of the indicated work.
+
+    The mean of the crank torque does the indicated work exactly where the motion is exact and steady. Else that mean
+    is an integral of the results, and `mean_torque.indicated` is the torque that would do the work, for comparison.
+    """
+    if solved.space is None:
+        return
+    work, cycle = summary["indicated_work"], math.radians(solved.machine.cycle)
+    yield Given("indicated_work", work)
+    yield worked_step(gas_formulas.indicated_mean_pressure, work, solved.space.swept)
+    yield worked_step(gas_formulas.indicated_power, work, solved.speed, cycle)
+    if solved.method.is_exact and not solved.machine.angular_acceleration and summary["mean_torque"]:
+        yield worked_step(gas_formulas.mean_torque, work, cycle)
+    else:
+        yield Given("mean_torque", summary["mean_torque"])
+        yield worked_step(gas_formulas.mean_torque, work, cycle, key="mean_torque.indicated")

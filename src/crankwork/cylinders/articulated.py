@@ -1,0 +1,383 @@
+"""Articulated rods: a cylinder whose rod turns on a knuckle pin of another cylinder's rod, the master rod.
+
+Everything is seen from the cylinder of the articulated rod: crank angle phi from its own axis, x along the axis towards
+the head, y towards the crankpin at 90 degrees. The knuckle pin stands at the angle delta from the axis, as seen from
+the crankpin: delta = knuckle angle - axis - beta of the master rod.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.errors import GeometryError
+from crankwork.expressions import Value, formula
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.slider_crank import (
+    RodSwing,
+    SliderCrank,
+    check_slider_crank,
+    rod_swing,
+    rod_transfer_1,
+    rod_transfer_2,
+)
+from crankwork.kinematics.transfer import PointMotion, Transfer
+
+# Share of the rod length that adding up lengths may leave.
+_ROUNDING = 1e-12
+# Equal steps of a turn in which each extreme is to stand alone.
+_SCAN = 180
+_MAX_STEPS = 60
+# An extreme is flat: a step as small as this changes nothing there. [deg]
+_SAME_ROOT = 1e-11
+
+
+@formula("knuckle_x", "taylor_1985, ch. 8")
+def knuckle_along(r: Value, cos_phi: Value, r_a: Value, cos_delta_a: Value) -> Value:
+    """Distance of the knuckle pin from the crankshaft along the cylinder axis.
+
+    Parameters
+    ----------
+    r, cos_phi, r_a, cos_delta_a : array
+        Crank radius, cosine of the crank angle, knuckle radius, cosine of its direction. [m], [-], [m], [-]
+
+    Returns
+    -------
+    array
+        x. [m]
+    """
+    return r * cos_phi + r_a * cos_delta_a
+
+
+@formula("knuckle_y", "taylor_1985, ch. 8")
+def knuckle_across(r: Value, sin_phi: Value, r_a: Value, sin_delta_a: Value) -> Value:
+    """Distance of the knuckle pin from the crankshaft across the cylinder axis.
+
+    Parameters
+    ----------
+    r, sin_phi, r_a, sin_delta_a : array
+        Crank radius, sine of the crank angle, knuckle radius, sine of its direction. [m], [-], [m], [-]
+
+    Returns
+    -------
+    array
+        y. [m]
+    """
+    return r * sin_phi + r_a * sin_delta_a
+
+
+@formula("articulated_rod_angle", "taylor_1985, ch. 8")
+def articulated_rod_sine(y_A: Value, e: Value, l_a: Value) -> Value:
+    """Sine of the angle of the articulated rod.
+
+    Parameters
+    ----------
+    y_A, e, l_a : array
+        Knuckle pin across the axis, offset of the cylinder, rod length. [m], [m], [m]
+
+    Returns
+    -------
+    array
+        sin(beta). [-]
+    """
+    return (y_A - e) / l_a
+
+
+@formula("piston_velocity", "artobolevsky_1988, ch. 4")
+def articulated_transfer_1(x_A1: Value, y_A1: Value, sin_beta_a: Value, cos_beta_a: Value) -> Value:
+    """First transfer function of the piston of an articulated rod, dx/dphi.
+
+    Parameters
+    ----------
+    x_A1, y_A1, sin_beta_a, cos_beta_a : array
+        Derivatives of the knuckle pin, functions of the rod angle. [m], [m], [-], [-]
+
+    Returns
+    -------
+    array
+        dx/dphi, positive towards the crankshaft. [m]
+    """
+    return y_A1 * sin_beta_a / cos_beta_a - x_A1
+
+
+@formula("piston_acceleration", "artobolevsky_1988, ch. 4")
+def articulated_transfer_2(
+    x_A2: Value, y_A2: Value, y_A1: Value, beta_a1: Value, sin_beta_a: Value, cos_beta_a: Value
+) -> Value:
+    """Second transfer function of the piston of an articulated rod, d2x/dphi2.
+
+    Parameters
+    ----------
+    x_A2, y_A2, y_A1, beta_a1, sin_beta_a, cos_beta_a : array
+        Derivatives of the knuckle pin, derivative and functions of the rod angle. [m], [m], [m], [-], [-], [-]
+
+    Returns
+    -------
+    array
+        d2x/dphi2, positive towards the crankshaft. [m]
+    """
+    return y_A2 * sin_beta_a / cos_beta_a + y_A1 * beta_a1 / cos_beta_a**2 - x_A2
+
+
+@formula("articulated_rod_angle", "artobolevsky_1988, ch. 4")
+def articulated_rod_transfer_1(y_A1: Value, l_a: Value, cos_beta_a: Value) -> Value:
+    """First derivative of the angle of the articulated rod by the crank angle.
+
+    Parameters
+    ----------
+    y_A1, l_a, cos_beta_a : array
+        Derivative of the knuckle pin, rod length, cosine of the rod angle. [m], [m], [-]
+
+    Returns
+    -------
+    array
+        dbeta/dphi. [-]
+    """
+    return y_A1 / (l_a * cos_beta_a)
+
+
+@formula("articulated_rod_angle", "artobolevsky_1988, ch. 4")
+def articulated_rod_transfer_2(y_A2: Value, l_a: Value, beta_a1: Value, sin_beta_a: Value, cos_beta_a: Value) -> Value:
+    """Second derivative of the angle of the articulated rod by the crank angle.
+
+    Parameters
+    ----------
+    y_A2, l_a, beta_a1, sin_beta_a, cos_beta_a : array
+        Derivative of the knuckle pin, rod length, derivative and functions of the rod angle. [m], [m], [-], [-], [-]
+
+    Returns
+    -------
+    array
+        d2beta/dphi2. [-]
+    """
+    return (y_A2 / l_a + beta_a1**2 * sin_beta_a) / cos_beta_a
+
+
+class ArticulatedRod(NamedTuple):
+    """An articulated rod and where its knuckle pin and its cylinder are.
+
+    Parameters
+    ----------
+    length, knuckle_radius : float
+        Between knuckle pin and piston pin; from the crankpin to the knuckle pin. [m], [m]
+    knuckle_angle : float
+        From the axis of the master rod to the knuckle pin, seen from the crankpin, positive with the rotation. [deg]
+    axis : float
+        From the axis of the master cylinder to its own, positive with the rotation. [deg]
+    offset : float
+        Of its cylinder axis from the crankshaft, positive towards the crankpin at 90 degrees. [m]
+    """
+
+    length: float
+    knuckle_radius: float
+    knuckle_angle: float
+    axis: float
+    offset: float = 0.0
+
+
+def plain_articulated_rod(lengths: SliderCrank, axis: float, knuckle_radius: float) -> ArticulatedRod:
+    """Return the articulated rod that reaches as far as the master rod, its knuckle pin on its own cylinder's axis.
+
+    Parameters
+    ----------
+    lengths : SliderCrank
+        Crank and master rod. [m]
+    axis, knuckle_radius : float
+        From the axis of the master cylinder to its own; from the crankpin to the knuckle pin. [deg], [m]
+    """
+    angle = (axis + 180.0) % 360.0 - 180.0
+    return ArticulatedRod(lengths.rod_length - knuckle_radius, knuckle_radius, angle, axis)
+
+
+class ArticulatedMotion(NamedTuple):
+    """Motion of an articulated rod and its piston over the crank angle of its own cylinder, arrays of shape (n,).
+
+    `piston`, `rod` and `swing` are those of `kinematics.piston.PistonMotion`, counted from its own top dead centre [m];
+    `knuckle` is the knuckle pin [m], `sin` and `cos` its direction from the crankpin, `master` the swing of the master
+    rod at the same instant [-].
+    """
+
+    piston: Transfer
+    rod: Transfer
+    swing: RodSwing
+    knuckle: PointMotion
+    sin: Array
+    cos: Array
+    master: RodSwing
+
+
+class SlaveStroke(NamedTuple):
+    """Dead centres of an articulated rod: crank angles from its own axis [deg], and where its piston pin stands [m]."""
+
+    top_angle: float
+    bottom_angle: float
+    top: float
+    bottom: float
+
+    @property
+    def stroke(self) -> float:
+        """Distance between the dead centres. [m]"""
+        return self.top - self.bottom
+
+
+def articulated_motion(lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGrid) -> ArticulatedMotion:
+    """Return the exact motion of an articulated rod and its piston.
+
+    Parameters
+    ----------
+    lengths : SliderCrank
+        Crank and master rod, with the offset of the master cylinder. [m]
+    rod : ArticulatedRod
+        The articulated rod.
+    grid : CrankGrid, shape (n,)
+        Crank angles from the axis of its own cylinder. [rad]
+
+    Returns
+    -------
+    ArticulatedMotion
+        Displacement from its own top dead centre and derivatives [m]; angle and derivatives of the rod [rad].
+
+    Raises
+    ------
+    GeometryError
+        If it cannot be assembled all round, with the length that is missing.
+
+    References
+    ----------
+    taylor_1985, ch. 8; artobolevsky_1988, ch. 4.
+    """
+    top = slave_stroke(lengths, rod).top
+    motion = _motion(lengths, rod, grid)
+    x = top - motion.piston.position
+    return motion._replace(piston=Transfer(x, *motion.piston[1:]))
+
+
+def _motion(lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGrid) -> ArticulatedMotion:
+    """Return the motion, with the distance of the piston pin from the crankshaft in place of the displacement."""
+    r, r_a, l_a = lengths.crank_radius, rod.knuckle_radius, rod.length
+    sin, cos, turn, master = _knuckle_direction(lengths, rod, grid)
+    x = knuckle_along(r, grid.cos, r_a, cos)
+    y = knuckle_across(r, grid.sin, r_a, sin)
+    x_1, y_1 = (-r * grid.sin - r_a * turn[0] * sin, r * grid.cos + r_a * turn[0] * cos)
+    x_2 = -r * grid.cos - r_a * (turn[1] * sin + turn[0] ** 2 * cos)
+    y_2 = -r * grid.sin + r_a * (turn[1] * cos - turn[0] ** 2 * sin)
+    sin_rod = articulated_rod_sine(y, rod.offset, l_a)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        cos_rod = np.sqrt((l_a - (y - rod.offset)) * (l_a + (y - rod.offset))) / l_a
+        beta_1 = articulated_rod_transfer_1(y_1, l_a, cos_rod)
+        beta_2 = articulated_rod_transfer_2(y_2, l_a, beta_1, sin_rod, cos_rod)
+        piston = Transfer(
+            x + l_a * cos_rod,
+            articulated_transfer_1(x_1, y_1, sin_rod, cos_rod),
+            articulated_transfer_2(x_2, y_2, y_1, beta_1, sin_rod, cos_rod),
+        )
+    swing = RodSwing(sin_rod, cos_rod, grid.sin * cos_rod + grid.cos * sin_rod, grid.cos * cos_rod - grid.sin * sin_rod)
+    knuckle = PointMotion(Transfer(x, x_1, x_2), Transfer(y, y_1, y_2))
+    angle = Transfer(np.arctan2(sin_rod, cos_rod), beta_1, beta_2)
+    return ArticulatedMotion(piston, angle, swing, knuckle, sin, cos, master)
+
+
+def _knuckle_direction(
+    lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGrid
+) -> tuple[Array, Array, tuple[Array, Array], RodSwing]:
+    """Return sine and cosine of delta, its two derivatives, and the swing of the master rod."""
+    of_master = CrankGrid.from_degrees(grid.degrees + rod.axis) if rod.axis else grid
+    master = rod_swing(lengths, of_master)
+    beta_1 = rod_transfer_1(lengths.rod_ratio, of_master.cos, master.cos)
+    beta_2 = rod_transfer_2(beta_1, lengths.rod_ratio, of_master.sin, master.sin, master.cos)
+    fixed = CrankGrid.from_degrees(rod.knuckle_angle - rod.axis)
+    sin = fixed.sin * master.cos - fixed.cos * master.sin
+    cos = fixed.cos * master.cos + fixed.sin * master.sin
+    return sin, cos, (-beta_1, -beta_2), master
+
+
+@lru_cache(maxsize=256)
+def slave_stroke(lengths: SliderCrank, rod: ArticulatedRod) -> SlaveStroke:
+    """Return the dead centres of an articulated rod.
+
+    Parameters
+    ----------
+    lengths : SliderCrank
+        Crank and master rod. [m]
+    rod : ArticulatedRod
+        The articulated rod.
+
+    Returns
+    -------
+    SlaveStroke
+        Angles of the dead centres from its own axis [deg] and distances of the piston pin there [m].
+
+    Raises
+    ------
+    GeometryError
+        If it cannot be assembled all round, with the length that is missing.
+
+    References
+    ----------
+    taylor_1985, ch. 8; roots of dx/dphi.
+    """
+    check_articulated_rod(lengths, rod)
+    return _stroke(lengths, rod)
+
+
+def _stroke(lengths: SliderCrank, rod: ArticulatedRod) -> SlaveStroke:
+    angles = _extremes(lambda degrees: _motion(lengths, rod, CrankGrid.from_degrees(degrees)).piston, -90.0)
+    distance = _motion(lengths, rod, CrankGrid.from_degrees(angles)).piston.position
+    top, bottom = int(np.argmax(distance)), int(np.argmin(distance))
+    return SlaveStroke(float(angles[top]), float(angles[bottom]), float(distance[top]), float(distance[bottom]))
+
+
+def _extremes(motion: Callable[[Array], Transfer], start: float) -> Array:
+    """Return the angles of a turn where a coordinate is extreme, by Newton's method between changes of sign. [deg]"""
+    edges = start + np.linspace(0.0, 360.0, _SCAN + 1)
+    slope = motion(edges).position_1
+    left = np.flatnonzero((slope[:-1] < 0) != (slope[1:] < 0))
+    low, high, falls = edges[left], edges[left + 1], slope[left] >= 0
+    at = (low + high) / 2
+    for _ in range(_MAX_STEPS):
+        _, first, second = motion(at)
+        before = (first >= 0) == falls
+        low, high = np.where(before, at, low), np.where(before, high, at)
+        # both derivatives change sign with the sense of x, their ratio does not
+        step = np.degrees(np.divide(first, np.abs(second), out=np.zeros_like(at), where=second != 0))
+        if np.all(np.abs(step) <= _SAME_ROOT):
+            break
+        moved = at + np.where(falls, step, -step)
+        at = np.where((moved > low) & (moved < high), moved, (low + high) / 2)
+    return at
+
+
+def check_articulated_rod(lengths: SliderCrank, rod: ArticulatedRod) -> None:
+    """Raise if crank, master rod and articulated rod cannot turn fully.
+
+    Parameters
+    ----------
+    lengths : SliderCrank
+        Crank and master rod. [m]
+    rod : ArticulatedRod
+        The articulated rod.
+
+    Raises
+    ------
+    GeometryError
+        With the angle and the length that is missing.
+    """
+    check_slider_crank(lengths)
+    if rod.length <= 0 or rod.knuckle_radius < 0:
+        raise GeometryError("the articulated rod must be longer than zero, and its knuckle radius not negative")
+
+    def across(degrees: Array) -> Transfer:
+        return _motion(lengths, rod, CrankGrid.from_degrees(degrees)).knuckle.y
+
+    angles = _extremes(across, 0.0)
+    away = np.abs(across(angles).position - rod.offset)
+    worst = int(np.argmax(away))
+    if away[worst] >= rod.length * (1 - _ROUNDING):
+        raise GeometryError(
+            f"the articulated rod ({rod.length * 1e3:g} mm) does not reach its cylinder at a crank angle of "
+            f"{angles[worst] % 360:.1f} deg, where its knuckle pin is {away[worst] * 1e3:.6g} mm beside the axis; "
+            f"it misses {(away[worst] - rod.length) * 1e3:.6g} mm: lengthen it or take a smaller knuckle radius"
+        )

@@ -1,0 +1,273 @@
+"""Free forces and moments of any layout, order by order.
+
+The force of a cylinder acts along its axis. Drawn in the plane across the shaft, real part along the reference
+direction of the engine and imaginary part 90 degrees further with the rotation, an order of it is the sum of a vector
+that turns forwards at q times the crank speed and one that turns backwards. So is the sum over all cylinders, and its
+tip draws an ellipse.
+
+A moment is the sum of position times force, drawn the same way: it points where its force at a positive position does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crankwork.cylinders.ellipse import ComplexArray, Ellipse, OrderBalance, unit_vectors, vector_sum
+from crankwork.cylinders.layout import Layout
+from crankwork.errors import CrankworkError
+from crankwork.expressions import Value, formula
+from crankwork.kinematics.series import acceleration_harmonics
+from crankwork.kinematics.slider_crank import SliderCrank
+from crankwork.method import EXACT, Method
+
+ORDERS = (1, 2, 4, 6)
+
+
+@formula("primary_inertia_force", "kolchin_demidov_2008, ch. 8")
+def primary_inertia_force(m_rec: Value, r: Value, w: Value) -> Value:
+    """Amplitude of the primary inertia force of one cylinder.
+
+    Parameters
+    ----------
+    m_rec, r, w : float
+        Reciprocating mass, crank radius, angular speed. [kg], [m], [rad/s]
+
+    Returns
+    -------
+    float
+        Force. [N]
+    """
+    return m_rec * r * w**2
+
+
+@formula("secondary_inertia_force", "kolchin_demidov_2008, ch. 8")
+def secondary_inertia_force(m_rec: Value, r: Value, w: Value, lam: Value) -> Value:
+    """Amplitude of the secondary inertia force of one cylinder, in two terms.
+
+    Parameters
+    ----------
+    m_rec, r, w, lam : float
+        Reciprocating mass, crank radius, angular speed, crank-to-rod ratio. [kg], [m], [rad/s], [-]
+
+    Returns
+    -------
+    float
+        Force. [N]
+    """
+    return m_rec * r * w**2 * lam
+
+
+@formula("order_inertia_force", "taylor_1985, vol. 2, ch. 8")
+def order_inertia_force(m_rec: Value, r: Value, w: Value, A_q: Value) -> Value:
+    """Amplitude of one order of the inertia force of one cylinder.
+
+    Parameters
+    ----------
+    m_rec, r, w, A_q : float
+        Reciprocating mass, crank radius, angular speed, coefficient of the order. [kg], [m], [rad/s], [-]
+
+    Returns
+    -------
+    float
+        Force. [N]
+    """
+    return m_rec * r * w**2 * A_q
+
+
+@formula("free_force", "den_hartog_1956, ch. 5")
+def free_force(K_F: Value, F_jq: Value) -> Value:
+    """Largest free force of one order.
+
+    Parameters
+    ----------
+    K_F, F_jq : float
+        Force factor of the layout, force of one cylinder. [-], [N]
+
+    Returns
+    -------
+    float
+        Force. [N]
+    """
+    return K_F * F_jq
+
+
+@formula("free_moment", "den_hartog_1956, ch. 5")
+def free_moment(K_M: Value, a_z: Value, F_jq: Value) -> Value:
+    """Largest free moment of one order.
+
+    Parameters
+    ----------
+    K_M, a_z, F_jq : float
+        Moment factor of the layout, distance between cylinders, force of one cylinder. [-], [m], [N]
+
+    Returns
+    -------
+    float
+        Moment. [N m]
+    """
+    return K_M * a_z * F_jq
+
+
+class InertiaHarmonics(NamedTuple):
+    """Orders of the piston acceleration x''/r = Re sum C_q exp(i q phi).
+
+    Parameters
+    ----------
+    orders : tuple of int
+        The orders q.
+    coefficients : complex, shape (orders,) or (cylinders, orders)
+        The coefficients C_q, by the crank angle of each cylinder's own axis. [-]
+    """
+
+    orders: tuple[int, ...]
+    coefficients: ComplexArray
+
+
+def inertia_harmonics(
+    slider_crank: SliderCrank, orders: Sequence[int] = ORDERS, method: Method = EXACT
+) -> InertiaHarmonics:
+    """Return the orders of the piston acceleration of a slider-crank.
+
+    Parameters
+    ----------
+    slider_crank : SliderCrank
+        The dimensions.
+    orders : sequence of int
+        The orders.
+    method : Method
+        Exact, a series to some order, or the two terms of the textbooks, where the second is the crank-to-rod ratio.
+
+    Returns
+    -------
+    InertiaHarmonics of complex, shape (orders,)
+        The coefficients. [-]
+
+    References
+    ----------
+    taylor_1985, vol. 2, ch. 8; kolchin_demidov_2008, ch. 6, for the two terms.
+    """
+    r, ratio = float(slider_crank.crank_radius), float(slider_crank.rod_ratio)
+    if method.kinematics == "textbook":
+        offset = float(slider_crank.offset) / r
+        two_terms = {1: complex(1.0, -ratio * offset), 2: complex(ratio)}
+        return InertiaHarmonics(tuple(orders), np.array([two_terms.get(one, 0j) for one in orders]))
+    cosine, sine = acceleration_harmonics(slider_crank, max(orders))
+    chosen = np.array(orders) - 1
+    coefficients = (cosine[chosen] - 1j * sine[chosen]) / r
+    if method.kinematics == "series":
+        coefficients[np.array(orders) > method.order] = 0.0
+    return InertiaHarmonics(tuple(orders), coefficients)
+
+
+def sampled_harmonics(acceleration: ArrayLike, crank_radius: float, orders: Sequence[int] = ORDERS) -> InertiaHarmonics:
+    """Return the orders of any piston acceleration, as that of an articulated rod.
+
+    Parameters
+    ----------
+    acceleration : array, shape (n,) or (cylinders, n)
+        d2x/dphi2 at n equal steps of one turn, from the crank angle zero of the cylinder, without the last. [m]
+    crank_radius : float
+        Crank radius. [m]
+    orders : sequence of int
+        The orders.
+
+    Returns
+    -------
+    InertiaHarmonics of complex, shape (orders,) or (cylinders, orders)
+        The coefficients. [-]
+
+    Raises
+    ------
+    CrankworkError
+        If there are too few samples for the highest order.
+    """
+    samples = np.asarray(acceleration, dtype=float)
+    count = samples.shape[-1]
+    if count <= 2 * max(orders):
+        raise CrankworkError(
+            f"{count} samples of a turn do not show order {max(orders)}; give more than {2 * max(orders)}"
+        )
+    spectrum = np.fft.rfft(samples)[..., list(orders)]
+    return InertiaHarmonics(tuple(orders), spectrum * (2 / (count * crank_radius)))
+
+
+def free_forces(
+    layout: Layout,
+    mass: ArrayLike,
+    crank_radius: ArrayLike,
+    speed: float,
+    harmonics: InertiaHarmonics,
+    *,
+    about: float = 0.0,
+) -> tuple[OrderBalance, ...]:
+    """Return what the reciprocating masses leave free.
+
+    Parameters
+    ----------
+    layout : Layout
+        The cylinders.
+    mass, crank_radius : float or array, shape (cylinders,)
+        Reciprocating mass, crank radius; of each cylinder where they differ. [kg], [m]
+    speed : float
+        Angular speed. [rad/s]
+    harmonics : InertiaHarmonics
+        Orders of the piston acceleration, the same for all cylinders or one row for each. [-]
+    about : float
+        Position along the shaft that moments are about, by default the middle between the outermost cylinders. [m]
+
+    Returns
+    -------
+    tuple of OrderBalance
+        Force and moment of each order of `harmonics`. [N], [N m]
+
+    References
+    ----------
+    den_hartog_1956, ch. 5; taylor_1985, vol. 2, ch. 8.
+    """
+    places = layout.places
+    if harmonics.coefficients.ndim > 1 and len(harmonics.coefficients) != len(places):
+        raise CrankworkError(
+            f"harmonics of {len(harmonics.coefficients)} cylinders do not fit a layout of {len(places)}; "
+            "give one row for each cylinder, or one for all"
+        )
+    axes = np.array([one.axis for one in places])
+    lead = places[0].axis + np.array([one.pin_angle for one in places]) - axes
+    arms = np.array([one.position for one in places]) - about
+    size = np.asarray(mass) * np.asarray(crank_radius) * speed**2 / 2 * unit_vectors(axes)
+    rows = np.broadcast_to(harmonics.coefficients, (len(places), len(harmonics.orders)))
+    found = []
+    for order, coefficients in zip(harmonics.orders, rows.T, strict=True):
+        turned = coefficients * unit_vectors(order * lead)
+        forward, backward = size * turned, size * turned.conj()
+        force = Ellipse(vector_sum(forward), vector_sum(backward))
+        found.append(OrderBalance(order, force, Ellipse(vector_sum(arms * forward), vector_sum(arms * backward))))
+    return tuple(found)
+
+
+def layout_factors(layout: Layout, orders: Sequence[int] = ORDERS, pitch: float = 1.0) -> tuple[OrderBalance, ...]:
+    """Return the free forces in units of the force of one cylinder, and the moments in that force times a pitch.
+
+    Parameters
+    ----------
+    layout : Layout
+        The cylinders.
+    orders : sequence of int
+        The orders.
+    pitch : float
+        Distance along the shaft that is the unit of the moments. [m]
+
+    Returns
+    -------
+    tuple of OrderBalance
+        Factors of m r w^2 A_q, and of that times the pitch. [-]
+
+    References
+    ----------
+    den_hartog_1956, ch. 5.
+    """
+    found = free_forces(layout, 1.0, 1.0, 1.0, InertiaHarmonics(tuple(orders), np.ones(len(orders), dtype=complex)))
+    return tuple(one._replace(moment=Ellipse(*(part / pitch for part in one.moment))) for one in found)

@@ -1,0 +1,231 @@
+"""Shafts beside the crankshaft, turning with it or against it at a multiple of its speed, that carry weights.
+
+The forward part of an order takes a shaft that turns with the crankshaft, the backward part one that turns against it.
+Where the cylinders stand in one plane the two parts are equal, and the two shafts are the pair of Lanchester.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.cylinders.counterweights import in_two_planes
+from crankwork.cylinders.ellipse import Ellipse, OrderBalance, balance_sum, unit_vectors
+from crankwork.expressions import Value, formula
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+
+
+@formula("balance_shaft_moment", "taylor_1985, vol. 2, ch. 8")
+def lanchester_moment(K_F: Value, m_rec: Value, r: Value, A_q: Value) -> Value:
+    """Mass moment of each of the two shafts that balance the second order of cylinders in one plane.
+
+    Parameters
+    ----------
+    K_F, m_rec, r, A_q : float
+        Force factor of the layout in the second order, reciprocating mass, crank radius, coefficient of the second
+        order. [-], [kg], [m], [-]
+
+    Returns
+    -------
+    float
+        Mass times eccentricity. [kg m]
+
+    Notes
+    -----
+    Each shaft takes half of the force and turns twice as fast: 2 Q (2 w)^2 = K m r w^2 A.
+    """
+    return K_F * m_rec * r * A_q / 8
+
+
+@formula("balance_shaft_moment", "den_hartog_1956, ch. 5")
+def first_order_shaft_moment(m_rec: Value, r: Value) -> Value:
+    """Mass moment of each of the two shafts that balance the first order of one cylinder.
+
+    Parameters
+    ----------
+    m_rec, r : float
+        Reciprocating mass, crank radius. [kg], [m]
+
+    Returns
+    -------
+    float
+        Mass times eccentricity. [kg m]
+    """
+    return m_rec * r / 2
+
+
+@formula("balance_shaft_torque", "taylor_1985, vol. 2, ch. 8")
+def second_order_shaft_torque(Q_s: Value, w: Value, h: Value) -> Value:
+    """Amplitude of the torque on the frame from a pair of second-order shafts at different heights.
+
+    Parameters
+    ----------
+    Q_s, w, h : float
+        Mass moment of each shaft, angular speed of the crank, height of the forward shaft above the other. [kg m],
+        [rad/s], [m]
+
+    Returns
+    -------
+    float
+        Torque; with the rotation it goes as minus sin(2 phi) for cylinders along the reference direction. [N m]
+    """
+    return Q_s * (2 * w) ** 2 * h
+
+
+class ShaftPlace(NamedTuple):
+    """Where a balance shaft lies beside the crankshaft.
+
+    Parameters
+    ----------
+    height, side : float
+        Distance from the crankshaft axis along the reference direction of the engine, and 90 degrees further with the
+        rotation. [m]
+    """
+
+    height: float = 0.0
+    side: float = 0.0
+
+
+class ShaftWeight(NamedTuple):
+    """A weight on a balance shaft.
+
+    Parameters
+    ----------
+    order : int
+        Speed of the shaft over that of the crankshaft.
+    sense : int
+        1 where it turns with the crankshaft, -1 against it.
+    mass_moment : float
+        Mass times eccentricity. [kg m]
+    angle : float
+        Its direction from the reference direction at crank angle zero, positive with the crank's rotation. [deg]
+    position : float
+        Its place along the shaft, as those of the cylinders. [m]
+    place : ShaftPlace
+        Where the shaft lies.
+    """
+
+    order: int
+    sense: int
+    mass_moment: float
+    angle: float
+    position: float
+    place: ShaftPlace = ShaftPlace()
+
+
+def balance_shafts(
+    part: OrderBalance,
+    speed: float,
+    planes: tuple[float] | tuple[float, float] = (0.0,),
+    places: tuple[ShaftPlace, ShaftPlace] = (ShaftPlace(), ShaftPlace()),
+) -> tuple[ShaftWeight, ...]:
+    """Return the weights that take one order away.
+
+    Parameters
+    ----------
+    part : OrderBalance
+        What is free, its moment about the position zero. [N], [N m]
+    speed : float
+        Angular speed of the crank. [rad/s]
+    planes : tuple of float
+        Positions of the weights along the shafts: one takes the force, two take force and moment. [m]
+    places : tuple of ShaftPlace
+        Where the shaft that turns with the crank lies, and the one that turns against it. [m]
+
+    Returns
+    -------
+    tuple of ShaftWeight
+        As many weights as are needed; none for what is balanced already.
+
+    References
+    ----------
+    taylor_1985, vol. 2, ch. 8.
+    """
+    weights = []
+    for sense, force, moment, place in zip((1, -1), part.force, part.moment, places, strict=True):
+        for needed, plane in zip(_needed(force, moment, planes), planes, strict=True):
+            if needed:
+                mass_moment = abs(needed) / (part.order * speed) ** 2
+                angle = float(np.degrees(np.angle(-needed)) % 360)
+                weights.append(ShaftWeight(part.order, sense, mass_moment, angle, plane, place))
+    return tuple(weights)
+
+
+def shaft_forces(weights: Sequence[ShaftWeight], speed: float, *, about: float = 0.0) -> tuple[OrderBalance, ...]:
+    """Return force and moment of balance shafts, order by order.
+
+    Parameters
+    ----------
+    weights : sequence of ShaftWeight
+        The weights.
+    speed : float
+        Angular speed of the crank. [rad/s]
+    about : float
+        Position along the shaft that moments are about. [m]
+
+    Returns
+    -------
+    tuple of OrderBalance
+        To be added to those of the cylinders by `balance_sum`. [N], [N m]
+
+    References
+    ----------
+    den_hartog_1956, ch. 5.
+    """
+    found = []
+    for one in weights:
+        force = _force(one, speed)
+        forward, backward = (force, 0j) if one.sense > 0 else (0j, force)
+        arm = one.position - about
+        found.append(OrderBalance(one.order, Ellipse(forward, backward), Ellipse(arm * forward, arm * backward)))
+    return balance_sum(found)
+
+
+def shaft_torque(weights: Sequence[ShaftWeight], speed: float, grid: CrankGrid) -> Array:
+    """Return the torque of balance shafts on the frame, because their forces pass the crankshaft at a distance.
+
+    Parameters
+    ----------
+    weights : sequence of ShaftWeight
+        The weights.
+    speed : float
+        Angular speed of the crank. [rad/s]
+    grid : CrankGrid, shape (n,)
+        Crank angles of cylinder 1. [rad]
+
+    Returns
+    -------
+    array, shape (n,)
+        Torque about the crankshaft axis, positive with the rotation. [N m]
+
+    References
+    ----------
+    taylor_1985, vol. 2, ch. 8.
+
+    Notes
+    -----
+    A pair whose forward shaft lies higher works against the second order of the inertia torque: with a height
+    difference of one rod length it cancels it.
+    """
+    total = np.zeros(grid.angle.shape)
+    for one in weights:
+        force = _force(one, speed) * unit_vectors(one.sense * one.order * grid.degrees)
+        total += one.place.height * force.imag - one.place.side * force.real
+    return total
+
+
+def _needed(force: complex, moment: complex, planes: tuple[float, ...]) -> tuple[complex, ...]:
+    """Return the forces to be balanced in each plane."""
+    if len(planes) == 1:
+        return (force,)
+    first, second = planes
+    # a moment is a force at one end and its opposite at the other
+    couple = moment / (second - first) if second != first else 0j
+    return in_two_planes([force, -couple, couple], [0.0, first, second], (first, second))
+
+
+def _force(weight: ShaftWeight, speed: float) -> complex:
+    """Return the force of a weight at crank angle zero."""
+    return weight.mass_moment * (weight.order * speed) ** 2 * complex(unit_vectors(weight.angle))

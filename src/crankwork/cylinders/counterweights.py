@@ -1,0 +1,273 @@
+"""Counterweights on the crankshaft: what they take away, and what they leave.
+
+A counterweight turns forwards, so it can remove the forward part of the first order and nothing else. Half of a
+reciprocating mass is that part, whatever the layout: the vector of a force that swings along a line is half a vector
+that turns forwards and half one that turns backwards.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crankwork.cylinders.ellipse import Ellipse, OrderBalance, unit_vectors, vector_sum
+from crankwork.cylinders.layout import Layout
+from crankwork.errors import CrankworkError
+from crankwork.expressions import Value, formula
+
+
+@formula("counterweight_moment", "bevan_1956, ch. 14")
+def counterweight_moment(m_rot: Value, k_b: Value, m_rec: Value, r: Value) -> Value:
+    """Mass moment that balances the rotating mass and a share of the reciprocating mass of one throw.
+
+    Parameters
+    ----------
+    m_rot, k_b, m_rec, r : float
+        Rotating mass, balanced share, reciprocating mass, crank radius. [kg], [-], [kg], [m]
+
+    Returns
+    -------
+    float
+        Mass times radius. [kg m]
+    """
+    return (m_rot + k_b * m_rec) * r
+
+
+@formula("counterweight_mass", "bevan_1956, ch. 14")
+def counterweight_mass(Q_b: Value, r_b: Value) -> Value:
+    """Mass of a counterweight whose centre of mass lies at a given radius.
+
+    Parameters
+    ----------
+    Q_b, r_b : float
+        Mass moment, radius of the centre of mass. [kg m], [m]
+
+    Returns
+    -------
+    float
+        Mass. [kg]
+    """
+    return Q_b / r_b
+
+
+@formula("residual_force", "bevan_1956, ch. 14")
+def partial_balance_residual(m_rec: Value, r: Value, w: Value, k_b: Value, cos_phi: Value, sin_phi: Value) -> Value:
+    """Primary force of one cylinder that is left where a share of its reciprocating mass is balanced.
+
+    Parameters
+    ----------
+    m_rec, r, w, k_b, cos_phi, sin_phi : array
+        Reciprocating mass, crank radius, angular speed, balanced share, functions of the crank angle. [kg], [m],
+        [rad/s], [-], [-], [-]
+
+    Returns
+    -------
+    array
+        Resultant of what is left along the axis and what was brought across it. [N]
+    """
+    return m_rec * r * w**2 * np.sqrt(((1 - k_b) * cos_phi) ** 2 + (k_b * sin_phi) ** 2)
+
+
+class Unbalance(NamedTuple):
+    """A mass that turns with the crankshaft.
+
+    Parameters
+    ----------
+    mass_moment : float
+        Mass times distance of its centre of mass from the crankshaft axis. [kg m]
+    angle : float
+        Its direction, ahead of the crankpin of cylinder 1. [deg]
+    position : float
+        Its place along the shaft, as those of the cylinders. [m]
+    """
+
+    mass_moment: float
+    angle: float
+    position: float
+
+
+def rotating_unbalances(layout: Layout, mass: ArrayLike, crank_radius: float) -> tuple[Unbalance, ...]:
+    """Return the rotating masses of the cylinders as they stand at the crankpins.
+
+    Parameters
+    ----------
+    layout : Layout
+        The cylinders.
+    mass : float or array, shape (cylinders,)
+        Rotating mass of each cylinder; of a crankpin that several share, the part of each. [kg]
+    crank_radius : float
+        Crank radius. [m]
+
+    Returns
+    -------
+    tuple of Unbalance
+        One for each cylinder.
+    """
+    masses = np.broadcast_to(np.asarray(mass, dtype=float), (len(layout.places),))
+    return tuple(
+        Unbalance(float(m) * crank_radius, one.pin_angle, one.position)
+        for m, one in zip(masses, layout.places, strict=True)
+    )
+
+
+def turning_forces(
+    layout: Layout, unbalances: Sequence[Unbalance], speed: float, *, about: float = 0.0
+) -> OrderBalance:
+    """Return force and moment of masses that turn with the crankshaft: rotating masses, counterweights.
+
+    Parameters
+    ----------
+    layout : Layout
+        The cylinders, for the direction of the first.
+    unbalances : sequence of Unbalance
+        The masses.
+    speed : float
+        Angular speed. [rad/s]
+    about : float
+        Position along the shaft that moments are about. [m]
+
+    Returns
+    -------
+    OrderBalance
+        Of the first order, nothing of it backwards. [N], [N m]
+
+    References
+    ----------
+    den_hartog_1956, ch. 5.
+    """
+    at_zero = layout.places[0].axis + np.array([one.angle for one in unbalances])
+    size = np.array([one.mass_moment for one in unbalances]) * speed**2
+    forces = size * unit_vectors(at_zero)
+    arms = np.array([one.position for one in unbalances]) - about
+    return OrderBalance(1, Ellipse(vector_sum(forces), 0j), Ellipse(vector_sum(arms * forces), 0j))
+
+
+def throw_counterweights(
+    layout: Layout, reciprocating: ArrayLike, rotating: ArrayLike, crank_radius: float, share: float = 0.5
+) -> tuple[Unbalance, ...]:
+    """Return one counterweight opposite each crankpin, for its rotating mass and a share of what reciprocates on it.
+
+    Parameters
+    ----------
+    layout : Layout
+        The cylinders.
+    reciprocating, rotating : float or array, shape (cylinders,)
+        Masses of each cylinder; of a crankpin that several share, the part of each. [kg], [kg]
+    crank_radius : float
+        Crank radius. [m]
+    share : float
+        Balanced share of the reciprocating mass; one half removes all of the first order that turns forwards. [-]
+
+    Returns
+    -------
+    tuple of Unbalance
+        One for each crankpin, midway between its masses.
+
+    References
+    ----------
+    kolchin_demidov_2008, ch. 8; taylor_1985, vol. 2, ch. 8, for radial engines.
+    """
+    count = len(layout.places)
+    moments = np.broadcast_to(
+        counterweight_moment(np.asarray(rotating), share, np.asarray(reciprocating), crank_radius), (count,)
+    )
+    of_pin: dict[int, list[int]] = {}
+    for index, place in enumerate(layout.places):
+        of_pin.setdefault(place.crankpin, []).append(index)
+    positions = np.array([place.position for place in layout.places])
+    weights = []
+    for pin in sorted(of_pin):
+        members = of_pin[pin]
+        total = float(moments[members].sum())
+        middle = float(moments[members] @ positions[members]) / total if total else float(positions[members].mean())
+        weights.append(Unbalance(total, (layout.places[members[0]].pin_angle + 180) % 360, middle))
+    return tuple(weights)
+
+
+def two_plane_counterweights(
+    unbalances: Sequence[Unbalance], planes: tuple[float, float]
+) -> tuple[Unbalance, Unbalance]:
+    """Return the two counterweights that balance any turning masses, force and couple.
+
+    Parameters
+    ----------
+    unbalances : sequence of Unbalance
+        What turns.
+    planes : tuple of float
+        Positions of the two counterweights along the shaft. [m]
+
+    Returns
+    -------
+    tuple of Unbalance
+        The counterweights.
+
+    Raises
+    ------
+    CrankworkError
+        If the planes are one.
+
+    References
+    ----------
+    bevan_1956, ch. 14.
+    """
+    vectors = np.array([one.mass_moment for one in unbalances]) * unit_vectors([one.angle for one in unbalances])
+    arms = np.array([one.position for one in unbalances])
+    parts = in_two_planes(vectors, arms, planes)
+    first, second = (_opposite(part, plane) for part, plane in zip(parts, planes, strict=True))
+    return first, second
+
+
+def one_plane_counterweight(unbalances: Sequence[Unbalance], plane: float) -> Unbalance:
+    """Return the counterweight that balances the force of turning masses, and leaves their couple.
+
+    Parameters
+    ----------
+    unbalances : sequence of Unbalance
+        What turns.
+    plane : float
+        Position of the counterweight along the shaft. [m]
+
+    Returns
+    -------
+    Unbalance
+        The counterweight.
+
+    References
+    ----------
+    bevan_1956, ch. 14.
+    """
+    vectors = np.array([one.mass_moment for one in unbalances]) * unit_vectors([one.angle for one in unbalances])
+    return _opposite(vector_sum(vectors), plane)
+
+
+def in_two_planes(vectors: ArrayLike, positions: ArrayLike, planes: tuple[float, float]) -> tuple[complex, complex]:
+    """Return the two vectors, one in each plane, with the sum and the moment of given vectors.
+
+    Parameters
+    ----------
+    vectors : complex, shape (n,)
+        What is to be replaced.
+    positions : array, shape (n,)
+        Where they stand along the shaft. [m]
+    planes : tuple of float
+        Positions of the two planes. [m]
+
+    Returns
+    -------
+    tuple of complex
+        The vectors in the planes.
+    """
+    first, second = planes
+    if first == second:
+        raise CrankworkError(f"both planes are at {first * 1e3:g} mm; a couple needs two planes apart")
+    vectors, arms = np.asarray(vectors, dtype=complex), np.asarray(positions, dtype=float)
+    span = second - first
+    return vector_sum(vectors * (second - arms) / span), vector_sum(vectors * (arms - first) / span)
+
+
+def _opposite(vector: complex, plane: float) -> Unbalance:
+    """Return the counterweight of an unbalance given as a vector in the frame of the crank."""
+    return Unbalance(abs(vector), float(np.degrees(np.angle(-vector)) % 360) if vector else 0.0, plane)

@@ -1,0 +1,148 @@
+"""Vectors that turn with the crank and against it: the ellipses in which forces and moments of one order run.
+
+Drawn in the plane across the shaft, real part along the reference direction of the engine and imaginary part 90 degrees
+further with the rotation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from crankwork.kinematics.crank_grid import CrankGrid
+
+ComplexArray = NDArray[np.complex128]
+
+# A sum smaller than this share of its terms is rounding: it has no direction, and is zero.
+_ROUNDING = 1e-13
+
+
+def unit_vectors(degrees: ArrayLike) -> ComplexArray:
+    """Return vectors of length one in given directions, exact at multiples of 90 degrees.
+
+    Parameters
+    ----------
+    degrees : float or array
+        The directions. [deg]
+    """
+    grid = CrankGrid.from_degrees(degrees)
+    return np.asarray(grid.cos + 1j * grid.sin)
+
+
+def vector_sum(terms: ArrayLike) -> complex:
+    """Return the sum of vectors, zero where they cancel to rounding.
+
+    Parameters
+    ----------
+    terms : complex, shape (n,)
+        The vectors.
+    """
+    vectors = np.asarray(terms, dtype=complex)
+    total = complex(vectors.sum())
+    return total if abs(total) > _ROUNDING * float(np.abs(vectors).sum()) else 0j
+
+
+class Ellipse(NamedTuple):
+    """A vector made of one that turns with the crank and one that turns against it, at the same speed.
+
+    Parameters
+    ----------
+    forward, backward : complex
+        The two where the crank angle of cylinder 1 is zero; force or moment. [N or N m]
+    """
+
+    forward: complex
+    backward: complex
+
+    @property
+    def largest(self) -> float:
+        """Longest the vector gets in a turn, the long half axis. [N or N m]"""
+        return abs(self.forward) + abs(self.backward)
+
+    @property
+    def least(self) -> float:
+        """Shortest the vector gets in a turn, the short half axis. [N or N m]"""
+        return abs(abs(self.forward) - abs(self.backward))
+
+    @property
+    def direction(self) -> float:
+        """Direction of the long axis from the reference direction, 0 to 180, and 0 of a circle. [deg]"""
+        if not self.forward or not self.backward:
+            return 0.0
+        return float(np.degrees(np.angle(self.forward) + np.angle(self.backward)) / 2 % 180)
+
+    def amplitude_along(self, direction: float) -> float:
+        """Return the amplitude of the component along a direction.
+
+        Parameters
+        ----------
+        direction : float
+            Angle from the reference direction, with the rotation. [deg]
+        """
+        axis = complex(unit_vectors(direction))
+        return float(abs(self.forward / axis + (self.backward / axis).conjugate()))
+
+    def outline(self, count: int = 181) -> ComplexArray:
+        """Return points of the closed ellipse for a figure, from the crank angle zero onwards.
+
+        Parameters
+        ----------
+        count : int
+            How many points; the last is the first.
+        """
+        turning = unit_vectors(np.linspace(0.0, 360.0, count))
+        return np.asarray(self.forward * turning + self.backward * turning.conj())
+
+
+class OrderBalance(NamedTuple):
+    """What one order leaves free: its force [N] and its moment along the shaft [N m]."""
+
+    order: int
+    force: Ellipse
+    moment: Ellipse
+
+
+def balance_sum(parts: Iterable[OrderBalance]) -> tuple[OrderBalance, ...]:
+    """Return forces and moments added up order by order, such as those of the cylinders and of counterweights.
+
+    Parameters
+    ----------
+    parts : iterable of OrderBalance
+        What acts together, of any orders, moments about the same position.
+    """
+    of_order: dict[int, list[OrderBalance]] = {}
+    for one in parts:
+        of_order.setdefault(one.order, []).append(one)
+    return tuple(
+        OrderBalance(order, _ellipse_sum([one.force for one in some]), _ellipse_sum([one.moment for one in some]))
+        for order, some in sorted(of_order.items())
+    )
+
+
+def forces_over_turn(parts: Iterable[OrderBalance], grid: CrankGrid) -> ComplexArray:
+    """Return the sum of the forces of all orders, the hodograph of the shaking force.
+
+    Parameters
+    ----------
+    parts : iterable of OrderBalance
+        The orders.
+    grid : CrankGrid, shape (n,)
+        Crank angles of cylinder 1. [rad]
+
+    Returns
+    -------
+    complex, shape (n,)
+        Force, real along the reference direction, imaginary 90 degrees further with the rotation. [N]
+    """
+    total = np.zeros(grid.angle.shape, dtype=complex)
+    for one in parts:
+        turning = unit_vectors(one.order * grid.degrees)
+        total += one.force.forward * turning + one.force.backward * turning.conj()
+    return total
+
+
+def _ellipse_sum(parts: Sequence[Ellipse]) -> Ellipse:
+    return Ellipse(vector_sum([one.forward for one in parts]), vector_sum([one.backward for one in parts]))

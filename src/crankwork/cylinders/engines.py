@@ -1,0 +1,215 @@
+"""The engines that have a name: inline, V, boxer, radial, and the customary ones."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from crankwork.cylinders.arrangement import arranged
+from crankwork.cylinders.firing import LayoutError, LayoutNotice
+from crankwork.cylinders.layout import Banks, Layout
+from crankwork.cylinders.standard_orders import StandardOrder, radial_order
+
+
+def inline(
+    cylinders: int,
+    order: Sequence[int],
+    *,
+    spacing: float = 0.0,
+    throws: Sequence[float] | None = None,
+    strokes: int = 4,
+    uneven: bool = False,
+) -> tuple[Layout, tuple[LayoutNotice, ...]]:
+    """Return an inline engine.
+
+    Parameters
+    ----------
+    cylinders : int
+        How many.
+    order : sequence of int
+        Firing order.
+    spacing : float
+        Distance between cylinders. [m]
+    throws : sequence of float, optional
+        Angle of each throw ahead of the first, positive with the rotation; else from even firing. [deg]
+    strokes : int
+        4 or 2.
+    uneven : bool
+        Whether uneven intervals are wanted, so that there is no notice of them.
+    """
+    return arranged(Banks("inline", cylinders, spacing=spacing), order, strokes=strokes, throws=throws, uneven=uneven)
+
+
+def vee(  # noqa: PLR0913 - each argument is a key of the description
+    cylinders: int,
+    order: Sequence[int],
+    bank_angle: float,
+    *,
+    spacing: float = 0.0,
+    bank_stagger: float = 0.0,
+    pin_offset: float = 0.0,
+    numbering: str = "banks",
+    throws: Sequence[float] | None = None,
+    strokes: int = 4,
+    uneven: bool = False,
+    articulated: bool = False,
+) -> tuple[Layout, tuple[LayoutNotice, ...]]:
+    """Return a V engine, two cylinders to a throw.
+
+    Parameters
+    ----------
+    cylinders : int
+        How many.
+    order : sequence of int
+        Firing order.
+    bank_angle : float
+        From the axis of the bank of cylinder 1 to the other, positive with the rotation. [deg]
+    spacing, bank_stagger : float
+        Distance between cylinders of a bank; how much farther along the shaft the other bank stands. [m], [m]
+    pin_offset : float
+        How far the crankpins of the other bank are ahead on the same throw; 0 is a common pin. [deg]
+    numbering : str
+        banks: 1 to n/2 are the first bank. pairs: 1 and 2 are the first throw.
+    throws : sequence of float, optional
+        Angle of each throw ahead of the first, positive with the rotation; else from even firing. [deg]
+    strokes : int
+        4 or 2.
+    uneven : bool
+        Whether uneven intervals are wanted, so that there is no notice of them.
+    articulated : bool
+        Whether the rods of the other bank hang on those of the first.
+    """
+    axes = (-bank_angle / 2, bank_angle / 2)
+    banks = Banks(
+        "V", cylinders, axes, spacing, bank_stagger, pin_offset, numbering, own_throws=False, articulated=articulated
+    )
+    return arranged(banks, order, strokes=strokes, throws=throws, uneven=uneven)
+
+
+def boxer(  # noqa: PLR0913 - each argument is a key of the description
+    cylinders: int,
+    order: Sequence[int],
+    *,
+    spacing: float = 0.0,
+    bank_stagger: float | None = None,
+    numbering: str = "banks",
+    throws: Sequence[float] | None = None,
+    strokes: int = 4,
+    uneven: bool = False,
+) -> tuple[Layout, tuple[LayoutNotice, ...]]:
+    """Return a boxer engine: two opposed banks, each cylinder with a throw of its own.
+
+    Parameters
+    ----------
+    cylinders : int
+        How many.
+    order : sequence of int
+        Firing order.
+    spacing, bank_stagger : float
+        Distance between neighbouring throws, half that between cylinders of a bank; how much farther along the shaft
+        the other bank stands, by default as much. [m], [m]
+    numbering : str
+        banks: 1 to n/2 are the first bank. pairs: 1 and 2 are the first opposed pair.
+    throws : sequence of float, optional
+        Angle of each throw along the shaft ahead of the first, positive with the rotation; else from even firing. [deg]
+    strokes : int
+        4 or 2.
+    uneven : bool
+        Whether uneven intervals are wanted, so that there is no notice of them.
+    """
+    stagger = spacing if bank_stagger is None else bank_stagger
+    banks = Banks("boxer", cylinders, (-90.0, 90.0), 2 * spacing, stagger, numbering=numbering, own_throws=True)
+    return arranged(banks, order, strokes=strokes, throws=throws, uneven=uneven)
+
+
+def w(  # noqa: PLR0913 - each argument is a key of the description
+    cylinders: int,
+    order: Sequence[int],
+    axes: Sequence[float],
+    *,
+    spacing: float = 0.0,
+    bank_stagger: float = 0.0,
+    numbering: str = "banks",
+    throws: Sequence[float] | None = None,
+    strokes: int = 4,
+    uneven: bool = False,
+    own_throws: bool = False,
+) -> tuple[Layout, tuple[LayoutNotice, ...]]:
+    """Return an engine of any number of banks.
+
+    Parameters
+    ----------
+    cylinders : int
+        How many.
+    order : sequence of int
+        Firing order.
+    axes : sequence of float
+        Direction of each bank, positive with the rotation; the first holds cylinder 1. [deg]
+    spacing, bank_stagger : float
+        Distance between cylinders of a bank; how much farther along the shaft each next bank stands. [m], [m]
+    numbering : str
+        banks: along the first bank, then the next. pairs: across the banks, throw by throw.
+    throws : sequence of float, optional
+        Angle of each throw along the shaft ahead of the first, positive with the rotation; else from even firing. [deg]
+    strokes : int
+        4 or 2.
+    uneven : bool
+        Whether uneven intervals are wanted, so that there is no notice of them.
+    own_throws : bool
+        Whether every cylinder has a throw of its own, as in a V of 15 degrees, instead of one throw per row.
+    """
+    banks = Banks("W", cylinders, tuple(axes), spacing, bank_stagger, numbering=numbering, own_throws=own_throws)
+    return arranged(banks, order, strokes=strokes, throws=throws, uneven=uneven)
+
+
+def radial(
+    cylinders: int,
+    order: Sequence[int] | None = None,
+    *,
+    master: int = 1,
+    span: float = 0.0,
+    strokes: int = 4,
+    uneven: bool = False,
+) -> tuple[Layout, tuple[LayoutNotice, ...]]:
+    """Return one row of a radial engine, numbered with the rotation, all rods on one crankpin.
+
+    Parameters
+    ----------
+    cylinders : int
+        How many.
+    order : sequence of int, optional
+        Firing order; else every other cylinder in four strokes, every one in two.
+    master : int
+        Number of the cylinder whose rod carries the others; 0 if every rod turns on the crankpin itself.
+    span : float
+        Distance between the main journals. [m]
+    strokes : int
+        4 or 2.
+    uneven : bool
+        Whether uneven intervals are wanted, so that there is no notice of them.
+    """
+    if not 0 <= master <= cylinders:
+        raise LayoutError("engine.master", f"there is no cylinder {master}; write one from 1 to {cylinders}, or 0")
+    banks = Banks("radial", cylinders, tuple(at * 360 / cylinders for at in range(cylinders)), span)
+    order = radial_order(cylinders, strokes) if order is None else order
+    layout, notices = arranged(banks, order, strokes=strokes, throws=(0.0,), uneven=uneven)
+    places = tuple(replace(one, master=0 if one.number == master else master) for one in layout.places)
+    return replace(layout, places=places), notices
+
+
+def standard_layout(standard: StandardOrder, *, spacing: float = 0.0) -> tuple[Layout, tuple[LayoutNotice, ...]]:
+    """Return a customary engine.
+
+    Parameters
+    ----------
+    standard : StandardOrder
+        One of `standard_orders.standard_orders`.
+    spacing : float
+        Distance between neighbouring throws. [m]
+    """
+    own = standard.kind in ("inline", "boxer")
+    pitch, stagger = (2 * spacing, spacing) if standard.kind == "boxer" else (spacing, 0.0)
+    banks = Banks(
+        standard.kind, standard.cylinders, standard.axes, pitch, stagger, standard.pin_offset, standard.numbering, own
+    )
+    return arranged(banks, standard.order, strokes=standard.strokes, throws=standard.throws)

@@ -1,0 +1,250 @@
+"""What a bearing load comes to over the cycle: mean and extremes, reversal, the polar diagram."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crankwork.cylinders.bearings import bearing_load_ratio, bearing_pressure
+from crankwork.cylinders.load_vectors import BearingLoad
+from crankwork.errors import CrankworkError
+from crankwork.kinematics.crank_grid import Array
+
+# Loads closer than this share of the largest are the same: loads that repeat within the cycle differ by rounding.
+_SAME_LOAD = 1e-12
+
+
+def cycle_shares(degrees: ArrayLike, cycle: float) -> Array:
+    """Return which share of the cycle each tabulated crank angle stands for, by the trapezoidal rule.
+
+    Parameters
+    ----------
+    degrees : array, shape (n,)
+        Ascending crank angles, with or without the end of the cycle. [deg]
+    cycle : float
+        Length of the cycle. [deg]
+
+    Returns
+    -------
+    array, shape (n,)
+        Shares, which add up to 1. [-]
+
+    Raises
+    ------
+    CrankworkError
+        If the angles do not ascend or take more than the cycle.
+    """
+    degrees = np.asarray(degrees, dtype=float)
+    steps = np.diff(degrees, append=degrees[0] + cycle)
+    if np.any(steps[:-1] <= 0) or steps[-1] < -1e-9 * cycle:
+        raise CrankworkError(
+            f"crank angles from {degrees[0]:g} to {degrees[-1]:g} degrees are not one cycle of {cycle:g} degrees; "
+            "give ascending angles within one cycle"
+        )
+    return np.asarray((steps + np.roll(steps, 1)) / (2 * cycle))
+
+
+class LoadStatistics(NamedTuple):
+    """What the size of a load comes to over the cycle; the angles are crank angles. [N], [deg]
+
+    Parameters
+    ----------
+    mean, max, max_angle, min, min_angle, ratio : float
+        Mean over the cycle, largest and smallest tabulated load and where each first stands, largest over
+        mean. [N], [N], [deg], [N], [deg], [-]
+    """
+
+    mean: float
+    max: float
+    max_angle: float
+    min: float
+    min_angle: float
+    ratio: float
+
+
+def load_statistics(load: BearingLoad, degrees: ArrayLike, cycle: float) -> LoadStatistics:
+    """Return mean, largest and smallest size of a load.
+
+    Parameters
+    ----------
+    load : BearingLoad of array, shape (n,)
+        Load in any frame. [N]
+    degrees : array, shape (n,)
+        Ascending crank angles, with or without the end of the cycle. [deg]
+    cycle : float
+        Length of the cycle. [deg]
+
+    Returns
+    -------
+    LoadStatistics
+        Of the size of the load; the ratio of no load at all is 1. [N], [deg]
+    """
+    size, degrees = load.resultant, np.asarray(degrees, dtype=float)
+    mean = float(cycle_shares(degrees, cycle) @ size)
+    largest, smallest = float(np.max(size)), float(np.min(size))
+    rounding = _SAME_LOAD * largest
+    at_largest = degrees[np.argmax(size >= largest - rounding)]
+    at_smallest = degrees[np.argmax(size <= smallest + rounding)]
+    ratio = float(bearing_load_ratio(largest, mean)) if mean else 1.0
+    return LoadStatistics(mean, largest, float(at_largest), smallest, float(at_smallest), ratio)
+
+
+class SpecificLoads(NamedTuple):
+    """Mean and largest load per projected area of the bearing. [Pa]"""
+
+    mean: float
+    max: float
+
+
+def specific_loads(statistics: LoadStatistics, diameter: float, length: float) -> SpecificLoads:
+    """Return mean and largest load per projected area of a bearing.
+
+    Parameters
+    ----------
+    statistics : LoadStatistics
+        What the load comes to.
+    diameter, length : float
+        Of the bearing. [m], [m]
+
+    Returns
+    -------
+    SpecificLoads
+        Pressures. [Pa]
+    """
+    return SpecificLoads(*(float(bearing_pressure(one, diameter, length)) for one in statistics[:2]))
+
+
+class LoadReversal(NamedTuple):
+    """How long and how strongly a bearing is loaded along the rod in either direction.
+
+    Parameters
+    ----------
+    compression, tension : float
+        Longest unbroken stretch of the cycle in that direction. [deg], [deg]
+    compression_peak, tension_peak : float
+        Largest force in that direction, not negative. [N], [N]
+    """
+
+    compression: float
+    tension: float
+    compression_peak: float
+    tension_peak: float
+
+    @property
+    def duration(self) -> float:
+        """The shorter of the two stretches. [deg]"""
+        return min(self.compression, self.tension)
+
+    @property
+    def ratio(self) -> float:
+        """Smaller over larger peak, 0 without load. [-]"""
+        larger = max(self.compression_peak, self.tension_peak)
+        return min(self.compression_peak, self.tension_peak) / larger if larger else 0.0
+
+    def is_enough(self, duration: float = 15.0, ratio: float = 0.03) -> bool:
+        """Return whether oil can get between pin and bearing, by default by the limits of API 618.
+
+        Parameters
+        ----------
+        duration : float
+            Least stretch in the direction that has the shorter one. [deg]
+        ratio : float
+            Least share of the smaller peak. [-]
+        """
+        return self.duration >= duration and self.ratio >= ratio
+
+
+def load_reversal(load: BearingLoad, degrees: ArrayLike, cycle: float) -> LoadReversal:
+    """Return how a small-end load changes its direction along the rod, linear between tabulated angles.
+
+    Parameters
+    ----------
+    load : BearingLoad of array, shape (n,)
+        Load on the small-end bearing in the rod frame; negative x is compression. [N]
+    degrees : array, shape (n,)
+        Ascending crank angles, with or without the end of the cycle. [deg]
+    cycle : float
+        Length of the cycle, 720 or 360. [deg]
+
+    Returns
+    -------
+    LoadReversal
+        Stretches and peaks in both directions. [deg], [N]
+
+    References
+    ----------
+    api_618, which counts within one turn of the crankshaft.
+    """
+    cycle_shares(degrees, cycle)
+    force = -np.append(load.x, load.x[0])
+    angle = np.append(degrees, np.asarray(degrees)[0] + cycle)
+    before = np.flatnonzero((force[:-1] < 0) != (force[1:] < 0))
+    crossings = angle[before] + np.diff(angle)[before] * force[before] / (force[before] - force[before + 1])
+    longest = dict.fromkeys((False, True), 0.0)
+    if not before.size:
+        longest[bool(force[0] < 0)] = cycle
+    for index, stretch in zip(before, np.diff(crossings, append=crossings[:1] + cycle), strict=True):
+        pulls = bool(force[index + 1] < 0)
+        longest[pulls] = max(longest[pulls], float(stretch))
+    return LoadReversal(longest[False], longest[True], max(float(np.max(force)), 0.0), max(float(-np.min(force)), 0.0))
+
+
+class PolarDiagram(NamedTuple):
+    """The end of a load vector over the cycle, as a curve with marked crank angles, seen from its pole.
+
+    Parameters
+    ----------
+    across, down : array, shape (n,)
+        Curve: to the right and downward, in a crank frame tangential and radial force. [N], [N]
+    pole : tuple of float
+        Where the vectors begin, right and down. [N]
+    marks : array, shape (m,)
+        Marked crank angles. [deg]
+    marks_across, marks_down : array, shape (m,)
+        Points of the curve at the marked angles. [N], [N]
+    """
+
+    across: Array
+    down: Array
+    pole: tuple[float, float]
+    marks: Array
+    marks_across: Array
+    marks_down: Array
+
+
+def polar_diagram(
+    load: BearingLoad, degrees: ArrayLike, cycle: float, inertia: float = 0.0, step: float = 30.0
+) -> PolarDiagram:
+    """Return the polar diagram of a load: y to the right, minus x downward, crank angles marked.
+
+    Parameters
+    ----------
+    load : BearingLoad of array, shape (n,)
+        The whole load, inertia of the rod masses included. [N]
+    degrees : array, shape (n,)
+        Ascending crank angles, with or without the end of the cycle. [deg]
+    cycle : float
+        Length of the cycle. [deg]
+    inertia : float
+        Inertia force of all rod masses at the crankpin, never positive: the curve is that of the rods without it,
+        and the pole lies as far below the origin. Without it the pole is the origin. [N]
+    step : float
+        Step of the marks. [deg]
+
+    Returns
+    -------
+    PolarDiagram
+        Curve, pole and marks; from the pole, every vector is the whole load. [N]
+
+    References
+    ----------
+    kolchin_demidov_2008, ch. 7.
+    """
+    cycle_shares(degrees, cycle)
+    degrees = np.asarray(degrees, dtype=float)
+    across, down = np.asarray(load.y, dtype=float), -np.asarray(load.x) - inertia
+    marks = np.arange(0.0, cycle - 1e-9 * cycle, step)
+    marked = (np.interp(marks, degrees, one, period=cycle) for one in (across, down))
+    return PolarDiagram(across, down, (0.0, -inertia), marks, *marked)

@@ -1,0 +1,259 @@
+"""Torque of many cylinders on one shaft: at which angle of its own each stands, sums, torque along the shaft."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crankwork.cylinders.firing import SAME_ANGLE, intervals, is_even
+from crankwork.cylinders.layout import Layout, Place
+from crankwork.errors import MethodError
+from crankwork.expressions import Value, formula
+from crankwork.kinematics.crank_grid import Array
+from crankwork.shaft.curve import Curve
+
+_DECIMALS = 9
+
+
+@formula("journal_torque", "kolchin_demidov_2008, ch. 9")
+def torque_behind_throw(M_j: Value, M_t: Value) -> Value:
+    """Torque that a main journal passes on, behind a throw.
+
+    Parameters
+    ----------
+    M_j, M_t : array, shape (n,)
+        Torque of the journal before the throw, torque of the throw. [N m], [N m]
+
+    Returns
+    -------
+    array, shape (n,)
+        Torque on the journal, positive with the rotation. [N m]
+    """
+    return M_j + M_t
+
+
+@formula("crankpin_torque", "kolchin_demidov_2008, ch. 9")
+def torque_of_crankpin(M_j: Value, M_t: Value) -> Value:
+    """Torque that a crankpin passes on: all that comes before it and half of its own.
+
+    Parameters
+    ----------
+    M_j, M_t : array, shape (n,)
+        Torque of the journal before the throw, torque of the throw. [N m], [N m]
+
+    Returns
+    -------
+    array, shape (n,)
+        Torque on the crankpin, positive with the rotation. [N m]
+    """
+    return M_j + M_t / 2
+
+
+@formula("mean_total_torque", "kolchin_demidov_2008, ch. 7")
+def mean_torque_of_work(i_cyl: Value, W: Value, phi_c: Value) -> Value:
+    """Mean torque of all cylinders, from their indicated work.
+
+    Parameters
+    ----------
+    i_cyl, W, phi_c : float
+        Number of cylinders, indicated work of one in a cycle, angle of the cycle. [-], [J], [rad]
+
+    Returns
+    -------
+    float
+        Mean torque. [N m]
+    """
+    return i_cyl * W / phi_c
+
+
+@formula("firing_interval", "kolchin_demidov_2008, ch. 7")
+def even_firing_interval(phi_c: Value, i_cyl: Value) -> Value:
+    """Angle between firings that follow each other evenly, the period of the total torque.
+
+    Parameters
+    ----------
+    phi_c, i_cyl : float
+        Angle of the cycle, number of cylinders. [rad], [-]
+
+    Returns
+    -------
+    float
+        Interval. [rad]
+    """
+    return phi_c / i_cyl
+
+
+def cylinder_angle(degrees: ArrayLike, place: Place, cycle: float) -> Array:
+    """Return the crank angle of a cylinder in its own cycle.
+
+    Parameters
+    ----------
+    degrees : array, shape (n,)
+        Crank angles of cylinder 1. [deg]
+    place : Place
+        The cylinder.
+    cycle : float
+        720 or 360. [deg]
+
+    Returns
+    -------
+    array, shape (n,)
+        (degrees - firing angle) mod cycle; a decimal where rounding alone keeps it from being one, and left as it is
+        for a cylinder that fires with the first, within one cycle. [deg]
+    """
+    degrees = np.asarray(degrees, dtype=float)
+    within = (degrees >= 0) & (degrees <= cycle)
+    if place.firing_angle == 0 and np.all(within):
+        return degrees
+    rest = np.mod(degrees - place.firing_angle, cycle)
+    near = np.round(rest, _DECIMALS)
+    reach = 1e-15 * (np.abs(degrees) + place.firing_angle + cycle)
+    rest = np.where(np.abs(rest - near) <= reach, near, rest)
+    return np.where(cycle - rest <= 1e-12 * cycle, 0.0, rest)
+
+
+def cylinder_angles(degrees: ArrayLike, layout: Layout) -> Array:
+    """Return the crank angle of every cylinder in its own cycle.
+
+    Parameters
+    ----------
+    degrees : array, shape (n,)
+        Crank angles of cylinder 1. [deg]
+    layout : Layout
+        The cylinders.
+
+    Returns
+    -------
+    array, shape (cylinders, n)
+        Angles. [deg]
+    """
+    return np.stack([cylinder_angle(degrees, place, layout.cycle) for place in layout.places])
+
+
+def total_torque(torques: ArrayLike) -> Array:
+    """Return the sum of the torques of all cylinders.
+
+    Parameters
+    ----------
+    torques : array, shape (cylinders, n)
+        Torque of each cylinder at the same crank angles of cylinder 1. [N m]
+
+    Returns
+    -------
+    array, shape (n,)
+        Total torque. [N m]
+    """
+    return np.asarray(np.sum(np.asarray(torques, dtype=float), axis=0))
+
+
+class TorquesAlongShaft(NamedTuple):
+    """What each part of the shaft passes on towards the output end behind the last throw. [N m]
+
+    `throws` and `crankpins` have the shape (throws, n), `journals` (throws + 1, n): the first journal passes nothing
+    on, the last one the total.
+    """
+
+    throws: Array
+    journals: Array
+    crankpins: Array
+
+
+def torques_along_shaft(torques: ArrayLike, layout: Layout) -> TorquesAlongShaft:
+    """Return the torque on every main journal and crankpin: the accumulated torques of a shaft with a free front end.
+
+    Parameters
+    ----------
+    torques : array, shape (cylinders, n)
+        Torque of each cylinder by number, at the same crank angles of cylinder 1. [N m]
+    layout : Layout
+        The cylinders; those of one throw act together, on a common pin or on split ones.
+
+    Returns
+    -------
+    TorquesAlongShaft
+        Torques of throws, on journals and on crankpins. [N m]
+
+    References
+    ----------
+    kolchin_demidov_2008, ch. 9.
+    """
+    torques = np.asarray(torques, dtype=float)
+    if torques.ndim != 2 or len(torques) != len(layout.places):
+        raise MethodError(f"torques must be one row per cylinder, {len(layout.places)} rows, not shape {torques.shape}")
+    count = max(place.throw for place in layout.places) + 1
+    throws = np.zeros((count, torques.shape[1]))
+    for place in layout.places:
+        throws[place.throw] += torques[place.number - 1]
+    journals = np.zeros((count + 1, torques.shape[1]))
+    for at in range(count):
+        journals[at + 1] = torque_behind_throw(journals[at], throws[at])
+    return TorquesAlongShaft(throws, journals, np.asarray(torque_of_crankpin(journals[:-1], throws)))
+
+
+def firing_intervals(layout: Layout) -> tuple[float, ...]:
+    """Return the angles from each firing to the next, in the firing order.
+
+    Parameters
+    ----------
+    layout : Layout
+        The cylinders.
+
+    Returns
+    -------
+    tuple of float
+        As many as cylinders. [deg]
+    """
+    return intervals([layout.places[number - 1].firing_angle for number in layout.firing_order], layout.cycle)
+
+
+def torque_period(layout: Layout) -> float:
+    """Return the angle after which the total torque repeats, if all cylinders do the same.
+
+    Parameters
+    ----------
+    layout : Layout
+        The cylinders.
+
+    Returns
+    -------
+    float
+        The firing interval where it is even, else the shortest repetition of the intervals. [deg]
+    """
+    steps = firing_intervals(layout)
+    if is_even(steps):
+        return layout.cycle / len(steps)
+    for count in range(2, len(steps)):
+        if len(steps) % count == 0:
+            repeated = steps[:count] * (len(steps) // count)
+            if max(abs(one - other) for one, other in zip(steps, repeated, strict=True)) <= SAME_ANGLE:
+                return layout.cycle * count / len(steps)
+    return layout.cycle
+
+
+def total_curve(curve: Curve, layout: Layout) -> Curve:
+    """Return the torque of all cylinders over the crank angle of cylinder 1, every cylinder like the first.
+
+    Parameters
+    ----------
+    curve : Curve
+        Torque of one cylinder over its cycle. [N m]
+    layout : Layout
+        The cylinders.
+
+    Returns
+    -------
+    Curve
+        Total torque. [N m]
+    """
+    if abs(math.degrees(curve.cycle) - layout.cycle) > SAME_ANGLE:
+        raise MethodError(
+            f"the torque is given over {math.degrees(curve.cycle):g} deg, but the cycle of the engine is "
+            f"{layout.cycle:g} deg"
+        )
+    total = Curve.constant(0.0, curve.cycle) if curve.angle[0] == 0 else curve * 0.0
+    for place in layout.places:
+        total = total + (curve.delayed(math.radians(place.firing_angle)) if place.firing_angle else curve)
+    return total

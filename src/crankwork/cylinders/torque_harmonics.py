@@ -1,0 +1,228 @@
+"""Harmonics of the torque: of one cylinder, their phase stars, and of all cylinders together."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from crankwork.cylinders.firing import wrapped
+from crankwork.cylinders.layout import Layout
+from crankwork.errors import MethodError
+from crankwork.expressions import Value, formula
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.shaft.curve import Curve
+
+Phasors = NDArray[np.complex128]
+
+_GAUSS_POINTS = 12
+
+
+@formula("harmonic_amplitude", "den_hartog_1956, ch. 5")
+def amplitude_of_harmonic(a_nu: Value, b_nu: Value) -> Value:
+    """Amplitude of one harmonic of the torque.
+
+    Parameters
+    ----------
+    a_nu, b_nu : array
+        Its cosine and sine coefficients. [N m], [N m]
+
+    Returns
+    -------
+    array
+        Amplitude. [N m]
+    """
+    return np.sqrt(a_nu**2 + b_nu**2)
+
+
+@formula("total_harmonic_amplitude", "den_hartog_1956, ch. 5")
+def amplitude_of_total(M_nu: Value, s_nu: Value) -> Value:
+    """Amplitude of one harmonic of the torque of all cylinders.
+
+    Parameters
+    ----------
+    M_nu, s_nu : array
+        Amplitude of one cylinder, length of the sum of the phase star. [N m], [-]
+
+    Returns
+    -------
+    array
+        Amplitude. [N m]
+    """
+    return M_nu * s_nu
+
+
+class TorqueHarmonics(NamedTuple):
+    """Harmonics of a torque, arrays of shape (k,): M = mean + sum of a cos(nu phi) + b sin(nu phi).
+
+    Orders count per revolution, so that 0.5 is once in four strokes; `phase` is the crank angle of the order, nu phi,
+    at which the harmonic is largest. [-], [N m], [rad]
+    """
+
+    mean: float
+    orders: Array
+    cosine: Array
+    sine: Array
+    amplitude: Array
+    phase: Array
+
+
+def _harmonics(mean: float, orders: Array, cosine: Array, sine: Array) -> TorqueHarmonics:
+    amplitude = np.asarray(amplitude_of_harmonic(cosine, sine))
+    return TorqueHarmonics(mean, orders, cosine, sine, amplitude, np.arctan2(sine, cosine))
+
+
+def torque_harmonics(samples: ArrayLike, cycle: float, count: int) -> TorqueHarmonics:
+    """Return the harmonics of a torque that is sampled evenly.
+
+    Parameters
+    ----------
+    samples : array, shape (n,)
+        Torque at 0, cycle/n, 2 cycle/n, ...; the end of the cycle is not repeated. [N m]
+    cycle : float
+        720 or 360. [deg]
+    count : int
+        How many harmonics; fewer than half the samples.
+
+    Returns
+    -------
+    TorqueHarmonics of array, shape (count,)
+        Orders, coefficients, amplitudes and phases. [N m]
+
+    References
+    ----------
+    den_hartog_1956, ch. 5.
+    """
+    samples = np.asarray(samples, dtype=float)
+    if 2 * count >= samples.size:
+        raise MethodError(f"{count} harmonics need more than {2 * count} samples, not {samples.size}; sample finer")
+    parts = np.fft.rfft(samples)[: count + 1] / samples.size
+    orders: Array = np.arange(1.0, count + 1) * (360.0 / cycle)
+    return _harmonics(float(parts[0].real), orders, 2 * parts[1:].real, -2 * parts[1:].imag)
+
+
+def curve_harmonics(curve: Curve, count: int) -> TorqueHarmonics:
+    """Return the harmonics of a torque that is given as a curve, integrated between its corners.
+
+    Parameters
+    ----------
+    curve : Curve
+        Torque over the cycle. [N m]
+    count : int
+        How many harmonics.
+
+    Returns
+    -------
+    TorqueHarmonics of array, shape (count,)
+        Orders, coefficients, amplitudes and phases. [N m]
+
+    References
+    ----------
+    den_hartog_1956, ch. 5; Gauss points in pieces of at most one radian of the highest order.
+    """
+    cycle = curve.cycle
+    orders: Array = np.arange(1.0, count + 1) * (2 * math.pi / cycle)
+    pieces = [
+        np.linspace(one, other, math.ceil((other - one) * orders[-1]) + 1)[:-1]
+        for one, other in zip(curve.angle[:-1], curve.angle[1:], strict=True)
+    ]
+    edges = np.append(np.concatenate(pieces), curve.angle[-1])
+    points, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
+    half = np.diff(edges) / 2
+    angle = (edges[:-1] + half)[:, None] + half[:, None] * points
+    weighted = curve(angle) * half[:, None] * weights * (2 / cycle)
+    turned = angle[..., None] * orders
+    cosine = np.einsum("ij,ijk->k", weighted, np.cos(turned))
+    sine = np.einsum("ij,ijk->k", weighted, np.sin(turned))
+    return _harmonics(curve.mean, orders, cosine, sine)
+
+
+class PhaseStar(NamedTuple):
+    """Directions of one harmonic of every cylinder, shape (cylinders,), and their sum; a major order sums fully. [-]"""
+
+    order: float
+    vectors: Phasors
+    sum: complex
+
+    @property
+    def is_major(self) -> bool:
+        """Whether all cylinders point the same way."""
+        return bool(abs(abs(self.sum) - len(self.vectors)) < 1e-9)
+
+
+def phase_star(layout: Layout, order: float) -> PhaseStar:
+    """Return the phase star of one order: unit vectors exp(-i nu theta) at the firing angles theta.
+
+    Parameters
+    ----------
+    layout : Layout
+        The cylinders.
+    order : float
+        Order nu, per revolution. [-]
+
+    Returns
+    -------
+    PhaseStar of array, shape (cylinders,)
+        Unit vectors by number of the cylinder, and their sum. [-]
+
+    References
+    ----------
+    den_hartog_1956, ch. 5.
+    """
+    firing = CrankGrid.from_degrees([wrapped(order * place.firing_angle) for place in layout.places])
+    vectors = firing.cos - 1j * firing.sin
+    return PhaseStar(order, vectors, complex(np.sum(vectors)))
+
+
+def major_orders(layout: Layout, highest: float) -> tuple[float, ...]:
+    """Return the orders in which all cylinders act together.
+
+    Parameters
+    ----------
+    layout : Layout
+        The cylinders.
+    highest : float
+        Highest order, per revolution. [-]
+
+    Returns
+    -------
+    tuple of float
+        Orders, ascending. [-]
+    """
+    step = 360.0 / layout.cycle
+    orders = [step * k for k in range(1, math.floor(highest / step + 1e-9) + 1)]
+    return tuple(order for order in orders if phase_star(layout, order).is_major)
+
+
+def total_harmonics(harmonics: TorqueHarmonics, layout: Layout) -> TorqueHarmonics:
+    """Return the harmonics of the torque of all cylinders, from those of one and the phase stars.
+
+    Parameters
+    ----------
+    harmonics : TorqueHarmonics of array, shape (k,)
+        Of one cylinder. [N m]
+    layout : Layout
+        The cylinders, all alike.
+
+    Returns
+    -------
+    TorqueHarmonics of array, shape (k,)
+        Of the sum. [N m]
+
+    References
+    ----------
+    den_hartog_1956, ch. 5.
+    """
+    sums = _star_sums(layout, harmonics.orders.tolist())
+    total = (harmonics.cosine - 1j * harmonics.sine) * sums
+    amplitude = np.asarray(amplitude_of_total(harmonics.amplitude, np.abs(sums)))
+    phase = np.arctan2(-total.imag, total.real)
+    mean = harmonics.mean * len(layout.places)
+    return TorqueHarmonics(mean, harmonics.orders, total.real, -total.imag, amplitude, phase)
+
+
+def _star_sums(layout: Layout, orders: Sequence[float]) -> Phasors:
+    return np.array([phase_star(layout, order).sum for order in orders])

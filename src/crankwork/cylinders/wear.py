@@ -1,0 +1,194 @@
+"""The wear diagram of a journal, and where its oil hole should be.
+
+A ray is a direction from the centre of the journal to a point of its surface, in the frame of the journal. A force on
+the journal presses where it comes from, opposite to the direction it points in: a rod pulled outward by its inertia
+presses on the side of the crankpin that faces the crankshaft. From there it acts on an arc to both sides.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from crankwork.cylinders.load_statistics import cycle_shares
+from crankwork.cylinders.load_vectors import BearingLoad
+from crankwork.errors import CrankworkError
+from crankwork.kinematics.crank_grid import Array
+
+# Angles closer than this are the same, so that a ray at the very end of an arc is on it. [deg]
+_SAME_ANGLE = 1e-9
+# Sums closer than this share of the largest are the same.
+_SAME_SUM = 1e-9
+
+
+def ray_angles(rays: int) -> Array:
+    """Return the directions of evenly spread rays, the first along the reference direction of the frame.
+
+    Parameters
+    ----------
+    rays : int
+        Their number: 12 in Russian books, 24 in Vietnamese ones.
+
+    Returns
+    -------
+    array, shape (rays,)
+        Angles, positive with the rotation. [deg]
+
+    Raises
+    ------
+    CrankworkError
+        If there are fewer than three.
+    """
+    if rays < 3:
+        raise CrankworkError(f"a wear diagram of {rays} rays shows nothing; give at least 3, usually 12 or 24")
+    return np.arange(rays) * 360 / rays
+
+
+def wear_table(load: BearingLoad, rays: int = 12, spread: float = 60.0) -> Array:
+    """Return the classical table: every force in the columns of the rays within its arc, zero elsewhere.
+
+    Parameters
+    ----------
+    load : BearingLoad of array, shape (n,)
+        Load on the journal in its own frame: crank frame of a crankpin, shaft frame of a main journal. [N]
+    rays : int
+        Number of rays.
+    spread : float
+        How far the arc goes to either side of the point where the force presses, ends included. [deg]
+
+    Returns
+    -------
+    array, shape (n, rays)
+        Row per tabulated crank angle, column per ray of `ray_angles`. [N]
+
+    References
+    ----------
+    kolchin_demidov_2008, ch. 7.
+    """
+    within = _distance(load, rays) <= _checked(spread) + _SAME_ANGLE
+    return np.where(within, load.resultant[:, np.newaxis], 0.0)
+
+
+def wear_sums(load: BearingLoad, weights: ArrayLike | None = None, *, rays: int = 12, spread: float = 60.0) -> Array:
+    """Return the sum of the loads on every ray.
+
+    Parameters
+    ----------
+    load : BearingLoad of array, shape (n,)
+        Load on the journal in its own frame, at even steps without the end of the cycle unless weighted. [N]
+    weights : array, shape (n,), optional
+        How much each row counts: `cycle_shares` make the sums means over the cycle; by default 1. [-]
+    rays : int
+        Number of rays.
+    spread : float
+        How far the arc of a force goes to either side. [deg]
+
+    Returns
+    -------
+    array, shape (rays,)
+        Sums by ray of `ray_angles`. [N]
+
+    References
+    ----------
+    kolchin_demidov_2008, ch. 7.
+    """
+    table = wear_table(load, rays, spread)
+    return np.asarray(np.sum(table, axis=0) if weights is None else np.asarray(weights) @ table)
+
+
+def mean_wear(load: BearingLoad, degrees: ArrayLike, cycle: float, rays: int = 360, spread: float = 60.0) -> Array:
+    """Return a smooth wear diagram: mean over the cycle, each force fading as a cosine towards the ends of its arc.
+
+    Parameters
+    ----------
+    load : BearingLoad of array, shape (n,)
+        Load on the journal in its own frame. [N]
+    degrees : array, shape (n,)
+        Ascending crank angles, with or without the end of the cycle. [deg]
+    cycle : float
+        Length of the cycle. [deg]
+    rays : int
+        Number of rays.
+    spread : float
+        How far the arc of a force goes to either side. [deg]
+
+    Returns
+    -------
+    array, shape (rays,)
+        Mean load by ray; its mean around the journal is that of the classical diagram, mean load times
+        spread / 180. [N]
+
+    References
+    ----------
+    The classical diagram with the step at the ends of each arc replaced by (pi / 2) cos(90 deg distance / spread).
+    """
+    share = np.minimum(_distance(load, rays) / _checked(spread), 1.0)
+    fading = np.pi / 2 * np.cos(np.pi / 2 * share)
+    return np.asarray((cycle_shares(degrees, cycle) * load.resultant) @ fading)
+
+
+def _distance(load: BearingLoad, rays: int) -> Array:
+    """Return how far each ray is from where each force presses, shape (n, rays). [deg]"""
+    apart = ray_angles(rays) - load.opposite.direction[:, np.newaxis]
+    return np.abs((apart + 180) % 360 - 180)
+
+
+def _checked(spread: float) -> float:
+    if not 0 < spread <= 180:
+        raise CrankworkError(f"a force cannot act {spread:g} degrees to either side; give more than 0 and at most 180")
+    return spread
+
+
+class OilHole(NamedTuple):
+    """Where a journal is loaded least.
+
+    Parameters
+    ----------
+    angle : float
+        Middle of the least loaded arc, from the reference direction of the frame with the rotation. [deg]
+    arc : float
+        Width of that arc: one step of the rays for each ray on it. 360 if all rays are as good, and then the angle
+        says nothing. [deg]
+    least : float
+        The sum there. [N]
+    """
+
+    angle: float
+    arc: float
+    least: float
+
+
+def oil_hole(sums: ArrayLike) -> OilHole:
+    """Return the middle of the longest arc of rays that all have the least sum.
+
+    Parameters
+    ----------
+    sums : array, shape (rays,)
+        Sums of evenly spread rays, `wear_sums` or `mean_wear`. [N]
+
+    Returns
+    -------
+    OilHole
+        Angle, arc and sum; of arcs as long as each other the one between the less loaded neighbours. [deg], [N]
+
+    References
+    ----------
+    kolchin_demidov_2008, ch. 7.
+    """
+    sums = np.asarray(sums, dtype=float)
+    rays, least = sums.size, float(np.min(sums))
+    step = 360 / rays
+    at_least = sums <= least + _SAME_SUM * float(np.max(np.abs(sums)))
+    if np.all(at_least):
+        return OilHole(0.0, 360.0, least)
+    starts = np.flatnonzero(at_least & ~np.roll(at_least, 1)).tolist()
+    arcs = [(start, _length(at_least, start)) for start in starts]
+    start, length = max(arcs, key=lambda arc: (arc[1], -sums[arc[0] - 1] - sums[(arc[0] + arc[1]) % rays]))
+    return OilHole(float((start + (length - 1) / 2) * step % 360), length * step, least)
+
+
+def _length(chosen: NDArray[np.bool], start: int) -> int:
+    """Return how many chosen rays follow each other from `start`, around the circle."""
+    return int(np.argmin(np.roll(chosen, -start)))

@@ -1,0 +1,191 @@
+"""From the values of a machine file to the whole engine: cylinders, bearings, counterweights, flywheel."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from crankwork.cylinders.arrangement import arranged
+from crankwork.cylinders.articulated import ArticulatedRod, check_articulated_rod
+from crankwork.cylinders.engines import boxer, inline, radial, vee
+from crankwork.cylinders.firing import LayoutError, LayoutNotice
+from crankwork.cylinders.layout import Banks, Layout
+from crankwork.cylinders.standard_orders import StandardOrder, standard_orders
+from crankwork.description.schema import Reader
+from crankwork.errors import GeometryError
+from crankwork.kinematics.slider_crank import SliderCrank
+from crankwork.machine import Bearings, Engine
+
+_ONLY_FOR = {
+    "bank_angle": ("V",),
+    "bank_angles": ("W",),
+    "pin_offset": ("V",),
+    "numbering": ("V", "boxer", "W"),
+    "bank_stagger": ("V", "boxer", "W"),
+    "articulated": ("V", "radial"),
+}
+_SIZES = ("crankpin_diameter", "crankpin_length", "main_diameter", "main_length", "pin_diameter", "pin_length")
+
+
+def build_engine(
+    values: Mapping[str, Any], lengths: tuple[float, float, float] | None, cycle: float, reader: Reader
+) -> Engine | None:
+    """Return the whole engine of a machine file, or None if it describes one crank gear only or after complaints.
+
+    Parameters
+    ----------
+    values : mapping
+        What `keys.MACHINE_FILE` has read.
+    lengths : tuple of float or None
+        Crank radius, rod length and offset, if they are known. [m]
+    cycle : float
+        720 or 360. [deg]
+    reader : Reader
+        Collects the complaints.
+    """
+    if not {"engine", "bearings", "balance", "flywheel"} & set(values):
+        return None
+    table = values.get("engine", {"layout": "inline", "cylinders": 1})
+    _check_keys(table, reader)
+    if reader.doubts("engine.layout", "engine.cylinders", "engine.firing_order") or len(table) < 2:
+        return None
+    try:
+        layout, notices = _layout(table, round(cycle / 180))
+    except LayoutError as error:
+        reader.complain(error.key, str(error))
+        return None
+    sizes = values.get("bearings", {})
+    balance, flywheel = values.get("balance", {}), values.get("flywheel", {})
+    return Engine(
+        layout=layout,
+        slaves=_slaves(table, layout, lengths, reader),
+        bearings=Bearings(*(_value(sizes, key) for key in _SIZES), rays=sizes.get("rays", 12)),
+        counterweight=_value(sizes, "counterweight") or 0.0,
+        rotating_share=balance.get("rotating_share", 0.0),
+        reciprocating_share=balance.get("reciprocating_share", 0.0),
+        balance_shafts=tuple(dict.fromkeys(balance.get("shafts", ()))),
+        fluctuation=flywheel.get("fluctuation"),
+        inertia=_value(flywheel, "inertia") or 0.0,
+        notices=tuple((one.code, one.values) for one in notices),
+    )
+
+
+def _value(table: Mapping[str, Any], key: str) -> float | None:
+    measure = table.get(key)
+    return None if measure is None else float(measure.value)
+
+
+def _degrees(table: Mapping[str, Any], key: str) -> float:
+    return _clean(math.degrees(_value(table, key) or 0.0))
+
+
+def _clean(degrees: float) -> float:
+    """Return an angle without what radians have added to it."""
+    return round(degrees, 9)
+
+
+def _check_keys(table: Mapping[str, Any], reader: Reader) -> None:
+    """Complain of keys that belong to another layout, and of a V without its angle."""
+    layout = table.get("layout", "")
+    for key, layouts in _ONLY_FOR.items():
+        if key in table and layout not in layouts:
+            reader.complain(f"engine.{key}", f'belongs to layout = "{layouts[0]}"; leave it out, or change the layout')
+    if layout == "radial" and "throws" in table:
+        reader.complain("engine.throws", "a radial engine has one throw; leave it out")
+    if layout == "V" and "bank_angle" not in table:
+        reader.complain("engine.bank_angle", 'is missing; write bank_angle = "90 deg"')
+    if layout == "W" and "bank_angles" not in table:
+        reader.complain("engine.bank_angles", 'is missing; write bank_angles = ["-60 deg", "0 deg", "60 deg"]')
+
+
+def _layout(table: Mapping[str, Any], strokes: int) -> tuple[Layout, tuple[LayoutNotice, ...]]:
+    """Return the layout that the keys describe."""
+    kind, cylinders = table["layout"], int(table["cylinders"])
+    throws = [_clean(math.degrees(one.value)) for one in table["throws"] if one] if "throws" in table else None
+    usual = _usual(table, strokes)
+    order = [int(one) for one in table.get("firing_order", ()) if one]
+    if not order and kind != "radial":
+        if usual is None:
+            raise LayoutError(
+                "engine.firing_order",
+                f"no usual order is known for {kind} with {cylinders} cylinders and {strokes} strokes; write it, "
+                "like [1, 3, 4, 2]",
+            )
+        order = list(usual.order)
+        throws = throws or list(usual.throws)
+    options: dict[str, Any] = {
+        "spacing": _value(table, "spacing") or 0.0, "strokes": strokes, "uneven": table.get("uneven", False),
+    }  # fmt: skip
+    articulated = "articulated" in table
+    match kind:
+        case "inline":
+            return inline(cylinders, order, throws=throws, **options)
+        case "radial":
+            options["span"] = options.pop("spacing")
+            return radial(cylinders, order or None, master=int(articulated), **options)
+    options |= {
+        "numbering": table.get("numbering", usual.numbering if usual and "firing_order" not in table else "banks")
+    }
+    stagger = _value(table, "bank_stagger")
+    match kind:
+        case "V":
+            options |= {"bank_stagger": stagger or 0.0, "pin_offset": _degrees(table, "pin_offset")}
+            angle = _degrees(table, "bank_angle")
+            return vee(cylinders, order, angle, throws=throws, articulated=articulated, **options)
+        case "boxer":
+            return boxer(cylinders, order, bank_stagger=stagger, throws=throws, **options)
+    axes = tuple(_clean(math.degrees(one.value)) for one in table["bank_angles"] if one)
+    banks = Banks("W", cylinders, axes, options.pop("spacing"), stagger or 0.0, numbering=options.pop("numbering"))
+    return arranged(banks, order, throws=throws, **options)
+
+
+def _usual(table: Mapping[str, Any], strokes: int) -> StandardOrder | None:
+    """Return the customary engine with these keys."""
+    axes = (-_degrees(table, "bank_angle") / 2, _degrees(table, "bank_angle") / 2)
+    for one in standard_orders(table["layout"], int(table["cylinders"]), strokes):
+        fits = table["layout"] != "V" or (one.axes == axes and one.pin_offset == _degrees(table, "pin_offset"))
+        if fits and table.get("numbering", one.numbering) == one.numbering:
+            return one
+    return None
+
+
+def _slaves(
+    table: Mapping[str, Any], layout: Layout, lengths: tuple[float, float, float] | None, reader: Reader
+) -> tuple[ArticulatedRod | None, ...]:
+    """Return the articulated rod of every cylinder that has one."""
+    values = table.get("articulated")
+    if values is None or lengths is None or "knuckle_radius" not in values:
+        return ()
+    radius = values["knuckle_radius"].value
+    length = _value(values, "rod_length") or lengths[1] - radius
+    slaves = [one for one in layout.places if one.master]
+    between = {one.number: one.axis - layout.places[one.master - 1].axis for one in slaves}
+    angles: Sequence[float] = list(between.values())
+    if "knuckle_angles" in values:
+        angles = [_clean(math.degrees(one.value)) for one in values["knuckle_angles"] if one]
+        if len(angles) != len(slaves):
+            reader.complain(
+                "engine.articulated.knuckle_angles",
+                f"has {len(angles)} entries; write one for each of the {len(slaves)} articulated rods",
+            )
+            return ()
+    if length <= 0:
+        reader.complain(
+            "engine.articulated.rod_length",
+            f"would be {length * 1e3:.6g} mm, master rod less knuckle radius; write the length, or a smaller radius",
+        )
+        return ()
+    of_number = dict(zip(between, angles, strict=True))
+    rods = [
+        ArticulatedRod(length, radius, of_number[one.number], between[one.number]) if one.master else None
+        for one in layout.places
+    ]
+    for rod in rods:
+        try:
+            if rod is not None:
+                check_articulated_rod(SliderCrank(*lengths), rod)
+        except GeometryError as error:
+            reader.complain("engine.articulated.knuckle_radius", str(error))
+            return ()
+    return tuple(rods)

@@ -1,0 +1,224 @@
+"""Worked steps as lines of mathematics: symbol = formula = numbers = value.
+
+A formula computes in SI, or in the unit that it states, so the numbers put in and the value after them are printed in
+those units; only then is the line true as it stands. Where the value is shown elsewhere in another unit, it follows
+after one more sign of equality: `P = ... = 41200 W = 41.2 kW`. Numbers have six significant digits and are roundings of
+the exact values; a value is never computed from the rounded numbers before it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from crankwork.expressions import Formula, record, symbol, text
+from crankwork.note.captions import fixed_word
+from crankwork.note.document import Equation, Explanation
+from crankwork.note.layout import (
+    DOT,
+    EQUALS,
+    SPACE,
+    Box,
+    Fence,
+    Row,
+    Sign,
+    Upright,
+    broken,
+    leads_with_sign,
+    row,
+    width,
+)
+from crankwork.note.math import formula_box
+from crankwork.note.stated_units import RESULT, coherent_unit, display_unit, printed_unit, stated_units
+from crankwork.note.symbols import number_box, symbol_box
+from crankwork.notation import ARGUMENTS
+from crankwork.quantities import QUANTITIES, Language, base_key
+from crankwork.report.language import label, number
+from crankwork.report.language import symbol as key_symbol
+from crankwork.steps import AnyStep, Given, ProductStep, Step
+from crankwork.units import UNITS, from_si, to_si
+
+LINE_WIDTH = 33.0
+_MANY = 6
+_SHORT_NAME = 3
+_TIGHT_UNITS = ("°", "%")
+
+
+class PrintedEquation(NamedTuple):
+    """An equation as lines of boxes, and as plain text for those who cannot see it."""
+
+    lines: tuple[Row, ...]
+    text: str
+
+
+def printed_equation(block: Equation, language: Language, limit: float = LINE_WIDTH) -> PrintedEquation:
+    """Return the lines of an equation.
+
+    Parameters
+    ----------
+    block : Equation
+        A step or a formula.
+    language : str
+        Language of symbols, units and the decimal mark.
+    limit : float
+        Widest line. [em]
+    """
+    left = symbol_box(block.symbol or equation_symbol(block.step, language))
+    parts: list[Box] = []
+    for part in _parts(block.step, language):
+        if part != left and (not parts or part != parts[-1]):
+            parts.append(part)
+    return PrintedEquation(tuple(_lines(left, parts, limit)), _plain(block, language))
+
+
+def equation_symbol(step: AnyStep | Formula, language: Language) -> str:
+    """Return the symbol on the left of an equation, as `base_subscript`."""
+    if isinstance(step, Formula):
+        return QUANTITIES[step.quantity].symbol(language)
+    if base_key(step.key) not in QUANTITIES:
+        return QUANTITIES[step.formula.quantity].symbol(language) if isinstance(step, Step) else step.key
+    kind, _, name = step.key.partition(".")
+    shown = key_symbol(kind, language)
+    # a point or a number tells parts of a quantity apart; a whole word would make no symbol
+    return f"{shown}{',' if '_' in shown else '_'}{name}" if name and len(name) <= _SHORT_NAME else shown
+
+
+def _lines(left: Box, parts: list[Box], limit: float) -> Iterator[Row]:
+    """Yield lines that fit; each begins with the symbol on the left, or with the sign at which it was divided."""
+    line = left if not parts else row(left, EQUALS, parts[0])
+    for part in parts[1:]:
+        longer = row(line, EQUALS, part)
+        if width(longer) <= limit:
+            line = longer
+            continue
+        yield from broken(row(line), limit)
+        line = row(left, EQUALS, part)
+    yield from broken(row(line), limit)
+
+
+def _parts(step: AnyStep | Formula, language: Language) -> Iterator[Box]:
+    """Yield what stands between the signs of equality."""
+    match step:
+        case Formula(function):
+            yield formula_box(record(function), None, language)
+            return
+        case Step(formula=formula, values=values):
+            tree = record(formula.function)
+            yield formula_box(tree, None, language)
+            yield formula_box(tree, values, language)
+        case Given():
+            pass
+        case _:
+            sign = DOT if isinstance(step, ProductStep) else Sign("+")
+            if len(step.terms) <= _MANY:
+                yield _joined([symbol_box(equation_symbol(one, language)) for one in step.terms], sign)
+            yield _joined([number_box(one.value, language)[0] for one in step.terms], sign)
+    for value, unit in shown_values(step):
+        yield value_box(value, unit, language)
+
+
+def _joined(boxes: list[Box], sign: Sign) -> Box:
+    parts: list[Box] = []
+    for box in boxes:
+        parts += [sign, Fence(box) if leads_with_sign(box) else box] if parts else [box]
+    return row(*parts) if len(parts) > 1 else parts[0] if parts else Upright("0")
+
+
+def shown_values(step: AnyStep) -> list[tuple[float, str]]:
+    """Return the value of a step in the unit of its formula, and in the unit of the tables where that is another.
+
+    Parameters
+    ----------
+    step : Step, Given, SumStep or ProductStep
+        The step.
+
+    Returns
+    -------
+    list of tuple
+        One or two values with their units, spelled as the table of units does.
+    """
+    formula = step.formula if isinstance(step, Step) else None
+    known = formula is not None or base_key(step.key) in QUANTITIES
+    shown = display_unit(step.key, formula) if known else ""
+    stated = stated_units(formula).get(RESULT) if formula else None
+    if stated is None:
+        own = coherent_unit(shown)
+        stated = own if own not in UNITS or UNITS[own].factor == 1.0 else stated
+    if stated is None:
+        return [(float(from_si(step.value, shown)), shown)]
+    if stated == shown or not _same_dimension(stated, shown):
+        return [(step.value, stated)]
+    si = step.value if UNITS[stated].factor == 1.0 else to_si(step.value, stated)
+    return [(step.value, stated), (float(from_si(si, shown)), shown)]
+
+
+def _same_dimension(one: str, other: str) -> bool:
+    return one == other or (one in UNITS and other in UNITS and UNITS[one].dimension == UNITS[other].dimension)
+
+
+def value_box(value: float, unit: str, language: Language) -> Box:
+    """Return a number with its unit."""
+    box, _ = number_box(value, language)
+    name = printed_unit(unit, language)
+    if not name:
+        return box
+    return row(box, *([] if name in _TIGHT_UNITS else [SPACE]), Upright(name))
+
+
+def value_text(value: float, unit: str, language: Language) -> str:
+    """Return a number with its unit as text."""
+    name = printed_unit(unit, language)
+    return number(value, language) + ("" if not name or name in _TIGHT_UNITS else "\u00a0") + name
+
+
+def _plain(block: Equation, language: Language) -> str:
+    """Return an equation as one line of text."""
+    step = block.step
+    parts = [block.symbol or equation_symbol(step, language)]
+    formula = step if isinstance(step, Formula) else step.formula if isinstance(step, Step) else None
+    if formula:
+        parts.append(text(record(formula.function), language=language))
+    if isinstance(step, Step):
+        printed = {name: number(value, language) for name, value in step.values.items()}
+        parts.append(text(record(step.formula.function), printed, language))
+    if not isinstance(step, Formula):
+        parts += [value_text(value, unit, language) for value, unit in shown_values(step)]
+    return " = ".join(parts)
+
+
+def legend(step: Step | Formula, language: Language, known: frozenset[str] = frozenset()) -> tuple[Explanation, ...]:
+    """Return what the symbols of a formula stand for, each with the unit in which the formula takes it.
+
+    Parameters
+    ----------
+    step : Step or Formula
+        Whose symbols.
+    language : str
+        Language of the names.
+    known : frozenset of str
+        Keys of quantities that need no explanation any more.
+    """
+    formula = step.formula if isinstance(step, Step) else step
+    units = stated_units(formula)
+    found: dict[str, Explanation] = {}
+    for name in formula.arguments:
+        entry = ARGUMENTS[name]
+        own = entry.pattern == "{}"
+        for key in (entry.quantity, entry.extra):
+            if key and key not in known and key not in found:
+                unit = units.get(name, "") if own else ""
+                words = label(key, language) + (f", {printed_unit(unit, language)}" if unit else "")
+                shown = symbol(name, language) if own else QUANTITIES[key].symbol(language)
+                found[key] = Explanation(shown, words)
+    return tuple(found.values())
+
+
+def legend_rows(block: Equation, language: Language) -> list[tuple[str, Box, str]]:
+    """Return the lines of a legend: the word before the first, the symbol, and what follows it with its stop."""
+    ends = [";"] * (len(block.legend) - 1) + ["."]
+    rows = []
+    for k, (entry, end) in enumerate(zip(block.legend, ends, strict=True) if block.legend else ()):
+        rows.append(
+            (fixed_word("where", language) if k == 0 else "", symbol_box(entry.symbol), f" – {entry.text}{end}")
+        )
+    return rows

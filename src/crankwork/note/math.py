@@ -1,0 +1,183 @@
+"""From the tree of a formula to boxes: fractions, roots, powers, and parentheses only where they are needed.
+
+Symbols stand side by side in a product; a dot comes where digits, fractions or functions would run together, and
+everywhere once numbers are put in. Numbers are printed as they enter the formula: in SI, or in the unit that the
+formula states (`n` in revolutions per minute), because only those numbers give the value that stands after them.
+"""
+
+from __future__ import annotations
+
+import math
+import operator
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from crankwork.expressions import Expression, Number, Operation, Symbol, symbol
+from crankwork.note.layout import (
+    DOT,
+    MINUS,
+    PRODUCT,
+    Apply,
+    Box,
+    Digits,
+    Fence,
+    Fraction,
+    Root,
+    Row,
+    Script,
+    Sign,
+    Upright,
+    first,
+    last,
+    leads_with_sign,
+    row,
+)
+from crankwork.note.symbols import number_box, printed_number_box, symbol_box
+from crankwork.quantities import Language
+
+_SIGNED, _SUM, _PRODUCT, _POWER, _ATOM = 0, 1, 2, 3, 5
+_NAMES = {"log": "ln", "log10": "lg", "arcsin": "arcsin", "arccos": "arccos", "arctan": "arctan", "maximum": "max",
+          "minimum": "min"}  # fmt: skip
+_RUSSIAN_NAMES = {"tan": "tg", "arctan": "arctg", "sinh": "sh", "cosh": "ch", "tanh": "th"}
+
+
+class _Printing(NamedTuple):
+    """What a formula is printed with."""
+
+    values: Mapping[str, float]
+    language: Language
+    digits: int
+    inline: bool = False
+
+
+def formula_box(
+    tree: Expression, values: Mapping[str, float] | None = None, language: Language = "en", *, digits: int = 6
+) -> Box:
+    """Return the boxes of a recorded formula, with symbols, or with numbers in place of them.
+
+    Parameters
+    ----------
+    tree : Expression
+        The formula.
+    values : mapping of str to float, optional
+        Numbers by argument name; an argument that is missing keeps its symbol, and so does an exact π.
+    language : str
+        Whose symbols and decimal mark.
+    digits : int
+        Significant digits of the numbers.
+    """
+    return _box(tree, _Printing(values or {}, language, digits))[0]
+
+
+def _box(tree: Expression, printing: _Printing) -> tuple[Box, int]:
+    """Return the box of a node and how tightly it binds."""
+    match tree:
+        case Symbol(name):
+            return _symbol(name, printing)
+        case Number(value):
+            text = f"{value + 0.0:.15g}".replace("e+0", "e").replace("e-0", "e-").replace("e", "·10^")
+            text = text.replace("-", "−")
+            return _bound(*printed_number_box(text if printing.language == "en" else text.replace(".", ",")))
+        case Operation(function, (left, right)) if function in (operator.add, operator.sub):
+            return _sum(Sign("+" if function is operator.add else "−"), left, right, printing), _SUM
+        case Operation(operator.mul, (left, right)):
+            return _product(left, right, printing), _PRODUCT
+        case Operation(operator.truediv, (left, right)):
+            return _quotient(left, right, printing)
+        case Operation(function, (base, exponent)) if function in (operator.pow, np.power):
+            return _power(base, exponent, printing), _POWER
+        case Operation(operator.neg, (operand,)):
+            return row(MINUS, _wrapped(operand, _PRODUCT, printing)), _SIGNED
+        case Operation(function, operands):
+            return _function(function, operands, printing)
+    raise TypeError(f"{tree!r} is not part of a formula")
+
+
+def _bound(box: Box, plain: bool) -> tuple[Box, int]:  # noqa: FBT001 - as printed_number_box returns it
+    if plain:
+        return box, _ATOM
+    return box, _SIGNED if leads_with_sign(box) else _PRODUCT
+
+
+def _symbol(name: str, printing: _Printing) -> tuple[Box, int]:
+    value = printing.values.get(name)
+    if value is not None and not (name == "pi" and value == math.pi):
+        return _bound(*number_box(value, printing.language, printing.digits))
+    box = symbol_box(symbol(name, printing.language))
+    if isinstance(box, Row) and any(isinstance(part, Sign) for part in box.parts):
+        return box, _PRODUCT
+    return box, _POWER if isinstance(box, Apply | Row) else _ATOM
+
+
+def _wrapped(tree: Expression, level: int, printing: _Printing) -> Box:
+    """Return the box of an operand, in parentheses if it binds less than `level` or begins with a minus."""
+    box, binding = _box(tree, printing)
+    return Fence(box) if binding < level or leads_with_sign(box) else box
+
+
+def _sum(sign: Sign, left: Expression, right: Expression, printing: _Printing) -> Box:
+    return row(_box(left, printing)[0], sign, _wrapped(right, _SUM + (sign.text == "−"), printing))
+
+
+def _product(left: Expression, right: Expression, printing: _Printing) -> Box:
+    left_box, binding = _box(left, printing)
+    if binding < _PRODUCT and binding != _SIGNED:
+        left_box = Fence(left_box)
+    right_box = _wrapped(right, _PRODUCT, printing)
+    dotted = bool(printing.values) or _run_together(last(left_box), first(right_box))
+    return row(left_box, DOT if dotted else PRODUCT, right_box)
+
+
+def _run_together(left: Box, right: Box) -> bool:
+    """Return whether two factors side by side could be read as something else."""
+    match left, right:
+        case (_, Digits() | Script(Digits())) | (Upright(), _) | (_, Upright()):
+            return True
+        case (Digits() | Script(Digits()), Fraction() | Script(above=Row() | Digits() | Upright() | Script())):
+            return True
+        case (Fraction(), Fraction()):
+            return True
+        case (Apply(), Apply()):
+            return False
+        case (Apply(), _):
+            return True
+    return False
+
+
+def _quotient(left: Expression, right: Expression, printing: _Printing) -> tuple[Box, int]:
+    """Return a fraction; in an exponent one with a slash."""
+    if printing.inline:
+        return row(_wrapped(left, _PRODUCT, printing), Sign("/", "slash"), _wrapped(right, _POWER, printing)), _PRODUCT
+    return Fraction(_box(left, printing)[0], _box(right, printing)[0]), _POWER
+
+
+def _power(base: Expression, exponent: Expression, printing: _Printing) -> Box:
+    above, binding = _box(exponent, printing._replace(inline=True))
+    box, base_binding = _box(base, printing)
+    whole = isinstance(exponent, Number) and exponent.value in (2, 3, 4)
+    if isinstance(box, Apply) and isinstance(box.name, Upright) and whole:
+        return Apply(Script(box.name, None, above), box.argument)
+    # primes of a symbol stay where they are, and the power follows them
+    if isinstance(box, Script) and base_binding == _ATOM:
+        raised = above if box.above is None else row(box.above, above)
+        return Script(box.base, box.below, raised)
+    return Script(box if base_binding > _POWER else Fence(box), None, above)
+
+
+def _function(function: Any, operands: tuple[Expression, ...], printing: _Printing) -> tuple[Box, int]:  # noqa: ANN401
+    """Return a root, a power of e, bars, or a name with its operands in parentheses."""
+    if function is np.sqrt:
+        return Root(_box(operands[0], printing)[0]), _ATOM
+    if function is np.exp:
+        return Script(Upright("e"), None, _box(operands[0], printing._replace(inline=True))[0]), _POWER
+    if function in (np.absolute, abs):
+        return Fence(_box(operands[0], printing)[0], "||"), _ATOM
+    name = _NAMES.get(function.__name__, function.__name__)
+    if printing.language == "ru":
+        name = _RUSSIAN_NAMES.get(name, name)
+    inside: list[Box] = []
+    for operand in operands:
+        inside += [*([Sign(",", "comma")] if inside else []), _box(operand, printing)[0]]
+    return Apply(Upright(name), Fence(row(*inside))), _POWER

@@ -1,0 +1,85 @@
+"""Boxes as MathML, the mathematics of web pages."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from crankwork.expressions import Expression
+from crankwork.note.characters import xml_text
+from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright
+from crankwork.note.math import formula_box
+from crankwork.quantities import Language
+
+NAMESPACE = "http://www.w3.org/1998/Math/MathML"
+_SPACES = {"prefix": "0", "times": "0.12em", "slash": "0", "binary": "0.25em", "relation": "0.35em"}
+
+
+def mathml(tree: Expression, values: Mapping[str, float] | None = None, language: Language = "en") -> str:
+    """Return a recorded formula as an element `math`.
+
+    Parameters
+    ----------
+    tree : Expression
+        The formula.
+    values : mapping of str to float, optional
+        Numbers by argument name, in place of symbols.
+    language : str
+        Whose symbols and decimal mark.
+    """
+    return f'<math xmlns="{NAMESPACE}">{mathml_box(formula_box(tree, values, language))}</math>'
+
+
+def mathml_box(box: Box) -> str:
+    """Return a box as one element of MathML."""
+    match box:
+        case Letter(text):
+            # browsers slant Latin and Greek letters of mathematics, no others
+            slanted = "" if "a" <= text.lower() <= "z" or "α" <= text.lower() <= "ω" else ' class="slanted"'
+            return f"<mi{slanted}>{xml_text(text)}</mi>"
+        case Upright(text):
+            return _upright(text)
+        case Digits(text):
+            return f"<mn>{xml_text(text)}</mn>"
+        case Sign(text, kind):
+            return _sign(text, kind)
+        case Row(parts):
+            return f"<mrow>{''.join(map(mathml_box, parts))}</mrow>"
+        case Fraction(top, bottom):
+            return f"<mfrac>{mathml_box(top)}{mathml_box(bottom)}</mfrac>"
+        case Root(inside):
+            return f"<msqrt>{mathml_box(inside)}</msqrt>"
+        case Fence(inside, marks):
+            ends = [f'<mo stretchy="true" form="{form}">{mark}</mo>' for form, mark in zip(_FORMS, marks, strict=True)]
+            return f"<mrow>{ends[0]}{mathml_box(inside)}{ends[1]}</mrow>"
+        case Script():
+            return _script(box)
+        case Apply(name, argument):
+            space = '<mo>\u2061</mo><mspace width="0.17em"/>'
+            return f"<mrow>{mathml_box(name)}{space}{mathml_box(argument)}</mrow>"
+
+
+_FORMS = ("prefix", "postfix")
+
+
+def _upright(text: str) -> str:
+    if text == "\u2009":
+        return '<mspace width="0.25em"/>'
+    if text and all(one in "′″" for one in text):
+        return f"<mo>{text}</mo>"
+    if text.isalpha():
+        return f'<mi mathvariant="normal">{xml_text(text)}</mi>'
+    return f"<mtext>{xml_text(text)}</mtext>"
+
+
+def _sign(text: str, kind: str) -> str:
+    if kind == "comma":
+        return "<mo>,</mo>"
+    form = "prefix" if kind == "prefix" else "infix"
+    space = "0.2em" if text == "·" else _SPACES[kind]
+    return f'<mo form="{form}" lspace="{space}" rspace="{space}">{text or chr(0x2062)}</mo>'
+
+
+def _script(box: Script) -> str:
+    kind = ("sub" if box.below else "") + ("sup" if box.above else "")
+    inside = "".join(mathml_box(one) for one in (box.base, box.below, box.above) if one)
+    return f"<m{kind}>{inside}</m{kind}>"

@@ -1,0 +1,123 @@
+"""The numbers of sections, equations, tables, figures and sources, the same in every format."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from crankwork.errors import CrankworkError
+from crankwork.expressions import Formula
+from crankwork.note.captions import place_in_source
+from crankwork.note.document import Block, Citation, Equation, Figure, Heading, ItemList, Note, Paragraph, Run, Table
+from crankwork.quantities import Language
+from crankwork.sources import sources
+from crankwork.steps import Step
+
+
+class Numbering(NamedTuple):
+    """Numbers of the blocks by their place in the note (empty where a block has none), of labels and of sources."""
+
+    blocks: tuple[str, ...]
+    labels: dict[str, str]
+    sources: dict[str, int]
+    language: Language
+
+    def reference(self, label: str) -> str:
+        """Return the number of the block with a label."""
+        if label not in self.labels:
+            raise CrankworkError(f'the note refers to "{label}", which no block has as its label; label the block')
+        return self.labels[label]
+
+    def citation(self, source: str) -> str:
+        """Return a source as `[2, ch. 6]`, the place as the language of the note abbreviates it."""
+        key, _, place = source.partition(",")
+        number = str(self.sources[key])
+        return f"[{number}, {place_in_source(place.strip(), self.language)}]" if place.strip() else f"[{number}]"
+
+
+def numbering(note: Note) -> Numbering:
+    """Return the numbers of everything that a note numbers.
+
+    Parameters
+    ----------
+    note : Note
+        The note.
+
+    Raises
+    ------
+    CrankworkError
+        If two blocks have one label, or a source is not in the bibliography.
+    """
+    counts: Counter[str] = Counter()
+    sections = [0, 0, 0]
+    numbers: list[str] = []
+    labels: dict[str, str] = {}
+    for block in note.blocks:
+        number = _section_number(block, sections) if isinstance(block, Heading) else _plain_number(block, counts)
+        numbers.append(number)
+        label = getattr(block, "label", "")
+        if label in labels:
+            raise CrankworkError(f'two blocks of the note have the label "{label}"; give each its own')
+        if label:
+            labels[label] = f"({number})" if isinstance(block, Equation) else number
+    return Numbering(tuple(numbers), labels, _source_numbers(note), note.language)
+
+
+def _section_number(heading: Heading, sections: list[int]) -> str:
+    """Return `2.1` and count on; a heading without number counts nothing."""
+    if not heading.numbered:
+        return ""
+    level = min(max(heading.level, 1), 3)
+    sections[level - 1] += 1
+    sections[level:] = [0] * (3 - level)
+    return ".".join(map(str, sections[:level]))
+
+
+def _plain_number(block: Block, counts: Counter[str]) -> str:
+    counted = isinstance(block, Table | Figure) or (isinstance(block, Equation) and block.numbered)
+    if not counted:
+        return ""
+    kind = type(block).__name__
+    counts[kind] += 1
+    return str(counts[kind])
+
+
+def equation_source(block: Equation) -> str:
+    """Return the source of the formula of an equation, empty where it has none."""
+    match block.step:
+        case Step(formula=formula):
+            return formula.source
+        case Formula(source=source):
+            return source
+    return ""
+
+
+def _source_numbers(note: Note) -> dict[str, int]:
+    keys = list(dict.fromkeys([*(one.partition(",")[0] for one in _cited(note)), *note.sources]))
+    unknown = [key for key in keys if key not in sources()]
+    if unknown:
+        raise CrankworkError(f'the bibliography has no "{unknown[0]}"; add it to sources.bib or cite another source')
+    return {key: number for number, key in enumerate(keys, start=1)}
+
+
+def _cited(note: Note) -> Iterator[str]:
+    """Yield the sources in the order in which the text comes to them."""
+    for block in note.blocks:
+        if isinstance(block, Equation) and equation_source(block):
+            yield equation_source(block)
+        for run in _runs(block):
+            if isinstance(run, Citation):
+                yield run.source
+
+
+def _runs(block: Block) -> Iterator[Run]:
+    match block:
+        case Paragraph(runs):
+            yield from runs
+        case ItemList(items):
+            for item in items:
+                yield from item
+        case Table(headings=headings):
+            for heading in headings:
+                yield from heading

@@ -1,0 +1,74 @@
+"""Boxes as the mathematics of Word: equations that can be edited there."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from crankwork.expressions import Expression
+from crankwork.note.characters import xml_text
+from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright
+from crankwork.note.math import formula_box
+from crankwork.quantities import Language
+
+NAMESPACES = (
+    'xmlns:m="http://schemas.openxmlformats.org/officeDocument/2006/math" '
+    'xmlns:w="http://schemas.openxmlformats.org/wordprocessingml/2006/main"'
+)
+_FONT = '<w:rPr><w:rFonts w:ascii="Cambria Math" w:hAnsi="Cambria Math" w:cs="Cambria Math"/></w:rPr>'
+# normal text keeps a decimal comma tight, where mathematics would put a space after it
+_STYLES = {"letter": '<m:sty m:val="i"/>', "upright": '<m:sty m:val="p"/>', "text": "<m:nor/>"}
+
+
+def omml(tree: Expression, values: Mapping[str, float] | None = None, language: Language = "en") -> str:
+    """Return a recorded formula as an element `m:oMath`, namespaces declared.
+
+    Parameters
+    ----------
+    tree : Expression
+        The formula.
+    values : mapping of str to float, optional
+        Numbers by argument name, in place of symbols.
+    language : str
+        Whose symbols and decimal mark.
+    """
+    return f"<m:oMath {NAMESPACES}>{omml_box(formula_box(tree, values, language))}</m:oMath>"
+
+
+def omml_box(box: Box) -> str:
+    """Return a box as elements of Word's mathematics, prefixes `m` and `w` undeclared."""
+    match box:
+        case Letter(text):
+            return _run(text, "letter")
+        case Upright(text):
+            return _run(text, "text")
+        case Digits(text):
+            return _run(text, "text")
+        case Sign(text, _):
+            return _run(text or "\u2009", "upright")
+        case Row(parts):
+            return "".join(map(omml_box, parts))
+        case Fraction(top, bottom):
+            return f"<m:f><m:num>{omml_box(top)}</m:num><m:den>{omml_box(bottom)}</m:den></m:f>"
+        case Root(inside):
+            hidden = '<m:radPr><m:degHide m:val="1"/></m:radPr><m:deg/>'
+            return f"<m:rad>{hidden}<m:e>{omml_box(inside)}</m:e></m:rad>"
+        case Fence(inside, marks):
+            ends = f'<m:dPr><m:begChr m:val="{marks[0]}"/><m:endChr m:val="{marks[1]}"/></m:dPr>'
+            return f"<m:d>{ends}<m:e>{omml_box(inside)}</m:e></m:d>"
+        case Script():
+            return _script(box)
+        case Apply(name, argument):
+            return f"<m:func><m:fName>{omml_box(name)}</m:fName><m:e>{omml_box(argument)}</m:e></m:func>"
+
+
+def _run(text: str, style: str) -> str:
+    properties = f"<m:rPr>{_STYLES[style]}</m:rPr>{_FONT}"
+    return f'<m:r>{properties}<m:t xml:space="preserve">{xml_text(text)}</m:t></m:r>'
+
+
+def _script(box: Script) -> str:
+    """Return a base with what stands at its foot and head; the name of the element says which of them there are."""
+    kind = ("Sub" if box.below else "") + ("Sup" if box.above else "")
+    below = f"<m:sub>{omml_box(box.below)}</m:sub>" if box.below else ""
+    above = f"<m:sup>{omml_box(box.above)}</m:sup>" if box.above else ""
+    return f"<m:s{kind}><m:e>{omml_box(box.base)}</m:e>{below}{above}</m:s{kind}>"

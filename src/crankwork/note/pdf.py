@@ -1,0 +1,80 @@
+"""A note as PDF, set by Typst: tagged, archivable (PDF/A-2a), the same bytes every time."""
+
+from __future__ import annotations
+
+import re
+from typing import cast
+
+from crankwork.errors import CrankworkError, MissingExtraError
+from crankwork.note.document import Note
+from crankwork.note.numbering import numbering
+from crankwork.note.typst_parts import svg_width, typst_source
+
+_NO_GLYPH = re.compile(r'the text `"(?P<text>.+?)"` could not be displayed', re.DOTALL)
+_STANDARD = "a-2a"
+
+
+def pdf(note: Note) -> bytes:
+    """Return a note as a PDF file.
+
+    Parameters
+    ----------
+    note : Note
+        The note.
+
+    Raises
+    ------
+    MissingExtraError
+        If Typst is not installed.
+    CrankworkError
+        If the note has a character that its fonts lack.
+    """
+    try:
+        import typst  # noqa: PLC0415 - an optional part
+    except ImportError:
+        raise MissingExtraError("writing a PDF note", "report") from None
+    source = typst_source(note, numbering(note)).encode("utf-8")
+    try:
+        return cast("bytes", typst.compile(source, format="pdf", ignore_system_fonts=True, pdf_standards=_STANDARD))
+    except typst.TypstError as error:
+        missing = _NO_GLYPH.search(str(error))
+        if not missing:
+            raise
+        raise _missing_character(missing["text"]) from None
+
+
+def _missing_character(text: str) -> CrankworkError:
+    # Typst writes rare characters as \u{1f600}
+    shown = re.sub(r"\\u\{([0-9a-fA-F]+)\}", lambda code: chr(int(code[1], 16)), text)
+    codes = " ".join(f"U+{ord(character):04X}" for character in shown)
+    return CrankworkError(
+        f'the fonts of the PDF have no character "{shown}" ({codes}); write it otherwise, or make a .docx or .html'
+    )
+
+
+def png(svg: bytes, pixels_per_inch: float = 200.0) -> bytes:
+    """Return a drawing as a picture of pixels, for programs that know no SVG.
+
+    Parameters
+    ----------
+    svg : bytes
+        The drawing.
+    pixels_per_inch : float
+        How fine.
+
+    Raises
+    ------
+    MissingExtraError
+        If Typst, which draws it, is not installed.
+    """
+    try:
+        import typst  # noqa: PLC0415 - an optional part
+    except ImportError:
+        raise MissingExtraError("drawing pictures for a Word note", "report") from None
+    data = svg.decode("utf-8").replace("\\", "\\\\").replace('"', '\\"')
+    source = (
+        "#set page(width: auto, height: auto, margin: 0pt)\n"
+        f'#image(bytes("{data}"), format: "svg", width: {svg_width(svg):.2f}pt)\n'
+    )
+    options = {"format": "png", "ppi": pixels_per_inch, "ignore_system_fonts": True}
+    return cast("bytes", typst.compile(source.encode("utf-8"), **options))

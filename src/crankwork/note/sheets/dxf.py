@@ -1,0 +1,154 @@
+"""A sheet as DXF (AutoCAD R2010) in millimetres, a layer for each kind of line."""
+
+from __future__ import annotations
+
+import importlib
+import io
+from typing import Any
+
+import numpy as np
+
+from crankwork.errors import MissingExtraError
+from crankwork.note.sheets.scene import (
+    PENS,
+    Arc,
+    Circle,
+    Hatch,
+    Item,
+    LineKind,
+    Polyline,
+    Text,
+    hatch_lines,
+    runs,
+)
+from crankwork.note.sheets.sheet import Sheet
+
+_STYLE, _FONT = "SHEET", "times.ttf"
+# in hundredths of a millimetre, only those that the format knows
+_WEIGHTS = (0, 5, 9, 13, 15, 18, 20, 25, 30, 35, 40, 50, 53, 60, 70, 80, 90, 100)
+_BLACK, _GREY, _PALE = 7, 252, 254
+_MILLIMETRES = 4
+_HALIGN = {"start": 0, "middle": 1, "end": 2}
+_MTEXT_MIDDLE = {"start": 4, "middle": 5, "end": 6}
+_THROUGH_CORNERS = 128
+
+
+def sheet_dxf(sheet: Sheet) -> bytes:
+    """Return a sheet as DXF in model space, a drawing unit for a millimetre.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        What is drawn.
+
+    Returns
+    -------
+    bytes
+        DXF, UTF-8; a layer for each kind of line, and layers TEXT and HATCH.
+
+    Raises
+    ------
+    MissingExtraError
+        If ezdxf is not installed.
+    """
+    try:
+        ezdxf: Any = importlib.import_module("ezdxf")
+    except ImportError:
+        raise MissingExtraError("writing DXF", "report") from None
+    document = ezdxf.new("R2010", setup=False, units=_MILLIMETRES)
+    _prepare(document, sheet)
+    space = document.modelspace()
+    for item in sheet.items:
+        _add(space, item)
+    box = sheet.paper.box
+    document.set_modelspace_vport(box.height, center=(box.width / 2, box.height / 2))
+    document.header["$EXTMIN"], document.header["$EXTMAX"] = (0, 0, 0), (box.width, box.height, 0)
+    stream = io.StringIO()
+    was_fixed = ezdxf.options.write_fixed_meta_data_for_testing
+    try:
+        # otherwise every file has its own time and number
+        ezdxf.options.write_fixed_meta_data_for_testing = True
+        document.write(stream)
+    finally:
+        ezdxf.options.write_fixed_meta_data_for_testing = was_fixed
+    return stream.getvalue().encode("utf-8")
+
+
+def _prepare(document: Any, sheet: Sheet) -> None:  # noqa: ANN401 - a document of ezdxf
+    """Set units and limits, and add line types, layers and the style of texts."""
+    box = sheet.paper.box
+    document.header["$MEASUREMENT"], document.header["$LTSCALE"] = 1, 1.0
+    document.header["$LIMMIN"], document.header["$LIMMAX"] = (0, 0), (box.width, box.height)
+    document.styles.add(_STYLE, font=_FONT)
+    for kind, pen in PENS.items():
+        color = _BLACK if not pen.grey else _GREY if kind == "net" else _PALE
+        weight = _WEIGHTS[int(np.argmin(np.abs(np.array(_WEIGHTS) - 100 * pen.width)))]
+        kind_of_line = "CONTINUOUS"
+        if pen.dashes:
+            kind_of_line = _layer(kind)
+            signed = [one if count % 2 == 0 else -one for count, one in enumerate(pen.dashes)]
+            document.linetypes.add(kind_of_line, [sum(pen.dashes), *signed], description=kind.replace("_", " "))
+        document.layers.add(_layer(kind), color=color, lineweight=weight, linetype=kind_of_line)
+    document.layers.add("TEXT", color=_BLACK, lineweight=25)
+    document.layers.add("HATCH", color=_BLACK, lineweight=25)
+
+
+def _layer(kind: LineKind) -> str:
+    return kind.upper()
+
+
+def _add(space: Any, item: Item) -> None:  # noqa: ANN401 - a layout of ezdxf
+    match item:
+        case Text():
+            _add_text(space, item)
+        case Circle():
+            attributes = {"layer": _layer(item.kind)}
+            if item.fill is not None and item.fill < 1:
+                filled = space.add_hatch(color=_shade(item.fill), dxfattribs={"layer": "HATCH"})
+                filled.paths.add_edge_path().add_arc(item.centre, item.radius, 0, 360)
+            space.add_circle(item.centre, item.radius, dxfattribs=attributes)
+        case Arc():
+            space.add_arc(item.centre, item.radius, item.start, item.end, dxfattribs={"layer": _layer(item.kind)})
+        case Hatch():
+            for one in hatch_lines(item):
+                space.add_line(tuple(one[0]), tuple(one[1]), dxfattribs={"layer": "HATCH"})
+        case Polyline():
+            _add_polyline(space, item)
+
+
+def _add_polyline(space: Any, item: Polyline) -> None:  # noqa: ANN401 - a layout of ezdxf
+    points = [(float(x), float(y)) for x, y in item.points]
+    if item.fill is not None and item.fill < 1:
+        filled = space.add_hatch(color=_shade(item.fill), dxfattribs={"layer": "HATCH"})
+        filled.paths.add_polyline_path(points, is_closed=True)
+    attributes = {"layer": _layer(item.kind), "flags": _THROUGH_CORNERS if PENS[item.kind].dashes else 0}
+    space.add_lwpolyline(points, close=item.closed, dxfattribs=attributes)
+
+
+def _add_text(space: Any, item: Text) -> None:  # noqa: ANN401 - a layout of ezdxf
+    """Add a text: plain text as TEXT on its baseline, text with an index as MTEXT around its middle."""
+    parts = runs(item.text)
+    attributes = {"layer": "TEXT", "style": _STYLE, "rotation": item.angle}
+    if all(not one.shift for one in parts):
+        attributes |= {"insert": item.place, "align_point": item.place, "halign": _HALIGN[item.anchor]}
+        # two per cent signs begin a code
+        space.add_text(item.text.replace("%%", "% %"), height=item.height, dxfattribs=attributes)
+        return
+    coded = "".join(_coded(one.text, one.shift) for one in parts)
+    place = (item.place[0], item.place[1] + item.height / 2)
+    attributes |= {"char_height": item.height, "attachment_point": _MTEXT_MIDDLE[item.anchor], "insert": place}
+    space.add_mtext(coded, dxfattribs=attributes)
+
+
+def _coded(text: str, shift: int) -> str:
+    r"""Return a part of a text as MTEXT writes it, an index as a fraction `\S^ index;` without numerator."""
+    text = text.replace("\\", "\\\\").replace("^", "\\^")
+    if not shift:
+        return text
+    text = text.replace(";", "\\;").replace("/", "\\/").replace("#", "\\#")
+    return rf"{{\H{0.7:g}x;\S^ {text};}}" if shift < 0 else rf"{{\H{0.7:g}x;\S{text}^ ;}}"
+
+
+def _shade(fill: float) -> int:
+    """Return the colour of a fill."""
+    return _BLACK if fill < 0.3 else _PALE

@@ -1,0 +1,237 @@
+"""Forces, torque, the polar and the unrolled load of the crankpin, and its wear, as graphs of a sheet."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.dynamics.piston_forces import rotating_inertia_force
+from crankwork.errors import CrankworkError
+from crankwork.kinematics.crank_grid import Array
+from crankwork.note.sheets.engine_gas import angle_side, value_side
+from crankwork.note.sheets.graph import Curve, Graph, Side, graph
+from crankwork.note.sheets.placing import Named, lines_of, names_beside
+from crankwork.note.sheets.scene import Box, Circle, Item, LineKind, Text, arrow, indexed
+from crankwork.note.sheets.words import Words
+from crankwork.report.figure_data import Drawn
+from crankwork.report.language import displayed
+from crankwork.report.linkage_look import round_scale
+
+MARKS = 30.0
+_LINES: dict[str, dict[str, LineKind]] = {
+    "piston_forces": {
+        "gas_force": "dashed", "inertia_force": "dash_dot", "weight_force": "dotted", "piston_force": "thick",
+    },
+    "rod_forces": {"rod_force": "thick", "side_force": "dashed"},
+    "crankpin_forces": {"radial_force": "dashed", "tangential_force": "thick"},
+}  # fmt: skip
+
+
+class OverCycle(NamedTuple):
+    """Values over the cycle, arrays of shape (n,), at crank angles. [display unit], [deg]"""
+
+    degrees: Array
+    values: Array
+
+    @property
+    def mean(self) -> float:
+        """Their mean over the angles. [display unit]"""
+        return float(np.trapezoid(self.values, self.degrees) / np.ptp(self.degrees))
+
+
+def over_cycle(drawn: Drawn, extra: Mapping[str, Array | float], key: str, kind: str) -> OverCycle | None:
+    """Return values that somebody else has computed, or None if there are none.
+
+    Parameters
+    ----------
+    drawn : Drawn
+        What the graphs share.
+    extra : mapping of str to array, shape (n,)
+        With `crank_angle` [rad], or evenly over the cycle without it. [SI]
+    key : str
+        Which of them.
+    kind : str
+        Quantity whose display unit they have.
+    """
+    if key not in extra:
+        return None
+    values = np.asarray(extra[key], dtype=float)
+    degrees = np.linspace(0.0, float(drawn.results.machine.cycle), values.size)
+    if "crank_angle" in extra:
+        degrees = np.degrees(np.asarray(extra["crank_angle"], dtype=float))
+    if values.shape != degrees.shape or values.size < 2:
+        raise CrankworkError(f"{key} and crank_angle differ in length; give one value for each crank angle")
+    return OverCycle(degrees, values * displayed(kind, 1.0, per_area=drawn.area))
+
+
+def forces(drawn: Drawn, name: str, box: Box, words: Words) -> Graph:
+    """Return `piston_forces`, `rod_forces` or `crankpin_forces` over the cycle.
+
+    Parameters
+    ----------
+    drawn : Drawn
+        What the graphs share.
+    name : str
+        Which.
+    box : Box
+        Where. [mm]
+    words : Words
+        Language.
+    """
+    kinds = {key: kind for key, kind in _LINES[name].items() if key in drawn.columns}
+    curves = [
+        Curve(key, words.symbol(key), words.label(key), drawn.degrees, drawn.values(key), kind)
+        for key, kind in kinds.items()
+    ]
+    side = value_side("piston_force", [one.y for one in curves], words)._replace(
+        symbol=_common(curves), mark=words.say("force")
+    )
+    return graph(name, box, (angle_side(drawn, words), side), curves, words)
+
+
+def _common(curves: list[Curve]) -> str:
+    return ", ".join(one.symbol for one in curves)
+
+
+def torque(drawn: Drawn, extra: Mapping[str, Array | float], box: Box, words: Words) -> Graph:
+    """Return the torque of one cylinder, that of all if it is known, and the mean.
+
+    Parameters
+    ----------
+    drawn : Drawn
+        What the graphs share.
+    extra : mapping of str to array or float
+        With `total_torque` and `total_torque_mean`, as `engine_sheets` says.
+    box : Box
+        Where. [mm]
+    words : Words
+        Language.
+    """
+    values, total = drawn.values("crank_torque"), over_cycle(drawn, extra, "total_torque", "crank_torque")
+    sign, unit = words.symbol("crank_torque"), words.unit("N*m")
+    thin: LineKind = "thick" if total is None else "dashed"
+    curves = [Curve("crank_torque", sign, words.say("cylinder_torque"), drawn.degrees, values, thin)]
+    mean = displayed("mean_torque", drawn.results.summary["mean_torque"])
+    if total is not None:
+        curves.append(
+            Curve("total_torque", f"Σ{sign}", words.say("total_torque"), total.degrees, total.values, "thick")
+        )
+        mean = float(np.asarray(extra.get("total_torque_mean", total.mean)))
+    if abs(mean) < 1e-6 * float(np.max(np.abs(curves[-1].y))):
+        mean = 0.0
+    shown = f"{words.say('mean')} {words.number(mean)} {unit}"
+    mark = indexed(f"{'Σ' if total is not None else ''}M_{words.say('mean_mark')}")
+    ends = np.array([0.0, float(drawn.results.machine.cycle)])
+    curves.append(Curve("mean_torque", mark, shown, ends, np.full(2, mean), "dash_dot"))
+    side = value_side("crank_torque", [one.y for one in curves], words)
+    return graph("torque", box, (angle_side(drawn, words), side), curves, words)
+
+
+def big_end_inertia(drawn: Drawn) -> float:
+    """Return the inertia force of the rod mass at the crankpin, along the crank arm, never positive. [display unit]"""
+    solved = drawn.results.solved
+    masses = solved.machine.masses
+    if masses is None or not masses.rod_big_end:
+        return 0.0
+    force = rotating_inertia_force(masses.rod_big_end, solved.lengths.crank_radius, solved.speed)
+    return displayed("rotating_inertia_force", float(force), per_area=drawn.area)
+
+
+def polar(drawn: Drawn, box: Box, words: Words) -> Graph:
+    """Return the load on the crankpin as its end runs: tangential to the right, radial downward, marks every 30 deg.
+
+    Parameters
+    ----------
+    drawn : Drawn
+        What the graphs share.
+    box : Box
+        Where. [mm]
+    words : Words
+        Language.
+
+    Returns
+    -------
+    Graph
+        The curve from the origin O, and the pole from which the load is measured, shifted from it by the inertia
+        force of the rod mass at the crankpin.
+    """
+    across, along = drawn.values("tangential_force"), drawn.values("radial_force")
+    inertia = big_end_inertia(drawn)
+    reach = np.append(along, [0.0, -inertia])
+    unit = words.unit_of("tangential_force")
+    sides = _equal(
+        Side(
+            words.symbol("tangential_force"),
+            unit,
+            min(0.0, float(across.min())),
+            max(0.0, float(across.max())),
+            mark=words.say("force"),
+        ),
+        Side(
+            words.symbol("radial_force"),
+            unit,
+            float(reach.min()),
+            float(reach.max()),
+            is_down=True,
+            mark=words.say("force"),
+        ),
+        box,
+    )
+    curve = Curve("crankpin_load", "R", "", across, along)
+    shown = graph("polar", box, sides, [curve], words)
+    items: list[Item] = []
+    if inertia:
+        pole, origin = shown.point(0.0, -inertia), shown.point(0.0, 0.0)
+        items += [Circle(pole, 1.2, "medium", 1.0), *arrow(pole, origin, "thick", head=4.0)]
+        shift = indexed(words.say("big_end"))
+        items.append(Text((pole[0] + 2.0, (pole[1] + origin[1]) / 2), shift))
+    marks = np.arange(0.0, float(drawn.results.machine.cycle), MARKS)
+    at = np.searchsorted(drawn.degrees, marks)
+    points = [
+        Named(f"{mark:g}", shown.point(float(across[i]), float(along[i]))) for mark, i in zip(marks, at, strict=True)
+    ]
+    points += [Named("O", shown.point(0.0, -inertia))] if inertia else []
+    room = box.inset(2.0, 2.0, 2.0, 20.0)
+    return shown.with_items([*items, *names_beside(points, lines_of([*shown.items, *items]), room)])
+
+
+def _equal(x: Side, y: Side, box: Box) -> tuple[Side, Side]:
+    """Return two axes with the same scale, the first in the middle of its box."""
+    wide, tall = box.width - 40.0, box.height - 42.0
+    scale = round_scale(max((x.high - x.low) / wide, (y.high - y.low) / tall, 1e-12))
+    spare = (box.width - 40.0 - (x.high - x.low) / scale) / 2
+    return x._replace(scale=scale, zero=box.left + 18.0 + spare - x.low / scale), y._replace(scale=scale)
+
+
+def unrolled(drawn: Drawn, extra: Mapping[str, Array | float], box: Box, words: Words) -> Graph:
+    """Return the size of the load on the crankpin over the cycle, and its mean.
+
+    Parameters
+    ----------
+    drawn : Drawn
+        What the graphs share.
+    extra : mapping of str to array or float
+        With `crankpin_load`, as `engine_sheets` says; that of this one rod otherwise.
+    box : Box
+        Where. [mm]
+    words : Words
+        Language.
+    """
+    load = over_cycle(drawn, extra, "crankpin_load", "piston_force")
+    if load is None:
+        along = drawn.values("radial_force") + big_end_inertia(drawn)
+        load = OverCycle(drawn.degrees, np.hypot(drawn.values("tangential_force"), along))
+    sign = indexed(words.say("load_symbol"))
+    base = words.say("load_symbol").partition("_")[0]
+    unit = words.unit(words.unit_of("piston_force"))
+    shown = f"{words.say('mean')} {words.number(load.mean)} {unit}"
+    mean = indexed(f"{base}_{words.say('mean_mark')}")
+    ends = load.degrees[[0, -1]]
+    curves = [
+        Curve("crankpin_load", sign, "", load.degrees, load.values),
+        Curve("crankpin_load_mean", mean, shown, ends, np.full(2, load.mean), "dashed"),
+    ]
+    side = value_side("piston_force", [load.values], words)._replace(symbol=sign, mark=words.say("force"))
+    return graph("unrolled", box, (angle_side(drawn, words), side), curves, words)

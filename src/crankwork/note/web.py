@@ -1,0 +1,166 @@
+"""A note as one web page that needs nothing else: MathML, drawings inside, a style for the screen and for paper."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from crankwork.note.captions import caption, fixed_word, printed_date
+from crankwork.note.characters import xml_text
+from crankwork.note.document import (
+    Bibliography,
+    Block,
+    Bold,
+    Citation,
+    Contents,
+    Equation,
+    Figure,
+    Heading,
+    ItemList,
+    Math,
+    Note,
+    PageBreak,
+    Paragraph,
+    Reference,
+    Run,
+    Runs,
+    Table,
+    TitlePage,
+)
+from crankwork.note.equations import legend_rows, printed_equation
+from crankwork.note.mathml import mathml_box
+from crankwork.note.numbering import Numbering, equation_source, numbering
+from crankwork.note.web_style import STYLE
+from crankwork.note.word_parts import inline_box
+from crankwork.quantities import Language
+from crankwork.sources import cite
+
+_PROLOGUE = re.compile(r"^.*?(?=<svg\b)", re.DOTALL)
+_METADATA = re.compile(r"<metadata>.*?</metadata>|<!--.*?-->", re.DOTALL)
+_IDENTIFIER = re.compile(r'(\bid="|href="#|url\(#)')
+_SIZE = re.compile(r'(<svg\b[^>]*?) height="[^"]*"', re.DOTALL)
+# the fonts of browsers are wider than those of the PDF
+_LINE_WIDTH = 31.0
+_ALIGN = {"l": "left", "c": "centre", "r": "right"}
+
+
+def web(note: Note) -> bytes:
+    """Return a note as a web page, UTF-8.
+
+    Parameters
+    ----------
+    note : Note
+        The note.
+    """
+    numbers = numbering(note)
+    parts = [
+        f'<!DOCTYPE html>\n<html lang="{note.language}">\n<head>\n<meta charset="utf-8">',
+        '<meta name="viewport" content="width=device-width, initial-scale=1">',
+        f"<title>{xml_text(note.title)}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<main>",
+    ]
+    for k, (block, number) in enumerate(zip(note.blocks, numbers.blocks, strict=True)):
+        parts.extend(_block(block, number, k, note, numbers))
+    return "\n".join([*parts, "</main>\n</body>\n</html>\n"]).encode("utf-8")
+
+
+def _block(block: Block, number: str, k: int, note: Note, numbers: Numbering) -> Iterator[str]:  # noqa: C901 - one case per block
+    """Yield the elements of a block, the k-th of its note."""
+    match block:
+        case Heading(level, words):
+            yield f'<h{level + 1} id="b{k}">{xml_text(f"{number} {words}".strip())}</h{level + 1}>'
+        case Paragraph(runs):
+            yield f"<p>{_runs(runs, numbers)}</p>"
+        case Equation():
+            yield from _equation(block, number, numbers)
+        case Table():
+            yield from _table(block, number, numbers)
+        case Figure():
+            yield _figure(block, number, k, note.language)
+        case ItemList(items, ordered):
+            name = "ol" if ordered else "ul"
+            yield f"<{name}>" + "".join(f"<li>{_runs(item, numbers)}</li>" for item in items) + f"</{name}>"
+        case PageBreak():
+            yield '<div class="page"></div>'
+        case Contents():
+            yield _contents(note, numbers)
+        case TitlePage():
+            yield _title_page(note)
+        case Bibliography():
+            yield (
+                '<ol class="sources">' + "".join(f"<li>{xml_text(cite(key))}</li>" for key in numbers.sources) + "</ol>"
+            )
+
+
+def _runs(runs: Runs, numbers: Numbering) -> str:
+    return "".join(_run(run, numbers) for run in runs)
+
+
+def _run(run: Run, numbers: Numbering) -> str:
+    match run:
+        case Bold(words):
+            return f"<strong>{xml_text(words)}</strong>"
+        case Math(content):
+            return f"<math>{mathml_box(inline_box(content, numbers.language))}</math>"
+        case Reference(label):
+            return xml_text(numbers.reference(label))
+        case Citation(source):
+            return xml_text(numbers.citation(source))
+    return xml_text(run)
+
+
+def _equation(block: Equation, number: str, numbers: Numbering) -> Iterator[str]:
+    printed = printed_equation(block, numbers.language, _LINE_WIDTH)
+    lines = "".join(f'<math display="block">{mathml_box(line)}</math>' for line in printed.lines)
+    source = equation_source(block)
+    mark = " ".join(([numbers.citation(source)] if source else []) + ([f"({number})"] if number else []))
+    yield f'<div class="equation"><div class="lines">{lines}</div><div class="mark">{xml_text(mark)}</div></div>'
+    if block.legend:
+        rows = "".join(
+            f"<tr><td>{where}</td><td><math>{mathml_box(box)}</math>{xml_text(words)}</td></tr>"
+            for where, box, words in legend_rows(block, numbers.language)
+        )
+        yield f'<table class="legend" role="presentation">{rows}</table>'
+
+
+def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
+    kinds = [_ALIGN[letter] for letter in (block.align or "r" * len(block.headings))]
+    headings = "".join(f'<th scope="col">{_runs(runs, numbers)}</th>' for runs in block.headings)
+    words = xml_text(caption("table", number, block.caption, numbers.language))
+    before = ["<td>" if kind == "right" else f'<td class="{kind}">' for kind in kinds]
+    rows = "\n".join(
+        "<tr>" + "".join(f"{start}{xml_text(cell)}</td>" for start, cell in zip(before, row, strict=True)) + "</tr>"
+        for row in block.rows
+    )
+    yield (
+        f'<div class="table{" wide" if block.wide else ""}"><table><caption>{words}</caption>'
+        f"<thead><tr>{headings}</tr></thead>\n<tbody>\n{rows}\n</tbody></table></div>"
+    )
+
+
+def _figure(block: Figure, number: str, k: int, language: Language) -> str:
+    """Return a figure, its drawing inside the page; identifiers of different drawings are kept apart."""
+    drawing = _METADATA.sub("", _PROLOGUE.sub("", block.svg.decode("utf-8"), count=1))
+    drawing = _IDENTIFIER.sub(lambda found: f"{found[1]}f{k}-", drawing)
+    drawing = _SIZE.sub(r"\1", drawing, count=1)
+    drawing = drawing.replace("<svg", f'<svg role="img" aria-label="{xml_text(block.alt)}"', 1)
+    words = xml_text(caption("figure", number, block.caption, language))
+    return f"<figure>{drawing}<figcaption>{words}</figcaption></figure>"
+
+
+def _contents(note: Note, numbers: Numbering) -> str:
+    items = "".join(
+        f'<li class="level{block.level}"><a href="#b{k}">{xml_text(f"{number} {block.text}".strip())}</a></li>'
+        for k, (block, number) in enumerate(zip(note.blocks, numbers.blocks, strict=True))
+        if isinstance(block, Heading) and block.level <= 2
+    )
+    return f'<nav><p class="contents">{fixed_word("contents", note.language)}</p><ul>{items}</ul></nav>'
+
+
+def _title_page(note: Note) -> str:
+    lines = [f"<h1>{xml_text(note.title)}</h1>"]
+    if note.subtitle:
+        lines.append(f'<p class="subtitle">{xml_text(note.subtitle)}</p>')
+    lines += [f"<p>{xml_text(author)}</p>" for author in note.authors]
+    if note.date:
+        lines.append(f'<p><time datetime="{note.date:%Y-%m-%d}">{printed_date(note.date, note.language)}</time></p>')
+    return f'<header class="title">{"".join(lines)}</header>'

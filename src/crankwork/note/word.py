@@ -1,0 +1,229 @@
+"""A note as a Word file: styles, equations, tables and figures that can be edited there, the same bytes every time."""
+
+from __future__ import annotations
+
+import datetime
+import io
+import zipfile
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from crankwork.errors import MissingExtraError
+from crankwork.note.captions import LANGUAGE_TAGS, caption, printed_date
+from crankwork.note.characters import plain_text, xml_text
+from crankwork.note.document import (
+    Bibliography,
+    Block,
+    Contents,
+    Equation,
+    Figure,
+    Heading,
+    ItemList,
+    Note,
+    PageBreak,
+    Paragraph,
+    Table,
+    TitlePage,
+)
+from crankwork.note.numbering import Numbering, numbering
+from crankwork.note.pdf import png
+from crankwork.note.typst_parts import svg_width
+from crankwork.note.word_parts import (
+    PAGE_BREAK,
+    PREFIXES,
+    contents_xml,
+    equation_xml,
+    heading_xml,
+    paragraph,
+    runs_xml,
+    table_xml,
+    text_run,
+)
+from crankwork.note.word_styles import FOOTER, set_pages, set_styles
+from crankwork.sources import cite
+
+if TYPE_CHECKING:
+    from docx.document import Document
+
+_EPOCH = datetime.datetime(2000, 1, 1, tzinfo=datetime.UTC)
+_ZIP_TIME = (1980, 1, 1, 0, 0, 0)
+_SVG_PART = (
+    '<a:ext xmlns:a="http://schemas.openxmlformats.org/drawingml/2006/main" uri="{{96DAC541-7B7A-43D3-8B79-37D633B846F1}}">'
+    '<asvg:svgBlip xmlns:asvg="http://schemas.microsoft.com/office/drawing/2016/SVG/main" '
+    'xmlns:r="http://schemas.openxmlformats.org/officeDocument/2006/relationships" r:embed="{}"/></a:ext>'
+)
+_WIDEST = 481.0
+
+
+def word(note: Note) -> bytes:
+    """Return a note as a Word file.
+
+    Parameters
+    ----------
+    note : Note
+        The note.
+
+    Raises
+    ------
+    MissingExtraError
+        If python-docx is not installed.
+    """
+    try:
+        import docx  # noqa: PLC0415 - an optional part
+    except ImportError:
+        raise MissingExtraError("writing a Word note", "report") from None
+    numbers = numbering(note)
+    document = docx.Document()
+    _set_properties(document, note)
+    set_styles(document, note.language)
+    writer = _Writer(document, note, numbers)
+    set_pages(document.sections[0], wide=False)
+    document.sections[0].different_first_page_header_footer = any(isinstance(one, TitlePage) for one in note.blocks)
+    writer.footer()
+    for block, number in zip(note.blocks, numbers.blocks, strict=True):
+        writer.turn(wide=isinstance(block, Table) and block.wide)
+        writer.block(block, number)
+    stream = io.BytesIO()
+    document.save(stream)
+    return _reproducible(stream.getvalue())
+
+
+class _Writer:
+    """Adds blocks to a document; knows whether the page is on its side and how many headings there were."""
+
+    def __init__(self, document: Document, note: Note, numbers: Numbering) -> None:
+        self._document = document
+        self._note = note
+        self._numbers = numbers
+        self._wide = False
+        self._headings = 0
+        self._figures = 0
+
+    def footer(self) -> None:
+        footer = self._document.sections[0].footer
+        footer.is_linked_to_previous = False
+        footer.paragraphs[0]._p.getparent().replace(footer.paragraphs[0]._p, _element(FOOTER))  # noqa: SLF001
+
+    def turn(self, *, wide: bool) -> None:
+        """Begin a page of the other orientation if the next block needs it."""
+        if wide == self._wide:
+            return
+        body = self._document.element.body
+        section = self._document.add_section() if len(body) > 1 else self._document.sections[0]
+        section.different_first_page_header_footer = False
+        set_pages(section, wide=wide)
+        self._wide = wide
+
+    def block(self, block: Block, number: str) -> None:
+        """Add a block."""
+        if isinstance(block, Figure):
+            self._figure(block, number)
+            return
+        body = self._document.element.body
+        for xml in self._xml(block, number):
+            body.insert(len(body) - 1, _element(xml))
+
+    def _xml(self, block: Block, number: str) -> Iterator[str]:
+        numbers, note = self._numbers, self._note
+        match block:
+            case Heading(level, words):
+                yield heading_xml(level, f"{number} {words}".strip(), self._headings)
+                self._headings += 1
+            case Paragraph(runs):
+                yield paragraph(runs_xml(runs, numbers), "BodyText")
+            case Equation():
+                yield from equation_xml(block, number, numbers)
+            case Table():
+                yield from table_xml(block, number, numbers)
+            case ItemList(items, ordered):
+                for k, item in enumerate(items, start=1):
+                    yield _item(f"{k}." if ordered else "–", runs_xml(item, numbers))
+            case PageBreak():
+                yield PAGE_BREAK
+            case Contents():
+                yield from contents_xml(_headings(note, numbers), note.language)
+            case TitlePage():
+                yield from _title_page(note)
+            case Bibliography():
+                for key, k in numbers.sources.items():
+                    yield _item(f"{k}.", text_run(cite(key)))
+
+    def _figure(self, block: Figure, number: str) -> None:
+        from docx.opc.constants import RELATIONSHIP_TYPE  # noqa: PLC0415 - an optional part
+        from docx.opc.packuri import PackURI  # noqa: PLC0415
+        from docx.opc.part import Part  # noqa: PLC0415
+        from docx.shared import Pt  # noqa: PLC0415
+
+        self._figures += 1
+        document = self._document
+        width = Pt(min(svg_width(block.svg), _WIDEST))
+        shape = document.add_picture(io.BytesIO(block.png or png(block.svg)), width=width)
+        shape._inline.docPr.set("descr", plain_text(block.alt))  # noqa: SLF001 - python-docx has no alternative text
+        name = PackURI(f"/word/media/drawing{self._figures}.svg")
+        part = Part(name, "image/svg+xml", block.svg, document.part.package)
+        relation = document.part.relate_to(part, RELATIONSHIP_TYPE.IMAGE)
+        blip = shape._inline.graphic.graphicData.pic.blipFill.blip  # noqa: SLF001
+        blip.append(_element(f"<a:extLst {_DRAWING}>{_SVG_PART.format(relation)}</a:extLst>"))
+        document.paragraphs[-1].style = document.styles["Drawing"]
+        words = caption("figure", number, block.caption, self._note.language)
+        body = document.element.body
+        body.insert(len(body) - 1, _element(paragraph(text_run(words), "Caption", '<w:jc w:val="center"/>')))
+
+
+_DRAWING = 'xmlns:a="http://schemas.openxmlformats.org/drawingml/2006/main"'
+
+
+def _element(xml: str) -> Any:  # noqa: ANN401 - an element of lxml, which has no types
+    from docx.oxml import parse_xml  # noqa: PLC0415 - an optional part
+
+    name, _, rest = xml.partition(">") if xml.find(" ") < 0 or xml.find(">") < xml.find(" ") else xml.partition(" ")
+    return parse_xml(f"{name} {PREFIXES}{'>' if xml[len(name)] == '>' else ' '}{rest}")
+
+
+def _headings(note: Note, numbers: Numbering) -> list[tuple[int, str]]:
+    return [
+        (block.level, f"{number} {block.text}".strip())
+        for block, number in zip(note.blocks, numbers.blocks, strict=True)
+        if isinstance(block, Heading)
+    ]
+
+
+def _item(mark: str, content: str) -> str:
+    return paragraph(f"{text_run(mark)}<w:r><w:tab/></w:r>{content}", "Item")
+
+
+def _title_page(note: Note) -> Iterator[str]:
+    yield paragraph(text_run(note.title), "Title")
+    if note.subtitle:
+        yield paragraph(text_run(note.subtitle), "Subtitle")
+    for author in note.authors:
+        yield paragraph(text_run(author), "TitleLine")
+    if note.date:
+        yield paragraph(text_run(printed_date(note.date, note.language)), "TitleLine")
+    yield PAGE_BREAK
+
+
+def _set_properties(document: Document, note: Note) -> None:
+    """Set title, authors and language, and dates that do not depend on when the file is written."""
+    properties = document.core_properties
+    when = (
+        datetime.datetime(note.date.year, note.date.month, note.date.day, tzinfo=datetime.UTC) if note.date else _EPOCH
+    )
+    properties.title = plain_text(note.title)[:255]
+    properties.author = plain_text(", ".join(note.authors))[:255]
+    properties.last_modified_by = ""
+    properties.comments = ""
+    properties.language = LANGUAGE_TAGS[note.language]
+    properties.created = properties.modified = when
+    properties.revision = 1
+
+
+def _reproducible(data: bytes) -> bytes:
+    """Return a zip file with the same members, none of which says when it was written."""
+    stream = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(data)) as old, zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as new:
+        for name in old.namelist():
+            entry = zipfile.ZipInfo(name, _ZIP_TIME)
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            new.writestr(entry, old.read(name))
+    return stream.getvalue()

@@ -1,0 +1,228 @@
+"""What the calculation of Grinevetsky and Mazing starts from, and what is usual where nothing is given."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from typing import Literal
+
+from crankwork.working_cycle.fuels import FUELS, CycleError, Fuel
+from crankwork.working_cycle.heat_capacities import HeatLaw
+from crankwork.working_cycle.performance import MECHANICAL_LOSSES
+
+
+@dataclass(frozen=True)
+class GrinevetskyData:
+    """Data of a calculated cycle; `None` takes the value that is usual for the kind of engine, or leaves a step out.
+
+    Parameters
+    ----------
+    kind : {"petrol", "diesel"}
+        Burning at constant volume, or at constant volume and then pressure.
+    compression_ratio : float
+        Of the closed cylinder; of a two-stroke engine from the shutting of its ports. [-]
+    rotational_speed : float
+        Revolutions per minute. [rpm]
+    fuel : Fuel or None
+        By default the one the kind is named after.
+    excess_air : float or None
+        Air over air needed. [-]
+    ambient_pressure, ambient_temperature : float
+        Of the surroundings. [Pa], [K]
+    charge_pressure, charge_temperature : float or None
+        Behind compressor and cooler; the temperature may follow from the compressor. [Pa], [K]
+    compressor_exponent, cooler_drop : float
+        Polytrope of the compressor, temperature drop of the cooler. [-], [K]
+    intake_pressure : float or None
+        At the end of intake; by default from the loss factor and the speed in the intake. [Pa]
+    intake_loss_factor, intake_speed : float or None
+        Square of the slowing plus resistance, speed in the narrowest section. [-], [m/s]
+    residual_pressure, residual_temperature, heating : float or None
+        Of the residual gas; heating of the charge. [Pa], [K], [K]
+    charge_up, scavenging : float
+        Factors of charging after the dead centre and of scavenging. [-]
+    lost_stroke : float
+        Share of the stroke lost to the ports of a two-stroke engine. [-]
+    compression_exponent, expansion_exponent, heat_use : float or None
+        Of the polytropes; heat used up to z. [-]
+    pressure_ratio : float or None
+        Pressure at z over that at c, of a diesel. [-]
+    filling : float or None
+        Roundness factor of the diagram. [-]
+    exhaust_exponent : float
+        Of the polytrope from b to r. [-]
+    hydrogen_share : float
+        Hydrogen over carbon monoxide in rich products. [-]
+    heat_capacities : {"kolchin", "vietnamese", "linear"}
+        Law of the mean molar heats.
+    gas_constant, air_gas_constant : float
+        Molar one and that of air. [kJ/(kmol K)], [J/(kg K)]
+    strokes : {4, 2}
+        Strokes per cycle.
+    cylinders : int
+        How many.
+    mechanical_loss : tuple of float, str or None
+        Coefficients of p_m = a + b v_p, or their key in `performance.MECHANICAL_LOSSES`. [Pa, Pa s/m]
+    power : float or None
+        Wanted effective power of the engine; bore and stroke follow. [W]
+    stroke_bore_ratio : float
+        Stroke over bore, where they follow. [-]
+    bore, stroke : float or None
+        Where they are given. [m]
+    rounds_size : bool
+        Whether bore and stroke that follow are rounded to whole millimetres.
+    cooling_factor, cooling_exponent : float
+        Of the heat to the coolant. [-]
+    pi : float
+        The constant the calculation uses. [-]
+    """
+
+    kind: Literal["petrol", "diesel"]
+    compression_ratio: float
+    rotational_speed: float
+    fuel: Fuel | None = None
+    excess_air: float | None = None
+    ambient_pressure: float = 0.1e6
+    ambient_temperature: float = 293.0
+    charge_pressure: float | None = None
+    charge_temperature: float | None = None
+    compressor_exponent: float = 1.65
+    cooler_drop: float = 0.0
+    intake_pressure: float | None = None
+    intake_loss_factor: float | None = None
+    intake_speed: float | None = None
+    residual_pressure: float | None = None
+    residual_temperature: float | None = None
+    heating: float | None = None
+    charge_up: float = 1.0
+    scavenging: float = 1.0
+    lost_stroke: float = 0.0
+    compression_exponent: float | None = None
+    expansion_exponent: float | None = None
+    heat_use: float | None = None
+    pressure_ratio: float | None = None
+    filling: float | None = None
+    exhaust_exponent: float = 1.5
+    hydrogen_share: float = 0.5
+    heat_capacities: HeatLaw = "kolchin"
+    gas_constant: float = 8.315
+    air_gas_constant: float = 287.0
+    strokes: Literal[4, 2] = 4
+    cylinders: int = 1
+    mechanical_loss: tuple[float, float] | str | None = None
+    power: float | None = None
+    stroke_bore_ratio: float = 1.0
+    bore: float | None = None
+    stroke: float | None = None
+    rounds_size: bool = False
+    cooling_factor: float = 0.5
+    cooling_exponent: float = 0.6
+    pi: float = 3.141592653589793
+
+
+# kolchin_demidov_2008, ch. 3: the middle of what is usual
+_USUAL = {
+    "petrol": {
+        "excess_air": 0.95, "intake_loss_factor": 2.8, "intake_speed": 95.0, "residual_temperature": 1000.0,
+        "heating": 8.0, "compression_exponent": 1.37, "expansion_exponent": 1.25, "heat_use": 0.9, "filling": 0.96,
+    },
+    "diesel": {
+        "excess_air": 1.5, "intake_loss_factor": 2.7, "intake_speed": 70.0, "residual_temperature": 750.0,
+        "heating": 20.0, "compression_exponent": 1.37, "expansion_exponent": 1.25, "heat_use": 0.82,
+        "pressure_ratio": 1.8, "filling": 0.94,
+    },
+}  # fmt: skip
+# residual over charge pressure
+_RESIDUAL = {"petrol": 1.15, "diesel": 1.05}
+
+
+def with_usual_values(data: GrinevetskyData) -> tuple[GrinevetskyData, tuple[str, ...]]:
+    """Return data with what is usual where nothing is given, and the names of what was taken.
+
+    Parameters
+    ----------
+    data : GrinevetskyData
+        What is given.
+
+    Returns
+    -------
+    tuple
+        Complete data, names of what they took.
+
+    Raises
+    ------
+    CycleError
+        If something given cannot be.
+    """
+    check_data(data)
+    usual: dict[str, float] = dict(_USUAL[data.kind])
+    if data.intake_pressure is not None:
+        del usual["intake_loss_factor"], usual["intake_speed"]
+    usual["residual_pressure"] = _RESIDUAL[data.kind] * (data.charge_pressure or data.ambient_pressure)
+    taken = {name: value for name, value in usual.items() if getattr(data, name) is None}
+    rest: dict[str, object] = {}
+    if data.fuel is None:
+        rest["fuel"] = FUELS[data.kind]
+    if isinstance(data.mechanical_loss, str | None):
+        rest["mechanical_loss"] = _losses(data.mechanical_loss or data.kind)
+    if data.kind == "diesel" and (data.fuel or FUELS["diesel"]).molar_mass:
+        # the fuel of a diesel does not evaporate before the cylinder
+        rest["fuel"] = (data.fuel or FUELS["diesel"])._replace(molar_mass=None)
+    complete = replace(data, **taken, **rest)  # type: ignore[arg-type]
+    names = [*taken, *(["fuel"] if data.fuel is None else [])]
+    if data.mechanical_loss is None and (data.power or data.stroke):
+        names.append("mechanical_loss")
+    return complete, tuple(names)
+
+
+def _losses(key: str) -> tuple[float, float]:
+    if key not in MECHANICAL_LOSSES:
+        raise CycleError(f'no mechanical losses are known for "{key}"; write one of {", ".join(MECHANICAL_LOSSES)}')
+    return MECHANICAL_LOSSES[key]
+
+
+_ANY_SIGN = {"heating", "cooler_drop"}
+
+
+def check_data(data: GrinevetskyData) -> None:
+    """Raise unless a cycle can follow from the data.
+
+    Parameters
+    ----------
+    data : GrinevetskyData
+        What is given.
+
+    Raises
+    ------
+    CycleError
+        With the field at fault.
+    """
+    if data.kind not in _USUAL:
+        raise CycleError(f'kind is "{data.kind}"; write petrol or diesel')
+    _check_signs(data)
+    if data.compression_ratio <= 1:
+        raise CycleError(f"compression_ratio is {data.compression_ratio:g}; it must be above 1")
+    if 1.0 in (data.compression_exponent, data.expansion_exponent):
+        raise CycleError("an exponent of exactly 1 has no mean pressure in this form; write 1.0001 for an isotherm")
+    _check_choices(data)
+
+
+def _check_choices(data: GrinevetskyData) -> None:
+    """Raise if things are given that do not go together."""
+    if data.strokes == 4 and data.lost_stroke:
+        raise CycleError("lost_stroke belongs to two-stroke engines; set strokes to 2 or leave it out")
+    if data.lost_stroke >= 1:
+        raise CycleError(f"lost_stroke is {data.lost_stroke:g}; it must be below 1")
+    if data.power and (data.bore or data.stroke):
+        raise CycleError("give either power, from which bore and stroke follow, or bore and stroke")
+    if (data.bore is None) != (data.stroke is None):
+        raise CycleError("bore and stroke belong together; give both or neither")
+
+
+def _check_signs(data: GrinevetskyData) -> None:
+    """Raise unless every number that is given is positive, or may be zero."""
+    for one in fields(data):
+        value = getattr(data, one.name)
+        if isinstance(value, float | int) and not isinstance(value, bool) and one.name not in _ANY_SIGN:
+            limit = 0.0 if one.name in ("lost_stroke", "scavenging") else None
+            if not (value >= limit if limit is not None else value > 0):
+                raise CycleError(f"{one.name} is {value:g}; it must be {'0 or more' if limit == 0 else 'above 0'}")

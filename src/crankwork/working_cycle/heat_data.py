@@ -1,0 +1,166 @@
+"""What a cycle from the heat released is made of, and the parts of its closed period."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from crankwork.errors import CrankworkError
+
+
+@dataclass(frozen=True)
+class HeatReleaseData:
+    """What a cycle from the heat released is made of.
+
+    Parameters
+    ----------
+    bore, rotational_speed : float
+        Bore; revolutions per minute. [m], [rpm]
+    shut_pressure, shut_temperature : float
+        Of the gas at intake closing. [Pa], [K]
+    heat : float or None
+        Heat of the fuel per cycle; instead of it, the next three. [J]
+    fuel_per_cycle, heating_value, burning_efficiency : float
+        Mass of fuel, lower heating value, share of it that is released. [kg], [J/kg], [-]
+    burning_advance, burning_duration, burning_shape : float
+        Start of burning before top dead centre, duration, Wiebe exponent. [deg], [deg], [-]
+    heat_ratio, heat_ratio_slope, gas_constant : float
+        Ratio of specific heats (at 0 K where it has a slope), its change with temperature, specific gas
+        constant. [-], [1/K], [J/(kg*K)]
+    has_wall_loss : bool
+        Whether heat goes to the walls.
+    wall_temperature, head_area, crown_area, motored_exponent : float
+        Of the walls; areas of head and crown (the piston area if left out); polytrope without burning.
+        [K], [m2], [m2], [-]
+    cycle : float
+        720, or 360 for two strokes. [deg]
+    intake_closes, exhaust_opens : float
+        After and before bottom dead centre; the ports of two strokes likewise, the last to close and the first
+        to open. [deg]
+    intake_opens, exhaust_closes : float
+        Before and after top dead centre; with two strokes the scavenging ports open before bottom dead
+        centre, and the second number is not used. [deg]
+    exhaust_pressure, intake_pressure : float
+        While gas is exchanged; with two strokes the first is that of scavenging. [Pa]
+    """
+
+    bore: float
+    rotational_speed: float
+    shut_pressure: float
+    shut_temperature: float
+    heat: float | None = None
+    fuel_per_cycle: float = 0.0
+    heating_value: float = 0.0
+    burning_efficiency: float = 1.0
+    burning_advance: float = 20.0
+    burning_duration: float = 50.0
+    burning_shape: float = 2.0
+    heat_ratio: float = 1.33
+    heat_ratio_slope: float = 0.0
+    gas_constant: float = 287.0
+    has_wall_loss: bool = True
+    wall_temperature: float = 450.0
+    head_area: float | None = None
+    crown_area: float | None = None
+    motored_exponent: float = 1.35
+    cycle: float = 720.0
+    intake_closes: float = 50.0
+    exhaust_opens: float = 60.0
+    intake_opens: float = 15.0
+    exhaust_closes: float = 15.0
+    exhaust_pressure: float = 1.1e5
+    intake_pressure: float = 0.9e5
+
+
+class Stage(NamedTuple):
+    """A part of the closed period: from, to [deg]; whether fuel burns, and whether it has begun to."""
+
+    start: float
+    end: float
+    burns: bool
+    has_burnt: bool
+
+
+def stages(data: HeatReleaseData, dead_centres: tuple[float, float]) -> tuple[Stage, Stage, Stage]:
+    """Return compression, burning and expansion.
+
+    Parameters
+    ----------
+    data : HeatReleaseData
+        Valves and burning.
+    dead_centres : tuple of float
+        Top and bottom dead centre within one revolution. [deg]
+
+    Returns
+    -------
+    tuple of Stage
+        In order; some may have no length.
+
+    Raises
+    ------
+    CrankworkError
+        If burning does not lie within the closed period.
+    """
+    top, bottom = dead_centres
+    shut, opens = bottom + data.intake_closes, bottom + 360.0 - data.exhaust_opens
+    begin = top + 360.0 - data.burning_advance
+    end = begin + data.burning_duration
+    if begin < shut or end > opens:
+        raise CrankworkError(
+            f"burning lasts from {begin:g} to {end:g} deg, but the cylinder is closed from {shut:g} to {opens:g} deg "
+            "only; move or shorten the burning, or correct the valve timing"
+        )
+    return Stage(shut, begin, False, False), Stage(begin, end, True, True), Stage(end, opens, False, True)  # noqa: FBT003
+
+
+_POSITIVE = (
+    "bore",
+    "rotational_speed",
+    "shut_pressure",
+    "shut_temperature",
+    "burning_duration",
+    "gas_constant",
+    "wall_temperature",
+    "exhaust_pressure",
+    "intake_pressure",
+)
+_NOT_NEGATIVE = (
+    "burning_shape",
+    "fuel_per_cycle",
+    "heating_value",
+    "burning_efficiency",
+    "intake_closes",
+    "exhaust_opens",
+    "intake_opens",
+    "exhaust_closes",
+)
+
+
+def check_heat_release(data: HeatReleaseData) -> None:
+    """Raise unless every number makes sense by itself.
+
+    Parameters
+    ----------
+    data : HeatReleaseData
+        What was given.
+
+    Raises
+    ------
+    CrankworkError
+        Naming what is wrong.
+    """
+    wrong = [name for name in _POSITIVE if not getattr(data, name) > 0]
+    if wrong:
+        raise CrankworkError(f"{', '.join(wrong)}: write a number above zero")
+    wrong = [name for name in _NOT_NEGATIVE if not getattr(data, name) >= 0]
+    if wrong or (data.heat is not None and data.heat < 0):
+        raise CrankworkError(f"{', '.join(wrong) or 'heat'}: write zero or a number above it")
+    if data.cycle not in (360.0, 720.0):
+        raise CrankworkError(f"a cycle of {data.cycle:g} deg is neither 720 (four strokes) nor 360 (two strokes)")
+    if data.heat_ratio + data.heat_ratio_slope * data.shut_temperature <= 1:
+        raise CrankworkError("the ratio of specific heats must exceed 1; correct heat_ratio and heat_ratio_slope")
+    if data.cycle == 360 and data.exhaust_opens < data.intake_opens:
+        raise CrankworkError(
+            f"the scavenging ports open {data.intake_opens:g} deg before bottom dead centre, earlier than the exhaust "
+            f"at {data.exhaust_opens:g} deg; let the exhaust open first"
+        )

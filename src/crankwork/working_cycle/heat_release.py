@@ -1,0 +1,275 @@
+"""The working cycle from the heat released: Wiebe burning, heat to the walls, first law, degree by degree.
+
+From intake closing to exhaust opening the gas is one zone of constant mass; the rest of the cycle is simplified.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.piston import piston_motion
+from crankwork.kinematics.slider_crank import SliderCrank
+from crankwork.loads import gas as gas_formulas
+from crankwork.loads.cycle import quadrature
+from crankwork.loads.indicator import IndicatorDiagram, Segment, VolumeAt
+from crankwork.loads.monotone import hermite
+from crankwork.method import EXACT, Method
+from crankwork.steps import Step, Worked
+from crankwork.working_cycle.closed_gas import ClosedGas, closed_gas
+from crankwork.working_cycle.gas_exchange import constant_pressure, passage, within_cycle
+from crankwork.working_cycle.heat_data import HeatReleaseData, Stage, stages
+from crankwork.working_cycle.heat_notices import heat_notices
+from crankwork.working_cycle.heat_steps import work_peak
+
+_STEP, _LEAST_STEPS, _DOUBLINGS = 0.5, 40, 5
+_AGREEMENT = 1e-9
+_FINE = 2001
+_RELATIVE, _ABSOLUTE = 1e-12, 1e-13
+
+Notices = tuple[tuple[str, Mapping[str, float | str]], ...]
+
+
+class HeatReleaseTrace(NamedTuple):
+    """The closed period point by point, arrays of shape (n,).
+
+    Crank angle [deg], pressure [Pa], temperature [K], burnt fraction [-], pressure rise [Pa/rad], heat to the
+    walls [J/rad]. The angles count on from the start of the cycle and may pass its end.
+    """
+
+    degrees: Array
+    pressure: Array
+    temperature: Array
+    burnt: Array
+    pressure_rise: Array
+    wall_heat_rate: Array
+
+
+@dataclass(frozen=True)
+class HeatReleaseResult:
+    """A cycle computed from the heat released.
+
+    `values` are by key of the table of quantities, with `closed_work_quadrature`, `wall_heat_quadrature` (the same
+    integrals taken from the diagram), `first_law_residual` and `first_law_residual_quadrature`. [SI]
+    """
+
+    diagram: IndicatorDiagram
+    trace: HeatReleaseTrace
+    values: Mapping[str, float]
+    steps: tuple[Step, ...]
+    notices: Notices
+
+
+def cylinder_volumes(
+    lengths: SliderCrank, bore: float, clearance: float, method: Method = EXACT
+) -> tuple[VolumeAt, VolumeAt]:
+    """Return the volume of a cylinder and its derivative as functions of the crank angle.
+
+    Parameters
+    ----------
+    lengths : SliderCrank
+        The crank gear.
+    bore, clearance : float
+        Bore and clearance volume. [m], [m3]
+    method : Method
+        How the piston moves.
+
+    Returns
+    -------
+    tuple of callable
+        [deg] -> [m3] and [deg] -> [m3/rad].
+    """
+    area = float(gas_formulas.piston_area(method.pi, bore))
+
+    def volume_at(degrees: Array) -> Array:
+        x = piston_motion(lengths, CrankGrid.from_degrees(degrees), method).piston.position
+        return np.asarray(gas_formulas.cylinder_volume(clearance, area, x))
+
+    def volume_rate_at(degrees: Array) -> Array:
+        return np.asarray(area * piston_motion(lengths, CrankGrid.from_degrees(degrees), method).piston.position_1)
+
+    return volume_at, volume_rate_at
+
+
+def heat_release(
+    data: HeatReleaseData, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
+) -> HeatReleaseResult:
+    """Return the cycle that a release of heat makes.
+
+    Parameters
+    ----------
+    data : HeatReleaseData
+        State at intake closing, heat, burning, gas, walls, valves.
+    volume_at, volume_rate_at : callable
+        Cylinder volume of an array of crank angles, and its derivative. [deg] -> [m3], [deg] -> [m3/rad]
+    dead_centres : tuple of float
+        Top and bottom dead centre within one revolution. [deg]
+
+    Returns
+    -------
+    HeatReleaseResult
+        The closed diagram, energies, extremes, steps and notices.
+
+    Raises
+    ------
+    CrankworkError
+        If burning does not lie between intake closing and exhaust opening, or a number makes no sense.
+    MissingExtraError
+        If SciPy is not installed.
+
+    References
+    ----------
+    heywood_1988, ch. 9 and 12.
+    """
+    worked = Worked()
+    gas = closed_gas(data, volume_at, volume_rate_at, dead_centres, worked)
+    periods = [one for one in stages(data, dead_centres) if one.end > one.start]
+    solved = _solved(gas, periods)
+    segments = [one for one, _ in solved]
+    trace = _trace(gas, solved)
+    work, wall = (float(sum(change[i] for _, change in solved)) for i in (1, 2))
+    released = gas.heat * float(gas.burnt(np.array([periods[-1].end]))[0])
+    values = {
+        "fuel_heat": gas.heat,
+        "heat_released": released,
+        "wall_heat": wall,
+        "closed_work": work,
+        "internal_energy_change": gas.energy_change(trace.temperature[-1]),
+    }
+    stored = values["internal_energy_change"]
+    values["first_law_residual"] = released - wall - work - stored
+    again = _by_quadrature(gas, periods, segments)
+    values |= again
+    values["first_law_residual_quadrature"] = (
+        released - again["wall_heat_quadrature"] - again["closed_work_quadrature"] - stored
+    )
+    values |= _extremes(gas, periods, segments, trace)
+    diagram = _diagram(data, segments, dead_centres)
+    values["indicated_work"] = diagram.work(volume_at)
+    work_peak(gas, values, worked)
+    return HeatReleaseResult(diagram, trace, values, tuple(worked.steps), heat_notices(data, gas, values))
+
+
+def _solved(gas: ClosedGas, periods: list[Stage]) -> list[tuple[Segment, Array]]:
+    """Return for each period the curve of the pressure and the changes of pressure, work and heat to the walls."""
+    results = []
+    pressure = gas.data.shut_pressure
+    scale = pressure * gas.shut_volume + gas.heat
+    for period in periods:
+        dense, final = gas.integrated(period, pressure, _RELATIVE, _ABSOLUTE)
+        start = np.array([pressure, 0.0, 0.0])
+        count = max(_LEAST_STEPS, int(np.ceil((period.end - period.start) / _STEP)))
+        for _ in range(_DOUBLINGS + 1):
+            segment = _curve(gas, period, dense, count, (pressure, float(final[0])))
+            if abs(segment.work(gas.volume_at) - final[1]) <= _AGREEMENT * scale:
+                break
+            count *= 2
+        results.append((segment, final - start))
+        pressure = float(final[0])
+    return results
+
+
+def _curve(gas: ClosedGas, period: Stage, dense: VolumeAt, count: int, ends: tuple[float, float]) -> Segment:
+    """Return the cubics through the solution with the slopes of the first law."""
+    # with a small exponent burning sets in abruptly, which wants more knots at the start
+    grading = max(1.0, 3.0 - gas.data.burning_shape) if period.burns else 1.0
+    knots = period.start + (period.end - period.start) * np.linspace(0.0, 1.0, count + 1) ** grading
+    knots[-1] = period.end
+    pressures = dense(knots)[0]
+    pressures[[0, -1]] = ends
+    slopes = np.radians(gas.rates(knots, pressures, period)[0])
+    return Segment(period.start, period.end, "rounded", knots, pressures, slopes)
+
+
+def _trace(gas: ClosedGas, solved: list[tuple[Segment, Array]]) -> HeatReleaseTrace:
+    parts = [segment for segment, _ in solved]
+    keep = [slice(1 if number else 0, None) for number in range(len(parts))]
+    degrees = np.concatenate([one.knots[part] for one, part in zip(parts, keep, strict=True)])
+    pressure = np.concatenate([one.pressures[part] for one, part in zip(parts, keep, strict=True)])
+    slopes = np.degrees(np.concatenate([one.slopes[part] for one, part in zip(parts, keep, strict=True)]))
+    temperature = gas.temperature(degrees, pressure)
+    wall = gas.wall_rate(degrees, pressure, gas.is_burning(degrees))
+    return HeatReleaseTrace(degrees, pressure, temperature, gas.burnt(degrees), slopes, wall)
+
+
+def _by_quadrature(gas: ClosedGas, periods: list[Stage], segments: list[Segment]) -> dict[str, float]:
+    """Return work and heat to the walls as integrals over the diagram, apart from the differential equation."""
+    work = wall = 0.0
+    for period, segment in zip(periods, segments, strict=True):
+        nodes, weights = quadrature(segment.knots)
+        pressure = hermite(segment.knots, segment.pressures, segment.slopes, nodes)
+        work += segment.work(gas.volume_at)
+        wall += float(weights @ gas.wall_rate(nodes, pressure, np.full(len(nodes), period.has_burnt)))
+    return {"closed_work_quadrature": work, "wall_heat_quadrature": wall}
+
+
+def _extremes(
+    gas: ClosedGas, periods: list[Stage], segments: list[Segment], trace: HeatReleaseTrace
+) -> dict[str, float]:
+    """Return the greatest pressure, temperature and pressure rise, and where they are. [SI], angles in [deg]"""
+    whole = IndicatorDiagram(tuple(segments), {})
+
+    def pressure(degrees: Array) -> Array:
+        return whole.pressure(degrees, degrees)
+
+    def temperature(degrees: Array) -> Array:
+        return gas.temperature(degrees, pressure(degrees))
+
+    found: dict[str, float] = {}
+    for key, function, values in (
+        ("cylinder_pressure", pressure, trace.pressure),
+        ("cylinder_temperature", temperature, trace.temperature),
+    ):
+        top = int(np.argmax(values))
+        near = trace.degrees[max(top - 1, 0)], trace.degrees[min(top + 1, len(values) - 1)]
+        found |= _greatest(key, np.linspace(*near, _FINE), function, cycle=gas.data.cycle)
+    steepest = []
+    for period, segment in zip(periods, segments, strict=True):
+        top = int(np.argmax(segment.slopes))
+        fine = np.linspace(segment.knots[max(top - 1, 0)], segment.knots[min(top + 1, len(segment.knots) - 1)], _FINE)
+        rise = gas.rates(fine, hermite(segment.knots, segment.pressures, segment.slopes, fine), period)[0]
+        steepest.append((float(np.max(rise)), float(fine[int(np.argmax(rise))]) % gas.data.cycle))
+    found["pressure_rise_max"], found["pressure_rise_max_angle"] = max(steepest)
+    return found
+
+
+def _greatest(key: str, degrees: Array, function: VolumeAt, *, cycle: float) -> dict[str, float]:
+    values = function(degrees)
+    at = int(np.argmax(values))
+    return {f"{key}_max": float(values[at]), f"{key}_max_angle": float(degrees[at]) % cycle}
+
+
+def _diagram(data: HeatReleaseData, closed: list[Segment], dead_centres: tuple[float, float]) -> IndicatorDiagram:
+    """Return the diagram of the whole cycle, the exchange of gas simplified."""
+    top, bottom = dead_centres
+    first, last = closed[0], closed[-1]
+    opens, closes = last.end, first.start + data.cycle
+    exhaust, intake = data.exhaust_pressure, data.intake_pressure
+    segments = list(closed)
+    centre = bottom + 360.0
+    if data.cycle > 360:
+        blown, change, changed = 2 * centre - opens, top + 720 - data.intake_opens, top + 720 + data.exhaust_closes
+    else:
+        blown, change, changed = centre - data.intake_opens, centre, centre
+        intake = exhaust
+    low = (blown, exhaust, 0.0)
+    if blown > opens:
+        segments.append(passage((opens, float(last.pressures[-1]), float(last.slopes[-1])), low))
+    segments.append(constant_pressure(blown, change, exhaust))
+    if changed > change:
+        segments.append(passage((change, exhaust, 0.0), (changed, intake, 0.0)))
+    end = (closes, data.shut_pressure, float(first.slopes[0]))
+    charged = centre + data.cycle - 360.0
+    segments.append(constant_pressure(changed, min(charged, closes), intake))
+    if closes > charged:
+        segments.append(passage((charged, intake, 0.0), end))
+    named = {
+        "IVC": (first.start, data.shut_pressure),
+        "EVO": (opens, float(last.pressures[-1])),
+    }
+    placed = {name: (angle % data.cycle, pressure) for name, (angle, pressure) in named.items()}
+    return IndicatorDiagram(within_cycle(segments, data.cycle), placed)

@@ -1,0 +1,236 @@
+"""Corners of the theoretical diagram rounded as valves, ignition and burning round them.
+
+Two schools: the Russian one puts c'' at a ratio to the end of compression and b'' halfway between b and the
+exhaust line; the Vietnamese one puts c'' a third of the way up to the peak and b'' in the middle of ab.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, VolumeAt, solve_diagram
+from crankwork.working_cycle.gas_exchange import clipped
+from crankwork.working_cycle.rounded_pieces import without_auxiliary, written
+from crankwork.working_cycle.rounding_corners import (
+    Corners,
+    burning_parts,
+    compression_parts,
+    corners_of,
+    exchange_parts,
+)
+from crankwork.working_cycle.rounding_data import Rounding, Timing
+
+__all__ = ["RoundedDiagram", "Rounding", "Timing", "filling_factor", "rounded_diagram", "theoretical_work"]
+
+_LEVELS = {"petrol": (0.80, 0.95), "diesel": (0.80, 1.0)}
+_LEVEL = {"petrol": 0.85, "diesel": 1.0}
+_USUAL_FILLING = (0.90, 0.98)
+_USUAL_RISE = (1.15, 1.25)
+_USUAL_PEAK = (10.0, 15.0)
+_DEVIATION = 0.01
+
+Notice = tuple[str, Mapping[str, float | str]]
+
+
+class RoundedDiagram(NamedTuple):
+    """A rounded diagram: points and pieces for `solve_diagram`, what was obtained, and what to know about it."""
+
+    points: Mapping[str, DiagramPoint]
+    pieces: tuple[Piece, ...]
+    diagram: IndicatorDiagram
+    filling_factor: float
+    peak_level: float
+    notices: tuple[Notice, ...]
+
+
+def rounded_diagram(
+    theory: Mapping[str, float],
+    timing: Timing,
+    rounding: Rounding,
+    volume_at: VolumeAt,
+    dead_centres: tuple[float, float],
+) -> RoundedDiagram:
+    """Return the diagram with rounded corners.
+
+    Parameters
+    ----------
+    theory : mapping of str to float
+        `p_r`, `p_a`, `p_z`, `n1`, `n2` and for a diesel `rho` of the theoretical cycle; `p_c`, `p_b` and
+        `epsilon` are only compared. [SI]
+    timing : Timing
+        Valves and ignition.
+    rounding : Rounding
+        School and levels.
+    volume_at : callable
+        Cylinder volume of an array of crank angles. [deg] -> [m3]
+    dead_centres : tuple of float
+        Top and bottom dead centre within one revolution. [deg]
+
+    Returns
+    -------
+    RoundedDiagram
+        Points, pieces, the solved diagram, the filling factor obtained.
+
+    Raises
+    ------
+    CrankworkError
+        If timings or pressures cannot make a diagram.
+
+    References
+    ----------
+    kolchin_demidov_2008, ch. 5; nguyen_tat_tien_2000.
+    """
+    corners = corners_of(theory, timing, rounding, volume_at, dead_centres)
+    level, notices = _peak_level(corners)
+    points, pieces, diagram, filling = _at_level(corners, level)
+    notices = (*_deviations(corners), *notices, *_unusual(corners, filling))
+    return RoundedDiagram(points, pieces, without_auxiliary(diagram), filling, level, notices)
+
+
+def _peak_level(corners: Corners) -> tuple[float, tuple[Notice, ...]]:
+    """Return the peak over p_z: given, usual, or solved for so that the filling factor is the wanted one."""
+    rounding = corners.rounding
+    wanted = rounding.filling_factor
+    if wanted is None or not corners.timing.ignition_advance:
+        return _LEVEL[corners.kind] if rounding.peak_level is None else rounding.peak_level, ()
+    low, high = _LEVELS[corners.kind]
+    for level in (low, high):
+        reached = _at_level(corners, level)[3]
+        if (reached - wanted) * (1 if level == low else -1) > rounding.tolerance:
+            return level, (("round_unreachable", {"wanted": wanted, "obtained": reached, "level": level}),)
+    for _ in range(60):
+        level = (low + high) / 2
+        excess = _at_level(corners, level)[3] - wanted
+        if abs(excess) <= rounding.tolerance:
+            break
+        low, high = (low, level) if excess > 0 else (level, high)
+    return level, ()
+
+
+def _at_level(
+    corners: Corners, level: float
+) -> tuple[dict[str, DiagramPoint], tuple[Piece, ...], IndicatorDiagram, float]:
+    """Return the diagram with a peak at a share of p_z, and its filling factor."""
+    theory = corners.theory
+    references = {
+        "~start": DiagramPoint(None, theory["p_a"], corners.start_volume),
+        "~burnt": DiagramPoint(None, theory["p_z"], corners.burnt_volume),
+    }
+    parts = [*compression_parts(corners), *burning_parts(corners, level), *exchange_parts(corners)]
+    points, pieces = written(parts, corners.timing.cycle, references)
+    diagram = solve_diagram(points, pieces, corners.timing.cycle, corners.volume_at, dead_centres=corners.dead_centres)
+    return points, pieces, diagram, _filling(corners, diagram)
+
+
+def _filling(corners: Corners, diagram: IndicatorDiagram) -> float:
+    """Return the work of compression to expansion over that of the theoretical lines."""
+    cycle, work = corners.timing.cycle, 0.0
+    end = corners.bottom if cycle > 360 else corners.opens
+    for turn in (0.0, cycle):
+        for segment in diagram.segments:
+            first, last = max(segment.start, corners.start - turn), min(segment.end, end - turn)
+            if last > first:
+                work += clipped(segment, first, last).work(corners.volume_at)
+    return work / theoretical_work(corners.theory, corners.volume_at, (corners.start, corners.top, end))
+
+
+def theoretical_work(theory: Mapping[str, float], volume_at: VolumeAt, angles: tuple[float, float, float]) -> float:
+    """Return the work of compression, combustion and expansion without any rounding.
+
+    Parameters
+    ----------
+    theory : mapping of str to float
+        `p_a`, `p_z`, `n1`, `n2` and for a diesel `rho`. [SI]
+    volume_at : callable
+        Cylinder volume of an array of crank angles. [deg] -> [m3]
+    angles : tuple of float
+        Where compression begins, top dead centre, where expansion ends. [deg]
+
+    Returns
+    -------
+    float
+        Work. [J]
+
+    References
+    ----------
+    kolchin_demidov_2008, ch. 4.
+    """
+    start, least, end = (float(one) for one in volume_at(np.array(angles)))
+    burnt = theory.get("rho", 1.0) * least
+    lines = ((theory["p_a"], start, least, theory["n1"]), (theory["p_z"], burnt, end, theory["n2"]))
+    work = theory["p_z"] * (burnt - least)
+    for pressure, volume, last, exponent in lines:
+        growth, less = np.log(last / volume), 1 - exponent
+        work += float(pressure * volume * (np.expm1(less * growth) / less if less else growth))
+    return work
+
+
+def _deviations(corners: Corners) -> list[Notice]:
+    """Return where given pressures are not those of the lines they lie on."""
+    found: list[Notice] = []
+    computed = {
+        "p_c": corners.compression(corners.top) / 1e6,
+        "p_b": corners.expansion(corners.opens if corners.timing.cycle == 360 else corners.bottom) / 1e6,
+        "epsilon": corners.start_volume / corners.clearance,
+    }
+    for name, value in computed.items():
+        given = corners.theory.get(name)
+        if given is None:
+            continue
+        given = given if name == "epsilon" else given / 1e6
+        if abs(given - value) > _DEVIATION * value:
+            found.append(("round_differs", {"name": name, "given": given, "computed": value}))
+    return found
+
+
+def _unusual(corners: Corners, filling: float) -> list[Notice]:
+    rounding, found = corners.rounding, []
+    if corners.timing.ignition_advance:
+        found += [("round_peak", rounding.peak_angle, _USUAL_PEAK)]
+        if rounding.school == "ru":
+            found += [("round_rise", rounding.rise, _USUAL_RISE)]
+        found += [("round_filling", filling, _USUAL_FILLING)]
+    return [
+        (code, {"value": value, "low": low, "high": high})
+        for code, value, (low, high) in found
+        if not low <= value <= high
+    ]
+
+
+def filling_factor(
+    theory: Mapping[str, float],
+    timing: Timing,
+    diagram: IndicatorDiagram,
+    volume_at: VolumeAt,
+    dead_centres: tuple[float, float],
+) -> float:
+    """Return the work of a diagram from compression to expansion over that of the theoretical lines.
+
+    Parameters
+    ----------
+    theory : mapping of str to float
+        As for `rounded_diagram`. [SI]
+    timing : Timing
+        Of two strokes the ports, which bound compression and expansion; of four strokes the cycle alone counts.
+    diagram : IndicatorDiagram
+        Any diagram in absolute pressure over the same cycle.
+    volume_at : callable
+        Cylinder volume of an array of crank angles. [deg] -> [m3]
+    dead_centres : tuple of float
+        Top and bottom dead centre within one revolution. [deg]
+
+    Returns
+    -------
+    float
+        Filling factor. [-]
+
+    References
+    ----------
+    kolchin_demidov_2008, ch. 4.
+    """
+    bare = replace(timing, ignition_advance=0.0, ignition_delay=0.0)
+    return _filling(corners_of(theory, bare, Rounding(), volume_at, dead_centres), diagram)

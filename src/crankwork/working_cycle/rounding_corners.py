@@ -1,0 +1,260 @@
+"""The corners of a theoretical diagram: where they are, and the parts of the rounded diagram around them.
+
+A corner whose timing is zero is left as it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import pairwise
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from crankwork.errors import CrankworkError
+from crankwork.loads.gas import polytropic_pressure
+from crankwork.loads.indicator import VolumeAt
+from crankwork.working_cycle.rounded_pieces import Named, Part
+from crankwork.working_cycle.rounding_data import Rounding, Timing
+
+_JOIN_BELOW = 0.9
+_RISING = (0.25, 0.5, 0.75)
+
+
+class Corners(NamedTuple):
+    """What all levels of the peak share: angles [deg], volumes [m3], polytropes."""
+
+    theory: Mapping[str, float]
+    timing: Timing
+    rounding: Rounding
+    volume_at: VolumeAt
+    dead_centres: tuple[float, float]
+    kind: Literal["petrol", "diesel"]
+    start: float
+    top: float
+    bottom: float
+    opens: float
+    clearance: float
+    start_volume: float
+    burnt_volume: float
+
+    def compression(self, angle: float) -> float:
+        """Return the pressure on the compression line. [Pa]"""
+        return self._on((self.theory["p_a"], self.start_volume), self.theory["n1"], angle)
+
+    def expansion(self, angle: float) -> float:
+        """Return the pressure on the expansion line. [Pa]"""
+        return self._on((self.theory["p_z"], self.burnt_volume), self.theory["n2"], angle)
+
+    def _on(self, state: tuple[float, float], exponent: float, angle: float) -> float:
+        volume = float(self.volume_at(np.array([angle]))[0])
+        return float(polytropic_pressure(*state, volume, exponent))
+
+    def slope(self, line: str, angle: float, step: float = 0.01) -> float:
+        """Return the slope of a polytrope by crank angle. [Pa/deg]"""
+        on = self.compression if line == "compression" else self.expansion
+        return (on(angle + step) - on(angle - step)) / (2 * step)
+
+    def angle_of_volume(self, volume: float) -> float:
+        """Return where the expansion reaches a volume. [deg]"""
+        low, high = self.top, self.bottom
+        for _ in range(60):
+            middle = (low + high) / 2
+            is_below = float(self.volume_at(np.array([middle]))[0]) < volume
+            low, high = (middle, high) if is_below else (low, middle)
+        return high
+
+
+def corners_of(
+    theory: Mapping[str, float],
+    timing: Timing,
+    rounding: Rounding,
+    volume_at: VolumeAt,
+    dead_centres: tuple[float, float],
+) -> Corners:
+    """Return what the corners of a theoretical diagram are made of.
+
+    Parameters
+    ----------
+    theory : mapping of str to float
+        As for `rounding.rounded_diagram`. [SI]
+    timing : Timing
+        Valves and ignition.
+    rounding : Rounding
+        School and levels.
+    volume_at : callable
+        Cylinder volume of an array of crank angles. [deg] -> [m3]
+    dead_centres : tuple of float
+        Top and bottom dead centre within one revolution. [deg]
+
+    Returns
+    -------
+    Corners
+        Angles, volumes and lines.
+
+    Raises
+    ------
+    CrankworkError
+        If timings or pressures cannot make a diagram.
+    """
+    _check(theory, timing)
+    top, bottom = dead_centres[0] + 360.0, dead_centres[1] + 360.0
+    is_two_stroke = timing.cycle == 360.0
+    start = dead_centres[1] + (max(timing.intake_closes, timing.exhaust_closes) if is_two_stroke else 0.0)
+    volumes = volume_at(np.array([top, start]))
+    clearance, start_volume = (float(one) for one in volumes)
+    rho = theory.get("rho", 1.0)
+    return Corners(
+        theory,
+        timing,
+        rounding,
+        volume_at,
+        dead_centres,
+        "diesel" if rho > 1 else "petrol",
+        start,
+        top,
+        bottom,
+        bottom - timing.exhaust_opens,
+        clearance,
+        start_volume,
+        rho * clearance,
+    )
+
+
+def _check(theory: Mapping[str, float], timing: Timing) -> None:
+    missing = [name for name in ("p_r", "p_a", "p_z", "n1", "n2") if not theory.get(name, 0.0) > 0]
+    if missing:
+        raise CrankworkError(f"the theoretical cycle needs {', '.join(missing)} above zero")
+    if timing.cycle not in (360.0, 720.0):
+        raise CrankworkError(f"a cycle of {timing.cycle:g} deg is neither 720 (four strokes) nor 360 (two strokes)")
+    if timing.ignition_advance and timing.ignition_delay >= timing.ignition_advance:
+        raise CrankworkError(
+            f"with an ignition advance of {timing.ignition_advance:g} deg and a delay of {timing.ignition_delay:g} deg "
+            "the pressure rises only after top dead centre; give a larger advance or a shorter delay"
+        )
+    if timing.cycle == 360 and timing.exhaust_opens < timing.intake_opens:
+        raise CrankworkError(
+            f"the scavenging ports open {timing.intake_opens:g} deg before bottom dead centre, earlier than the "
+            f"exhaust at {timing.exhaust_opens:g} deg; let the exhaust open first"
+        )
+
+
+def compression_parts(corners: Corners) -> list[Part]:
+    """Return the compression line from a, in pieces that end at the named points on it."""
+    timing = corners.timing
+    events = [("a", corners.start)]
+    if timing.cycle > 360 and timing.intake_closes:
+        events.append(("a''", corners.start + timing.intake_closes))
+    if timing.ignition_advance:
+        events.append(("c'", corners.top - timing.ignition_advance))
+        if timing.ignition_delay:
+            events.append(("f", corners.top - timing.ignition_advance + timing.ignition_delay))
+    else:
+        events.append(("c", corners.top))
+    names, angles = zip(*events, strict=True)
+    if any(after <= before for before, after in pairwise(angles)):
+        raise CrankworkError("the intake closes after the ignition; correct the valve timing or the ignition advance")
+    points = [Named(name, angle, corners.compression(angle)) for name, angle in zip(names, angles, strict=True)]
+    return [Part("polytropic", pair, exponent=corners.theory["n1"], reference="~start") for pair in pairwise(points)]
+
+
+def burning_parts(corners: Corners, level: float) -> list[Part]:
+    """Return combustion and expansion up to where the exhaust opens."""
+    theory, top = corners.theory, corners.top
+    opened = Named("b'" if corners.timing.exhaust_opens else "b", corners.opens, corners.expansion(corners.opens))
+    if not corners.timing.ignition_advance:
+        burnt = corners.angle_of_volume(corners.burnt_volume) if corners.kind == "diesel" else top
+        z = Named("z", burnt, theory["p_z"])
+        return [
+            Part("constant", (Named("y", top, theory["p_z"]), z)),
+            Part("polytropic", (z, opened), exponent=theory["n2"], reference="~burnt"),
+        ]
+    peak = level * theory["p_z"]
+    highest = Named("z_d" if corners.rounding.school == "ru" else "z'", top + corners.rounding.peak_angle, peak)
+    joined = max(highest.angle + corners.rounding.join_after, _falls_to(corners, _JOIN_BELOW * peak))
+    if joined >= opened.angle or highest.angle <= top:
+        raise CrankworkError(
+            f"the peak at {corners.rounding.peak_angle:g} deg after top dead centre leaves no expansion before the "
+            f"exhaust opens; put it at 10 to 15 deg"
+        )
+    join = Named("~g", joined, corners.expansion(joined))
+    rising = _rising(corners, peak)
+    slopes = corners.slope("compression", rising[0].angle), corners.slope("expansion", joined)
+    return [
+        Part("rounded", (*rising, highest, join), slopes),
+        Part("polytropic", (join, opened), exponent=theory["n2"], reference="~burnt"),
+    ]
+
+
+def _rising(corners: Corners, peak: float) -> list[Named]:
+    """Return the points from where the pressure leaves the compression line to c''."""
+    left = compression_parts(corners)[-1].points[-1]
+    compressed = corners.compression(corners.top)
+    if corners.rounding.school == "ru":
+        middle = corners.rounding.rise * compressed
+    else:
+        middle = compressed + (peak - compressed) / 3
+    if not compressed < middle < peak:
+        raise CrankworkError(
+            f"the pressure at c'' of {middle / 1e6:.4g} MPa does not lie between {compressed / 1e6:.4g} MPa at the end "
+            f"of compression and the peak of {peak / 1e6:.4g} MPa; correct rise, peak_level or p_z"
+        )
+    # burning adds to the compression line as the square of the angle since it began
+    angles = [(share, left.angle + share * (corners.top - left.angle)) for share in _RISING]
+    between = [
+        Named(f"~f{number}", angle, corners.compression(angle) + (middle - compressed) * share**2)
+        for number, (share, angle) in enumerate(angles)
+    ]
+    return [left, *between, Named("c''", corners.top, middle)]
+
+
+def _falls_to(corners: Corners, pressure: float) -> float:
+    """Return where the expansion line falls to a pressure. [deg]"""
+    ratio = (corners.theory["p_z"] / pressure) ** (1 / corners.theory["n2"])
+    return corners.angle_of_volume(corners.burnt_volume * ratio)
+
+
+def exchange_parts(corners: Corners) -> list[Part]:
+    """Return exhaust and intake from where the exhaust opens to a of the next cycle."""
+    theory, timing = corners.theory, corners.timing
+    low, charge = theory["p_r"], theory["p_a"]
+    opened = Named("b'" if timing.exhaust_opens else "b", corners.opens, corners.expansion(corners.opens))
+    closed = Named("a", corners.start + timing.cycle, charge)
+    if timing.cycle == 360:
+        out = Named("~s", corners.bottom - timing.intake_opens, low)
+        turned = Named("~t", max(corners.bottom, out.angle), low)
+        blown = _blow_down(corners, (opened, out))
+        return [*blown, Part("constant", (out, turned)), Part("rounded", (turned, closed))]
+    out = Named("~s", corners.bottom + timing.exhaust_opens, low)
+    turn = corners.dead_centres[0] + 720.0
+    left = Named("r'" if timing.intake_opens else "r", turn - timing.intake_opens, low)
+    entered = Named("a'" if timing.exhaust_closes else "~a", turn + timing.exhaust_closes, charge)
+    if left.angle < out.angle:
+        raise CrankworkError(
+            f"the exhaust opens {timing.exhaust_opens:g} deg before bottom dead centre and the intake "
+            f"{timing.intake_opens:g} deg before top: nothing is left of the exhaust stroke; correct the valve timing"
+        )
+    blown = []
+    if timing.exhaust_opens:
+        expanded = corners.expansion(corners.bottom)
+        other = low if corners.rounding.school == "ru" else charge
+        middle = Named("b''", corners.bottom, (expanded + other) / 2)
+        blown = _blow_down(corners, (opened, middle, out))
+    return [
+        *blown,
+        Part("constant", (out, left)),
+        Part("rounded", (left, entered)),
+        Part("constant", (entered, closed)),
+    ]
+
+
+def _blow_down(corners: Corners, points: tuple[Named, ...]) -> list[Part]:
+    pressures = [one.pressure for one in points]
+    if points[-1].angle <= points[0].angle:
+        return []
+    if any(after >= before for before, after in pairwise(pressures)):
+        shown = ", ".join(f"{one / 1e6:.4g}" for one in pressures)
+        raise CrankworkError(
+            f"the pressure has to fall after the exhaust opens, but it would be {shown} MPa; correct p_r or p_z"
+        )
+    return [Part("rounded", points, (corners.slope("expansion", points[0].angle), 0.0))]

@@ -1,0 +1,109 @@
+"""What is unusual in a calculated cycle: it is said, and used as it is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from crankwork.quantities import QUANTITIES
+from crankwork.units import from_si
+from crankwork.working_cycle.calculated_cycle import Notice
+from crankwork.working_cycle.heat_capacities import HIGH_LIMIT, LOW_LIMIT, ZERO_CELSIUS, HeatLaw
+
+
+class Range(NamedTuple):
+    """Usual values of a quantity in its display unit, with their source."""
+
+    low: float
+    high: float
+    source: str = "kolchin_demidov_2008, ch. 3"
+
+
+USUAL: Mapping[str, Mapping[str, Range]] = {
+    "petrol": {
+        "excess_air": Range(0.80, 1.20),
+        "residual_fraction": Range(0.03, 0.10),
+        "volumetric_efficiency": Range(0.70, 0.96),
+        "compression_exponent": Range(1.34, 1.39),
+        "compression_pressure": Range(0.9, 2.0),
+        "compression_temperature": Range(600, 800),
+        "combustion_temperature": Range(2400, 3100),
+        "combustion_pressure": Range(3.5, 8.5),
+        "expansion_exponent": Range(1.23, 1.30),
+        "residual_temperature": Range(900, 1100),
+    },
+    "diesel": {
+        "excess_air": Range(1.2, 2.2),
+        "residual_fraction": Range(0.0, 0.06),
+        "volumetric_efficiency": Range(0.80, 0.97),
+        "compression_exponent": Range(1.32, 1.42),
+        "compression_pressure": Range(3.0, 8.0),
+        "compression_temperature": Range(700, 1000),
+        "combustion_temperature": Range(1700, 2400),
+        "combustion_pressure": Range(5.0, 15.0),
+        "expansion_exponent": Range(1.15, 1.30),
+        "residual_temperature": Range(600, 900),
+    },
+}
+# of petrol, where a spark still lights the mixture
+FLAMMABLE = Range(0.5, 1.6, "heywood_1988, ch. 9")
+# of petrol, above which it knocks as a rule
+KNOCK_COMPRESSION_RATIO = Range(4.0, 12.0, "heywood_1988, ch. 9")
+LARGEST_DEVIATION = 0.10
+
+
+def cycle_notices(kind: str, law: HeatLaw, values: Mapping[str, float]) -> tuple[Notice, ...]:
+    """Return what is unusual in a cycle.
+
+    Parameters
+    ----------
+    kind : {"petrol", "diesel"}
+        Kind of engine.
+    law : {"kolchin", "vietnamese", "linear"}
+        Law of heats, for the range of its table.
+    values : mapping of str to float
+        Data and results by key. [SI]
+
+    Returns
+    -------
+    tuple
+        Code and numbers, in display units.
+    """
+    found: list[Notice] = []
+    for key, usual in USUAL[kind].items():
+        value = float(from_si(values[key], QUANTITIES[key].unit))
+        if not usual.low <= value <= usual.high:
+            found.append((f"cycle_{key}", {"value": value, "low": usual.low, "high": usual.high}))
+    if kind == "petrol":
+        found += _spark(values)
+    if law == "kolchin":
+        found += _heat_table(values)
+    deviation = values["residual_temperature_deviation"]
+    if abs(deviation) > LARGEST_DEVIATION:
+        assumed, result = values["residual_temperature"], values["residual_temperature_found"]
+        percent = 100 * deviation
+        found.append(("cycle_residual_check", {"assumed": assumed, "found": result, "percent": percent}))
+    return tuple(found)
+
+
+def _spark(values: Mapping[str, float]) -> list[Notice]:
+    found: list[Notice] = []
+    air, ratio = values["excess_air"], values["compression_ratio"]
+    if not FLAMMABLE.low <= air <= FLAMMABLE.high:
+        found.append(("cycle_flammability", {"value": air, "low": FLAMMABLE.low, "high": FLAMMABLE.high}))
+    limit, hottest = KNOCK_COMPRESSION_RATIO.high, USUAL["petrol"]["compression_temperature"].high
+    if ratio > limit or values["compression_temperature"] > hottest:
+        numbers = {"compression_ratio": ratio, "temperature": values["compression_temperature"]}
+        found.append(("cycle_knock", {**numbers, "limit": limit, "hottest": hottest}))
+    return found
+
+
+def _heat_table(values: Mapping[str, float]) -> list[Notice]:
+    found: list[Notice] = []
+    compressed = values["compression_temperature"] - ZERO_CELSIUS
+    if not 0 <= compressed <= LOW_LIMIT:
+        found.append(("cycle_heat_low", {"value": compressed, "high": LOW_LIMIT}))
+    burnt = values["combustion_temperature"] - ZERO_CELSIUS
+    if not LOW_LIMIT <= burnt <= HIGH_LIMIT:
+        found.append(("cycle_heat_high", {"value": burnt, "low": LOW_LIMIT, "high": HIGH_LIMIT}))
+    return found

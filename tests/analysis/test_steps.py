@@ -1,0 +1,300 @@
+"""Every worked step: its formula gives its value, and its value is that of the results."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import crankwork
+from crankwork import analyse, read_machine, template, template_names, with_method
+from crankwork.analysis.force_functions import force_functions
+from crankwork.analysis.state import columns
+from crankwork.analysis.steps import worked_steps
+from crankwork.analysis.steps_torque import efficiency_steps
+from crankwork.dynamics.efficiency import Parallel, Series, efficiency
+from crankwork.errors import CrankworkError, MethodError
+from crankwork.expressions import evaluate, record
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.machine import Machine
+from crankwork.quantities import QUANTITIES, base_key
+from crankwork.steps import Given, ProductStep, Step, SumStep, all_steps
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+MOTOR = '[motor]\nrated_power = "2.2 kW"\nrated_speed = "1430 rpm"\noverload = 2.2\npole_pairs = 2\nratio = 24\n'
+LOADS = """
+[[loads]]
+kind = "force"
+point = "P"
+x = "-100 N"
+[[loads]]
+kind = "torque"
+link = "rocker"
+at = ["0 deg", "360 deg"]
+torque = ["3 N*m", "3 N*m"]
+[table]
+"""
+FLYWHEEL = "[flywheel]\nfluctuation = 0.04\n"
+
+
+def _changed(name, *changes):
+    text = template(name)
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    return text
+
+
+RIGID = ('# inertia = "0.0042 kg*m2"', 'inertia = "0.0042 kg*m2"')
+OFFSET = ('# offset = "0 mm"', 'offset = "7 mm"')
+OTHER_OFFSET = ('# offset = "0 mm"', 'offset = "-7 mm"')
+LEANING = ('# inclination = "0 deg"', 'inclination = "35 deg"')
+WEIGHTS = ("# weights = true", "weights = true")
+UNSTEADY = ('# angular_acceleration = "0 rad/s2"', 'angular_acceleration = "900 rad/s2"')
+VARIANTS = {
+    "rigid rod": _changed("engine", RIGID),
+    "offset, rigid": _changed("engine", RIGID, OFFSET),
+    "negative offset": _changed("engine", OTHER_OFFSET),
+    "weight": _changed("engine", WEIGHTS),
+    "everything": _changed("engine", RIGID, OFFSET, LEANING, WEIGHTS, UNSTEADY),
+    "two rod ratios": _changed("engine", ("# inertia_rod_ratio", "inertia_rod_ratio"), UNSTEADY),
+    "long crank": _changed("engine", ('length = "160 mm"', 'length = "120 mm"')),
+    "double acting": _changed(
+        "compressor", ('# piston_rod_diameter = "25 mm"', 'piston_rod_diameter = "25 mm"'),
+        ("[gas]", '[gas]\nback_pressure = "0.4 bar"'),
+    ),
+    "gas alone": "\n".join(
+        line for line in template("engine").splitlines() if "mass" not in line and "small_end_share" not in line
+    ),
+    "flywheel and motor": _changed("toggle-press", ("[table]", FLYWHEEL + MOTOR + '[table]')),
+    "heavy rotor": _changed("crank-shaper", ("[table]", FLYWHEEL + MOTOR + 'inertia = "0.01 kg*m2"\n[table]')),
+    "unsteady linkage": _changed(
+        "four-bar",
+        ('speed = "100 rpm"', 'speed = "100 rpm"\nangular_acceleration = "40 rad/s2"\ninertia = "0.1 kg*m2"'),
+        ("[table]", LOADS),
+    ),
+}  # fmt: skip
+
+
+GIVEN_DERIVATIVE = re.compile(r"reduced_inertia_1 = .*\n")
+
+
+def _differences(scheme):
+    """Return the press of the examples with its derivative from the positions of its table."""
+    text = (EXAMPLES / "press.toml").read_text("utf-8")
+    assert GIVEN_DERIVATIVE.search(text)
+    return GIVEN_DERIVATIVE.sub(f'differences = "{scheme}"\n', text)
+
+
+VARIANTS |= {f"press, {scheme}": _differences(scheme) for scheme in ("forward", "central", "spectral")}
+
+
+def _machines():
+    found = {path.name: crankwork.read(path) for path in sorted(EXAMPLES.glob("*.toml"))}
+    found |= {name: read_machine(template(name)) for name in template_names()}
+    return found | {name: read_machine(text) for name, text in VARIANTS.items()}
+
+
+def _cases():
+    for name, machine in _machines().items():
+        methods = ("exact", "textbook", "series:6") if isinstance(machine, Machine) else ("",)
+        for method in methods:
+            yield pytest.param(machine, method, id=f"{name} {method}".strip())
+
+
+every_machine = pytest.mark.parametrize(("machine", "method"), list(_cases()))
+
+
+def _results(machine, method):
+    return analyse(with_method(machine, method) if method else machine)
+
+
+def _expected(results, group, key):
+    """Return the value that the results have of a key at the crank angle of a group, or None."""
+    if key in results.summary:
+        return results.summary[key]
+    if group.crank_angle is None or key not in results.columns:
+        return None
+    row = int(np.argmin(np.abs(results.grid.angle - group.crank_angle)))
+    if isinstance(results.machine, Machine) and results.grid.angle[row] != group.crank_angle:
+        return None
+    return float(results.columns[key][row])
+
+
+@every_machine
+def test_a_step_is_its_formula_at_its_values_and_the_value_of_the_results(machine, method):
+    results = _results(machine, method)
+    compared = 0
+    for group in worked_steps(results):
+        for step in all_steps(group.steps):
+            if isinstance(step, Step):
+                assert evaluate(record(step.formula.function), step.values) == step.value, step.key
+            elif isinstance(step, SumStep):
+                assert sum(one.value for one in step.terms) == step.value, step.key
+            expected = _expected(results, group, step.key)
+            if expected is not None:
+                assert step.value == pytest.approx(expected, rel=1e-12, abs=0), step.key
+                compared += 1
+    assert compared > 5
+
+
+@every_machine
+def test_a_step_belongs_to_a_quantity_and_is_told_once(machine, method):
+    for group in worked_steps(_results(machine, method)):
+        assert {step.key for step in all_steps(group.steps) if base_key(step.key) not in QUANTITIES} == set()
+        told = [step.key for step in group.steps]
+        if group.name != "force_extremes":
+            # each at its own crank angle, with terms that are called the same
+            told = [step.key for step in all_steps(group.steps) if not isinstance(step, Given)]
+        assert sorted(told) == sorted(set(told)), group.name
+
+
+# What a solver, an integral or an extreme over the revolution gives, or the description.
+NO_FORMULA = {
+    "crank_angle", "rotational_speed", "angular_acceleration", "crank_radius", "rod_length", "offset", "bore",
+    "clearance_volume", "efficiency", "speed_fluctuation", "transient_time", "final_turn", "final_speed",
+    "steady_speed", "steady_fluctuation", "mean_torque", "kinetic_energy_change", "crank_speed",
+}  # fmt: skip
+SOLVED_KINDS = (
+    "joint_force", "normal_force", "normal_moment", "link_angle", "link_swing", "slider_stroke", "slider_displacement",
+    "point_x", "point_y", "transmission_angle", "time_ratio",
+)  # fmt: skip
+
+
+@every_machine
+def test_what_has_no_step_is_given_or_solved_for(machine, method):
+    results = _results(machine, method)
+    shown = {step.key for group in worked_steps(results) for step in all_steps(group.steps)}
+    left = {key for key in {*results.summary, *results.columns} - shown - NO_FORMULA if base_key(key) in QUANTITIES}
+    left = {key for key in left if not key.partition(".")[0].startswith(SOLVED_KINDS)}
+    # extremes over the revolution, where they stand, and the error of a method
+    left = {key for key in left if not key.partition(".")[0].endswith(("_angle", "_error", "_max", "_min"))}
+    if not getattr(machine, "loads", True):
+        left -= {"static_torque"}
+    assert {key for key in left if not key.startswith("flywheel_inertia.") or results.summary[key]} == set()
+
+
+@pytest.mark.parametrize("angle", [0.0, 37.3, 90.0, 181.0, 360.0])
+@pytest.mark.parametrize("method", ["exact", "textbook", "series:9"])
+def test_forces_are_those_of_the_columns_at_any_angle(angle, method):
+    results = _results(read_machine(VARIANTS["everything"]), method)
+    force_angle = 720.0 - angle
+    groups = {group.name: group for group in worked_steps(results, crank_angle=angle, force_angle=force_angle)}
+    for name, degrees in (("motion", angle), ("forces", force_angle)):
+        known = columns(results.solved, CrankGrid.from_degrees([degrees]))
+        assert groups[name].crank_angle == math.radians(degrees)
+        found = {step.key: step.value for step in all_steps(groups[name].steps)}
+        assert len(found.keys() & known.keys()) >= (6 if name == "motion" else 12)
+        for key in found.keys() & known.keys():
+            # a force that passes zero keeps the rounding of its parts
+            scale = max(np.max(np.abs(results.columns[key])), abs(known[key][0]))
+            assert found[key] == pytest.approx(known[key][0], rel=1e-12, abs=1e-14 * scale), key
+
+
+def test_ends_of_polytropes_are_those_of_the_diagram():
+    results = _results(read_machine(template("engine")), "exact")
+    gas = {step.key: step.value for group in worked_steps(results) if group.name == "gas" for step in group.steps}
+    diagram = results.solved.space.diagram
+    ends = [segment for segment in diagram.segments if segment.law == "polytropic"]
+    assert [gas["diagram_pressure.c1"], gas["diagram_pressure.b1"]] == [
+        pytest.approx(segment.pressures[-1], rel=1e-13) for segment in ends
+    ]
+    assert gas["diagram_pressure.c1"] == pytest.approx(diagram.named["c1"][1], rel=1e-13)
+
+
+def test_flywheels_are_shown_in_all_four_ways():
+    results = _results(read_machine(VARIANTS["heavy rotor"]), "")
+    wheel = next(group for group in worked_steps(results) if group.name == "flywheel")
+    shown = {step.key for step in wheel.steps}
+    assert {key for key in results.summary if key.startswith("flywheel_inertia.") and results.summary[key]} <= shown
+    assert {"excess_work", "whole_inertia.energy", "wittenbauer_slope.exact.largest", "energy_fluctuation"} <= shown
+
+
+def test_forces_are_shown_in_the_working_stroke():
+    engine = {one.name: one.crank_angle for one in worked_steps(analyse(read_machine(template("engine"))))}
+    assert math.degrees(engine["motion"]) == pytest.approx(30.0)
+    assert math.degrees(engine["forces"]) == pytest.approx(390.0)
+    compressor = {one.name: one.crank_angle for one in worked_steps(analyse(read_machine(template("compressor"))))}
+    assert math.degrees(compressor["forces"]) == pytest.approx(30.0)
+
+
+@pytest.mark.parametrize("angle", [-1.0, 721.0, math.nan])
+def test_a_crank_angle_outside_the_cycle_is_refused(angle):
+    results = analyse(read_machine(template("engine")))
+    with pytest.raises(CrankworkError, match="from 0 to 720 deg"):
+        worked_steps(results, crank_angle=angle)
+    with pytest.raises(CrankworkError, match="from 0 to 720 deg"):
+        worked_steps(results, force_angle=angle)
+
+
+def test_a_linkage_is_shown_at_the_nearest_angle_that_it_reaches():
+    results = analyse(crankwork.read(EXAMPLES / "press.toml"))
+    groups = {group.name: group for group in worked_steps(results, crank_angle=100.0)}
+    assert math.degrees(groups["torques"].crank_angle) == pytest.approx(90.0)
+
+
+def test_torques_of_a_linkage_are_shown_where_asked():
+    results = _results(read_machine(template("toggle-press")), "")
+    row = int(np.argmax(np.abs(results.columns["static_torque"])))
+    groups = {one.name: one for one in worked_steps(results, force_angle=float(results.grid.degrees[row]))}
+    assert math.degrees(groups["motion"].crank_angle) == pytest.approx(30.0)
+    torques = {step.key: step.value for step in groups["torques"].steps}
+    assert torques["static_torque"] == results.columns["static_torque"][row]
+    reduced = next(step for step in groups["reduction"].steps if step.key == "reduced_torque")
+    assert reduced.value == pytest.approx(-torques["static_torque"], rel=1e-13)
+    assert torques["static_torque"]
+
+
+def test_a_chain_of_efficiencies_multiplies_to_that_of_the_chain():
+    chain = Series((Parallel((0.98, 0.98)), 0.98, 0.99, Parallel((0.9, Series((0.95, 0.8)), 0.7), (0.5, 0.3, 0.2))))
+    steps = efficiency_steps(chain)
+    assert isinstance(steps, ProductStep)
+    assert steps.value == pytest.approx(efficiency(chain), rel=1e-15)
+    assert [step.key for step in steps.terms] == [f"efficiency.{i}" for i in range(1, 5)]
+    assert isinstance(steps.terms[3], SumStep)
+    assert efficiency_steps(0.9).value == 0.9
+
+
+# --- helper functions of notes
+
+
+def test_functions_of_the_rod_angle_turn_the_piston_force_into_the_others():
+    results = analyse(
+        read_machine(template("engine")), method=read_machine(template("engine")).method.named("textbook")
+    )
+    found = force_functions(results)
+    force = results.columns["piston_force"]
+    for key, other in (
+        ("side_factor", "side_force"),
+        ("rod_factor", "rod_force"),
+        ("radial_factor", "radial_force"),
+        ("tangential_factor", "tangential_force"),
+    ):
+        assert found[key].shape == force.shape
+        assert found[key] * force == pytest.approx(results.columns[other], rel=1e-13, abs=1e-9)
+
+
+def test_functions_of_the_rod_angle_are_those_of_printed_tables():
+    """The tables of the field at a ratio of 1/4: tan, 1/cos, and both sums at 30 degrees."""
+    results = analyse(crankwork.read(EXAMPLES / "spark-engine.toml"))
+    row = int(np.argmin(np.abs(results.grid.degrees - 30.0)))
+    beta = math.asin(0.25 * 0.5)
+    expected = {
+        "side_factor": math.tan(beta),
+        "rod_factor": 1 / math.cos(beta),
+        "radial_factor": math.cos(math.radians(30) + beta) / math.cos(beta),
+        "tangential_factor": math.sin(math.radians(30) + beta) / math.cos(beta),
+    }
+    found = {key: values[row] for key, values in force_functions(results).items()}
+    assert found == pytest.approx(expected, rel=1e-14)
+    assert {key: round(value, 3) for key, value in found.items()} == {
+        "side_factor": 0.126, "rod_factor": 1.008, "radial_factor": 0.803, "tangential_factor": 0.609,
+    }  # fmt: skip
+
+
+def test_a_linkage_has_no_functions_of_the_rod_angle():
+    with pytest.raises(MethodError, match="engine only"):
+        force_functions(analyse(read_machine(template("four-bar"))))

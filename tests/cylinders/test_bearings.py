@@ -1,0 +1,228 @@
+"""Loads on crankpin, big end and small end, against vectors put together from Newton's laws and a printed table.
+
+Printed numbers: Động lực học của cơ cấu khuỷu trục - thanh truyền, course note, Ho Chi Minh City University of
+Technology and Education: P1 every 5 degrees, r/l = 0.25, 13.76 g/cm2 of rod mass at the crankpin.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+import crankwork
+from crankwork.cylinders import bearings
+from crankwork.cylinders.bearings import crank_frame_load
+from crankwork.cylinders.layout import Layout, Place
+from crankwork.cylinders.load_statistics import load_statistics
+from crankwork.cylinders.load_vectors import BearingLoad, turned, turned_by
+from crankwork.errors import CrankworkError
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.slider_crank import SliderCrank, rod_swing
+
+TESTS = Path(__file__).parents[1]
+NOTE_ANGLE, _, _, NOTE_P1 = np.loadtxt(TESTS / "literature" / "data" / "vietnamese_engine.csv", delimiter=",").T
+GRID = CrankGrid.steps(10.0, 720.0)
+FORCES = st.floats(-1e5, 1e5, allow_subnormal=False)
+COLUMNS = arrays(float, GRID.angle.size, elements=FORCES)
+ANGLES = st.floats(-720, 720)
+
+
+def _swing(ratio=0.3, offset=0.0):
+    return rod_swing(SliderCrank(0.05, 0.05 / ratio, offset), GRID)
+
+
+def _close(one, other, tolerance=1e-13):
+    scale = 1 + max(float(np.max(np.abs(part))) for part in (*one, *other))
+    return all(np.all(np.abs(a - b) <= tolerance * scale) for a, b in zip(one, other, strict=True))
+
+
+# --- frames
+
+
+@given(radial=COLUMNS, tangential=COLUMNS, inertia=st.floats(-1e4, 0), ratio=st.floats(0.15, 0.6), angle=ANGLES)
+def test_a_load_has_one_size_in_every_frame(radial, tangential, inertia, ratio, angle):
+    load = crank_frame_load(radial, tangential, inertia)
+    scale = 1e-13 * (1 + np.max(load.resultant))
+    frames = (
+        bearings.big_end_bearing_load(load, _swing(ratio)),
+        turned(load, GRID.sin, GRID.cos),
+        turned_by(load, angle),
+    )
+    for other in frames:
+        assert np.max(np.abs(other.resultant - load.resultant)) <= scale
+    assert np.array_equal(bearings.crankpin_load(tangential, radial, inertia), load.resultant)
+
+
+def test_quarter_turns_are_exact():
+    load = BearingLoad(np.array([3.0]), np.array([4.0]))
+    assert turned_by(load, 90.0) == (np.array([-4.0]), np.array([3.0]))
+    assert turned_by(load, 720.0) == load
+
+
+@given(size=st.floats(1e-3, 1e6), angle=st.floats(0, 359.999))
+def test_the_direction_is_the_angle_of_the_vector(size, angle):
+    load = turned_by(BearingLoad(np.array([size]), np.array([0.0])), angle)
+    assert load.resultant == pytest.approx(size, rel=1e-14)
+    assert abs((load.direction[0] - angle + 180) % 360 - 180) < 1e-11
+    assert 0 <= load.direction[0] < 360
+
+
+def test_a_direction_just_below_zero_does_not_round_to_a_full_turn():
+    assert BearingLoad(np.array([1.0]), np.array([-1e-30])).direction == [0.0]
+
+
+# --- crankpin
+
+
+@given(
+    forces=arrays(float, (2, GRID.angle.size), elements=FORCES), bank=st.floats(-180, 180), ratio=st.floats(0.1, 0.6)
+)
+def test_rods_side_by_side_add_as_vectors(forces, bank, ratio):
+    """Each rod hands on axial force P and P tan(beta) sideways; put together in the block, cylinder by cylinder."""
+    total = np.zeros(GRID.angle.size, dtype=complex)
+    radial, tangential = [], []
+    for force, axis in zip(forces, (0.0, bank), strict=True):
+        own = CrankGrid.from_degrees(GRID.degrees - axis)
+        swing = rod_swing(SliderCrank(0.05, 0.05 / ratio), own)
+        total += (-force + 1j * force * swing.sin / swing.cos) * np.exp(1j * np.radians(axis))
+        radial.append(force * swing.cos_sum / swing.cos)
+        tangential.append(force * swing.sin_sum / swing.cos)
+    inertia = np.array([-700.0, -300.0])
+    load = turned(crank_frame_load(radial, tangential, inertia), GRID.sin, GRID.cos)
+    total += 1000.0 * np.exp(1j * GRID.angle)
+    assert _close(load, (total.real, total.imag), 3e-13)
+
+
+def test_an_inertia_for_all_rods_counts_once_for_each():
+    load = crank_frame_load(np.zeros((3, 2)), np.zeros((3, 2)), -10.0)
+    assert load.x.tolist() == [30.0, 30.0]
+
+
+def _place(number, crankpin):
+    return Place(number, 0.0, crankpin, crankpin, 180.0 * crankpin, 0.1 * crankpin, 0.0)
+
+
+def test_cylinders_load_the_crankpin_they_work_on():
+    layout = Layout("V", (_place(1, 0), _place(2, 1), _place(3, 0)), 720.0, (1, 2, 3))
+    loads = [BearingLoad(np.array([x]), np.array([y])) for x, y in ((1.0, 2.0), (10.0, 20.0), (100.0, 200.0))]
+    first, second = bearings.crankpin_loads(layout, loads)
+    assert (first.x.tolist(), first.y.tolist()) == ([101.0], [202.0])
+    assert second == loads[1]
+    with pytest.raises(CrankworkError, match="2 loads are given for 3 cylinders"):
+        bearings.crankpin_loads(layout, loads[:2])
+
+
+# --- printed engine
+
+
+def _note_load(angle, force):
+    """Return the load on the crankpin with 30 digits, in the note's unit and from its numbers alone. [MN/m2]"""
+    with mpmath.workdps(30):
+        phi, force = mpmath.radians(mpmath.mpf(float(angle))), mpmath.mpf(float(force))
+        beta = mpmath.asin(mpmath.mpf("0.25") * mpmath.sin(phi))
+        inertia = -mpmath.mpf("13.76") * mpmath.mpf("0.0529") * (2300 * mpmath.pi / 30) ** 2 * mpmath.mpf("1e-5")
+        along = force * mpmath.cos(phi + beta) / mpmath.cos(beta) + inertia
+        across = force * mpmath.sin(phi + beta) / mpmath.cos(beta)
+        return float(mpmath.hypot(along, across))
+
+
+@pytest.fixture(scope="module")
+def engine():
+    results = crankwork.analyse(crankwork.read(TESTS.parent / "examples" / "spark-engine.toml"))
+    masses, solved = results.machine.masses, results.solved
+    inertia = float(bearings.big_end_inertia_force(masses.rod_big_end, solved.lengths.crank_radius, solved.speed))
+    return results, inertia, solved.space.area
+
+
+def test_the_crankpin_load_of_the_printed_engine(engine):
+    """To the last printed digit, but for pressures that are not those of the note's own program."""
+    results, inertia, area = engine
+    load = crank_frame_load(results["radial_force"], results["tangential_force"], inertia)
+    rows = np.searchsorted(results.grid.degrees, NOTE_ANGLE - 1e-9)
+    size = load.resultant[rows] / area / 1e6
+    expected = np.array([_note_load(*row) for row in zip(NOTE_ANGLE, NOTE_P1, strict=True)])
+    differ = NOTE_ANGLE[np.abs(size - expected) > 1e-6]
+    assert differ.tolist() == [355, 510, 515, 520, 525, 530, 535, 540, 545]
+
+
+def test_mean_and_largest_crankpin_load_of_the_printed_engine(engine):
+    """The largest from P1 = 4.151584 at 370 degrees is 3.744339; the mean by hand from the force on the pin."""
+    results, inertia, area = engine
+    load = crank_frame_load(results["radial_force"], results["tangential_force"], inertia)
+    statistics = load_statistics(load, results.grid.degrees, 720.0)
+    assert statistics.max_angle == 370
+    assert statistics.max / area / 1e6 == pytest.approx(_note_load(370.0, 4.151584), abs=1e-6)
+    assert results.grid.degrees.tolist() == NOTE_ANGLE.tolist()
+    by_hand = [_note_load(*row) for row in zip(NOTE_ANGLE, results["piston_force"] / area / 1e6, strict=True)]
+    assert statistics.mean / area / 1e6 == pytest.approx(sum(by_hand[:-1]) / 144, rel=1e-9)
+    assert statistics.min / area / 1e6 == pytest.approx(min(by_hand), rel=1e-9)
+
+
+def test_at_top_dead_centre_the_rod_pulls_with_all_of_it(engine):
+    """P1 = -0.846907 at 0 degrees and K_R = -0.42227 of 13.76 g/cm2 at r w^2 = 3068.8 m/s2 add up. [MN/m2]"""
+    results, inertia, area = engine
+    load = crank_frame_load(results["radial_force"], results["tangential_force"], inertia)
+    assert load.x[0] / area / 1e6 == pytest.approx(0.846907 + 0.42227, abs=1e-5)
+    assert load.y[0] == 0
+
+
+# --- big end and small end
+
+
+@given(force=COLUMNS, ratio=st.floats(0.1, 0.7), offset=st.floats(-0.01, 0.01))
+def test_a_rod_without_mass_is_loaded_along_itself(force, ratio, offset):
+    swing = _swing(ratio, offset)
+    load = crank_frame_load(force * swing.cos_sum / swing.cos, force * swing.sin_sum / swing.cos, 0.0)
+    along = force / swing.cos
+    assert _close(bearings.big_end_bearing_load(load, swing), (along, 0 * along))
+    assert _close(bearings.small_end_bearing_load(force, force * swing.sin / swing.cos, swing), (-along, 0 * along))
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.004])
+@pytest.mark.parametrize("inertia_excess", [0.0, -0.003])
+def test_big_end_and_small_end_forces_move_the_rod(offset, inertia_excess):
+    """Newton for the rod, force and moment: m a of its centre, J eps about it."""
+    machine = crankwork.read_machine(crankwork.template("engine"))
+    results = crankwork.analyse(crankwork.with_method(machine, "exact"))
+    solved, w = results.solved, results.solved.speed
+    r, l, _ = lengths = solved.lengths._replace(offset=offset)  # noqa: E741
+    swing, masses, grid = rod_swing(lengths, results.grid), machine.masses, results.grid
+    slope = lengths.rod_ratio * grid.cos / swing.cos
+    eps = (slope**2 * swing.sin - lengths.rod_ratio * grid.sin) / swing.cos * w**2
+    small, big = masses.rod_small_end, masses.rod_big_end
+    # the piston pin is at r cos(phi) + l cos(beta), which changes twice
+    a = r * grid.cos * w**2 + l * (swing.cos * slope**2 * w**2 + swing.sin * eps)
+    gas = results["gas_force"]
+    P = gas - masses.reciprocating * a
+    side = P * swing.sin / swing.cos - inertia_excess * eps / (l * swing.cos)
+    radial, tangential = P * grid.cos - side * grid.sin, P * grid.sin + side * grid.cos
+    inertia = bearings.big_end_inertia_force(big, r, w)
+    big_end = bearings.big_end_bearing_load(crank_frame_load(radial, tangential, inertia), swing)
+    pin = bearings.piston_pin_force(gas, masses.piston, a)
+    small_end = bearings.small_end_bearing_load(pin, side, swing)
+    assert np.allclose(small_end.resultant, bearings.small_end_load(pin, side), rtol=1e-13)
+    # in the cylinder frame, whose x is away from the crankshaft
+    crank = -r * w**2 * np.exp(1j * grid.angle)
+    along_rod = swing.cos - 1j * swing.sin
+    forces = [(one.x + 1j * one.y) * along_rod for one in (big_end, small_end)]
+    scale = np.max(big_end.resultant)
+    assert np.max(np.abs(sum(forces) - (small * -a + big * crank))) < 1e-12 * scale
+    centre = small / (small + big) * l
+    arms = (-centre * along_rod, (l - centre) * along_rod)
+    moment = sum((arm.conjugate() * force).imag for arm, force in zip(arms, forces, strict=True))
+    rod_inertia = small * (l - centre) ** 2 + big * centre**2 + inertia_excess
+    # beta turns against the rotation
+    assert np.max(np.abs(moment + rod_inertia * eps)) < 1e-12 * scale * l
+
+
+def test_the_weight_of_the_piston_group_acts_along_the_axis():
+    without = bearings.piston_pin_force(100.0, 0.5, 20.0)
+    assert bearings.piston_pin_force_with_weight(100.0, 0.5, 20.0, 0.5 * 9.81) - without == pytest.approx(4.905)
+    assert math.isclose(without, 90.0)

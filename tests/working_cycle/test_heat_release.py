@@ -1,0 +1,302 @@
+"""The cycle from the heat released: formulas, limits with a closed form, conservation, and the closed diagram."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import sys
+from dataclasses import replace
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import quad
+
+from crankwork.errors import CrankworkError, MissingExtraError
+from crankwork.kinematics.extremes import dead_centres
+from crankwork.kinematics.slider_crank import SliderCrank
+from crankwork.loads.monotone import hermite, hermite_slope
+from crankwork.working_cycle.first_law import internal_energy_change
+from crankwork.working_cycle.heat_data import HeatReleaseData
+from crankwork.working_cycle.heat_release import HeatReleaseResult, cylinder_volumes, heat_release
+from crankwork.working_cycle.wiebe import wiebe_burning_rate, wiebe_burnt_fraction
+from crankwork.working_cycle.woschni import EXPANSION, woschni_coefficient, woschni_gas_speed
+
+BORE, RATIO = 0.08, 9.0
+CENTRAL = SliderCrank(0.04, 0.14, 0.0)
+OFFSETS = pytest.mark.parametrize("offset", [0.0, 0.006, -0.006])
+ENGINE = HeatReleaseData(BORE, 3000.0, 1e5, 340.0, heat=900.0)
+TWO_STROKE = replace(ENGINE, cycle=360.0, exhaust_opens=70.0, intake_opens=52.0, intake_closes=65.0, heat=500.0)
+
+
+def _clearance(lengths: SliderCrank) -> float:
+    return math.pi * BORE**2 / 4 * lengths.stroke / (RATIO - 1)
+
+
+def _run(data: HeatReleaseData, lengths: SliderCrank = CENTRAL) -> HeatReleaseResult:
+    return heat_release(data, *cylinder_volumes(lengths, data.bore, _clearance(lengths)), dead_centres(lengths))
+
+
+# --- formulas
+
+
+def test_the_wiebe_function_of_thirty_digits():
+    with mpmath.workdps(30):
+        s, m = mpmath.mpf("0.37"), mpmath.mpf("2.4")
+        expected = 1 - mpmath.exp(-mpmath.mpf("6.908") * s ** (m + 1))
+        assert float(abs(wiebe_burnt_fraction(0.37, 2.4) - expected)) < 1e-15
+        rate = mpmath.diff(lambda at: 1 - mpmath.exp(-mpmath.mpf("6.908") * at ** (m + 1)), s) / mpmath.mpf("0.9")
+        assert wiebe_burning_rate(0.37, 2.4, 0.9) == pytest.approx(float(rate), rel=1e-14)
+
+
+def test_burning_ends_with_a_thousandth_left():
+    assert wiebe_burnt_fraction(1.0, 1.7) == pytest.approx(0.999, abs=1e-6)
+
+
+@pytest.mark.parametrize("m", [0.0, 0.8, 2.0, 3.5])
+def test_the_rate_of_burning_integrates_to_what_has_burnt(m):
+    assert quad(lambda s: wiebe_burning_rate(s, m, 1.0), 0, 0.6)[0] == pytest.approx(
+        wiebe_burnt_fraction(0.6, m), rel=1e-11
+    )
+
+
+def test_woschni_with_pressure_in_kilopascals_of_thirty_digits():
+    with mpmath.workdps(30):
+        bore, kilopascals, kelvins, speed = (mpmath.mpf(one) for one in ("0.082", "5300", "2350", "31.5"))
+        expected = mpmath.mpf("3.26") * bore ** mpmath.mpf("-0.2") * kilopascals ** mpmath.mpf("0.8")
+        expected *= kelvins ** mpmath.mpf("-0.55") * speed ** mpmath.mpf("0.8")
+    assert woschni_coefficient(0.082, 5.3e6, 2350.0, 31.5) == pytest.approx(float(expected), rel=1e-14)
+
+
+def test_woschni_in_bars_has_the_constant_of_the_other_books():
+    """3.26 for kilopascals is 130 for bars: h = 130 B^-0.2 p^0.8 T^-0.53 w^0.8 is close, 3.26 * 100^0.8 = 129.8."""
+    assert woschni_coefficient(1.0, 1e5, 1.0, 1.0) == pytest.approx(130, rel=2e-3)
+
+
+def test_the_gas_speed_without_burning_is_that_of_the_piston():
+    assert woschni_gas_speed(EXPANSION.piston, 10.0, 0.0, 4e-4, 340.0, 1e5, 4e-4, 3e6, 2e6) == pytest.approx(22.8)
+    burning = woschni_gas_speed(2.28, 10.0, EXPANSION.burning, 4e-4, 340.0, 1e5, 4e-4, 3e6, 2e6)
+    assert burning - 22.8 == pytest.approx(3.24e-3 * 340 * 10)
+
+
+@given(
+    first=st.floats(1.3, 1.45), slope=st.floats(-9e-5, 0.0), start=st.floats(280.0, 500.0), end=st.floats(500.0, 2800.0)
+)
+def test_internal_energy_is_the_integral_of_the_specific_heat(first, slope, start, end):
+    expected, _ = quad(lambda t: 5e-4 * 287 / (first + slope * t - 1), start, end, epsabs=0, epsrel=1e-13)
+    assert internal_energy_change(5e-4 * 287.0, first, slope, start, end) == pytest.approx(expected, rel=1e-11)
+
+
+# --- limits with a closed form
+
+
+def test_without_heat_and_walls_the_gas_follows_the_isentrope():
+    result = _run(replace(ENGINE, heat=0.0, has_wall_loss=False, heat_ratio=1.4))
+    volume = cylinder_volumes(CENTRAL, BORE, _clearance(CENTRAL))[0](result.trace.degrees)
+    invariant = result.trace.pressure * volume**1.4
+    assert np.max(np.abs(invariant / invariant[0] - 1)) < 1e-9
+
+
+@pytest.mark.parametrize("gamma", [1.3, 1.4])
+@OFFSETS
+def test_instant_burning_at_top_dead_centre_is_the_otto_cycle(gamma, offset):
+    lengths = SliderCrank(0.04, 0.14, offset)
+    instant = {"burning_advance": 0.01, "burning_duration": 0.02, "intake_closes": 0.0, "exhaust_opens": 0.0}
+    result = _run(replace(ENGINE, heat_ratio=gamma, has_wall_loss=False, **instant), lengths)
+    efficiency = result.values["closed_work"] / result.values["heat_released"]
+    assert efficiency == pytest.approx(1 - RATIO ** (1 - gamma), rel=1e-6)
+    peak = 1e5 * RATIO**gamma + (gamma - 1) * result.values["heat_released"] / _clearance(lengths)
+    assert result.values["cylinder_pressure_max"] == pytest.approx(peak, rel=1e-5)
+
+
+def test_efficiency_rises_to_that_of_otto_as_burning_gets_shorter():
+    def efficiency(duration):
+        data = replace(ENGINE, has_wall_loss=False, intake_closes=0.0, exhaust_opens=0.0)
+        values = _run(replace(data, burning_advance=duration / 2, burning_duration=duration)).values
+        return values["closed_work"] / values["heat_released"]
+
+    found = [efficiency(duration) for duration in (60.0, 30.0, 10.0, 1.0)]
+    assert found == sorted(found)
+    assert found[-1] < 1 - RATIO ** (1 - ENGINE.heat_ratio)
+
+
+def test_a_machine_twice_as_large_has_the_same_pressures():
+    data = replace(ENGINE, has_wall_loss=False)
+    large = SliderCrank(0.08, 0.28, 0.0)
+    volumes = cylinder_volumes(large, 2 * BORE, 8 * _clearance(CENTRAL))
+    doubled = heat_release(replace(data, bore=2 * BORE, heat=8 * 900.0), *volumes, dead_centres(large))
+    once = _run(data)
+    assert doubled.trace.pressure == pytest.approx(once.trace.pressure, rel=1e-9)
+    assert doubled.values["indicated_work"] == pytest.approx(8 * once.values["indicated_work"], rel=1e-9)
+
+
+# --- conservation
+
+
+@settings(deadline=None, max_examples=8)
+@given(
+    shape=st.floats(0.3, 4.0),
+    duration=st.floats(10.0, 90.0),
+    advance=st.floats(-5.0, 35.0),
+    slope=st.sampled_from([0.0, -8e-5]),
+    two_stroke=st.booleans(),
+    offset=st.sampled_from([0.0, 0.006, -0.006]),
+)
+def test_the_first_law_holds(shape, duration, advance, slope, two_stroke, offset):
+    data = replace(TWO_STROKE if two_stroke else ENGINE, burning_shape=shape, burning_duration=duration)
+    data = replace(data, burning_advance=advance, heat_ratio=1.39, heat_ratio_slope=slope)
+    values = _run(data, SliderCrank(0.04, 0.14, offset)).values
+    assert abs(values["first_law_residual"]) < 1e-8 * values["heat_released"]
+    assert abs(values["first_law_residual_quadrature"]) < 1e-8 * values["heat_released"]
+    assert values["closed_work_quadrature"] == pytest.approx(values["closed_work"], rel=1e-8)
+    assert values["wall_heat_quadrature"] == pytest.approx(values["wall_heat"], rel=1e-7)
+
+
+def test_the_pressure_gives_back_the_burning_that_made_it():
+    """The apparent heat release of the diagram, as one takes it from measured pressure."""
+    result = _run(replace(ENGINE, has_wall_loss=False))
+    volume_at, volume_rate_at = cylinder_volumes(CENTRAL, BORE, _clearance(CENTRAL))
+    burning = next(one for one in result.diagram.segments if one.start == pytest.approx(340.0))
+    at = np.linspace(341.0, 389.0, 97)
+    pressure = hermite(burning.knots, burning.pressures, burning.slopes, at)
+    rise = np.degrees(hermite_slope(burning.knots, burning.pressures, burning.slopes, at))
+    g = ENGINE.heat_ratio
+    heat = g / (g - 1) * pressure * volume_rate_at(at) + volume_at(at) * rise / (g - 1)
+    s = (at - 340.0) / 50.0
+    assert heat / 900.0 == pytest.approx(wiebe_burning_rate(s, 2.0, math.radians(50.0)), rel=1e-4, abs=1e-5)
+
+
+def test_the_ideal_gas_law_holds_along_the_trace():
+    result = _run(ENGINE)
+    volume = cylinder_volumes(CENTRAL, BORE, _clearance(CENTRAL))[0](result.trace.degrees)
+    constant = result.trace.pressure * volume / result.trace.temperature
+    assert constant == pytest.approx(np.full_like(constant, constant[0]), rel=1e-12)
+
+
+def test_walls_take_heat_and_work():
+    cold, adiabatic = _run(ENGINE), _run(replace(ENGINE, has_wall_loss=False))
+    assert adiabatic.values["wall_heat"] == 0
+    assert cold.values["closed_work"] < adiabatic.values["closed_work"]
+    trace = cold.trace
+    assert cold.values["wall_heat"] == pytest.approx(
+        np.trapezoid(trace.wall_heat_rate, np.radians(trace.degrees)), rel=1e-4
+    )
+
+
+def test_walls_as_hot_as_the_charge_warm_it_no_more_than_they_cool_it():
+    """A motored charge on walls of its first temperature is never colder than they are before its expansion."""
+    result = _run(replace(ENGINE, heat=0.0, wall_temperature=340.0))
+    compression = result.trace.degrees <= 360.0
+    assert np.all(result.trace.wall_heat_rate[compression] >= 0)
+    assert result.values["closed_work"] < 0
+
+
+# --- the diagram
+
+
+@OFFSETS
+@pytest.mark.parametrize("data", [ENGINE, TWO_STROKE], ids=["four strokes", "two strokes"])
+def test_the_diagram_is_closed_and_without_gaps_or_steps(data, offset):
+    segments = _run(data, SliderCrank(0.04, 0.14, offset)).diagram.segments
+    assert (segments[0].start, segments[-1].end) == (0.0, data.cycle)
+    for one, other in itertools.pairwise([*segments, segments[0]]):
+        assert one.end % data.cycle == pytest.approx(other.start, abs=1e-9)
+        assert one.pressures[-1] == pytest.approx(other.pressures[0], rel=1e-9)
+    for one in segments:
+        assert (one.knots[0], one.knots[-1]) == (one.start, one.end)
+        assert np.all(np.diff(one.knots) > 0)
+
+
+@OFFSETS
+def test_valves_and_burning_count_from_the_true_dead_centres(offset):
+    lengths = SliderCrank(0.04, 0.14, offset)
+    top, bottom = dead_centres(lengths)
+    starts = [one.start for one in _run(ENGINE, lengths).diagram.segments]
+    for angle in (top + 15, bottom, bottom + 50, top + 340, top + 390, bottom + 300, bottom + 420, top + 705):
+        assert min(abs(np.array(starts) - angle)) < 1e-9
+
+
+def test_exchange_of_gas_stays_between_its_pressures():
+    result = _run(ENGINE)
+    for segment in result.diagram.segments:
+        if segment.start >= 480 or segment.end <= 230:
+            inside = segment.pressure(np.linspace(segment.start, segment.end, 400), np.empty(400))
+            ends = sorted((segment.pressures[0], segment.pressures[-1]))
+            assert np.all((inside >= ends[0] - 1e-6) & (inside <= ends[1] + 1e-6))
+
+
+def test_the_pressure_has_no_corner_where_burning_begins_and_ends():
+    segments = {round(one.start): one for one in _run(replace(ENGINE, has_wall_loss=False)).diagram.segments}
+    assert segments[230].slopes[-1] == pytest.approx(segments[340].slopes[0], rel=1e-9)
+    jump = segments[340].slopes[-1] - segments[390].slopes[0]
+    assert abs(jump) < 0.03 * np.max(np.abs(segments[340].slopes)), "one thousandth of the fuel is left"
+
+
+def test_extremes_are_those_of_the_curve():
+    result = _run(ENGINE)
+    values, fine = result.values, np.linspace(350.0, 400.0, 200_001)
+    volume = cylinder_volumes(CENTRAL, BORE, _clearance(CENTRAL))[0](fine)
+    pressure = result.diagram.pressure(fine, volume)
+    assert values["cylinder_pressure_max"] == pytest.approx(np.max(pressure), rel=1e-9)
+    assert values["cylinder_pressure_max_angle"] == pytest.approx(fine[np.argmax(pressure)], abs=2e-3)
+    rise = np.gradient(pressure, np.radians(fine))
+    assert values["pressure_rise_max"] == pytest.approx(np.max(rise), rel=1e-4)
+
+
+# --- steps, notices, refusals
+
+
+def test_every_step_says_what_was_computed():
+    result = _run(replace(ENGINE, heat=None, fuel_per_cycle=2.5e-5, heating_value=43e6, burning_efficiency=0.9))
+    found = {step.key: step for step in result.steps}
+    assert found["fuel_heat"].value == 2.5e-5 * 43e6 * 0.9 == result.values["fuel_heat"]
+    assert found["gas_mass"].value == pytest.approx(1e5 * found["gas_mass"].values["V_1"] / (287 * 340))
+    assert all(step.formula.function(**step.values) == step.value for step in result.steps)
+    peak = result.values["cylinder_pressure_max"]
+    assert abs(found["pressure_rise"].value) < 1e-3 * result.values["pressure_rise_max"], "no rise at the peak"
+    assert found["heat_transfer_coefficient"].values["p_cyl"] == peak
+
+
+@pytest.mark.parametrize(
+    ("changes", "code"),
+    [
+        ({"burning_shape": 7.0}, "heat_shape"),
+        ({"burning_duration": 8.0}, "heat_duration"),
+        ({"heat_ratio": 1.6}, "heat_ratio"),
+        ({"heat": 2500.0}, "heat_temperature"),
+        ({"burning_duration": 20.0, "heat": 1500.0}, "heat_knock"),
+        ({"wall_temperature": 1500.0}, "heat_walls"),
+    ],
+)
+def test_values_beyond_the_usual_are_said(changes, code):
+    assert code in {one for one, _ in _run(replace(ENGINE, **changes)).notices}
+
+
+def test_a_usual_cycle_needs_no_notice():
+    assert _run(replace(ENGINE, heat=700.0)).notices == ()
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"burning_advance": 140.0}, "closed from"),
+        ({"burning_duration": 180.0}, "closed from"),
+        ({"bore": 0.0}, "bore"),
+        ({"burning_shape": -0.5}, "burning_shape"),
+        ({"heat": -1.0}, "heat"),
+        ({"cycle": 540.0}, "540"),
+        ({"heat_ratio": 1.02, "heat_ratio_slope": -1e-4}, "exceed 1"),
+        ({"cycle": 360.0, "intake_opens": 70.0}, "exhaust open first"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(changes, says):
+    with pytest.raises(CrankworkError, match=says):
+        _run(replace(ENGINE, **changes))
+
+
+def test_without_scipy_the_missing_part_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, "scipy.integrate", None)
+    with pytest.raises(MissingExtraError, match="dynamics"):
+        _run(ENGINE)
