@@ -119,7 +119,7 @@ def check(file: str, settings: tuple[str, ...]) -> None:
     click.echo(f"{file}: {machine.title}" if machine.title else file)
     click.echo(summary.description_text(machine, results))
     for notice in results.notices:
-        click.echo(f"note: {_load('report.language').notice_text(notice.code, notice.values, 'en')}")
+        click.echo(f"note: {_load('report.notices').notice_text(notice.code, notice.values, 'en')}")
 
 
 @commands.command()

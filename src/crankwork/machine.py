@@ -179,4 +179,6 @@ class Machine:
     @property
     def cycle(self) -> float:
         """Crank angle after which everything repeats. [deg]"""
-        return self.gas.cycle if self.gas else 360.0
+        if self.gas is not None:
+            return self.gas.cycle
+        return self.engine.layout.cycle if self.engine is not None else 360.0

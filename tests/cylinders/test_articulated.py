@@ -261,6 +261,12 @@ def test_other_corrections_give_equal_compression(part, ratio):
         assert compression_ratio_of_slave(MASTER, corrected, ratio) == pytest.approx(ratio, rel=1e-12)
 
 
+@pytest.mark.parametrize("axis", AXES)
+def test_a_knuckle_angle_gives_the_compression_ratio_of_the_master(axis):
+    corrected = corrected_rod(MASTER, plain_articulated_rod(MASTER, axis, KNUCKLE), "knuckle_angle", 6.0)
+    assert compression_ratio_of_slave(MASTER, corrected, 6.0) == pytest.approx(6.0, rel=1e-11)
+
+
 def test_a_longer_rod_has_two_angles_and_the_nearer_is_taken():
     rod = ArticulatedRod(MASTER.rod_length - KNUCKLE + 0.0004, KNUCKLE, 80.0, 80.0)
     near, far = (corrected_rod(MASTER, rod._replace(knuckle_angle=one), "knuckle_angle", 7.0) for one in (60.0, 120.0))

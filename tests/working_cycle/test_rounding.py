@@ -125,6 +125,15 @@ def test_the_greatest_pressure_is_where_it_was_put(kind, timing, offset):
     assert degrees[np.argmax(pressure)] == pytest.approx(expected, abs=0.02)
 
 
+def test_a_top_dead_centre_just_before_zero_may_be_written_either_way():
+    volume_at, (top, bottom) = _space(offset=-0.006)
+    one, other = (
+        rounded_diagram(PETROL, VALVES, Rounding(), volume_at, (angle, bottom)) for angle in (top, top + 360.0)
+    )
+    assert top < 0
+    assert other.diagram.named["c''"] == pytest.approx(one.diagram.named["c''"], rel=1e-12)
+
+
 @SCHOOLS
 @ENGINES
 @pytest.mark.parametrize("advance", [15.0, 30.0, 45.0])
@@ -210,6 +219,19 @@ def test_nothing_is_lost_where_nothing_is_rounded(kind, school, offset):
     assert result.filling_factor == pytest.approx(1.0, abs=1e-13)
     shapes = [one.law for one in result.diagram.segments]
     assert "rounded" not in shapes
+
+
+@ENGINES
+@OFFSETS
+def test_two_strokes_without_ignition_advance_burn_on_the_vertical_where_the_cycle_begins(kind, offset):
+    timing = replace(PORTS, ignition_advance=0.0, ignition_delay=0.0)
+    result = _rounded(kind, timing, offset)
+    assert result.filling_factor == pytest.approx(1.0, abs=1e-13)
+    volume_at, (top, _) = _space(kind, offset)
+    before, after = (_pressure(result.diagram, volume_at, (top + aside) % 360)[0] for aside in (-1e-6, 1e-6))
+    theory = PETROL if kind == "petrol" else DIESEL
+    assert after == pytest.approx(theory["p_z"], rel=1e-5)
+    assert before < 0.6 * after
 
 
 @ENGINES
@@ -317,6 +339,7 @@ def test_a_share_out_of_reach_is_said(wanted, level):
         ({}, {"rise": 1.3}, "round_rise"),
         ({}, {"peak_angle": 20.0}, "round_peak"),
         ({}, {"peak_level": 0.99}, "round_filling"),
+        ({}, {"peak_level": 0.99}, "round_above"),
     ],
 )
 def test_what_is_unusual_is_said(theory, options, code):

@@ -21,6 +21,7 @@ from crankwork.machine import Machine
 from crankwork.method import Method
 
 _DENSE_STEP = 0.1
+_CHECKED = ("first_law_residual",)
 _ROUNDING = 1e-13
 GROUPS = {"kinematics": KINEMATICS, "harmonics": HARMONICS, "forces": FORCES}
 
@@ -53,7 +54,8 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
     dense = columns(solved, CrankGrid.steps(_DENSE_STEP, machine.cycle))
     table = columns(solved, grid) | harmonic_columns(solved, grid)
     summary = {**_geometry_summary(solved), **_motion_summary(solved), **_force_summary(solved, dense)}
-    steps = solved.space.steps if solved.space is not None else ()
+    calculated = solved.space.calculated if solved.space is not None else None
+    steps = calculated.steps if calculated is not None else ()
     results = Results(
         solved, grid, table, summary, _checks(solved, dense, summary), solved.notices, GROUPS, steps=steps
     )
@@ -152,13 +154,21 @@ def _force_summary(solved: Solved, dense: Mapping[str, Array]) -> dict[str, floa
     result["mean_torque"] = mean if abs(mean) > _ROUNDING * float(np.max(np.abs(torque))) else 0.0
     if solved.space is not None:
         work = solved.space.work
-        result |= solved.space.values
+        if solved.space.calculated is not None:
+            result |= _cycle_values(solved.space.calculated.values)
         result |= {
             "indicated_work": work,
             "indicated_mean_pressure": float(gas_formulas.indicated_mean_pressure(work, solved.space.swept)),
             "indicated_power": float(gas_formulas.indicated_power(work, solved.speed, cycle)),
         }
     return result
+
+
+def _cycle_values(values: Mapping[str, float]) -> dict[str, float]:
+    """Return what a calculation of the cycle has to say in a summary: what the rest does not say as well."""
+    own = {"indicated_work", "indicated_mean_pressure", "piston_area", "swept_volume", "bore", "stroke"}
+    shown = {key: value for key, value in values.items() if key not in _CHECKED}
+    return {f"{key}.cycle" if key in own else key: value for key, value in shown.items()}
 
 
 def _breaks(solved: Solved) -> Array:
@@ -185,6 +195,10 @@ def _checks(solved: Solved, dense: Mapping[str, Array], summary: Mapping[str, fl
     if solved.space is not None and not solved.machine.angular_acceleration:
         work = summary["mean_torque"] * math.radians(solved.machine.cycle)
         result["work"] = abs(work - summary["indicated_work"]) / max(abs(work), 1e-300)
+    calculated = solved.space.calculated if solved.space is not None else None
+    if calculated is not None and "first_law_residual" in calculated.values:
+        residual, heat = calculated.values["first_law_residual"], calculated.values["fuel_heat"]
+        result["first_law"] = abs(residual) / max(heat, 1e-300)
     return result
 
 

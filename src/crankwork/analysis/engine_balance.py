@@ -155,4 +155,4 @@ def balance_checks(whole: WholeEngine, balance: EngineBalance) -> dict[str, floa
         max(abs(spectrum[one.order] - one.force.forward), abs(spectrum[-one.order] - one.force.backward))
         for one in balance.reciprocating
     ]
-    return {"balance": max(apart) / scale}
+    return {"free_forces": float(max(apart)) / scale}

@@ -22,10 +22,10 @@ from crankwork.loads.indicator import IndicatorDiagram, solve_diagram
 from crankwork.loads.measured import measured_diagram, wrap_is_rough
 from crankwork.machine import Cylinder, Gas, Machine
 from crankwork.method import Method
-from crankwork.steps import Step
 
 if TYPE_CHECKING:
     from crankwork.cylinders.articulated import ArticulatedRod
+    from crankwork.working_cycle.calculated import Calculated
 
 
 class Notice(NamedTuple):
@@ -46,8 +46,7 @@ class WorkingSpace(NamedTuple):
     work: float
     rod_area: float = 0.0
     back_pressure: float = 0.0
-    steps: tuple[Step, ...] = ()
-    values: Mapping[str, float] = {}
+    calculated: Calculated | None = None
 
 
 @dataclass(frozen=True)
@@ -167,17 +166,16 @@ def _with_space(solved: Solved, notices: list[Notice]) -> Solved:
     def volume_rate_at(degrees: Array) -> Array:
         return np.asarray(area * solved.motion(CrankGrid.from_degrees(degrees)).piston.position_1)
 
-    steps: tuple[Step, ...] = ()
-    values: Mapping[str, float] = {}
+    calculated = None
     if gas.calculated is not None:
         calculated = gas.calculated.pressure(volume_at, volume_rate_at, (top, bottom))
-        diagram, steps, values = calculated.diagram, calculated.steps, calculated.values
+        diagram = calculated.diagram
         notices += [Notice(*one) for one in calculated.notices]
     else:
         diagram = _given_diagram(gas, volume_at, (top, bottom), notices)
     rod_area = float(gas_formulas.piston_area(method.pi, cylinder.piston_rod_diameter))
     work = diagram.work(volume_at)
-    space = WorkingSpace(area, clearance, swept, diagram, ambient, work, rod_area, gas.back_pressure, steps, values)
+    space = WorkingSpace(area, clearance, swept, diagram, ambient, work, rod_area, gas.back_pressure, calculated)
     return replace(solved, space=space, notices=tuple(notices))
 
 

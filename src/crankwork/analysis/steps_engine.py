@@ -7,8 +7,9 @@ from collections.abc import Iterator, Mapping
 
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import Solved
+from crankwork.analysis.steps_extremes import extreme_steps, force_extreme_steps
 from crankwork.analysis.steps_forces import force_steps
-from crankwork.analysis.steps_motion import EngineMoment, extreme_steps, harmonic_steps, motion_steps
+from crankwork.analysis.steps_motion import EngineMoment, harmonic_steps, motion_steps
 from crankwork.dynamics import masses as mass_formulas
 from crankwork.dynamics import piston_forces as forces
 from crankwork.kinematics import lengths as length_formulas
@@ -47,7 +48,7 @@ def engine_steps(results: Results, crank_angle: float, force_angle: float) -> tu
         StepGroup("masses", tuple(_masses(solved.machine))),
         StepGroup("gas", tuple(_gas(solved))),
         StepGroup("forces", tuple(force_steps(loaded)), there),
-        StepGroup("force_extremes", tuple(_force_extremes(solved, results.summary))),
+        StepGroup("force_extremes", tuple(force_extreme_steps(solved, results.summary))),
         StepGroup("power", tuple(_power(solved, results.summary))),
     )
     return tuple(group for group in groups if group.steps)
@@ -122,18 +123,6 @@ def _polytrope_end(solved: Solved, name: str, end: str) -> Iterator[AnyStep]:
 def _polytropes(solved: Solved) -> tuple[Segment, ...]:
     segments = solved.space.diagram.segments if solved.space else ()
     return tuple(one for one in segments if one.law == "polytropic")
-
-
-def _force_extremes(solved: Solved, summary: Mapping[str, float]) -> Iterator[AnyStep]:
-    """Yield largest and smallest forces and torque, each at the crank angle where the results have found it."""
-    for key in ("inertia_force", "piston_force", "side_force", "tangential_force", "crank_torque"):
-        for end in ("max", "min"):
-            angle = summary.get(f"{key}_{end}_angle")
-            if angle is not None:
-                # the angle has been through radians, and a vertical line of the diagram has two sides
-                moment = EngineMoment.at(solved, round(math.degrees(angle), 9))
-                step = next(one for one in force_steps(moment) if one.key == key)
-                yield step._replace(key=f"{key}_{end}")
 
 
 def _power(solved: Solved, summary: Mapping[str, float]) -> Iterator[AnyStep]:

@@ -11,7 +11,6 @@ from typing import Any, Self
 from crankwork.analysis.solved import Solved
 from crankwork.analysis.state import columns
 from crankwork.dynamics import piston_forces as forces
-from crankwork.kinematics import lengths as length_formulas
 from crankwork.kinematics import rod_functions, series_terms, slider_crank, textbook
 from crankwork.kinematics.crank_grid import CrankGrid, cos_multiple, sin_multiple
 from crankwork.kinematics.piston import PistonMotion, piston_motion
@@ -278,40 +277,3 @@ def _true_parts(moment: EngineMoment) -> list[tuple[Step, Step, Step]]:
 def _three(functions: tuple[Function, Function, Function], known: Mapping[str, float]) -> tuple[Step, Step, Step]:
     one, two, three = (named_step(function, known) for function in functions)
     return one, two, three
-
-
-def extreme_steps(solved: Solved, summary: Mapping[str, float]) -> Iterator[Step]:
-    """Yield the extremes of piston velocity and acceleration, in closed form where there is one.
-
-    Otherwise they are the formulas of the motion at the crank angle that the results have found.
-
-    Parameters
-    ----------
-    solved : Solved
-        Machine and method.
-    summary : mapping of str to float
-        The summary of the results. [SI]
-    """
-    known = {
-        "r": float(solved.lengths.crank_radius), "lam": float(solved.lengths.rod_ratio), "w": solved.speed,
-    }  # fmt: skip
-    steady = not solved.lengths.offset and not solved.machine.angular_acceleration
-    kinematics = solved.method.kinematics
-    closed: dict[str, Function] = {}
-    if steady and kinematics != "series":
-        closed["piston_acceleration_max"] = length_formulas.acceleration_at_top
-    if steady and kinematics == "textbook":
-        yield named_step(length_formulas.textbook_velocity_max_angle, known, key="piston_velocity_max_angle")
-        closed["piston_acceleration_min"] = (
-            length_formulas.acceleration_at_bottom
-            if known["lam"] <= 1 / 4
-            else length_formulas.textbook_acceleration_least
-        )
-    for key in (f"piston_{noun}_{end}" for noun in ("velocity", "acceleration") for end in ("max", "min")):
-        if key in closed:
-            yield named_step(closed[key], known, key=key)
-            continue
-        moment = EngineMoment.at(solved, math.degrees(summary[f"{key}_angle"])).functions
-        yield (
-            named_step(forces.piston_velocity, moment, key=key) if "velocity" in key else acceleration_step(moment, key)
-        )

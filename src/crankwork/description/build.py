@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import math
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -16,6 +17,8 @@ from crankwork.loads.measured import MeasuredPressure
 from crankwork.machine import Cylinder, Gas, Machine
 from crankwork.mechanism.mechanism import slider_crank
 from crankwork.method import EXACT, STANDARD_GRAVITY, Method
+
+_ENGINE_TABLES = {"engine", "bearings", "balance", "flywheel"}
 
 ReadMeasured = Callable[[Mapping[str, Any], Reader], MeasuredPressure | None]
 
@@ -33,20 +36,31 @@ def build_machine(values: Mapping[str, Any], reader: Reader, read_measured: Read
         Reads the measured pressure that `gas.measured` names.
     """
     method = build_method(values.get("method", {}), reader)
+    calculated = None
+    if "cycle" in values:
+        cycle_room = importlib.import_module("crankwork.description.cycle_build")
+        calculated = cycle_room.build_cycle(values, reader, method.pi)
+        values = calculated.values if calculated else values
     crank, rod = values.get("crank", {}), values.get("rod", {})
     lengths = _lengths(crank, rod, values.get("cylinder", {}), reader)
     cylinder = _cylinder(values.get("cylinder"))
     masses = _masses(values, lengths, cylinder, method, reader)
-    gas = _gas(values.get("gas"), cylinder, reader, read_measured)
+    gas = calculated.gas if calculated else _gas(values.get("gas"), cylinder, reader, read_measured)
     table = values.get("table", {})
     special = [math.degrees(angle.value) for angle in table.get("special_angles", []) if angle]
-    cycle = gas.cycle if gas else 360.0
+    is_whole = not _ENGINE_TABLES.isdisjoint(values)
+    cycle = gas.cycle if gas else 180.0 * values.get("engine", {}).get("strokes", 4) if is_whole else 360.0
     for number, angle in enumerate(special, start=1):
         if angle > cycle + 1e-9 and not reader.doubts("gas.cycle"):
             reader.complain(
                 f"table.special_angles[{number}]",
                 f"{angle:g} deg lies beyond the cycle; write an angle from 0 to {cycle:g} deg",
             )
+    engine = None
+    if is_whole:
+        # loaded when needed: most files describe one crank gear
+        room = importlib.import_module("crankwork.description.engine_build")
+        engine = room.build_engine(values, lengths, cycle, reader)
     if reader.problems or lengths is None:
         return None
     return Machine(
@@ -61,6 +75,7 @@ def build_machine(values: Mapping[str, Any], reader: Reader, read_measured: Read
         method=method,
         table_step=round(math.degrees(_value(table, "step", math.radians(10.0))), 9),
         table_special=tuple(round(angle, 9) for angle in special),
+        engine=engine,
     )
 
 

@@ -26,6 +26,7 @@ _ARTICULATED = Table({
 ENGINE = Table({
     "layout": Key(Choice(("inline", "V", "boxer", "W", "radial")), "how the cylinders stand", required=True),
     "cylinders": Key(Number(1, 28, whole=True), "how many there are", required=True),
+    "strokes": Key(Choice((4, 2)), "of a cycle, where no gas says it; by default 4"),
     "firing_order": Key(ListOf(Number(1, 28, whole=True), fewest=1, most=28),
                         "numbers of the cylinders as they fire; by default a usual order"),
     "bank_angle": Key(_ANGLE, "between the banks of a V"),
@@ -116,6 +117,7 @@ CYCLE = Table({
     "stroke_bore_ratio": Key(Number(0.2, 5.0), "stroke over bore, where they follow from the power"),
     "lost_stroke": Key(Number(0.0, 0.6), "share of the stroke that the ports of a two-stroke engine take"),
     "corners": Key(Choice(("rounded", "sharp")), "of the diagram; by default rounded"),
+    "peak_level": Key(Number(0.5, 1.0), "greatest pressure of the rounded diagram over that of the sharp one"),
     "school": Key(Choice(("ru", "vi")), "whose construction rounds the corners"),
     "timing": Key(_TIMING, "of valves or ports and ignition"),
     "combustion_start": Key(_ANGLE, "before the top dead centre, for Wiebe"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from crankwork.description.engine_keys import BALANCE, BEARINGS, CYCLE, ENGINE, FLYWHEEL
 from crankwork.description.schema import Choice, Flag, Key, ListOf, Named, Number, Quantity, Table, Text
 
 _LENGTH = Quantity(("length",), 1e-6, 100.0)
@@ -117,14 +118,35 @@ TABLE = Table(
     }
 )
 
-MACHINE_FILE = Table({
+_MACHINE = {
     "title": Key(Text(), "what the machine is called"),
     "decimal_mark": Key(Choice((".", ",")), 'put "," here to write 1,1 kg'),
     "crank": Key(_CRANK, "the crank", required=True),
     "rod": Key(_ROD, "the connecting rod", required=True),
     "piston": Key(_PISTON, "the piston"),
     "cylinder": Key(_CYLINDER, "the cylinder"),
-    "gas": Key(_GAS, "the pressure in the cylinder"),
+    "gas": Key(_GAS, "the pressure in the cylinder", instead_of=("cycle",)),
+    "cycle": Key(CYCLE, "a calculation of the working cycle, which gives that pressure", instead_of=("gas",)),
+    "engine": Key(ENGINE, "the cylinders of an engine, all like the one described"),
+    "bearings": Key(BEARINGS, "sizes of its bearings"),
+    "balance": Key(BALANCE, "counterweights and balance shafts"),
+    "flywheel": Key(FLYWHEEL, "how evenly it shall run"),
     "method": Key(METHOD, "how to compute, and the constants of a document to reproduce"),
     "table": Key(TABLE, "the rows of the tables"),
-})  # fmt: skip
+}  # fmt: skip
+
+MACHINE_FILE = Table(_MACHINE)
+
+
+def _optional(table: Table, *names: str) -> Table:
+    return Table({key: one._replace(required=one.required and key not in names) for key, one in table.keys.items()})
+
+
+# where a wanted power gives bore and stroke
+SIZED_FILE = Table(
+    {
+        **_MACHINE,
+        "crank": _MACHINE["crank"]._replace(kind=_optional(_CRANK, "radius")),
+        "cylinder": _MACHINE["cylinder"]._replace(kind=_optional(_CYLINDER, "bore")),
+    }
+)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from crankwork import files
 from crankwork.analysis import solve
 from crankwork.description.build import build_machine
-from crankwork.description.keys import MACHINE_FILE
+from crankwork.description.keys import MACHINE_FILE, SIZED_FILE
 from crankwork.description.linkage_keys import LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.locate import locate
 from crankwork.description.measured_file import read_measured
@@ -122,6 +122,10 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> AnyMachine |
         except DiagramError as error:
             measured = read_values.get("gas", {}).get("measured", {})
             reader.complain(error.key, f"{measured['file']}, {error}" if measured else str(error))
+        except CrankworkError as error:
+            if "cycle" not in values:
+                raise
+            reader.complain("cycle", str(error))
     return machine
 
 
@@ -134,7 +138,10 @@ def _file_keys(values: Mapping[str, Any]) -> Table:
     """Return the keys of the kind of machine that a file describes: an engine, a linkage, or a table of one."""
     if "transfer" in values:
         return TRANSFER_FILE
-    return LINKAGE_FILE if any(name in values for name in _OF_LINKAGES) else MACHINE_FILE
+    if any(name in values for name in _OF_LINKAGES):
+        return LINKAGE_FILE
+    cycle = values.get("cycle")
+    return SIZED_FILE if isinstance(cycle, dict) and "power" in cycle else MACHINE_FILE
 
 
 def _parse(source: str, name: str) -> dict[str, Any]:
@@ -269,7 +276,7 @@ def json_schema() -> str:
     schema = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "crankwork machine file",
-        "oneOf": [one.schema() for one in (MACHINE_FILE, LINKAGE_FILE, TRANSFER_FILE)],
+        "anyOf": [one.schema() for one in (MACHINE_FILE, SIZED_FILE, LINKAGE_FILE, TRANSFER_FILE)],
     }
     return json.dumps(schema, indent=2, ensure_ascii=False)
 

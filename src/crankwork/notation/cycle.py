@@ -42,6 +42,7 @@ ARGUMENTS: dict[str, Argument] = {
     "dT_heat": Argument("charge_heating"),
     "phi_ch": Argument("charge_up"),
     "phi_sc": Argument("scavenging"),
+    "lam_t": Argument("heat_correction"),
     "gamma_r": Argument("residual_fraction"),
     "T_a": Argument("intake_temperature"),
     "eta_v": Argument("volumetric_efficiency"),

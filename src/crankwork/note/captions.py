@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import datetime
+import datetime as dt
 import re
 
 from crankwork.quantities import LANGUAGES, Language
@@ -49,6 +49,6 @@ def place_in_source(place: str, language: Language) -> str:
     return _PLACE.sub(lambda found: _PLACES[found[0]][LANGUAGES.index(language)], place)
 
 
-def printed_date(date: datetime.date, language: Language) -> str:
+def printed_date(date: dt.date, language: Language) -> str:
     """Return a date in figures, as that language orders them."""
     return {"en": f"{date:%Y-%m-%d}", "ru": f"{date:%d.%m.%Y}", "vi": f"{date:%d/%m/%Y}"}[language]

@@ -9,7 +9,7 @@ _BLANKS = "\t\n\v\f\r\x85\u2028\u2029"
 
 
 def plain_text(text: str) -> str:
-    """Return text in composed letters, on one line and without control characters.
+    r"""Return text in composed letters, on one line and without control characters.
 
     Parameters
     ----------
@@ -18,7 +18,7 @@ def plain_text(text: str) -> str:
 
     Examples
     --------
-    >>> plain_text("one\\ntwo\\x07")
+    >>> plain_text("one\ntwo\x07")
     'one two'
     """
     if text.isascii() and text.isprintable():
@@ -30,8 +30,10 @@ def plain_text(text: str) -> str:
 
 def _is_allowed(character: str) -> bool:
     code = ord(character)
-    forbidden = unicodedata.category(character) in ("Cc", "Cs") or code & 0xFFFE == 0xFFFE or 0xFDD0 <= code <= 0xFDEF
-    return not forbidden
+    if unicodedata.category(character) in ("Cc", "Cs"):
+        return False
+    # the byte order mark is no character of a text, and PDF/A forbids it
+    return code != 0xFEFF and code & 0xFFFE != 0xFFFE and not 0xFDD0 <= code <= 0xFDEF
 
 
 def typst_string(text: str) -> str:

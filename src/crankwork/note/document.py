@@ -6,7 +6,7 @@ Where a block takes runs, a plain text is a run too.
 
 from __future__ import annotations
 
-import datetime
+import datetime as dt
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -161,5 +161,5 @@ class Note:
     blocks: tuple[Block, ...]
     subtitle: str = ""
     authors: tuple[str, ...] = ()
-    date: datetime.date | None = None
+    date: dt.date | None = None
     sources: tuple[str, ...] = ()

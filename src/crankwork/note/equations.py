@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from crankwork.expressions import Formula, record, symbol, text
+from crankwork.notation import ARGUMENTS
 from crankwork.note.captions import fixed_word
 from crankwork.note.document import Equation, Explanation
 from crankwork.note.layout import (
@@ -31,7 +32,6 @@ from crankwork.note.layout import (
 from crankwork.note.math import formula_box
 from crankwork.note.stated_units import RESULT, coherent_unit, display_unit, printed_unit, stated_units
 from crankwork.note.symbols import number_box, symbol_box
-from crankwork.notation import ARGUMENTS
 from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.report.language import label, number
 from crankwork.report.language import symbol as key_symbol

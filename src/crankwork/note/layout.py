@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-SignKind = Literal["binary", "prefix", "relation", "times", "slash", "comma"]
+SignKind = Literal["binary", "prefix", "relation", "times", "slash", "comma", "fence"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,10 +95,15 @@ DOT = Sign("·", "times")
 MINUS = Sign("−", "prefix")
 EQUALS = Sign("=", "relation")
 SPACE = Upright("\u2009")
+# parentheses that need not end on the line on which they begin
+OPEN, CLOSE = Sign("(", "fence"), Sign(")", "fence")
 
 # widths in em of Libertinus Serif and New Computer Modern Math, rounded up
 _LETTER, _TEXT, _FENCE, _ROOT, _BAR, _SCRIPT = 0.58, 0.5, 0.8, 0.9, 0.24, 0.72
-_SIGNS = {"binary": 1.22, "prefix": 0.78, "relation": 1.34, "times": 0.17, "slash": 0.5, "comma": 0.45}
+# how much too wide a line may be before a fraction is taken apart; widths are rounded up
+_TOLERANCE = 1.1
+_SIGNS = {"binary": 1.22, "prefix": 0.78, "relation": 1.34, "times": 0.17, "slash": 0.5, "comma": 0.45,
+          "fence": 0.4}  # fmt: skip
 
 
 def row(*boxes: Box) -> Row:
@@ -109,7 +114,7 @@ def row(*boxes: Box) -> Row:
     return Row(tuple(parts))
 
 
-def width(box: Box | None) -> float:
+def width(box: Box | None) -> float:  # noqa: C901 - one case per kind of box
     """Return an estimate of how wide a box prints. [em]"""
     match box:
         case None:
@@ -154,7 +159,8 @@ def broken(line: Row, limit: float) -> list[Row]:
     """Return a row as rows no wider than `limit` where that is possible. [em]
 
     A row is divided before a plus or minus that stands in no parentheses, else before a dot; the sign that it is
-    divided at leads the next row. What has neither is left as it is.
+    divided at leads the next row. Where there is neither, a fraction with a long numerator becomes one over its
+    denominator, times the numerator in parentheses, and long parentheses may be divided inside.
     """
     if width(line) <= limit:
         return [line]
@@ -164,5 +170,20 @@ def broken(line: Row, limit: float) -> list[Row]:
         if places:
             fitting = [k for k in places if width(Row(line.parts[:k])) <= limit]
             place = fitting[-1] if fitting else places[0]
-            return [Row(line.parts[:place]), *broken(Row(line.parts[place:]), limit)]
-    return [line]
+            return [*_opened(Row(line.parts[:place]), limit), *broken(Row(line.parts[place:]), limit)]
+    return _opened(line, limit)
+
+
+def _opened(line: Row, limit: float) -> list[Row]:
+    """Return a row that cannot be divided as rows, its widest box taken apart if that makes divisions possible."""
+    if width(line) <= _TOLERANCE * limit:
+        return [line]
+    widest = max(range(len(line.parts)), key=lambda k: width(line.parts[k]))
+    match line.parts[widest]:
+        case Fraction(Row() as top, bottom) if width(top) > width(bottom):
+            inside = row(Fraction(Digits("1"), bottom), DOT, OPEN, top, CLOSE)
+        case Fence(Row() as content, "()"):
+            inside = row(OPEN, content, CLOSE)
+        case _:
+            return [line]
+    return broken(row(*line.parts[:widest], inside, *line.parts[widest + 1 :]), limit)

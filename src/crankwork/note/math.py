@@ -154,7 +154,7 @@ def _quotient(left: Expression, right: Expression, printing: _Printing) -> tuple
 
 
 def _power(base: Expression, exponent: Expression, printing: _Printing) -> Box:
-    above, binding = _box(exponent, printing._replace(inline=True))
+    above = _box(exponent, printing._replace(inline=True))[0]
     box, base_binding = _box(base, printing)
     whole = isinstance(exponent, Number) and exponent.value in (2, 3, 4)
     if isinstance(box, Apply) and isinstance(box.name, Upright) and whole:
@@ -177,7 +177,9 @@ def _function(function: Any, operands: tuple[Expression, ...], printing: _Printi
     name = _NAMES.get(function.__name__, function.__name__)
     if printing.language == "ru":
         name = _RUSSIAN_NAMES.get(name, name)
+    # a comma between numbers with decimal commas would not be seen
+    between = Sign("," if printing.language == "en" else ";", "comma")
     inside: list[Box] = []
     for operand in operands:
-        inside += [*([Sign(",", "comma")] if inside else []), _box(operand, printing)[0]]
+        inside += [*([between] if inside else []), _box(operand, printing)[0]]
     return Apply(Upright(name), Fence(row(*inside))), _POWER

@@ -29,7 +29,7 @@ def mathml(tree: Expression, values: Mapping[str, float] | None = None, language
     return f'<math xmlns="{NAMESPACE}">{mathml_box(formula_box(tree, values, language))}</math>'
 
 
-def mathml_box(box: Box) -> str:
+def mathml_box(box: Box) -> str:  # noqa: C901 - one case per kind of box
     """Return a box as one element of MathML."""
     match box:
         case Letter(text):
@@ -73,7 +73,9 @@ def _upright(text: str) -> str:
 
 def _sign(text: str, kind: str) -> str:
     if kind == "comma":
-        return "<mo>,</mo>"
+        return f'<mo separator="true" lspace="0" rspace="0.2em">{text}</mo>'
+    if kind == "fence":
+        return f'<mo stretchy="false">{text}</mo>'
     form = "prefix" if kind == "prefix" else "infix"
     space = "0.2em" if text == "·" else _SPACES[kind]
     return f'<mo form="{form}" lspace="{space}" rspace="{space}">{text or chr(0x2062)}</mo>'

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from typing import cast
 
 from crankwork.errors import CrankworkError, MissingExtraError
 from crankwork.note.document import Note
@@ -11,7 +10,6 @@ from crankwork.note.numbering import numbering
 from crankwork.note.typst_parts import svg_width, typst_source
 
 _NO_GLYPH = re.compile(r'the text `"(?P<text>.+?)"` could not be displayed', re.DOTALL)
-_STANDARD = "a-2a"
 
 
 def pdf(note: Note) -> bytes:
@@ -35,7 +33,7 @@ def pdf(note: Note) -> bytes:
         raise MissingExtraError("writing a PDF note", "report") from None
     source = typst_source(note, numbering(note)).encode("utf-8")
     try:
-        return cast("bytes", typst.compile(source, format="pdf", ignore_system_fonts=True, pdf_standards=_STANDARD))
+        return typst.compile(source, format="pdf", ignore_system_fonts=True, pdf_standards="a-2a")
     except typst.TypstError as error:
         missing = _NO_GLYPH.search(str(error))
         if not missing:
@@ -76,5 +74,4 @@ def png(svg: bytes, pixels_per_inch: float = 200.0) -> bytes:
         "#set page(width: auto, height: auto, margin: 0pt)\n"
         f'#image(bytes("{data}"), format: "svg", width: {svg_width(svg):.2f}pt)\n'
     )
-    options = {"format": "png", "ppi": pixels_per_inch, "ignore_system_fonts": True}
-    return cast("bytes", typst.compile(source.encode("utf-8"), **options))
+    return typst.compile(source.encode("utf-8"), format="png", ppi=pixels_per_inch, ignore_system_fonts=True)

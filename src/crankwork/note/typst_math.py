@@ -10,7 +10,7 @@ from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, R
 from crankwork.note.math import formula_box
 from crankwork.quantities import Language
 
-_SIGNS = {"·": "dot.op", "": "thin", "/": "slash", ",": "comma thin"}
+_SIGNS = {"·": "dot.op", "": "thin", "/": "slash", "(": "paren.l", ")": "paren.r", ",": "comma thin", ";": '";" thin'}
 _PRIMES = {"′": "prime", "″": "prime.double", "‴": "prime.triple"}
 
 
@@ -35,7 +35,7 @@ def typst_math(tree: Expression, values: Mapping[str, float] | None = None, lang
     return typst_box(formula_box(tree, values, language))
 
 
-def typst_box(box: Box) -> str:
+def typst_box(box: Box) -> str:  # noqa: C901 - one case per kind of box
     """Return a box as Typst mathematics."""
     match box:
         case Letter(text):
@@ -75,6 +75,8 @@ def _upright(text: str) -> str:
     if text == "\u2009":
         return "med"
     if len(text) == 1 and "Α" <= text <= "Ω":
+        return text
+    if text in ("°", "%"):
         return text
     return _PRIMES.get(text) or typst_string(text)
 

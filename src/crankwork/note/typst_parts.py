@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from crankwork.expressions import Expression, record, text
+from crankwork.expressions import Expression, text
 from crankwork.note.captions import LANGUAGE_TAGS, caption, fixed_word, printed_date
 from crankwork.note.characters import typst_string
 from crankwork.note.document import (
@@ -54,7 +54,8 @@ _SETTINGS = """
   if wide > size.width { scale(size.width / wide * 100%, reflow: true, line) } else { line }
 })
 #let lines(number, ..all) = block(width: 100%, breakable: false, above: 1.1em, below: 1.1em, grid(
-  columns: (1fr, auto), column-gutter: 0.8em, align: (center + horizon, right + if all.pos().len() > 1 { bottom } else { horizon }),
+  columns: (1fr, auto), column-gutter: 0.8em,
+  align: (center + horizon, right + if all.pos().len() > 1 { bottom } else { horizon }),
   grid(row-gutter: 0.9em, align: center, ..all.pos().map(fitted)), number,
 ))
 #let drawing(body, words) = figure(body, caption: words, numbering: none, supplement: none, kind: "drawing")
@@ -62,6 +63,9 @@ _SETTINGS = """
 """
 _SIZE = re.compile(rb'<svg[^>]*?\swidth="([\d.]+)(pt|px|mm|cm|in)?"')
 _POINTS = {b"": 0.75, b"px": 0.75, b"pt": 1.0, b"mm": 72 / 25.4, b"cm": 72 / 2.54, b"in": 72.0}
+_LONG, _SHORT = 300, 14
+# width of the text on a page upright and on its side, in points
+_PAGE, _WIDE_PAGE = 480.0, 725.0
 _ALIGN = {"l": "left", "c": "center", "r": "right"}
 
 
@@ -78,9 +82,9 @@ def typst_source(note: Note, numbers: Numbering) -> str:
     year, month, day = (note.date.year, note.date.month, note.date.day) if note.date else (2000, 1, 1)
     authors = "".join(f"{typst_string(one)}, " for one in note.authors)
     language, _, region = LANGUAGE_TAGS[note.language].partition("-")
+    date = f"datetime(year: {year}, month: {month}, day: {day})"
     parts = [
-        f"#set document(title: {typst_string(note.title)}, author: ({authors}), "
-        f"date: datetime(year: {year}, month: {month}, day: {day}))",
+        f"#set document(title: {typst_string(note.title)}, author: ({authors}), date: {date})",
         f'#set text(lang: "{language}", region: "{region}")' + _SETTINGS,
     ]
     turned = False
@@ -171,11 +175,23 @@ def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     yield f"#above({typst_string(caption('table', number, block.caption, numbers.language))})"
     headings = ", ".join(f"[{_runs(runs, numbers)}]" for runs in block.headings)
     rows = ",\n".join(", ".join(map(typst_string, row)) for row in block.rows)
+    columns = _columns(block, size)
     header = f"table.header(..({headings},).map(cell => table.cell(align: center + horizon, cell)))"
     yield (
         f"#{{\nset text(size: {size}pt, hyphenate: false)\nset par(justify: false, leading: 0.55em)\n"
-        f"align(center, table(columns: {count}, align: ({align},), {header},\n{rows}))\n}}"
+        f"align(center, table({columns}, align: ({align},), {header},\n{rows}))\n}}"
     )
+
+
+def _columns(block: Table, size: int) -> str:
+    """Return the columns of a table; those of a long table of short entries are not measured, which takes long."""
+    longest = [max(map(len, column), default=0) for column in zip(*block.rows, strict=True)]
+    if len(block.rows) < _LONG or max(longest) > _SHORT:
+        return f"columns: {len(block.headings)}"
+    widths = [max(0.55 * size * length, 3.2 * size) + 8 for length in longest]
+    if sum(widths) > (_WIDE_PAGE if block.wide else _PAGE):
+        return f"columns: {len(block.headings)}"
+    return f"columns: ({', '.join(f'{one:.1f}pt' for one in widths)},), rows: (auto, {1.55 * size:.1f}pt)"
 
 
 def svg_width(svg: bytes) -> float:

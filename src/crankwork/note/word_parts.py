@@ -24,12 +24,16 @@ PREFIXES = (
 # twentieths of a point, for an A4 page upright and on its side
 TEXT_WIDTH, WIDE_TEXT_WIDTH = 9638, 14570
 _MARK_WIDTH = 2150
+_LEGEND = (
+    '<w:tabs><w:tab w:val="left" w:pos="960"/></w:tabs><w:spacing w:after="0"/><w:ind w:left="960" w:hanging="960"/>'
+)
 _ALIGN = {"l": "left", "c": "center", "r": "right"}
 
 
 def text_run(text: str, properties: str = "") -> str:
     """Return a run of text."""
-    return f'<w:r>{f"<w:rPr>{properties}</w:rPr>" if properties else ""}<w:t xml:space="preserve">{xml_text(text)}</w:t></w:r>'
+    look = f"<w:rPr>{properties}</w:rPr>" if properties else ""
+    return f'<w:r>{look}<w:t xml:space="preserve">{xml_text(text)}</w:t></w:r>'
 
 
 def paragraph(content: str, style: str = "", properties: str = "") -> str:
@@ -105,8 +109,7 @@ def equation_xml(block: Equation, number: str, numbers: Numbering) -> Iterator[s
         yield paragraph("", "", '<w:spacing w:before="0" w:after="0" w:line="40" w:lineRule="exact"/>')
     for where, box, words in legend_rows(block, numbers.language):
         mathematics = f"<m:oMath>{omml_box(box)}</m:oMath>"
-        tab = '<w:tabs><w:tab w:val="left" w:pos="960"/></w:tabs><w:spacing w:after="0"/><w:ind w:left="960" w:hanging="960"/>'
-        yield paragraph(f"{text_run(where)}<w:r><w:tab/></w:r>{mathematics}{text_run(words)}", "", tab)
+        yield paragraph(f"{text_run(where)}<w:r><w:tab/></w:r>{mathematics}{text_run(words)}", "", _LEGEND)
 
 
 def _cell(width: int, content: str, place: str) -> str:

@@ -82,6 +82,8 @@ ROWS = (
          "Charge enclosed over the charge at the bottom dead centre."),
     row("scavenging", "", "φ_sc|φ_оч|λ_2", "scavenging | коэффициент очистки | hệ số quét buồng cháy",
          "Residual gas left over that of the clearance volume."),
+    row("heat_correction", "", "λ_t", "correction of the heats | поправка на различие теплоёмкостей"
+         " | hệ số hiệu đính tỉ nhiệt", "Heat of the residual gas over that of the fresh charge."),
     row("residual_fraction", "", "γ_r", "residual gas fraction | коэффициент остаточных газов | hệ số khí sót",
          "Residual gas over fresh charge, by amount."),
     row("intake_temperature", "K", "T_a", "temperature at the end of intake | температура в конце впуска"
@@ -187,7 +189,7 @@ ROWS = (
     # size
     row("strokes_per_cycle", "", "τ", "strokes per cycle | тактность | số kỳ", "Four or two."),
     row("cylinder_count", "", "i", "number of cylinders | число цилиндров | số xylanh", "Cylinders of the engine."),
-    row("stroke_bore_ratio", "", "k_S|S/D|S/D", "stroke over bore | отношение хода поршня к диаметру"
+    row("stroke_bore_ratio", "", "k_S", "stroke over bore | отношение хода поршня к диаметру"
          " | tỉ số hành trình trên đường kính", "Stroke over bore."),
     row("displacement", "l", "V_e|V_л|V_lđ", "displacement | литраж двигателя | thể tích công tác của động cơ",
          "Swept volume of all cylinders."),
@@ -237,7 +239,7 @@ ROWS = (
          "Work over heat added."),
     row("ideal_mean_pressure", "MPa", "p_t", "mean pressure of the ideal cycle | среднее давление цикла"
          " | áp suất trung bình của chu trình", "Work over the change of volume."),
-    row("volume_ratio", "", "i_V|V/V_c|i", "volume over clearance volume | отношение объёма к объёму камеры сжатия"
+    row("volume_ratio", "", "i_V|i_V|i", "volume over clearance volume | отношение объёма к объёму камеры сжатия"
          " | tỉ số thể tích V/V_c", "Volume above the piston over the clearance volume."),
     row("compression_line", "MPa", "p_cm|p_сж|p_n", "pressure on the compression line | давление на линии сжатия"
          " | áp suất trên đường nén", "Absolute pressure of the polytrope of compression."),

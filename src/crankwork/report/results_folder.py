@@ -11,7 +11,7 @@ from crankwork.linkage_machine import TabulatedMachine
 from crankwork.quantities import Language
 from crankwork.report.drawing import moving_drawing
 from crankwork.report.figures import figures
-from crankwork.report.tables import csv_table, workbook
+from crankwork.report.tables import csv_of_sheet, sheets, workbook
 
 # What a results folder may hold, so that a run that overwrites leaves nothing of another machine.
 OUTPUTS = ("tables/*.csv", "tables.xlsx", "machine.svg", "figures/*.svg")
@@ -46,8 +46,8 @@ def results_folder(
         Data by path within the folder.
     """
     yield {
-        f"tables/{name}.csv": csv_table(results, name, per_area=per_area, for_excel=for_excel)
-        for name in results.tables
+        f"tables/{name}.csv": csv_of_sheet(sheet, per_area=per_area, for_excel=for_excel)
+        for name, sheet in sheets(results, per_area=per_area).items()
     }
     yield {"tables.xlsx": workbook(results, language=language, per_area=per_area)}
     if not isinstance(results.machine, TabulatedMachine):

@@ -15,13 +15,13 @@ from crankwork.report.language import (
     key_unit,
     label,
     method_name,
-    notice_text,
     number,
     rounded,
     symbol,
     unit_name,
     word,
 )
+from crankwork.report.notices import notice_text
 
 if TYPE_CHECKING:
     from crankwork.linkage_machine import AnyMachine

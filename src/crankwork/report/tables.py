@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Mapping
+from typing import NamedTuple
 
 import numpy as np
 
@@ -40,6 +42,51 @@ def table_column(results: Results, key: str, *, per_area: bool = False) -> Array
     return np.asarray(from_si(values, key_unit(key, per_area=per_area)) + 0.0)
 
 
+class Sheet(NamedTuple):
+    """One table in display units: what rows are called, if they are things, and columns by key."""
+
+    names: tuple[str, ...]
+    columns: Mapping[str, Array]
+
+
+def sheets(results: Results, *, per_area: bool = False) -> dict[str, Sheet]:
+    """Return every table by name: those over the crank angle, and the listings.
+
+    Parameters
+    ----------
+    results : Results
+        The results.
+    per_area : bool
+        Divide forces by the piston area.
+
+    Returns
+    -------
+    dict of str to Sheet
+        Columns in the units that `language.key_unit` names.
+    """
+    tables = {
+        name: Sheet((), {key: table_column(results, key, per_area=per_area) for key in keys})
+        for name, keys in results.tables.items()
+    }
+    area = results.summary["piston_area"] if per_area else None
+    return tables | {
+        name: Sheet(one.names, {key: _displayed(key, values, area) for key, values in one.columns.items()})
+        for name, one in results.listings.items()
+    }
+
+
+def _displayed(key: str, values: Array, area: float | None) -> Array:
+    if area is not None and key_unit(key, per_area=True) != key_unit(key):
+        values = values / area
+    return np.asarray(from_si(values, key_unit(key, per_area=area is not None)) + 0.0)
+
+
+def row_name(name: str, language: Language) -> str:
+    """Return what a row of a listing is called: `crankpin.1` is crankpin 1."""
+    kind, _, number = name.partition(".")
+    return f"{word(kind, language)} {number}".rstrip()
+
+
 def csv_table(results: Results, name: str, *, per_area: bool = False, for_excel: bool = False) -> bytes:
     """Return a table as CSV, all digits, one heading line `key [unit]`.
 
@@ -48,7 +95,7 @@ def csv_table(results: Results, name: str, *, per_area: bool = False, for_excel:
     results : Results
         The results.
     name : str
-        A name of `results.tables`.
+        A name of `sheets`.
     per_area : bool
         Divide forces by the piston area.
     for_excel : bool
@@ -59,16 +106,28 @@ def csv_table(results: Results, name: str, *, per_area: bool = False, for_excel:
     bytes
         UTF-8 text.
     """
-    keys = results.tables[name]
+    return csv_of_sheet(sheets(results, per_area=per_area)[name], per_area=per_area, for_excel=for_excel)
+
+
+def csv_of_sheet(sheet: Sheet, *, per_area: bool = False, for_excel: bool = False) -> bytes:
+    """Return one table as CSV; parameters as those of `csv_table`."""
     separator = ";" if for_excel else ","
-    headings = [_quoted(f"{key} [{key_unit(key, per_area=per_area) or '-'}]") for key in keys]
-    rows = zip(*(table_column(results, key, per_area=per_area).tolist() for key in keys), strict=True)
-    lines = [separator.join(headings), *(separator.join(map(repr, row)) for row in rows)]
+    headings = [_quoted(f"{key} [{key_unit(key, per_area=per_area) or '-'}]") for key in sheet.columns]
+    columns = [[_number(one, for_excel=for_excel) for one in values.tolist()] for values in sheet.columns.values()]
+    if sheet.names:
+        headings.insert(0, "row")
+        columns.insert(0, list(sheet.names))
+    rows = zip(*columns, strict=True)
+    lines = [separator.join(headings), *(separator.join(row) for row in rows)]
     text = "\r\n".join([*lines, ""])
-    if for_excel:
-        head, _, body = text.partition("\r\n")
-        return ("\ufeff" + head + "\r\n" + body.replace(".", ",")).encode()
-    return text.encode()
+    return ("\ufeff" + text if for_excel else text).encode()
+
+
+def _number(value: float, *, for_excel: bool) -> str:
+    """Return a number with all digits; an empty field where there is none."""
+    if value != value:  # noqa: PLR0124 - not a number
+        return ""
+    return repr(value).replace(".", ",") if for_excel else repr(value)
 
 
 def _quoted(heading: str) -> str:
@@ -106,14 +165,28 @@ def workbook(results: Results, *, language: Language = "en", per_area: bool = Fa
     with xlsxwriter.Workbook(stream, {"in_memory": True, "strings_to_formulas": False}) as book:
         heading = book.add_format({"bold": True, "text_wrap": True, "valign": "top", "bottom": 1})
         decimals = book.add_format({"num_format": "0.0000"})
-        for name, keys in results.tables.items():
-            sheet = book.add_worksheet(word(name, language)[:31])
+        taken: set[str] = set()
+        for name, table in sheets(results, per_area=per_area).items():
+            sheet = book.add_worksheet(_sheet_name(word(name, language), taken))
             sheet.freeze_panes(1, 1)
-            sheet.set_column(0, len(keys) - 1, 16, decimals)
-            for number, key in enumerate(keys):
+            first = 1 if table.names else 0
+            sheet.set_column(0, first + len(table.columns) - 1, 16, decimals)
+            if table.names:
+                sheet.write_string(0, 0, word("row", language), heading)
+                sheet.write_column(1, 0, [row_name(one, language) for one in table.names])
+            for number, (key, values) in enumerate(table.columns.items(), start=first):
                 unit = unit_name(key_unit(key, per_area=per_area), language)
                 sheet.write_string(
                     0, number, f"{label(key, language)}, {unit}" if unit else label(key, language), heading
                 )
-                sheet.write_column(1, number, table_column(results, key, per_area=per_area).tolist())
+                sheet.write_column(1, number, [one if np.isfinite(one) else None for one in values.tolist()])
     return stream.getvalue()
+
+
+def _sheet_name(title: str, taken: set[str]) -> str:
+    """Return a name for a sheet: at most 31 characters, none twice."""
+    name, number = title[:31], 2
+    while name in taken:
+        name, number = f"{title[:28]} {number}", number + 1
+    taken.add(name)
+    return name

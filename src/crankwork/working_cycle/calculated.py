@@ -7,6 +7,7 @@ from typing import NamedTuple, Protocol
 
 from crankwork.loads.indicator import IndicatorDiagram, VolumeAt
 from crankwork.steps import Step
+from crankwork.working_cycle.calculated_cycle import Corners
 
 
 class Calculated(NamedTuple):
@@ -22,20 +23,24 @@ class Calculated(NamedTuple):
         How they came about, in order.
     notices : tuple of (str, mapping)
         What the reader should know: code and values.
+    theoretical : IndicatorDiagram or None
+        The diagram before its corners were rounded.
+    corners : Corners or None
+        What that is drawn from.
     """
 
     diagram: IndicatorDiagram
     values: Mapping[str, float]
     steps: tuple[Step, ...]
     notices: tuple[tuple[str, Mapping[str, float | str]], ...]
+    theoretical: IndicatorDiagram | None = None
+    corners: Corners | None = None
 
 
 class CalculatedPressure(Protocol):
     """A calculation of the working cycle, waiting for a cylinder."""
 
-    def pressure(
-        self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
-    ) -> Calculated:
+    def pressure(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
         """Return the diagram in a cylinder.
 
         Parameters

@@ -151,6 +151,89 @@ def volumetric_efficiency(  # noqa: PLR0913 - one argument per symbol
     return T_k / (T_k + dT_heat) / ((r_c - 1) * p_k) * (phi_ch * r_c * p_a - phi_sc * p_r)
 
 
+@formula("residual_fraction", "nguyen_tat_tien_2000")
+def residual_fraction_vietnamese(  # noqa: PLR0913 - one argument per symbol
+    phi_sc: Value,
+    T_k: Value,
+    dT_heat: Value,
+    T_r: Value,
+    p_r: Value,
+    p_a: Value,
+    r_c: Value,
+    phi_ch: Value,
+    lam_t: Value,
+    m_exh: Value,
+) -> Value:
+    """Residual gas over fresh charge, the residual gas expanding to the pressure of the intake.
+
+    Parameters
+    ----------
+    phi_sc, T_k, dT_heat, T_r, p_r, p_a, r_c, phi_ch, lam_t, m_exh : float
+        Scavenging, temperature before the intake, heating, temperature of the residual gas, its pressure, pressure
+        at the end of intake, compression ratio, charging after the dead centre, correction of the heats, exponent
+        of the expansion. [-], [K], [K], [K], [Pa], [Pa], [-], [-], [-], [-]
+
+    Returns
+    -------
+    float
+        Ratio of amounts. [-]
+    """
+    expanded = lam_t * phi_sc * np.power(p_r / p_a, 1 / m_exh)
+    return phi_sc * (T_k + dT_heat) / T_r * (p_r / p_a) / (r_c * phi_ch - expanded)
+
+
+@formula("intake_temperature", "nguyen_tat_tien_2000")
+def intake_temperature_vietnamese(  # noqa: PLR0913 - one argument per symbol
+    T_k: Value, dT_heat: Value, lam_t: Value, gamma_r: Value, T_r: Value, p_a: Value, p_r: Value, m_exh: Value
+) -> Value:
+    """Temperature at the end of intake, the residual gas expanding to the pressure of the intake.
+
+    Parameters
+    ----------
+    T_k, dT_heat, lam_t, gamma_r, T_r, p_a, p_r, m_exh : float
+        Temperature before the intake, heating, correction of the heats, residual gas fraction and its temperature,
+        pressure at the end of intake, of the residual gas, exponent of its expansion.
+        [K], [K], [-], [-], [K], [Pa], [Pa], [-]
+
+    Returns
+    -------
+    float
+        Temperature. [K]
+    """
+    return (T_k + dT_heat + lam_t * gamma_r * T_r * np.power(p_a / p_r, (m_exh - 1) / m_exh)) / (1 + gamma_r)
+
+
+@formula("volumetric_efficiency", "nguyen_tat_tien_2000")
+def volumetric_efficiency_vietnamese(  # noqa: PLR0913 - one argument per symbol
+    r_c: Value,
+    T_k: Value,
+    dT_heat: Value,
+    p_a: Value,
+    p_k: Value,
+    phi_ch: Value,
+    lam_t: Value,
+    phi_sc: Value,
+    p_r: Value,
+    m_exh: Value,
+) -> Value:
+    """Volumetric efficiency, the residual gas expanding to the pressure of the intake.
+
+    Parameters
+    ----------
+    r_c, T_k, dT_heat, p_a, p_k, phi_ch, lam_t, phi_sc, p_r, m_exh : float
+        Compression ratio, temperature before the intake, heating, pressures at the end of intake and before it,
+        charging after the dead centre, correction of the heats, scavenging, pressure of the residual gas, exponent
+        of its expansion. [-], [K], [K], [Pa], [Pa], [-], [-], [-], [Pa], [-]
+
+    Returns
+    -------
+    float
+        Charge over that of the swept volume, or of the part of it that the ports leave. [-]
+    """
+    expanded = lam_t * phi_sc * np.power(p_r / p_a, 1 / m_exh)
+    return 1 / (r_c - 1) * T_k / (T_k + dT_heat) * p_a / p_k * (r_c * phi_ch - expanded)
+
+
 @formula("geometric_compression_ratio", "kolchin_demidov_2008, ch. 3")
 def geometric_compression_ratio(r_c: Value, psi_lost: Value) -> Value:
     """Compression ratio of the whole stroke, from the one that begins with shut ports.

@@ -40,6 +40,10 @@ class GrinevetskyData:
         Of the residual gas; heating of the charge. [Pa], [K], [K]
     charge_up, scavenging : float
         Factors of charging after the dead centre and of scavenging. [-]
+    intake_school : {"kolchin", "vietnamese"}
+        Whether the residual gas keeps its pressure in the balance of the intake, or expands to that of the intake.
+    heat_correction : float
+        Heat of the residual gas over that of the fresh charge, in the Vietnamese balance. [-]
     lost_stroke : float
         Share of the stroke lost to the ports of a two-stroke engine. [-]
     compression_exponent, expansion_exponent, heat_use : float or None
@@ -95,6 +99,8 @@ class GrinevetskyData:
     heating: float | None = None
     charge_up: float = 1.0
     scavenging: float = 1.0
+    intake_school: Literal["kolchin", "vietnamese"] = "kolchin"
+    heat_correction: float = 1.1
     lost_stroke: float = 0.0
     compression_exponent: float | None = None
     expansion_exponent: float | None = None

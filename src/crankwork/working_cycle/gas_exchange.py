@@ -100,6 +100,24 @@ def _around(ends: Array, inside: Array) -> Array:
     return np.concatenate([ends[:1], inside, ends[1:]])
 
 
+def from_before_zero(dead_centres: tuple[float, float]) -> tuple[float, float]:
+    """Return the dead centres with a top that lies before 0 written as a negative angle.
+
+    Parameters
+    ----------
+    dead_centres : tuple of float
+        Top and bottom within one revolution. [deg]
+
+    Returns
+    -------
+    tuple of float
+        Top within half a revolution of 0, bottom after it. [deg]
+    """
+    top, bottom = dead_centres
+    top = top - 360.0 if top > 180.0 else top
+    return top, bottom - 360.0 if bottom > top + 360.0 else bottom
+
+
 def within_cycle(segments: Sequence[Segment], cycle: float) -> tuple[Segment, ...]:
     """Return segments of one whole cycle, begun anywhere, as segments from 0 to its end.
 

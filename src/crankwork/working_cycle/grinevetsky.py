@@ -121,23 +121,50 @@ def _intake(worked: Worked, data: GrinevetskyData) -> _Intake:
 
 def _compression(worked: Worked, data: GrinevetskyData, start: _Intake) -> _Compressed:
     ratio, exponent = data.compression_ratio, _given(data.compression_exponent)
-    temperature, heating = start.charge_temperature, _given(data.heating)
-    hot, residual = _given(data.residual_temperature), start.residual_pressure
-    fraction = worked(
-        charge.residual_fraction,
-        temperature, heating, hot, data.scavenging, residual, ratio, data.charge_up, start.intake_pressure,
-    )  # fmt: skip
-    begin = worked(charge.intake_temperature, temperature, heating, fraction, hot)
-    efficiency = worked(
-        charge.volumetric_efficiency,
-        temperature, heating, ratio, start.charge_pressure, data.charge_up, start.intake_pressure, data.scavenging,
-        residual,
-    )  # fmt: skip
+    filled = _filled_vietnamese if data.intake_school == "vietnamese" else _filled
+    fraction, begin, efficiency = filled(worked, data, start)
     if data.lost_stroke:
         worked(performance.ported_volumetric_efficiency, efficiency, data.lost_stroke)
         worked(charge.geometric_compression_ratio, ratio, data.lost_stroke)
     pressure = worked(charge.compression_pressure, start.intake_pressure, ratio, exponent)
     return _Compressed(fraction, pressure, worked(charge.compression_temperature, begin, ratio, exponent))
+
+
+def _filled(worked: Worked, data: GrinevetskyData, start: _Intake) -> tuple[float, float, float]:
+    """Return residual gas fraction [-], temperature [K] and volumetric efficiency [-] at the end of intake."""
+    ratio, temperature, heating = data.compression_ratio, start.charge_temperature, _given(data.heating)
+    hot, residual, intake = _given(data.residual_temperature), start.residual_pressure, start.intake_pressure
+    fraction = worked(
+        charge.residual_fraction,
+        temperature, heating, hot, data.scavenging, residual, ratio, data.charge_up, intake,
+    )  # fmt: skip
+    begin = worked(charge.intake_temperature, temperature, heating, fraction, hot)
+    efficiency = worked(
+        charge.volumetric_efficiency,
+        temperature, heating, ratio, start.charge_pressure, data.charge_up, intake, data.scavenging, residual,
+    )  # fmt: skip
+    return fraction, begin, efficiency
+
+
+def _filled_vietnamese(worked: Worked, data: GrinevetskyData, start: _Intake) -> tuple[float, float, float]:
+    """Return the same with residual gas that expands to the pressure of the intake."""
+    ratio, temperature, heating = data.compression_ratio, start.charge_temperature, _given(data.heating)
+    hot, residual, intake = _given(data.residual_temperature), start.residual_pressure, start.intake_pressure
+    correction, exponent = data.heat_correction, data.exhaust_exponent
+    fraction = worked(
+        charge.residual_fraction_vietnamese,
+        data.scavenging, temperature, heating, hot, residual, intake, ratio, data.charge_up, correction, exponent,
+    )  # fmt: skip
+    begin = worked(
+        charge.intake_temperature_vietnamese,
+        temperature, heating, correction, fraction, hot, intake, residual, exponent,
+    )  # fmt: skip
+    efficiency = worked(
+        charge.volumetric_efficiency_vietnamese,
+        ratio, temperature, heating, intake, start.charge_pressure, data.charge_up, correction, data.scavenging,
+        residual, exponent,
+    )  # fmt: skip
+    return fraction, begin, efficiency
 
 
 def _combustion(worked: Worked, data: GrinevetskyData, heat: Burning, mixed: Mixture, end: _Compressed) -> _Burnt:

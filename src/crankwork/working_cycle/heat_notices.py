@@ -8,9 +8,7 @@ from collections.abc import Mapping
 from crankwork.working_cycle.closed_gas import ClosedGas
 from crankwork.working_cycle.heat_data import HeatReleaseData
 
-# usual ranges of the books: shape 0.1 to 5 and duration 20 to 120 deg over petrol and diesel engines (vibe_1970),
-# ratio of specific heats 1.2 to 1.42 for mixture, air and burnt gas (heywood_1988, ch. 4), share of heat to
-# the walls 5 to 40 % (heywood_1988, ch. 12)
+# wide ranges of practice over petrol and diesel engines, no limits of the formulas themselves
 _SHAPE = (0.1, 5.0)
 _DURATION = (20.0, 120.0)
 _HEAT_RATIO = (1.2, 1.42)

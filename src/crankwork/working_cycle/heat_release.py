@@ -21,7 +21,7 @@ from crankwork.loads.monotone import hermite
 from crankwork.method import EXACT, Method
 from crankwork.steps import Step, Worked
 from crankwork.working_cycle.closed_gas import ClosedGas, closed_gas
-from crankwork.working_cycle.gas_exchange import constant_pressure, passage, within_cycle
+from crankwork.working_cycle.gas_exchange import constant_pressure, from_before_zero, passage, within_cycle
 from crankwork.working_cycle.heat_data import HeatReleaseData, Stage, stages
 from crankwork.working_cycle.heat_notices import heat_notices
 from crankwork.working_cycle.heat_steps import work_peak
@@ -125,6 +125,7 @@ def heat_release(
     ----------
     heywood_1988, ch. 9 and 12.
     """
+    dead_centres = from_before_zero(dead_centres)
     worked = Worked()
     gas = closed_gas(data, volume_at, volume_rate_at, dead_centres, worked)
     periods = [one for one in stages(data, dead_centres) if one.end > one.start]

@@ -101,10 +101,13 @@ def ideal_cycle(data: IdealData) -> CalculatedCycle:
     corners = Corners(
         data.pressure, data.pressure, pressure, heated.pressure, last, heated.cut_off, exponent, exponent, ratio
     )
+    hottest = "4" if data.kind == "dual" else "3"
     values = {
         "compression_ratio": ratio,
         "state_pressure.1": data.pressure,
         "state_temperature.1": data.temperature,
+        f"state_pressure.{hottest}": heated.pressure,
+        f"state_temperature.{hottest}": heated.hottest,
         "gas_heat_ratio": exponent,
         "specific_gas_constant": data.gas_constant,
         "pressure_rise_ratio": heated.ratio,

@@ -82,6 +82,12 @@ def written(
         knots = _shaped(part) if part.law == "rounded" else part.points
         names = tuple(_placed(points, one) for one in knots)
         pieces.append(Piece(part.law, names, part.exponent, part.reference))
+    first, last = pieces[0].points[0], pieces[-1].points[-1]
+    before = points[last].pressure
+    if before is not None and points[first].pressure != before:
+        # a vertical line where the cycle begins; of no length, but it closes the diagram
+        foot = _placed(points, Named(f"{AUXILIARY}{last}", 0.0, before))
+        pieces.insert(0, Piece("rounded", (foot, first)))
     return points, tuple(pieces)
 
 

@@ -1,4 +1,4 @@
-"""Corners of the theoretical diagram rounded as valves, ignition and burning round them.
+"""RoundedCorners of the theoretical diagram rounded as valves, ignition and burning round them.
 
 Two schools: the Russian one puts c'' at a ratio to the end of compression and b'' halfway between b and the
 exhaust line; the Vietnamese one puts c'' a third of the way up to the peak and b'' in the middle of ab.
@@ -16,7 +16,7 @@ from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Vol
 from crankwork.working_cycle.gas_exchange import clipped
 from crankwork.working_cycle.rounded_pieces import without_auxiliary, written
 from crankwork.working_cycle.rounding_corners import (
-    Corners,
+    RoundedCorners,
     burning_parts,
     compression_parts,
     corners_of,
@@ -32,6 +32,7 @@ _USUAL_FILLING = (0.90, 0.98)
 _USUAL_RISE = (1.15, 1.25)
 _USUAL_PEAK = (10.0, 15.0)
 _DEVIATION = 0.01
+_ABOVE = 1.1
 
 Notice = tuple[str, Mapping[str, float | str]]
 
@@ -87,11 +88,11 @@ def rounded_diagram(
     corners = corners_of(theory, timing, rounding, volume_at, dead_centres)
     level, notices = _peak_level(corners)
     points, pieces, diagram, filling = _at_level(corners, level)
-    notices = (*_deviations(corners), *notices, *_unusual(corners, filling))
+    notices = (*_deviations(corners), *notices, *_unusual(corners, filling), *_above(corners, level))
     return RoundedDiagram(points, pieces, without_auxiliary(diagram), filling, level, notices)
 
 
-def _peak_level(corners: Corners) -> tuple[float, tuple[Notice, ...]]:
+def _peak_level(corners: RoundedCorners) -> tuple[float, tuple[Notice, ...]]:
     """Return the peak over p_z: given, usual, or solved for so that the filling factor is the wanted one."""
     rounding = corners.rounding
     wanted = rounding.filling_factor
@@ -112,7 +113,7 @@ def _peak_level(corners: Corners) -> tuple[float, tuple[Notice, ...]]:
 
 
 def _at_level(
-    corners: Corners, level: float
+    corners: RoundedCorners, level: float
 ) -> tuple[dict[str, DiagramPoint], tuple[Piece, ...], IndicatorDiagram, float]:
     """Return the diagram with a peak at a share of p_z, and its filling factor."""
     theory = corners.theory
@@ -126,7 +127,7 @@ def _at_level(
     return points, pieces, diagram, _filling(corners, diagram)
 
 
-def _filling(corners: Corners, diagram: IndicatorDiagram) -> float:
+def _filling(corners: RoundedCorners, diagram: IndicatorDiagram) -> float:
     """Return the work of compression to expansion over that of the theoretical lines."""
     cycle, work = corners.timing.cycle, 0.0
     end = corners.bottom if cycle > 360 else corners.opens
@@ -169,7 +170,7 @@ def theoretical_work(theory: Mapping[str, float], volume_at: VolumeAt, angles: t
     return work
 
 
-def _deviations(corners: Corners) -> list[Notice]:
+def _deviations(corners: RoundedCorners) -> list[Notice]:
     """Return where given pressures are not those of the lines they lie on."""
     found: list[Notice] = []
     computed = {
@@ -187,7 +188,7 @@ def _deviations(corners: Corners) -> list[Notice]:
     return found
 
 
-def _unusual(corners: Corners, filling: float) -> list[Notice]:
+def _unusual(corners: RoundedCorners, filling: float) -> list[Notice]:
     rounding, found = corners.rounding, []
     if corners.timing.ignition_advance:
         found += [("round_peak", rounding.peak_angle, _USUAL_PEAK)]
@@ -199,6 +200,15 @@ def _unusual(corners: Corners, filling: float) -> list[Notice]:
         for code, value, (low, high) in found
         if not low <= value <= high
     ]
+
+
+def _above(corners: RoundedCorners, level: float) -> list[Notice]:
+    """Return whether the peak stands out above the expansion line that it is to be rounded from."""
+    if not corners.timing.ignition_advance:
+        return []
+    line = min(corners.theory["p_z"], corners.expansion(corners.top + corners.rounding.peak_angle))
+    ratio = level * corners.theory["p_z"] / line
+    return [("round_above", {"ratio": ratio})] if ratio > _ABOVE else []
 
 
 def filling_factor(

@@ -14,6 +14,7 @@ import numpy as np
 from crankwork.errors import CrankworkError
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import VolumeAt
+from crankwork.working_cycle.gas_exchange import from_before_zero
 from crankwork.working_cycle.rounded_pieces import Named, Part
 from crankwork.working_cycle.rounding_data import Rounding, Timing
 
@@ -21,7 +22,7 @@ _JOIN_BELOW = 0.9
 _RISING = (0.25, 0.5, 0.75)
 
 
-class Corners(NamedTuple):
+class RoundedCorners(NamedTuple):
     """What all levels of the peak share: angles [deg], volumes [m3], polytropes."""
 
     theory: Mapping[str, float]
@@ -71,7 +72,7 @@ def corners_of(
     rounding: Rounding,
     volume_at: VolumeAt,
     dead_centres: tuple[float, float],
-) -> Corners:
+) -> RoundedCorners:
     """Return what the corners of a theoretical diagram are made of.
 
     Parameters
@@ -89,7 +90,7 @@ def corners_of(
 
     Returns
     -------
-    Corners
+    RoundedCorners
         Angles, volumes and lines.
 
     Raises
@@ -98,13 +99,14 @@ def corners_of(
         If timings or pressures cannot make a diagram.
     """
     _check(theory, timing)
+    dead_centres = from_before_zero(dead_centres)
     top, bottom = dead_centres[0] + 360.0, dead_centres[1] + 360.0
     is_two_stroke = timing.cycle == 360.0
     start = dead_centres[1] + (max(timing.intake_closes, timing.exhaust_closes) if is_two_stroke else 0.0)
     volumes = volume_at(np.array([top, start]))
     clearance, start_volume = (float(one) for one in volumes)
     rho = theory.get("rho", 1.0)
-    return Corners(
+    return RoundedCorners(
         theory,
         timing,
         rounding,
@@ -139,7 +141,7 @@ def _check(theory: Mapping[str, float], timing: Timing) -> None:
         )
 
 
-def compression_parts(corners: Corners) -> list[Part]:
+def compression_parts(corners: RoundedCorners) -> list[Part]:
     """Return the compression line from a, in pieces that end at the named points on it."""
     timing = corners.timing
     events = [("a", corners.start)]
@@ -158,7 +160,7 @@ def compression_parts(corners: Corners) -> list[Part]:
     return [Part("polytropic", pair, exponent=corners.theory["n1"], reference="~start") for pair in pairwise(points)]
 
 
-def burning_parts(corners: Corners, level: float) -> list[Part]:
+def burning_parts(corners: RoundedCorners, level: float) -> list[Part]:
     """Return combustion and expansion up to where the exhaust opens."""
     theory, top = corners.theory, corners.top
     opened = Named("b'" if corners.timing.exhaust_opens else "b", corners.opens, corners.expansion(corners.opens))
@@ -186,7 +188,7 @@ def burning_parts(corners: Corners, level: float) -> list[Part]:
     ]
 
 
-def _rising(corners: Corners, peak: float) -> list[Named]:
+def _rising(corners: RoundedCorners, peak: float) -> list[Named]:
     """Return the points from where the pressure leaves the compression line to c''."""
     left = compression_parts(corners)[-1].points[-1]
     compressed = corners.compression(corners.top)
@@ -208,13 +210,13 @@ def _rising(corners: Corners, peak: float) -> list[Named]:
     return [left, *between, Named("c''", corners.top, middle)]
 
 
-def _falls_to(corners: Corners, pressure: float) -> float:
+def _falls_to(corners: RoundedCorners, pressure: float) -> float:
     """Return where the expansion line falls to a pressure. [deg]"""
     ratio = (corners.theory["p_z"] / pressure) ** (1 / corners.theory["n2"])
     return corners.angle_of_volume(corners.burnt_volume * ratio)
 
 
-def exchange_parts(corners: Corners) -> list[Part]:
+def exchange_parts(corners: RoundedCorners) -> list[Part]:
     """Return exhaust and intake from where the exhaust opens to a of the next cycle."""
     theory, timing = corners.theory, corners.timing
     low, charge = theory["p_r"], theory["p_a"]
@@ -248,7 +250,7 @@ def exchange_parts(corners: Corners) -> list[Part]:
     ]
 
 
-def _blow_down(corners: Corners, points: tuple[Named, ...]) -> list[Part]:
+def _blow_down(corners: RoundedCorners, points: tuple[Named, ...]) -> list[Part]:
     pressures = [one.pressure for one in points]
     if points[-1].angle <= points[0].angle:
         return []

@@ -10,7 +10,7 @@ import numpy as np
 from crankwork.expressions import Value, formula
 
 
-@formula("burning_progress", "vibe_1970, ch. 2")
+@formula("burning_progress", "vibe_1970")
 def burning_progress(phi: Value, phi_burn_0: Value, phi_burn: Value) -> Value:
     """Progress of burning: 0 at its start, 1 at its end.
 
@@ -27,7 +27,7 @@ def burning_progress(phi: Value, phi_burn_0: Value, phi_burn: Value) -> Value:
     return (phi - phi_burn_0) / phi_burn
 
 
-@formula("burnt_fraction", "vibe_1970, ch. 2")
+@formula("burnt_fraction", "vibe_1970")
 def wiebe_burnt_fraction(s_burn: Value, m_vibe: Value) -> Value:
     """Fraction burnt by the Wiebe function.
 
@@ -44,7 +44,7 @@ def wiebe_burnt_fraction(s_burn: Value, m_vibe: Value) -> Value:
     return 1 - np.exp(-6.908 * s_burn ** (m_vibe + 1))
 
 
-@formula("burning_rate", "vibe_1970, ch. 2")
+@formula("burning_rate", "vibe_1970")
 def wiebe_burning_rate(s_burn: Value, m_vibe: Value, phi_burn: Value) -> Value:
     """Rate of burning by the Wiebe function.
 

@@ -55,7 +55,16 @@ def sheet_dxf(sheet: Sheet) -> bytes:
         ezdxf: Any = importlib.import_module("ezdxf")
     except ImportError:
         raise MissingExtraError("writing DXF", "report") from None
-    document = ezdxf.new("R2010", setup=False, units=_MILLIMETRES)
+    was_fixed = ezdxf.options.write_fixed_meta_data_for_testing
+    try:
+        # otherwise every file has its own time and number
+        ezdxf.options.write_fixed_meta_data_for_testing = True
+        return _written(ezdxf.new("R2010", setup=False, units=_MILLIMETRES), sheet)
+    finally:
+        ezdxf.options.write_fixed_meta_data_for_testing = was_fixed
+
+
+def _written(document: Any, sheet: Sheet) -> bytes:  # noqa: ANN401 - a document of ezdxf
     _prepare(document, sheet)
     space = document.modelspace()
     for item in sheet.items:
@@ -64,13 +73,7 @@ def sheet_dxf(sheet: Sheet) -> bytes:
     document.set_modelspace_vport(box.height, center=(box.width / 2, box.height / 2))
     document.header["$EXTMIN"], document.header["$EXTMAX"] = (0, 0, 0), (box.width, box.height, 0)
     stream = io.StringIO()
-    was_fixed = ezdxf.options.write_fixed_meta_data_for_testing
-    try:
-        # otherwise every file has its own time and number
-        ezdxf.options.write_fixed_meta_data_for_testing = True
-        document.write(stream)
-    finally:
-        ezdxf.options.write_fixed_meta_data_for_testing = was_fixed
+    document.write(stream)
     return stream.getvalue().encode("utf-8")
 
 

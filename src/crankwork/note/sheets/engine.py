@@ -83,11 +83,16 @@ def engine_sheets(
 
 def _motion_sheet(drawn: Drawn, paper: Paper, words: Words) -> Sheet:
     """Return the sheet of gas and piston motion: Brix and Tolle stand under the stroke of the indicator diagram."""
+    has_gas = "gas_pressure" in drawn.columns
     upper, middle, lower = paper.part(0, 301, 286, 279), paper.part(0, 163, 286, 138), paper.part(0, 0, 286, 163)
+    motions = [paper.part(286 + 176.6 * count, 62, 176.6, 232) for count in range(3)]
+    if not has_gas:
+        middle, lower = paper.part(0, 285, 286, 270), paper.part(0, 0, 286, 285)
+        motions = [paper.part(286, 408 - 173 * count, 530, 172) for count in range(3)]
     scale = gas.displacement_scale(drawn, upper, middle)
     at = gas.top_centre(drawn, upper, scale)
     graphs: list[Graph] = []
-    if "gas_pressure" in drawn.columns:
+    if has_gas:
         side = gas.pressure_side(drawn, words)
         pressure_scale = round_scale((side.high - side.low) / (upper.height - 36.0))
         graphs.append(gas.indicator(drawn, upper, words, pressure_scale, scale))
@@ -95,8 +100,8 @@ def _motion_sheet(drawn: Drawn, paper: Paper, words: Words) -> Sheet:
     if not drawn.results.solved.lengths.offset:
         graphs.append(gas.brix(drawn, middle, words, scale, at))
         graphs.append(tolle(drawn, lower, words, scale, at))
-    for count, noun in enumerate(("displacement", "velocity", "acceleration")):
-        graphs.append(motion_graph(drawn, noun, paper.part(286 + 176.6 * count, 62, 176.6, 232), words))
+    nouns = ("displacement", "velocity", "acceleration")
+    graphs += [motion_graph(drawn, noun, box, words) for noun, box in zip(nouns, motions, strict=True)]
     more = _data(drawn, paper.part(296, 0, 328, 58), words)
     return Sheet("engine-motion", words.say("first_sheet"), words.language, paper, tuple(graphs), tuple(more))
 

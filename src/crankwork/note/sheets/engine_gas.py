@@ -192,13 +192,15 @@ def brix(drawn: Drawn, box: Box, words: Words, scale: float, at: float) -> Graph
     base = box.top - 6.0
     x = Axis(words.symbol("piston_displacement"), "mm", scale, at, at, at + 2 * radius)
     y = Axis("", "mm", scale, base, base - radius, base)
+    # the heading follows the semicircle where its box is higher
+    low = max(box.bottom, base - radius - 26.0)
     middle, pole = np.array([at + radius, base]), np.array([at + radius + shift, base])
     items: list[Item] = [
         line((at - 4, base), (at + 2 * radius + 4, base)),
         Arc((at + radius, base), radius, 180.0, 360.0, "thick"),
         line((at + radius, base + 3), (at + radius, base - radius), "axis"),
     ]
-    items += [line((x, box.bottom + 17), (x, box.top), "axis") for x in (at, at + 2 * radius)]
+    items += [line((x, low + 17), (x, box.top), "axis") for x in (at, at + 2 * radius)]
     points = []
     for degrees in np.arange(0.0, 181.0, RAYS):
         foot = middle + brix_point(radius, shift, degrees)
@@ -216,11 +218,11 @@ def brix(drawn: Drawn, box: Box, words: Words, scale: float, at: float) -> Graph
     ]
     for name, x_at, anchor in (("tdc", at - 2, "end"), ("bdc", at + 2 * radius + 2, "start")):
         items.append(Text((x_at, base + 1.0), words.say(name), SMALL, "end" if anchor == "end" else "start"))
-    foot_box = Box(box.left, box.bottom, box.width, 15.0)
+    foot_box = Box(box.left, low, box.width, 15.0)
     lower = heading(words.say("brix"), [], [], foot_box)
     shown = f"OO′ = {words.number(shift * scale)} {words.unit('mm')}"
-    lower.append(Text((box.left + 1.5, box.bottom + 2.0), words.scale(x.symbol, scale, "mm")))
-    lower.append(Text((box.right - 1.5, box.bottom + 2.0), shown, anchor="end"))
+    lower.append(Text((box.left + 1.5, low + 2.0), words.scale(x.symbol, scale, "mm")))
+    lower.append(Text((box.right - 1.5, low + 2.0), shown, anchor="end"))
     return Graph("brix", box, x, y, (*items, *points, *lower))
 
 

@@ -108,7 +108,7 @@ def _envelope(shown: Graph, corners: Array) -> list[Item]:
         items.append(Text((float(second[0]), float(second[1] - 4.0)), f"{part}′", SMALL, "middle"))
     for name, place, (right, up) in (
         ("C", c, (-4.8, 0.8)), ("D", d, (2.0, -3.5)), ("E", e, (1.5, 1.2)), ("F", f, (1.5, -4.2)), ("A", a, (1.5, 1.2)),
-        ("B", b, (2.0, -4.5)),
+        ("B", b, (1.5, 1.2)),
     ):  # fmt: skip
         items.append(Text((float(place[0] + right), float(place[1] + up)), name))
     return items

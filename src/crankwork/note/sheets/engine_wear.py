@@ -46,13 +46,18 @@ def wear(drawn: Drawn, extra: Mapping[str, Array | float], box: Box, words: Word
     sign = "Σ" + words.say("load_symbol").partition("_")[0]
     depth = Axis(sign, words.unit_of("piston_force"), scale, 0.0, 0.0, radius)
     items = _ring(sums, angles, centre, (radius, scale))
-    items += _rays(sums, angles, centre, radius, words)
+    items += _rays(angles, centre, radius)
     at = angles[int(np.argmin(sums))]
     hole = centre + (radius - 3.0) * _towards(at)
     items.append(Circle((float(hole[0]), float(hole[1])), 2.0, "medium", 1.0))
     items += heading(words.say("wear"), [words.scale(sign, scale, depth.unit)], [], box)
     items.append(Circle((box.left + 3.0, box.bottom + 3.0), 1.4, "medium", 1.0))
     items.append(Text((box.left + 6.0, box.bottom + 3.0 - TEXT / 2), words.say("oil_hole")))
+    ends = "; ".join(
+        f"{sign}_{{{name}}} = {words.number(value, 3)} {words.unit(depth.unit)}"
+        for name, value in (("max", float(sums.max())), ("min", float(sums.min())))
+    )
+    items.append(Text((box.right - 2.0, box.bottom + 3.0 - TEXT / 2), ends, TEXT, "end"))
     return Graph("wear", box, depth, depth, tuple(items))
 
 
@@ -79,18 +84,14 @@ def _ring(sums: Array, angles: Array, centre: Array, size: tuple[float, float]) 
     ]
 
 
-def _rays(sums: Array, angles: Array, centre: Array, radius: float, words: Words) -> list[Item]:
+def _rays(angles: Array, centre: Array, radius: float) -> list[Item]:
     """Return the rays with their numbers outside of the pin, and axes through its middle."""
     x, y = centre
     items: list[Item] = [
         line((x - radius - 2, y), (x + radius + 2, y), "axis"), line((x, y - radius - 2), (x, y + radius + 2), "axis")
     ]  # fmt: skip
-    largest = int(np.argmax(sums))
     for count, angle in enumerate(angles):
         end, text = centre + radius * _towards(angle), centre + (radius + 5.0) * _towards(angle)
         items.append(line(centre + 0.12 * radius * _towards(angle), end, "net"))
         items.append(Text((float(text[0]), float(text[1]) - SMALL / 2), str(count + 1), SMALL, "middle"))
-    shown = f"{words.number(float(sums[largest]), 3)}"
-    items.append(Text((float(x), float(y) + 1.5), f"max {shown}", SMALL, "middle"))
-    items.append(Text((float(x), float(y) - 1.5 - SMALL), f"min {words.number(float(sums.min()), 3)}", SMALL, "middle"))
     return items

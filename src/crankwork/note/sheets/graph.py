@@ -79,6 +79,12 @@ class Axis(NamedTuple):
         first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
         return np.asarray(step * np.arange(first, last + 1), dtype=float)
 
+    @property
+    def power(self) -> int:
+        """The power of ten that its numbers are divided by where they would be too long."""
+        largest = float(np.max(np.abs(self.ticks), initial=0.0))
+        return 0 if largest == 0 or 1e-3 <= largest < 1e5 else 3 * math.floor(math.log10(largest) / 3)
+
 
 class Curve(NamedTuple):
     """A line of a graph: key of its quantity, symbol, name, values in the units of the axes, kind of line."""
@@ -178,14 +184,16 @@ def _step(scale: float, unit: str) -> float:
     return next(float(f"{one * power:.6g}") for one in (1, 2, 5, 10, 20) if one * power >= least * (1 - 1e-9))
 
 
-def _title(axis: Axis | Side, words: Words) -> str:
-    unit = words.unit(axis.unit)
-    return f"{axis.symbol}, {unit}" if unit else axis.symbol
+def _title(axis: Axis, words: Words) -> str:
+    """Return symbol and unit of an axis, and what its numbers are multiplied by."""
+    unit, power = words.unit(axis.unit), f"·10^{{{-axis.power}}}".replace("-", "−") if axis.power else ""
+    return f"{axis.symbol}{power}, {unit}" if unit else f"{axis.symbol}{power}"
 
 
 def _tail(side: Side, words: Words) -> float:
     """Return how far an axis goes on behind its values, for the arrow and the symbol. [mm]"""
-    return text_width(_title(side, words)) + 5.0
+    spare = 5.0 if side.unit in ("deg", "mm", "cm3") else 14.0
+    return text_width(f"{side.symbol}, {words.unit(side.unit)}") + spare
 
 
 def _net(x: Axis, y: Axis, words: Words) -> list[Item]:
@@ -195,11 +203,11 @@ def _net(x: Axis, y: Axis, words: Words) -> list[Item]:
         at = float(x.place(value))
         items.append(line((at, y.start), (at, y.end), "net"))
         foot = y.start - 1.5 - SMALL if y.scale > 0 else y.end + 1.5
-        items.append(Text((at, foot), words.number(float(value), 7), SMALL, "middle"))
+        items.append(Text((at, foot), words.number(float(value) / 10**x.power, 7), SMALL, "middle"))
     for value in y.ticks:
         at = float(y.place(value))
         items.append(line((x.start, at), (x.end, at), "net"))
-        items.append(Text((x.start - 1.5, at - SMALL / 2), words.number(float(value), 7), SMALL, "end"))
+        items.append(Text((x.start - 1.5, at - SMALL / 2), words.number(float(value) / 10**y.power, 7), SMALL, "end"))
     return items
 
 
@@ -207,7 +215,7 @@ def _axes(x: Axis, y: Axis, words: Words) -> list[Item]:
     """Return the two axes through zero, with arrows, ticks and symbols."""
     across = min(max(y.zero, y.start), y.end)
     upright = min(max(x.zero, x.start), x.end)
-    tail = text_width(_title(x, words)) + 5.0
+    tail = text_width(f"{x.symbol}, {words.unit(x.unit)}") + 5.0
     ends = (x.start, x.end + tail)
     down = y.scale < 0
     top = (y.end, y.start - 6.0) if down else (y.start, y.end + 7.0)

@@ -28,7 +28,7 @@ from crankwork.report.linkage_plans import accelerations, velocities
 from crankwork.report.linkage_skeleton import skeleton
 from crankwork.report.summary import results_method
 
-_DENSE_STEP = 2.0
+_DENSE_STEP = 1.0
 _POSITIONS = tuple(range(0, 360, 30))
 # position whose plan is bold, and those that get an acceleration plan
 _MAIN = 1

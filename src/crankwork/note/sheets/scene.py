@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -61,15 +60,6 @@ class Box(NamedTuple):
     def inset(self, left: float, bottom: float, right: float, top: float) -> Box:
         """Return what is left of it within margins."""
         return Box(self.left + left, self.bottom + bottom, self.width - left - right, self.height - bottom - top)
-
-    def holds(self, other: Box, spare: float = 1e-6) -> bool:
-        """Return whether another rectangle lies in it."""
-        return (
-            other.left >= self.left - spare
-            and other.bottom >= self.bottom - spare
-            and other.right <= self.right + spare
-            and other.top <= self.top + spare
-        )
 
 
 class Polyline(NamedTuple):
@@ -197,7 +187,8 @@ def printable(name: str, longest: int = 24) -> str:
     return "".join(one if one.isprintable() else "□" for one in name).replace("{", "(").replace("}", ")")
 
 
-_NARROW, _WIDE = frozenset(" .,:;|!'′ijltfrI()[]/°·"), frozenset("mwMWШЩЖЮФМшщжюф@—…%")
+_NARROW, _WIDE = frozenset(" .,:;|!'′ijltfrI()[]/°·"), frozenset("mwMWШЩЖЮФМшщжюфыЫЪм@—…%ωφψΣΦΩ")
+_EMS = dict.fromkeys("0123456789−", 0.48)
 CAP_HEIGHT = 0.658
 INDEX = 0.7
 
@@ -207,7 +198,9 @@ def text_width(text: str, height: float = TEXT) -> float:
     width = 0.0
     for run in runs(text):
         for one in run.text:
-            ems = 0.33 if one in _NARROW else 0.86 if one in _WIDE else 0.69 if one.isupper() else 0.53
+            ems = 0.33 if one in _NARROW else 0.86 if one in _WIDE else 0.69 if one.isupper() else _EMS.get(one, 0.53)
+            # Cyrillic letters are wider than Latin ones
+            ems += 0.05 if "Ѐ" <= one <= "ӿ" else 0.0
             width += ems * (INDEX if run.shift else 1.0)
     return width * height / CAP_HEIGHT
 
@@ -237,13 +230,6 @@ def arc_points(item: Arc) -> Array:
     """Return points along an arc, shape (n, 2). [mm]"""
     angles = np.radians(np.linspace(item.start, item.end, 1 + max(2, int(abs(item.end - item.start) / 3))))
     return np.column_stack([np.cos(angles), np.sin(angles)]) * item.radius + item.centre
-
-
-def bounds(items: Iterable[Item]) -> Box:
-    """Return what items cover together. [mm]"""
-    boxes = [extent(one) for one in items]
-    left, bottom = min(one.left for one in boxes), min(one.bottom for one in boxes)
-    return Box(left, bottom, max(one.right for one in boxes) - left, max(one.top for one in boxes) - bottom)
 
 
 def hatch_lines(item: Hatch) -> list[Array]:

@@ -33,7 +33,6 @@ _WORDS = {
                  "Đồ thị khai triển phụ tải tác dụng lên chốt khuỷu"),
     "wear": ("Wear diagram of the crankpin", "Условная диаграмма износа шатунной шейки",
              "Đồ thị mài mòn chốt khuỷu"),
-    "wear_sum": ("sum of loads", "сумма сил", "tổng phụ tải"),
     "oil_hole": ("oil hole", "масляное отверстие", "lỗ dầu"),
     "load_symbol": ("R", "R_шш", "Q"),
     "total_torque": ("total torque", "суммарный крутящий момент", "tổng mômen quay"),
@@ -41,7 +40,6 @@ _WORDS = {
     "mean_mark": ("m", "ср", "tb"),
     "mean": ("mean value", "среднее значение", "giá trị trung bình"),
     "force": ("F", "P", "P"),
-    "pole": ("pole", "полюс", "gốc"),
     "big_end": ("F_cr", "K_Rш", "P_k0"),
     "tdc": ("TDC", "ВМТ", "ĐCT"),
     "bdc": ("BDC", "НМТ", "ĐCD"),
@@ -73,7 +71,6 @@ _WORDS = {
     "kinetic_energy_change": ("Change of kinetic energy", "Изменение кинетической энергии",
                               "Độ biến thiên động năng"),
     "crank_speed": ("Angular speed of the crank", "Угловая скорость кривошипа", "Vận tốc góc của khâu dẫn"),
-    "flywheel": ("flywheel", "маховик", "bánh đà"),
     "anticlockwise": ("ω and ε are positive anticlockwise", "ω и ε положительны против часовой стрелки",
                       "ω và ε dương khi ngược chiều kim đồng hồ"),
     "beneath": ("{}: point of link {} under {}", "{} – точка звена {}, совпадающая с {}",
@@ -108,10 +105,6 @@ class Words(NamedTuple):
     def say(self, key: str) -> str:
         """Return a word of the sheets."""
         return _WORDS[key][LANGUAGES.index(self.language)]
-
-    def knows(self, key: str) -> bool:
-        """Return whether sheets have a title of their own for a key."""
-        return key in _WORDS
 
     def symbol(self, key: str) -> str:
         """Return the symbol of a quantity, its index marked."""

@@ -1,0 +1,43 @@
+"""What the writer of a note may choose."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from crankwork.quantities import Language
+
+
+@dataclass(frozen=True)
+class NoteOptions:
+    """How a note is to be written.
+
+    Parameters
+    ----------
+    language : str
+        `en`, `ru` or `vi`.
+    school : str
+        Whose order of sections and symbols: `en`, `ru` or `vi`; that of the language if empty.
+    per_area : bool
+        Divide forces by the piston area.
+    title : str
+        Instead of the title of the machine.
+    author : str
+        Who hands it in.
+    figures : bool
+        Draw figures.
+    sheets : bool
+        Whether drawing sheets are written beside the note.
+    """
+
+    language: Language = "en"
+    school: str = ""
+    per_area: bool = False
+    title: str = ""
+    author: str = ""
+    figures: bool = True
+    sheets: bool = False
+
+    @property
+    def order(self) -> str:
+        """The school whose order of sections is followed: `en`, `ru` or `vi`."""
+        return self.school or self.language

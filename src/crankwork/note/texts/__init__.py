@@ -1,0 +1,1 @@
+"""The words of the notes in each language."""

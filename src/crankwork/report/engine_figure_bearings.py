@@ -1,0 +1,253 @@
+"""The polar diagrams of the bearing loads, and the load of the crankpin over the crank angle."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from crankwork.cylinders.load_statistics import PolarDiagram, load_statistics, polar_diagram
+from crankwork.cylinders.load_vectors import BearingLoad
+from crankwork.kinematics.crank_grid import Array
+from crankwork.report.engine_figure_axes import (
+    BOTTOM,
+    LEFT,
+    RIGHT,
+    TOP,
+    WIDTH,
+    Box,
+    Graph,
+    Row,
+    limits,
+    over_cycle,
+    round_ticks,
+    sheet,
+    small_text,
+)
+from crankwork.report.engine_figure_data import EngineDrawn
+from crankwork.report.engine_figure_labels import label_marks, spread
+from crankwork.report.engine_figure_paper import Paper
+from crankwork.report.engine_figure_words import engine_word
+from crankwork.report.figure_look import DASHED, SOLID
+
+_HEIGHT, _MARGIN = 340.0, 1.12
+_LINES = (SOLID, DASHED, (0, (7, 2, 1.5, 2)), (0, (1.2, 1.6)))
+
+
+def crankpin_polar(engine: EngineDrawn, pin: int) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the load of all rods on a crankpin: tangential to the right, radial downward, seen from its pole.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share.
+    pin : int
+        Number of the crankpin.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graph by the name of the figure.
+    """
+    degrees, loads = engine.loads
+    rods = len(engine.whole.on_pin[pin - 1])
+    inertia = rods * engine.rod_inertia
+    diagram = polar_diagram(loads.crankpins[pin], degrees, engine.cycle, inertia)
+    count = f"{rods} " if rods > 1 else ""
+    pole = engine_word("pole_rods" if rods > 1 else "pole", engine.language)
+    force = f"{count}{engine.symbol('big_end_inertia_force')} – {engine.named('big_end_inertia_force').partition(' – ')[2]}"
+    rows = [Row(f"O – {pole}"), Row(f"{force}, {engine.value('big_end_inertia_force', -inertia)}", width=1.8)]
+    titles = (
+        f"{engine.symbol('tangential_force')}, {engine.unit('tangential_force')}",
+        f"{engine.symbol('radial_force')}, {engine.unit('radial_force')}",
+    )
+    return _polar(engine, "crankpin_load", diagram, rows if inertia else [], titles)
+
+
+def big_end_polar(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the load of the crankpin on the big-end bearing, in the frame of the rod.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graph by the name of the figure.
+    """
+    return _rod_polar(engine, "big_end_load", engine.loads[1].big_end)
+
+
+def small_end_polar(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the load of the piston pin on the small-end bearing, in the frame of the rod.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graph by the name of the figure.
+    """
+    return _rod_polar(engine, "small_end_load", engine.loads[1].small_end)
+
+
+def _rod_polar(engine: EngineDrawn, key: str, load: BearingLoad) -> tuple[Paper, Mapping[str, Graph]]:
+    diagram = polar_diagram(load, engine.loads[0], engine.cycle)
+    unit = engine.unit(key)
+    titles = (
+        f"{engine.symbol(key)} {engine_word('across_rod', engine.language)}, {unit}",
+        f"{engine.symbol(key)} {engine_word('along_rod', engine.language)}, {unit}",
+    )
+    # along the rod is upward, not downward
+    return _polar(engine, key, diagram, [], titles, upward=True)
+
+
+def _polar(
+    engine: EngineDrawn,
+    key: str,
+    diagram: PolarDiagram,
+    rows: list[Row],
+    titles: tuple[str, str],
+    *,
+    upward: bool = False,
+) -> tuple[Paper, Mapping[str, Graph]]:
+    """Draw a polar diagram on equal scales with its pole, marked every 30 degrees."""
+    across, down = (np.append(one, one[0]) for one in (engine.shown(key, diagram.across), engine.shown(key, diagram.down)))
+    pole = tuple(float(one) for one in engine.shown(key, np.array(diagram.pole)))
+    paper, box = sheet(_HEIGHT, rows)
+    x, y = _equal_scales(box, np.append(across, [0.0, pole[0]]), np.append(down, [0.0, pole[1]]))
+    graph = Graph(paper, box, x, (-y[0], -y[1]) if upward else y, engine.language)
+    sign = -1.0 if upward else 1.0
+    graph.frame(round_ticks(*x, 7), round_ticks(*sorted(graph.y), 7))
+    origin = graph.point(0.0, 0.0)
+    paper.segments(np.array([(origin[0], box.top, origin[0], box.top + box.height)]), width=0.8)
+    graph.curve("load", across, sign * down)
+    cross = [
+        spread(graph.across(np.array(x)), np.full(2, origin[1])),
+        spread(np.full(2, origin[0]), np.array([box.top, box.top + box.height])),
+    ]
+    graph.curves["pole"] = np.array([pole[0]]), sign * np.array([pole[1]])
+    at = graph.point(pole[0], sign * pole[1])
+    if pole[1]:
+        paper.arrow(at, origin, width=1.8)
+        cross.append(spread(np.array([at[0], origin[0]]), np.array([at[1], origin[1]])))
+    paper.dot(*at, 2.6, fill="#ffffff", width=1.0)
+    paper.text(at[0] - 5, at[1] + 11, "O", anchor="end")
+    cross.append(spread(np.array([at[0] - 12, at[0] - 4]), np.array([at[1] + 8, at[1] + 8])))
+    marked = engine.shown(key, diagram.marks_across), sign * engine.shown(key, diagram.marks_down)
+    graph.curves["marks"] = marked
+    places = zip(diagram.marks, graph.across(marked[0]), graph.down(marked[1]), strict=True)
+    line = spread(graph.across(across), graph.down(sign * down))
+    label_marks(paper, [(f"{angle:g}", float(a), float(b)) for angle, a, b in places], np.vstack([line, *cross]))
+    graph.x_title(titles[0])
+    graph.y_title(titles[1], 48.0)
+    return paper, {key: graph}
+
+
+def _equal_scales(box: Box, x: Array, y: Array) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return ends of the scales that hold the points, equal both ways, the vertical one downward."""
+    middle = (float(x.min()) + float(x.max())) / 2, (float(y.min()) + float(y.max())) / 2
+    scale = _MARGIN * max(float(np.ptp(x)) / box.width, float(np.ptp(y)) / box.height) or 1.0
+    half = scale * box.width / 2, scale * box.height / 2
+    return (middle[0] - half[0], middle[0] + half[0]), (middle[1] + half[1], middle[1] - half[1])
+
+
+def crankpin_load(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the size of the load on every unlike crankpin over the crank angle, with mean and extremes of the first.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graph by the name of the figure.
+    """
+    degrees, loads = engine.loads
+    sizes = {pin: engine.shown("crankpin_load", one.resultant) for pin, one in loads.crankpins.items()}
+    first = next(iter(sizes))
+    found = load_statistics(loads.crankpins[first], degrees, engine.cycle)
+    rows = [
+        Row(
+            engine.named("crankpin_load") + (f", {engine_word('crankpin', engine.language, str(pin))}" if len(sizes) > 1 else ""),
+            _LINES[at % len(_LINES)],
+        )
+        for at, pin in enumerate(sizes)
+    ]
+    style = (0, (10, 3)) if len(sizes) > 1 else DASHED
+    rows.append(Row(f"{engine.named('mean_crankpin_load')}, {engine.value('mean_crankpin_load', found.mean)}", style, 0.8))
+    paper, box = sheet(210.0, rows)
+    _, high = limits(*sizes.values(), margin=0.14)
+    graph = over_cycle(paper, box, (0.0, high), engine.cycle, engine.language)
+    for at, (pin, values) in enumerate(sizes.items()):
+        graph.curve(f"pin_{pin}", np.append(degrees, engine.cycle), np.append(values, values[0]), _LINES[at % len(_LINES)])
+    mean = float(engine.shown("crankpin_load", found.mean))
+    graph.curve("mean", [0.0, engine.cycle], [mean, mean], style, width=0.8)
+    for name, angle, value in (("max", found.max_angle, found.max), ("min", found.min_angle, found.min)):
+        text = f"{engine.symbol('crankpin_load')[:-1]}{',' if '_' in engine.symbol('crankpin_load') else '_'}{name}$"
+        text = f"{text} = {engine.value('crankpin_load', value)}"
+        graph.mark(name, angle, float(engine.shown("crankpin_load", value)), text, below=name == "min" and found.min > 0.12 * found.max)
+    graph.x_title(engine.title("crank_angle"))
+    graph.y_title(engine.title("crankpin_load") if len(sizes) == 1 else f"{engine.symbol('crankpin_load')}, {engine.unit('crankpin_load')}")
+    return paper, {"crankpin_load": graph}
+
+
+def main_journal_polar(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the loads of all main journals in the frame of the shaft, side by side on equal scales.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graph of each journal by its number.
+    """
+    degrees, loads = engine.loads
+    diagrams = [polar_diagram(one, degrees, engine.cycle, 0.0, 90.0) for one in loads.mains]
+    most = max(float(one.resultant.max()) for one in loads.mains)
+    reach = 1.18 * float(engine.shown("main_journal_load", most)) or 1.0
+    columns = min(len(diagrams), 2 if len(diagrams) in (2, 4) else 3)
+    lines = -(-len(diagrams) // columns)
+    side, gap = (WIDTH - 52 - RIGHT + 12) / columns - 12, (12.0, 24.0)
+    paper = Paper(WIDTH, TOP + 12 + lines * side + (lines - 1) * gap[1] + BOTTOM)
+    graphs = {}
+    for at, diagram in enumerate(diagrams):
+        column, line = at % columns, at // columns
+        box = Box(52 + column * (side + gap[0]), TOP + 12 + line * (side + gap[1]), side, side)
+        has_below = at + columns >= len(diagrams)
+        graphs[str(at + 1)] = _small_polar(engine, paper, box, diagram, reach, labels=(has_below, column == 0))
+        small_text(paper, box.left + side / 2, box.top - 5, engine_word("main_journal", engine.language, str(at + 1)))
+        if has_below:
+            graphs[str(at + 1)].x_title(f"{engine.symbol('main_journal_load')}, {engine.unit('main_journal_load')}")
+    return paper, graphs
+
+
+def _small_polar(
+    engine: EngineDrawn, paper: Paper, box: Box, diagram: PolarDiagram, reach: float, *, labels: tuple[bool, bool]
+) -> Graph:
+    """Draw one of several polar diagrams, crank 1 upward, marked every 90 degrees."""
+    graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language)
+    ticks = round_ticks(-reach, reach, 5)
+    graph.frame(ticks, ticks, labels=labels)
+    middle = graph.point(0.0, 0.0)
+    paper.segments(np.array([(middle[0], box.top, middle[0], box.top + box.height)]), width=0.8)
+    across, up = engine.shown("main_journal_load", diagram.across), -engine.shown("main_journal_load", diagram.down)
+    across, up = np.append(across, across[0]), np.append(up, up[0])
+    graph.curve("load", across, up, width=1.0)
+    marked = engine.shown("main_journal_load", diagram.marks_across), -engine.shown("main_journal_load", diagram.marks_down)
+    graph.curves["marks"] = marked
+    places = zip(diagram.marks, graph.across(marked[0]), graph.down(marked[1]), strict=True)
+    cross = spread(np.array([box.left, box.left + box.width]), np.full(2, middle[1]))
+    line = np.vstack([spread(graph.across(across), graph.down(up)), cross])
+    label_marks(paper, [(f"{angle:g}", float(a), float(b)) for angle, a, b in places], line, size=6.5, dot=1.3)
+    return graph

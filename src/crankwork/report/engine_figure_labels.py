@@ -1,0 +1,104 @@
+"""Names beside the marks of a curve on paper, where they cover neither lines nor each other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from crankwork.kinematics.crank_grid import Array
+from crankwork.report.engine_figure_paper import GREY, Paper, text_width
+
+_SPACING = 3.0
+_ANGLES = np.radians(np.arange(16) * 22.5)
+_DIRECTIONS = np.column_stack([np.cos(_ANGLES), np.sin(_ANGLES)])
+_REACHES = (7.0, 10.0, 14.0, 19.0, 25.0, 32.0)
+
+
+def spread(x: Array, y: Array) -> Array:
+    """Return points along a line at even distances.
+
+    Parameters
+    ----------
+    x, y : array, shape (n,)
+        The line. [pt]
+
+    Returns
+    -------
+    array, shape (m, 2)
+        Points. [pt]
+    """
+    length = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
+    even = np.arange(0.0, length[-1] + _SPACING, _SPACING)
+    return np.column_stack([np.interp(even, length, x), np.interp(even, length, y)])
+
+
+def label_marks(
+    paper: Paper,
+    marks: Sequence[tuple[str, float, float]],
+    obstacles: Array,
+    *,
+    size: float = 8.0,
+    dot: float = 1.5,
+) -> None:
+    """Draw marks with their names; those that fall together share one mark, far names get a thin line.
+
+    Parameters
+    ----------
+    paper : Paper
+        Where to draw.
+    marks : sequence of (str, float, float)
+        Name, and where it stands. [pt]
+    obstacles : array, shape (n, 2)
+        Points to keep clear of. [pt]
+    size, dot : float
+        Of the letters, and radius of the marks. [pt]
+    """
+    marks = _merged(marks)
+    places = np.array([(x, y) for _, x, y in marks])
+    taken: list[tuple[Array, Array]] = []
+    for name, x, y in marks:
+        mark = np.array([x, y])
+        half = np.array([text_width(name, size) / 2 + 0.8, 0.42 * size])
+        others = places[np.any(places != mark, axis=1)]
+        shift = _shift(mark, half, taken, obstacles, others)
+        taken.append((mark + shift, half))
+        if np.max(np.abs(shift) - half) > 6:
+            start, end = (
+                mark + 0.12 * shift,
+                mark + shift * (1 - np.min((half + 0.5) / np.maximum(np.abs(shift), 1e-9))),
+            )
+            paper.segments(np.array([[*start, *end]]), width=0.4, colour=GREY)
+        paper.dot(x, y, dot)
+        paper.text(x + float(shift[0]), y + float(shift[1]) + 0.36 * size, name, size=size, anchor="middle")
+
+
+def _shift(mark: Array, half: Array, taken: list[tuple[Array, Array]], obstacles: Array, others: Array) -> Array:
+    """Return where the middle of a name goes from its mark: clear first, then near. [pt]"""
+    shifts = np.concatenate([_DIRECTIONS * (reach + np.abs(_DIRECTIONS) * (half - half.min())) for reach in _REACHES])
+    cost = np.repeat(_REACHES, len(_DIRECTIONS)) + 0.05 * np.tile(np.arange(len(_DIRECTIONS)), len(_REACHES))
+    centres = mark + shifts
+    near = obstacles[np.all(np.abs(obstacles - mark) < _REACHES[-1] + 2 * half + 4, axis=1)]
+    cost = cost + 10.0 * np.all(np.abs(centres[:, None] - near) < half + 0.8, axis=2).sum(axis=1)
+    if len(others):
+        apart = np.hypot(*np.moveaxis(centres[:, None] - others, -1, 0)).min(axis=1)
+        cost += 14.0 * (apart < 1.15 * np.hypot(*shifts.T))
+        cost += 60.0 * np.any(np.all(np.abs(centres[:, None] - others) < half + 1.6, axis=2), axis=1)
+    for centre, other in taken:
+        cost += 500.0 * np.all(np.abs(centres - centre) < half + other + 0.5, axis=1)
+        between = mark + shifts[:, None] * np.array([0.25, 0.5, 0.75])[:, None]
+        cost += 40.0 * np.any(np.all(np.abs(between - centre) < other, axis=2), axis=1)
+    return np.asarray(shifts[np.argmin(cost)])
+
+
+def _merged(marks: Sequence[tuple[str, float, float]]) -> list[tuple[str, float, float]]:
+    """Return the marks, those within a point of the paper joined."""
+    result: list[tuple[str, float, float]] = []
+    for name, x, y in marks:
+        same = [at for at, (_, a, b) in enumerate(result) if np.hypot(a - x, b - y) < 1.0]
+        if same:
+            first, a, b = result[same[0]]
+            result[same[0]] = (f"{first}, {name}", a, b)
+        else:
+            result.append((name, float(x), float(y)))
+    return result

@@ -1,0 +1,330 @@
+"""Paper to draw figures on: lines, areas and text as outlines of letters, written as SVG at once.
+
+Figures of a whole engine are many and made of few kinds of parts, so they are written without the layout machinery of
+matplotlib, whose fonts they use: two milliseconds instead of a hundred.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import NamedTuple
+from xml.sax.saxutils import escape
+
+import numpy as np
+
+from crankwork.kinematics.crank_grid import Array
+from crankwork.report.figure_look import SOLID, Style
+
+BLACK, GREY, LIGHT = "#000000", "#737373", "#e0e0e0"
+_EM = 100.0
+_SUB_SIZE, _SUB_DROP = 0.7, 0.18
+_FONTS = {"r": "DejaVuSerif.ttf", "i": "DejaVuSerif-Italic.ttf"}
+_UPRIGHT = ("sin", "cos", "tan", "tg")
+
+
+class _Letter(NamedTuple):
+    """Outline of a letter, upward, and how far the next one stands, both for a size of 100."""
+
+    outline: str
+    advance: float
+
+
+@lru_cache(maxsize=4)
+def _font(name: str) -> object:
+    import matplotlib as mpl  # noqa: PLC0415 - an optional part
+    from matplotlib.ft2font import FT2Font  # noqa: PLC0415 - an optional part
+
+    font = FT2Font(f"{mpl.get_data_path()}/fonts/ttf/{_FONTS[name]}")
+    font.set_size(_EM, 72)
+    return font
+
+
+@lru_cache(maxsize=2048)
+def _letter(font: str, letter: str) -> _Letter:
+    from matplotlib.ft2font import FT2Font, LoadFlags  # noqa: PLC0415 - an optional part
+
+    face = _font(font)
+    assert isinstance(face, FT2Font)
+    glyph = face.load_char(ord(letter), flags=LoadFlags.NO_HINTING)
+    points, codes = face.get_path()
+    parts, at = [], 0
+    while at < len(codes):
+        kind, count = {1: ("M", 1), 2: ("L", 1), 3: ("Q", 2), 4: ("C", 3)}.get(int(codes[at]), ("Z", 0))
+        numbers = (f"{round(float(one), 2):g}" for one in np.ravel(points[at : at + count]))
+        parts.append(kind + " ".join(numbers))
+        at += count or 1
+    return _Letter("".join(parts), glyph.linearHoriAdvance / 65536)
+
+
+class _Run(NamedTuple):
+    """Letters in one font: upright or italic, size and height over the base line as shares of the size of the text."""
+
+    font: str
+    size: float
+    rise: float
+    letters: str
+
+
+@lru_cache(maxsize=1024)
+def _runs(text: str) -> tuple[_Run, ...]:
+    """Return the runs of a text in which symbols `base_subscript` stand between dollar signs."""
+    result = []
+    for at, part in enumerate(text.split("$")):
+        if at % 2 == 0:
+            result.append(_Run("r", 1.0, 0.0, part))
+            continue
+        base, _, subscript = part.partition("_")
+        slanted = not base.startswith(_UPRIGHT) and "/" not in base
+        result += [_Run("i" if slanted and one.isalpha() and one not in "ΣΔ" else "r", 1.0, 0.0, one) for one in base]
+        result.append(_Run("r", _SUB_SIZE, -_SUB_DROP, subscript))
+    return tuple(one for one in result if one.letters)
+
+
+@lru_cache(maxsize=2048)
+def text_width(text: str, size: float) -> float:
+    """Return how wide a text is.
+
+    Parameters
+    ----------
+    text : str
+        With symbols between dollar signs.
+    size : float
+        Of the letters. [pt]
+
+    Returns
+    -------
+    float
+        Width. [pt]
+    """
+    widths = (sum(_letter(run.font, one).advance for one in run.letters) * run.size for run in _runs(text))
+    return size * sum(widths) / _EM
+
+
+def fitted_lines(text: str, size: float, width: float) -> tuple[str, ...]:
+    """Return a text on as many lines as it needs.
+
+    Parameters
+    ----------
+    text : str
+        With symbols between dollar signs.
+    size, width : float
+        Of the letters, and of the lines. [pt]
+
+    Returns
+    -------
+    tuple of str
+        Its lines, broken between words.
+    """
+    lines: list[str] = []
+    for word in text.split(" "):
+        joined = f"{lines[-1]} {word}" if lines else word
+        if lines and text_width(joined, size) <= width:
+            lines[-1] = joined
+        else:
+            lines.append(word)
+    return tuple(lines)
+
+
+def path_data(x: Array, y: Array, *, closed: bool = False) -> str:
+    """Return points joined by straight lines as the data of an SVG path.
+
+    Parameters
+    ----------
+    x, y : array, shape (n,)
+        To the right and downward. [pt]
+    closed : bool
+        Whether the last is joined with the first.
+
+    Returns
+    -------
+    str
+        Path data.
+    """
+    numbers = np.round(np.column_stack([x, y]), 2).tolist()
+    return "M" + "L".join(f"{a:g} {b:g}" for a, b in numbers) + ("Z" if closed else "")
+
+
+def _dashes(style: Style, width: float) -> str:
+    if style == SOLID or isinstance(style, str):
+        return ""
+    return ' stroke-dasharray="{}"'.format(" ".join(f"{round(one * width, 2):g}" for one in style[1]))
+
+
+class Paper:
+    """A sheet that collects what is drawn; coordinates to the right and downward from its upper left corner. [pt]
+
+    Parameters
+    ----------
+    width, height : float
+        Its size. [pt]
+    """
+
+    def __init__(self, width: float, height: float) -> None:
+        self.width, self.height = width, height
+        self.texts: list[tuple[str, float, float, float, float]] = []
+        self._parts: list[str] = []
+        self._letters: dict[str, str] = {}
+
+    def line(
+        self,
+        x: Sequence[float] | Array,
+        y: Sequence[float] | Array,
+        *,
+        style: Style = SOLID,
+        width: float = 0.8,
+        colour: str = BLACK,
+        fill: str = "none",
+        closed: bool = False,
+        name: str = "",
+    ) -> None:
+        """Draw a line through points, or an area if it is closed and filled.
+
+        Parameters
+        ----------
+        x, y : sequence, shape (n,)
+            Points. [pt]
+        style : str or tuple
+            Dashes as a style of `figure_look`.
+        width : float
+            Of the line. [pt]
+        colour, fill : str
+            Of line and area, as SVG writes them.
+        closed : bool
+            Whether the last point is joined with the first.
+        name : str
+            By which the line is found again in the file.
+        """
+        data = path_data(np.asarray(x, dtype=float), np.asarray(y, dtype=float), closed=closed)
+        self._path(data, style, width, colour, fill, name)
+
+    def segments(self, ends: Array, *, width: float = 0.5, colour: str = BLACK) -> None:
+        """Draw many straight lines at once, such as hatching.
+
+        Parameters
+        ----------
+        ends : array, shape (n, 4)
+            x and y of the start, x and y of the end of each. [pt]
+        width : float
+            Of the lines. [pt]
+        colour : str
+            As SVG writes it.
+        """
+        if len(ends):
+            data = "".join(f"M{a:g} {b:g}L{c:g} {d:g}" for a, b, c, d in np.round(ends, 2).tolist())
+            self._path(data, SOLID, width, colour, "none", "")
+
+    def _path(self, data: str, style: Style, width: float, colour: str, fill: str, name: str) -> None:
+        named = f' class="{escape(name)}"' if name else ""
+        stroke = f'stroke="{colour}" stroke-width="{width:g}"{_dashes(style, width)}' if width else 'stroke="none"'
+        self._parts.append(f'<path{named} d="{data}" fill="{fill}" {stroke} stroke-linejoin="round"/>')
+
+    def dot(self, x: float, y: float, radius: float = 1.5, *, fill: str = BLACK, width: float = 0.0) -> None:
+        """Draw a dot, or a circle.
+
+        Parameters
+        ----------
+        x, y, radius, width : float
+            Middle, radius, width of the line. [pt]
+        fill : str
+            As SVG writes it.
+        """
+        stroke = f' stroke="{BLACK}" stroke-width="{width:g}"' if width else ""
+        self._parts.append(f'<circle cx="{x:.2f}" cy="{y:.2f}" r="{radius:g}" fill="{fill}"{stroke}/>')
+
+    def arrow(self, start: Sequence[float], end: Sequence[float], *, width: float = 1.0, colour: str = BLACK) -> None:
+        """Draw an arrow with a filled head; one too short for a head is a line.
+
+        Parameters
+        ----------
+        start, end : sequence of float
+            Where from and to. [pt]
+        width : float
+            Of the line. [pt]
+        colour : str
+            As SVG writes it.
+        """
+        (x, y), (u, v) = start, end
+        length = math.hypot(u - x, v - y)
+        head = min(4.0 + 1.6 * width, 0.7 * length)
+        if length < 1e-6:
+            return
+        a, b = (u - x) / length, (v - y) / length
+        foot = u - a * head, v - b * head
+        self.line([x, foot[0]], [y, foot[1]], width=width, colour=colour)
+        half = 0.32 * head
+        corners = [u, foot[0] - b * half, foot[0] + b * half], [v, foot[1] + a * half, foot[1] - a * half]
+        self.line(*corners, width=0, fill=colour, closed=True)
+
+    def text(
+        self,
+        x: float,
+        y: float,
+        text: str,
+        *,
+        size: float = 9.0,
+        anchor: str = "start",
+        upward: bool = False,
+        colour: str = BLACK,
+    ) -> None:
+        """Write a text.
+
+        Parameters
+        ----------
+        x, y, size : float
+            Where its base line begins, ends or has its middle; size of the letters. [pt]
+        text : str
+            With symbols `base_subscript` between dollar signs.
+        anchor : str
+            start, middle or end: which point of the text stands at x, y.
+        upward : bool
+            Whether it runs upward instead of to the right.
+        colour : str
+            As SVG writes it.
+        """
+        width = text_width(text, size)
+        back = {"start": 0.0, "middle": width / 2, "end": width}[anchor]
+        begin = (x, y + back) if upward else (x - back, y)
+        box = (begin[0] - 0.75 * size, begin[1] - width, begin[0] + 0.25 * size, begin[1])
+        flat = (begin[0], begin[1] - 0.75 * size, begin[0] + width, begin[1] + 0.25 * size)
+        self.texts.append((text, *(box if upward else flat)))
+        turn = " rotate(-90)" if upward else ""
+        scale = round(size / _EM, 5)
+        paint = "" if colour == BLACK else f' fill="{colour}"'
+        place = f"translate({round(begin[0], 2):g} {round(begin[1], 2):g})"
+        self._parts.append(f'<g transform="{place}{turn} scale({scale:g} {-scale:g})"{paint}>')
+        at = 0.0
+        for font, share, rise, letters in _runs(text):
+            smaller = f" scale({share:g})" if share != 1 else ""
+            for one in letters:
+                outline, advance = _letter(font, one)
+                if outline:
+                    key = f"{font}{ord(one):x}"
+                    self._letters[key] = outline
+                    moved = f"translate({round(at, 1):g} {rise * _EM:g}){smaller}"
+                    self._parts.append(f'<use xlink:href="#{key}" transform="{moved}"/>')
+                at += advance * share
+        self._parts.append("</g>")
+
+    def svg(self, title: str) -> bytes:
+        """Return the sheet as SVG.
+
+        Parameters
+        ----------
+        title : str
+            For readers who cannot see it.
+
+        Returns
+        -------
+        bytes
+            The file.
+        """
+        letters = "".join(f'<path id="{key}" d="{data}"/>' for key, data in sorted(self._letters.items()))
+        size = f'width="{self.width:g}pt" height="{self.height:g}pt" viewBox="0 0 {self.width:g} {self.height:g}"'
+        head = '<?xml version="1.0" encoding="utf-8" standalone="no"?>\n'
+        spaces = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" version="1.1"'
+        white = f'<path d="M0 0H{self.width:g}V{self.height:g}H0Z" fill="#ffffff"/>'
+        body = "\n".join(self._parts)
+        text = f"{head}<svg {spaces} {size}>\n<title>{escape(title)}</title>\n<defs>{letters}</defs>\n{white}\n{body}\n</svg>\n"
+        return text.encode()

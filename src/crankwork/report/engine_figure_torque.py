@@ -1,0 +1,198 @@
+"""The figures of the torque of all cylinders: sum, torques along the shaft, excess work and speed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from crankwork.cylinders.torque import torques_along_shaft
+from crankwork.kinematics.crank_grid import Array
+from crankwork.report.engine_figure_axes import (
+    BOTTOM,
+    LEFT,
+    RIGHT,
+    TOP,
+    WIDTH,
+    Box,
+    Graph,
+    Row,
+    limits,
+    over_cycle,
+    sheet,
+    small_text,
+)
+from crankwork.report.engine_figure_data import EngineDrawn
+from crankwork.report.engine_figure_paper import GREY, Paper
+from crankwork.report.engine_figure_words import engine_word
+from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED
+from crankwork.report.language import word
+
+_MANY = 8
+_PANEL_GAP = 15.0
+_THIN, _NAMED = 0.8, 1.3
+
+
+def total_torque(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the torque of each cylinder, thin, and their sum with its mean.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graph by the name of the figure.
+    """
+    language, torque = engine.language, engine.torque
+    each = engine.shown("crank_torque", engine.torques)
+    shown = each if len(each) <= _MANY else each[:1]
+    total = engine.shown("total_torque", torque.total(np.radians(engine.degrees)))
+    total[-1] = total[0]
+    mean = float(engine.shown("mean_total_torque", torque.excess.mean_torque))
+    mean = 0.0 if abs(mean) < 1e-9 * float(np.max(np.abs(total))) else mean
+    which = engine_word("cylinders", language, str(len(each))) if len(shown) > 1 else engine_word("cylinder", language, "1")
+    rows = [
+        Row(engine.named("total_torque"), width=_NAMED),
+        Row(f"{engine.named('mean_total_torque')}, {engine.value('mean_total_torque', mean)}", DASHED),
+        Row(f"{engine.named('crank_torque')}, {which}", DOTTED, _THIN),
+    ]
+    paper, box = sheet(225.0, rows)
+    graph = over_cycle(paper, box, limits(total, shown), engine.cycle, language)
+    for at, one in enumerate(shown, start=1):
+        graph.curve(f"cylinder_{at}", engine.degrees, one, DOTTED, width=_THIN, colour="#404040")
+    graph.curve("total", engine.degrees, total, width=_NAMED)
+    graph.level(mean, DASHED, "mean")
+    graph.x_title(engine.title("crank_angle"))
+    graph.y_title(f"{engine.symbol('total_torque')}, {engine.symbol('crank_torque')}, {engine.unit('total_torque')}")
+    return paper, {"total_torque": graph}
+
+
+def accumulated_torque(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the torque on every main journal that carries some, in panels of one scale.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graph of each journal by its number.
+    """
+    journals = engine.shown("journal_torque", torques_along_shaft(engine.torques, engine.whole.layout).journals[1:])
+    height = max(52.0, min(110.0, 560.0 / len(journals)))
+    paper = Paper(WIDTH, TOP + len(journals) * height + (len(journals) - 1) * _PANEL_GAP + BOTTOM)
+    graphs, ends = {}, limits(journals)
+    for at, values in enumerate(journals):
+        is_last = at == len(journals) - 1
+        box = Box(LEFT, TOP + at * (height + _PANEL_GAP), WIDTH - LEFT - RIGHT, height)
+        graph = over_cycle(paper, box, ends, engine.cycle, engine.language, numbers=is_last)
+        graph.curve(f"journal_{at + 2}", engine.degrees, values)
+        graph.y_title(f"{engine.symbol('journal_torque')[:-1]}{at + 2}$, {engine.unit('journal_torque')}")
+        name = engine_word("main_journal", engine.language, str(at + 2))
+        small_text(paper, box.left + box.width - 3, box.top + 7, name, "end")
+        graphs[str(at + 2)] = graph
+    graph.x_title(engine.title("crank_angle"))
+    return paper, graphs
+
+
+def excess_work(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the torque less its mean, hatched where it gives energy, and below it the energy with its extremes.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graphs `torque` and `energy`.
+    """
+    language, excess = engine.language, engine.torque.excess
+    angle = np.radians(engine.degrees)
+    surplus = engine.shown("total_torque", engine.torque.total(angle) - excess.mean_torque)
+    surplus[-1] = surplus[0]
+    energy = engine.shown("kinetic_energy_change", excess.curve(angle))
+    upper, lower = 120.0, 150.0
+    paper = Paper(WIDTH, TOP + upper + _PANEL_GAP + lower + BOTTOM)
+    width = WIDTH - LEFT - RIGHT
+    torque = over_cycle(paper, Box(LEFT, TOP, width, upper), limits(surplus), engine.cycle, language, numbers=False)
+    _hatch(torque, engine.degrees, surplus)
+    torque.curve("surplus", engine.degrees, surplus)
+    torque.y_title(f"{engine.symbol('total_torque')} − {engine.symbol('mean_total_torque')}, {engine.unit('total_torque')}")
+    box = Box(LEFT, TOP + upper + _PANEL_GAP, width, lower)
+    low, high = limits(energy, margin=0.16)
+    graph = over_cycle(paper, box, (low, high), engine.cycle, language)
+    graph.curve("energy", engine.degrees, energy)
+    found = excess.curve.extremes()
+    unit_less = [float(engine.shown("kinetic_energy_change", one)) for one in (found.largest, found.least)]
+    for name, value, at in zip(("max", "min"), unit_less, (found.at_largest, found.at_least), strict=True):
+        graph.level(value, DASH_DOT, f"level_{name}")
+        graph.mark(name, float(np.degrees(at)), value, f"{engine.symbol('kinetic_energy_change')[:-1]}_{name}$", below=name == "min")
+    at = 0.5 * engine.cycle * (0.02 if np.degrees(found.at_largest) > 0.1 * engine.cycle else 1.9)
+    _span(graph, at, unit_less, f"{engine.symbol('excess_work')} = {engine.value('excess_work', excess.work)}")
+    graph.x_title(engine.title("crank_angle"))
+    graph.y_title(engine.title("kinetic_energy_change"))
+    return paper, {"torque": torque, "energy": graph}
+
+
+def _hatch(graph: Graph, degrees: Array, values: Array) -> None:
+    """Hatch what lies over the horizontal axis."""
+    at = np.arange(0.0, degrees[-1], degrees[-1] / 144)
+    over = np.interp(at, degrees, values)
+    x, y, zero = graph.across(at), graph.down(over), float(graph.down(0.0))
+    kept = over > 0
+    graph.paper.segments(np.column_stack([x, np.full_like(x, zero), x, y])[kept], width=0.5, colour=GREY)
+
+
+def _span(graph: Graph, at: float, ends: list[float], text: str) -> None:
+    """Draw a double arrow between two levels with a text in a white box at its middle."""
+    x = float(graph.across(at))
+    top, bottom = (float(graph.down(one)) for one in ends)
+    graph.paper.arrow((x, (top + bottom) / 2), (x, top), width=0.8)
+    graph.paper.arrow((x, (top + bottom) / 2), (x, bottom), width=0.8)
+    is_left = at < graph.x[1] / 2
+    graph.boxed(x + (6 if is_left else -6), (top + bottom) / 2 + 3, text, "start" if is_left else "end")
+
+
+def crank_speed(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the angular speed over the cycle with its mean and its extremes.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share; its `torque` has a speed.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graph by the name of the figure.
+    """
+    language, speed = engine.language, engine.torque.speed
+    if speed is None:
+        raise TypeError("this engine has no moment of inertia that its speed would follow from")
+    values = engine.shown("crank_speed", speed.speed(np.radians(engine.degrees)))
+    mean = float(engine.shown("speed", engine.whole.master.speed))
+    rows = [
+        Row(engine.named("crank_speed")),
+        Row(f"{engine.symbol('speed')} – {word('mean', language)}, {engine.value('speed', engine.whole.master.speed)}", DASHED),
+    ]
+    paper, box = sheet(200.0, rows)
+    room = 0.16 * float(np.ptp(values))
+    graph = over_cycle(paper, box, (float(values.min()) - room, float(values.max()) + room), engine.cycle, language)
+    graph.curve("speed", engine.degrees, values)
+    graph.level(mean, DASHED, "mean")
+    ends = speed.extremes
+    for name, value, at in (("max", ends.largest, ends.at_largest), ("min", ends.least, ends.at_least)):
+        text = f"{engine.symbol('speed')[:-1]}_{name}$ = {engine.value('crank_speed', value, 5)}"
+        graph.mark(name, float(np.degrees(at)), float(engine.shown("crank_speed", value)), text, below=name == "min")
+    text = f"{engine.symbol('speed_fluctuation')} = {engine.number(speed.fluctuation, 4)}"
+    graph.boxed(box.left + box.width - 4, box.top + 10, text, "end")
+    graph.x_title(engine.title("crank_angle"))
+    graph.y_title(engine.title("crank_speed"))
+    return paper, {"crank_speed": graph}

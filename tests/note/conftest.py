@@ -1,0 +1,104 @@
+"""What the tests of the note share: every formula registered, and a note with every kind of block."""
+
+from __future__ import annotations
+
+import datetime as dt
+import importlib
+import math
+import pkgutil
+
+import pytest
+
+import crankwork
+from crankwork.dynamics import piston_forces as forces
+from crankwork.expressions import FORMULAS, Formula, record
+from crankwork.loads import gas
+from crankwork.note.document import (
+    Bibliography,
+    Bold,
+    Citation,
+    Contents,
+    Equation,
+    Figure,
+    Heading,
+    ItemList,
+    Math,
+    Note,
+    PageBreak,
+    Paragraph,
+    Reference,
+    Table,
+    TitlePage,
+)
+from crankwork.note.equations import legend
+from crankwork.quantities import Language
+from crankwork.steps import Given, Step, sum_step, worked_step
+
+HOSTILE = "# $x$ *a* _b_ @c <d> & \\e `f` ~g \"h\" 'i' #{panic()} ]] $ // /* ${k} </p> --"
+SVG = (
+    b'<?xml version="1.0"?>\n<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" '
+    b'width="200pt" height="100pt" viewBox="0 0 200 100"><defs><path id="p" d="M0 0L200 100" stroke="black"/></defs>'
+    b'<use xlink:href="#p"/></svg>'
+)
+
+
+@pytest.fixture(scope="session")
+def formulas() -> dict[str, Formula]:
+    """Every registered formula by name."""
+    for module in pkgutil.walk_packages(crankwork.__path__, "crankwork."):
+        if not module.name.endswith("__main__"):
+            importlib.import_module(module.name)
+    return FORMULAS
+
+
+@pytest.fixture
+def steps(formulas) -> list[Step]:
+    """A step of every registered formula; what is put in matters only to how it is printed."""
+    return [Step(one.quantity, one, dict.fromkeys(one.arguments, 0.1234567), 0.7654321) for one in formulas.values()]
+
+
+def sample(language: Language) -> Note:
+    """Return a note with every kind of block and text that every format could take for its own."""
+    area = worked_step(gas.piston_area, math.pi, 0.1058)
+    speed = worked_step(forces.mean_piston_speed, 0.1058, 2300.0)
+    mass = sum_step("reciprocating_mass", [Given("piston_mass", 0.1395), Given("rod_small_end_mass", 0.065)])
+    rows = [[f"{k}", f"{k / 7:.3f}", HOSTILE] for k in range(60)]
+    blocks = (
+        TitlePage(),
+        Contents(),
+        PageBreak(),
+        Heading(1, HOSTILE, label="first"),
+        Heading(2, "Động học"),
+        Paragraph((HOSTILE, Bold("Сила"), Math("v_п.ср"), Math(record(gas.swept_volume)), Citation("den_hartog_1956"))),
+        Paragraph((Reference("first"), Reference("area"), Reference("drawing"), Reference("wide"))),
+        Equation(area, label="area", legend=legend(area, language)),
+        Equation(speed),
+        Equation(mass),
+        Equation(FORMULAS["side_force"], numbered=False),
+        Table(HOSTILE, (("n",), ("x, ", Math("x_1")), ("text",)), rows, wide=True, align="crl", label="wide"),
+        Figure(SVG, HOSTILE, HOSTILE, label="drawing"),
+        ItemList(((HOSTILE,), (Math("ω"),))),
+        ItemList((("one",), ("two",)), ordered=True),
+        Heading(1, "References", numbered=False),
+        Bibliography(),
+    )
+    date = dt.date(2026, 11, 21)
+    return Note(HOSTILE, language, blocks, "Thuyết minh Ậỗữ", ("А. Б. <c@d>", "Nguyễn"), date, ("dubbel",))
+
+
+@pytest.fixture(params=["en", "ru", "vi"])
+def note(request) -> Note:
+    """A note with every kind of block, in each language."""
+    return sample(request.param)
+
+
+@pytest.fixture
+def hostile() -> str:
+    """Text in which every format finds its own marks."""
+    return HOSTILE
+
+
+@pytest.fixture
+def svg() -> bytes:
+    """A small drawing that refers to a part of its own."""
+    return SVG

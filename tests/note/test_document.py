@@ -1,0 +1,200 @@
+"""Numbers of blocks and sources, the lines of an equation, and text that no format can hold."""
+
+from __future__ import annotations
+
+import math
+import unicodedata
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from crankwork.dynamics import piston_forces as forces
+from crankwork.errors import CrankworkError, MissingExtraError
+from crankwork.expressions import FORMULAS
+from crankwork.loads import gas
+from crankwork.note.captions import caption, place_in_source
+from crankwork.note.characters import plain_text
+from crankwork.note.document import Citation, Equation, Figure, Heading, Note, Paragraph, Reference, Table
+from crankwork.note.equations import legend, printed_equation, shown_values
+from crankwork.note.formats import WRITERS, check_format, written_note
+from crankwork.note.layout import SPACE, Fence, Row, Sign, Upright, row, width
+from crankwork.note.numbering import numbering
+from crankwork.note.stated_units import RESULT, printed_unit, stated_units
+from crankwork.note.symbols import number_box, symbol_box
+from crankwork.quantities import LANGUAGES
+from crankwork.steps import Given, product_step, sum_step, worked_step
+from crankwork.units import UNITS
+
+STEP = worked_step(forces.mean_piston_speed, 0.09, 3000.0)
+
+
+def _numbered(*blocks):
+    return numbering(Note("t", "ru", blocks))
+
+
+def test_sections_are_counted_by_level():
+    headings = [Heading(1, "a"), Heading(2, "b"), Heading(3, "c"), Heading(2, "d"), Heading(1, "e", numbered=False),
+                Heading(1, "f"), Heading(2, "g")]  # fmt: skip
+    assert _numbered(*headings).blocks == ("1", "1.1", "1.1.1", "1.2", "", "2", "2.1")
+
+
+def test_equations_tables_and_figures_are_counted_apart():
+    blocks = [Equation(STEP, label="e"), Table("t", (("a",),), [], label="t"), Equation(STEP, numbered=False),
+              Figure(b"", "f", "f", label="f"), Equation(STEP, label="z")]  # fmt: skip
+    numbers = _numbered(*blocks)
+    assert numbers.blocks == ("1", "1", "", "1", "2")
+    assert [numbers.reference(label) for label in "etfz"] == ["(1)", "1", "1", "(2)"]
+
+
+def test_sources_are_numbered_in_the_order_in_which_the_text_comes_to_them():
+    numbers = _numbered(Paragraph((Citation("dubbel, p. 12"),)), Equation(STEP), Paragraph((Citation("dubbel"),)))
+    assert list(numbers.sources) == ["dubbel", "kolchin_demidov_2008"]
+    assert [numbers.citation("dubbel, p. 12"), numbers.citation("dubbel")] == ["[1, с. 12]", "[1]"]
+
+
+@pytest.mark.parametrize(
+    ("blocks", "message"),
+    [
+        ([Paragraph((Citation("nobody"),))], "nobody"),
+        ([Heading(1, "a", label="x"), Heading(1, "b", label="x")], 'label "x"'),
+    ],
+)
+def test_what_cannot_be_numbered_is_refused(blocks, message):
+    with pytest.raises(CrankworkError, match=message):
+        _numbered(*blocks)
+
+
+def test_a_reference_to_nothing_is_refused():
+    with pytest.raises(CrankworkError, match="elsewhere"):
+        written_note(Note("t", "en", (Paragraph((Reference("elsewhere"),)),)), "note.html")
+
+
+def test_a_table_whose_rows_do_not_fit_is_refused():
+    with pytest.raises(ValueError, match="2 entries"):
+        Table("t", (("a",), ("b",)), [["1", "2"], ["3"]])
+
+
+def test_captions_follow_the_custom_of_each_language():
+    assert [caption("figure", "3", "a", one) for one in LANGUAGES] == ["Figure 3. a", "Рисунок 3 – a", "Hình 3. a"]
+    assert [caption("table", "3", "a", one) for one in LANGUAGES] == ["Table 3. a", "Таблица 3 – a", "Bảng 3. a"]
+    assert [place_in_source("ch. 6, p. 7", one) for one in LANGUAGES] == [
+        "ch. 6, p. 7",
+        "гл. 6, с. 7",
+        "chương 6, tr. 7",
+    ]
+
+
+# --- equations
+
+
+def test_an_equation_goes_from_symbols_to_numbers_to_the_unit_of_the_tables():
+    area = worked_step(gas.piston_area, math.pi, 0.1)
+    shown = printed_equation(Equation(area), "ru")
+    assert shown.text.endswith("= 0,00785398\u00a0м² = 78,5398\u00a0см²")
+    assert len(shown.lines) == 1
+    assert sum(one == Sign("=", "relation") for one in shown.lines[0].parts) == 4
+
+
+def test_a_long_equation_repeats_its_symbol_on_every_line():
+    lines = printed_equation(Equation(STEP), "en", 9.0).lines
+    assert len(lines) == 3
+    assert {line.parts[:2] for line in lines} == {(symbol_box("S_p"), Sign("=", "relation"))}
+
+
+def test_lines_are_not_wider_than_the_text(steps):
+    """A fraction cannot be divided; everything else can."""
+    for step in steps:
+        for line in printed_equation(Equation(step), "en", 30.0).lines:
+            widest = max(width(part) for part in line.parts)
+            assert width(line) <= max(30.0, widest + 6.0), step.formula.name
+
+
+@given(value=st.floats(-1e12, 1e12), language=st.sampled_from(LANGUAGES))
+def test_the_printed_value_is_the_rounding_of_the_exact_one(value, language):
+    """How a number prints is tested with the boxes; here, that it is this number that ends the line, and this unit."""
+    ends = (*row(number_box(value, language)[0]).parts, SPACE, Upright("м/с" if language == "ru" else "m/s"))
+    assert printed_equation(Equation(STEP._replace(value=value)), language).lines[-1].parts[-len(ends) :] == ends
+
+
+def test_what_adds_up_prints_its_terms():
+    total = sum_step("reciprocating_mass", [Given("piston_mass", 1.5), Given("rod_small_end_mass", -0.5)])
+    assert printed_equation(Equation(total), "en").text == "m_rec = 1\u00a0kg"
+    signs = [one.text for line in printed_equation(Equation(total), "en").lines for one in _signs(line)]
+    assert signs == ["=", "+", "=", "+", "−", "="]
+    product = product_step("efficiency", [Given("efficiency.a", 0.5), Given("efficiency.b", 0.5)])
+    assert [one.text for one in _signs(printed_equation(Equation(product), "en").lines[0])] == ["=", "·", "=", "·", "="]
+
+
+def _signs(box):
+    for part in box.parts if isinstance(box, Row) else [box]:
+        if isinstance(part, Sign) and part.text:
+            yield part
+        if isinstance(part, Fence):
+            yield from _signs(part.inside)
+
+
+def test_a_legend_names_the_unit_in_which_the_formula_takes_a_number():
+    entries = {one.symbol: one.text for one in legend(STEP, "ru")}
+    assert entries == {"S": "ход поршня, м", "n": "частота вращения, мин⁻¹"}
+
+
+# --- units
+
+
+def test_every_formula_states_the_units_in_which_it_is_printed(formulas):
+    for formula in formulas.values():
+        units = stated_units(formula)
+        assert set(units) == {*formula.arguments, RESULT}, formula.name
+
+
+def test_a_value_is_shown_in_the_unit_of_its_formula_and_in_that_of_the_tables():
+    assert shown_values(worked_step(forces.angular_speed, 3.0, 30.0)) == [(3.0, "rad/s")]
+    assert shown_values(Given("gas_pressure", 2e6)) == [(2e6, "Pa"), (2.0, "MPa")]
+    assert shown_values(worked_step(gas.piston_area, 4.0, 1.0)) == [(1.0, "m2"), (1e4, "cm2")]
+
+
+@pytest.mark.parametrize("unit", UNITS)
+def test_no_unit_prints_with_a_star_or_a_plain_power(unit):
+    for language in LANGUAGES:
+        shown = printed_unit(unit, language)
+        assert shown
+        assert "*" not in shown
+        if unit.isascii() and language == "ru" and unit in ("m", "m2", "Pa", "J/(kg*K)", "kg*m", "kPa"):
+            assert not any("a" <= one.lower() <= "z" for one in shown)
+
+
+# --- text
+
+
+@given(text=st.text())
+def test_text_has_no_character_that_xml_cannot_hold(text):
+    shown = plain_text(text)
+    assert all(unicodedata.category(one) not in ("Cc", "Cs") for one in shown)
+    shown.encode("utf-8")
+    assert plain_text(shown) == shown
+
+
+def test_letters_are_composed():
+    assert plain_text("e\u0302\u0301") == "ế"
+
+
+# --- formats
+
+
+def test_the_ending_tells_the_format():
+    with pytest.raises(CrankworkError, match=r"\.pdf, \.docx, \.html"):
+        check_format("note.odt")
+    assert written_note(Note("t", "en", ()), "NOTE.HTML").startswith(b"<!DOCTYPE html>")
+    assert set(WRITERS) == {".pdf", ".docx", ".html"}
+
+
+@pytest.mark.parametrize(("name", "package"), [("note.pdf", "typst"), ("note.docx", "docx")])
+def test_without_its_package_a_format_says_what_to_install(monkeypatch, name, package):
+    monkeypatch.setitem(__import__("sys").modules, package, None)
+    with pytest.raises(MissingExtraError, match=r"crankwork\[report\]"):
+        written_note(Note("t", "en", ()), name)
+
+
+def test_formulas_without_numbers_print_their_symbols_only():
+    assert printed_equation(Equation(FORMULAS["side_force"]), "en").text == "F_N = F_P·sin β/cos β"

@@ -1,0 +1,234 @@
+"""Sheets as files: SVG and PDF of the right size in every language, DXF that says the same when it is read again."""
+
+from __future__ import annotations
+
+import functools
+import io
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import ezdxf
+import numpy as np
+import pytest
+import typst
+from fontTools.ttLib import TTFont, TTLibError
+from matplotlib.font_manager import findfont, get_font
+
+from crankwork.analysis import analyse
+from crankwork.description.machine_file import read, read_machine, template
+from crankwork.errors import MissingExtraError
+from crankwork.note.sheets import (
+    Paper,
+    TitleBlock,
+    engine_sheets,
+    linkage_sheets,
+    sheet_dxf,
+    sheet_pdf,
+    sheet_svg,
+)
+from crankwork.note.sheets.scene import CAP_HEIGHT, INDEX, Arc, Circle, Polyline, Text, runs, text_width
+from crankwork.quantities import LANGUAGES
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+SVG = "{http://www.w3.org/2000/svg}"
+BLOCK = TitleBlock(
+    designation="КП.01.02.000 <&>", name="Đồ thị công", organisation="ĐHBK Hà Nội", drawn_by="Щербаков Ю. Ё."
+)
+
+
+@functools.cache
+def results(name):
+    return analyse(read(EXAMPLES / f"{name}.toml"))
+
+
+@functools.cache
+def sheets(language, size="A1"):
+    paper = Paper(size=size, block=BLOCK)
+    extra = {"wear_sums": np.array([3e4, 2e4, 1e4, 2e4])}
+    return (
+        *engine_sheets(results("spark-engine"), language, paper=paper, extra=extra),
+        *linkage_sheets(results("press-geometry"), language, paper=paper),
+        *linkage_sheets(results("press"), language, paper=paper),
+    )
+
+
+def texts(language):
+    found = [one for sheet in sheets(language) for one in sheet.items if isinstance(one, Text)]
+    assert len(found) > 400
+    return found
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize(("size", "width", "height"), [("A1", 841, 594), ("A0", 1189, 841)])
+def test_svg_is_in_millimetres(language, size, width, height):
+    for sheet in sheets(language, size):
+        root = ET.fromstring(sheet_svg(sheet))  # noqa: S314 - our own
+        assert (root.get("width"), root.get("height")) == (f"{width}mm", f"{height}mm")
+        assert root.get("viewBox") == f"0 0 {width} {height}"
+        assert root.findtext(f"{SVG}title") == sheet.title
+
+
+def test_a_curve_in_svg_is_the_curve_of_the_sheet():
+    sheet = sheets("ru")[0]
+    root = ET.fromstring(sheet_svg(sheet))  # noqa: S314 - our own
+    (path,) = (one for one in root.iter(f"{SVG}path") if one.get("class") == "piston_velocity")
+    points = np.array([one.split() for one in path.get("d")[1:].split("L")], dtype=float)
+    expected = sheet.graph("piston_velocity").curve("piston_velocity")
+    assert np.allclose(points * [1, -1] + [0, 594], expected, atol=6e-4)
+
+
+def test_every_text_is_in_the_svg_once():
+    sheet = sheets("vi")[1]
+    root = ET.fromstring(sheet_svg(sheet))  # noqa: S314 - our own
+    written = sorted("".join(one.itertext()) for one in root.iter(f"{SVG}text"))
+    assert written == sorted(
+        "".join(run.text for run in runs(one.text)) for one in sheet.items if isinstance(one, Text)
+    )
+    assert "КП.01.02.000 <&>" in written
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_pdf_has_one_page_of_exactly_the_size(language, tmp_path):
+    for size, width, height in (("A1", 841, 594), ("A0", 1189, 841)):
+        data = sheet_pdf(sheets(language, size)[1])
+        (box,) = re.findall(rb"/MediaBox ?\[0 0 ([\d.]+) ([\d.]+)\]", data)
+        assert [float(one) for one in box] == pytest.approx([width / 25.4 * 72, height / 25.4 * 72], abs=0.01)
+        if shutil.which("pdfinfo"):
+            (tmp_path / "sheet.pdf").write_bytes(data)
+            told = subprocess.run(
+                ["pdfinfo", tmp_path / "sheet.pdf"], capture_output=True, text=True, check=True
+            ).stdout
+            assert re.search(r"Pages: +1\n", told)
+            assert f"({size})" in told
+
+
+def test_files_are_the_same_bytes_every_time():
+    sheet = sheets("en")[3]
+    for write in (sheet_svg, sheet_pdf, sheet_dxf):
+        assert (write(sheet) == write(sheet)) is True
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_dxf_says_the_same_when_read_again(language):
+    for sheet in sheets(language)[:3]:
+        document = ezdxf.read(io.StringIO(sheet_dxf(sheet).decode()))
+        assert document.audit().errors == []
+        assert (document.dxfversion, document.header["$INSUNITS"], document.header["$MEASUREMENT"]) == ("AC1024", 4, 1)
+        space = document.modelspace()
+        lines = [one for one in sheet.items if isinstance(one, Polyline)]
+        again = list(space.query("LWPOLYLINE"))
+        assert len(again) == len(lines)
+        for one, other in zip(lines, again, strict=True):
+            assert np.allclose(np.array(other.get_points("xy")), one.points, rtol=0, atol=1e-9)
+            assert other.closed == one.closed
+            assert other.dxf.layer == one.kind.upper()
+        assert len(space.query("CIRCLE")) == sum(isinstance(one, Circle) for one in sheet.items)
+        assert len(space.query("ARC")) == sum(isinstance(one, Arc) for one in sheet.items)
+
+
+def test_a_force_measured_in_dxf_is_the_force():
+    """The largest radial force, from the coordinates of the file and the scale written in it."""
+    sheet = sheets("en")[1]
+    graph = sheet.graph("crankpin_forces")
+    document = ezdxf.read(io.StringIO(sheet_dxf(sheet).decode()))
+    expected = graph.curve("radial_force")
+    again = [np.array(one.get_points("xy")) for one in document.modelspace().query("LWPOLYLINE")]
+    (found,) = (one for one in again if one.shape == expected.shape and np.allclose(one, expected, atol=1e-9))
+    scale = re.search(r"μ_\{F\} = ([\d.]+)", "".join(one.text for one in graph.items if isinstance(one, Text)))
+    largest = np.max(found[:, 1] - graph.y.zero) * float(scale[1])
+    columns = results("spark-engine").columns
+    assert largest >= np.max(columns["radial_force"]) * (1 - 1e-9)
+    assert largest == pytest.approx(np.max(columns["radial_force"]), rel=0.01)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_dxf_has_every_text_at_its_height(language):
+    sheet = sheets(language)[1]
+    space = ezdxf.read(io.StringIO(sheet_dxf(sheet).decode())).modelspace()
+    plain = [(one.dxf.text, one.dxf.height) for one in space.query("TEXT")]
+    coded = [(one.plain_text().replace("^", ""), one.dxf.char_height) for one in space.query("MTEXT")]
+    expected = [one for one in sheet.items if isinstance(one, Text)]
+    assert len(plain) + len(coded) == len(expected)
+    for one in expected:
+        if not any(run.shift for run in runs(one.text)):
+            assert any(text == one.text and height == pytest.approx(one.height) for text, height in plain), one
+        else:
+            letters = "".join("".join(run.text for run in runs(one.text)).split())
+            assert any("".join(text.split()).replace("/", "") == letters.replace("/", "") for text, _ in coded), one
+
+
+def test_dashes_of_dxf_run_through_the_corners_in_millimetres():
+    document = ezdxf.read(io.StringIO(sheet_dxf(sheets("en")[1]).decode()))
+    dashed = document.layers.get("DASHED")
+    assert dashed.dxf.linetype == "DASHED"
+    pattern = [tag.value for tag in document.linetypes.get("DASHED").pattern_tags.tags if tag.code == 49]
+    assert pattern == [4.0, -1.5]
+    assert document.layers.get("THICK").dxf.lineweight == 70
+    lines = [one for one in document.modelspace().query("LWPOLYLINE") if one.dxf.layer == "DASHED"]
+    assert lines
+    assert all(one.dxf.flags & 128 for one in lines)
+
+
+@functools.cache
+def typst_font():
+    """Return the characters and widths of the font that PDF is set in, which typst carries within itself."""
+    data = next(Path(typst.__file__).parent.glob("_typst*")).read_bytes()
+    start = 0
+    while (start := data.find(b"OTTO", start)) >= 0:
+        try:
+            font = TTFont(io.BytesIO(data[start : start + 4_000_000]), lazy=True)
+            if font["name"].getDebugName(4) == "Libertinus Serif Regular":
+                widths = font["hmtx"]
+                scale = font["head"].unitsPerEm
+                return {code: widths[name][0] / scale for code, name in font.getBestCmap().items()}
+        except (TTLibError, AssertionError, KeyError, ValueError):
+            pass
+        start += 4
+    raise AssertionError("typst no longer carries Libertinus Serif; look for the font of the sheets")
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_no_glyph_is_missing(language):
+    font, other = typst_font(), get_font(findfont("DejaVu Serif"))
+    for one in texts(language):
+        letters = {ord(letter) for run in runs(one.text) for letter in run.text}
+        assert [chr(code) for code in letters if code not in font] == [], one
+        assert [chr(code) for code in letters if not other.get_char_index(code)] == [], one
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_texts_are_no_wider_than_the_room_left_for_them(language):
+    font = typst_font()
+    for one in texts(language):
+        true = sum(font[ord(letter)] * (INDEX if run.shift else 1) for run in runs(one.text) for letter in run.text)
+        assert true * one.height / CAP_HEIGHT <= text_width(one.text, one.height) + 0.4, one
+
+
+def test_text_from_outside_cannot_break_a_file():
+    nasty = TitleBlock(designation="<\x00&\"'>\\P{;}^I %%c", name="#set page(width: 1mm)", organisation="日本")
+    (sheet,) = linkage_sheets(results("press"), "en", paper=Paper(block=nasty))
+    ET.fromstring(sheet_svg(sheet))  # noqa: S314 - our own
+    (width,) = re.findall(rb"/MediaBox ?\[0 0 ([\d.]+)", sheet_pdf(sheet))
+    assert float(width) == pytest.approx(841 / 25.4 * 72, abs=0.01)
+    document = ezdxf.read(io.StringIO(sheet_dxf(sheet).decode()))
+    assert document.audit().errors == []
+
+
+@pytest.mark.parametrize(("write", "module", "format"), [(sheet_pdf, "typst", "PDF"), (sheet_dxf, "ezdxf", "DXF")])
+def test_a_missing_part_is_named(write, module, format, monkeypatch):  # noqa: A002 - what it is
+    monkeypatch.setitem(sys.modules, module, None)
+    with pytest.raises(MissingExtraError, match=f"writing {format} needs an optional part"):
+        write(sheets("en")[1])
+
+
+def test_sheets_of_the_templates_are_written():
+    for name in ("compressor", "four-bar", "crank-shaper"):
+        found = analyse(read_machine(template(name)))
+        made = engine_sheets(found) if name == "compressor" else linkage_sheets(found)
+        for one in made:
+            assert sheet_svg(one).startswith(b"<svg")
+            assert sheet_dxf(one).rstrip().endswith(b"EOF")

@@ -1,0 +1,113 @@
+"""The note as a Word file: python-docx opens it and finds headings, tables, equations and figures."""
+
+from __future__ import annotations
+
+import io
+import re
+import zipfile
+
+import pytest
+
+from crankwork.note.document import Equation, Heading, Note, PageBreak, Table
+from crankwork.note.word import word
+
+docx = pytest.importorskip("docx")
+pytest.importorskip("typst")
+
+MATH = "{http://schemas.openxmlformats.org/officeDocument/2006/math}"
+WORD = "{http://schemas.openxmlformats.org/wordprocessingml/2006/main}"
+
+
+def _opened(note):
+    return docx.Document(io.BytesIO(word(note)))
+
+
+def _words(element):
+    return "".join(one.text or "" for one in element.iter(f"{MATH}t", f"{WORD}t"))
+
+
+def test_the_same_note_gives_the_same_bytes(note):
+    assert word(note) == word(note)
+
+
+def test_headings_are_headings_and_text_is_as_it_was(note, hostile):
+    opened = _opened(note)
+    headings = [(one.style.name, one.text) for one in opened.paragraphs if one.style.name.startswith("Heading")]
+    assert headings == [("Heading 1", f"1 {hostile}"), ("Heading 2", "1.1 Động học"), ("Heading 1", "References")]
+    assert opened.core_properties.title == hostile
+    assert opened.core_properties.language.startswith(note.language)
+    assert any(one.text == hostile and one.style.name == "Title" for one in opened.paragraphs)
+
+
+def test_every_line_of_mathematics_is_a_paragraph_of_its_own(note):
+    body = _opened(note).element.body
+    lines = [_words(one) for one in body.iter(f"{MATH}oMathPara")]
+    mark = "." if note.language == "en" else ","
+    assert sum(f"87{mark}9146" in line for line in lines) == 1
+    assert sum(f"0{mark}2045" in line for line in lines) == 1
+    assert all(len(one.findall(f"{MATH}oMath")) == 1 for one in body.iter(f"{MATH}oMathPara"))
+    assert all(len(one.findall(f".//{MATH}oMathPara")) <= 1 for one in body.iter(f"{WORD}p"))
+
+
+def test_a_table_repeats_its_header_and_stands_on_a_page_of_its_own_shape(note):
+    opened = _opened(note)
+    table = next(one for one in opened.tables if one._tbl.xpath(".//w:tblHeader"))
+    assert len(table.rows) == 61
+    assert len(table._tbl.xpath(".//w:tblHeader")) == 1
+    shapes = [section.page_width > section.page_height for section in opened.sections]
+    assert shapes == [False, True, False]
+
+
+def test_a_figure_is_a_picture_with_a_drawing_beside_it_and_a_description(note, hostile, svg):
+    data = word(note)
+    opened = docx.Document(io.BytesIO(data))
+    (shape,) = opened.inline_shapes
+    assert shape._inline.docPr.get("descr") == hostile
+    blip = shape._inline.graphic.graphicData.pic.blipFill.blip
+    (embedded,) = re.findall(r'svgBlip[^>]*r:embed="(\w+)"', docx.oxml.xmlchemy.serialize_for_reading(blip))
+    assert opened.part.related_parts[embedded].blob == svg
+    with zipfile.ZipFile(io.BytesIO(data)) as members:
+        assert {"word/media/drawing1.svg", "word/media/image1.png"} <= set(members.namelist())
+        assert {entry.date_time for entry in members.infolist()} == {(1980, 1, 1, 0, 0, 0)}
+
+
+def test_the_contents_are_a_field_that_shows_the_sections_already(note, hostile):
+    body = _opened(note).element.body
+    assert any("TOC" in (one.text or "") for one in body.iter(f"{WORD}instrText"))
+    links = [one.get(f"{WORD}anchor") for one in body.iter(f"{WORD}hyperlink")]
+    marks = [one.get(f"{WORD}name") for one in body.iter(f"{WORD}bookmarkStart")]
+    assert links == marks
+    assert len(marks) == 3
+    begins, ends = (
+        sum(one.get(f"{WORD}fldCharType") == kind for one in body.iter(f"{WORD}fldChar")) for kind in ("begin", "end")
+    )
+    assert begins == ends == 4
+
+
+def test_every_formula_is_an_equation_of_word(steps):
+    body = _opened(Note("t", "ru", tuple(map(Equation, steps)))).element.body
+    assert len(body.findall(f"{WORD}tbl")) == len(steps)
+    assert all("0,123457" in _words(one) for one in body.findall(f"{WORD}tbl"))
+
+
+@pytest.mark.parametrize("place", [0, 1, 2])
+def test_a_wide_table_turns_its_page_wherever_it_stands(place):
+    blocks = [Heading(1, "a"), PageBreak()]
+    blocks.insert(place, Table("t", (("x",),), [["1"]], wide=True))
+    sections = _opened(Note("t", "en", tuple(blocks))).sections
+    shapes = [section.page_width > section.page_height for section in sections]
+    assert shapes == {0: [True, False], 1: [False, True, False], 2: [False, True]}[place]
+
+
+def test_a_table_of_ten_thousand_rows_is_whole():
+    rows = [[str(k), f"{k / 7:.3f}"] for k in range(10_000)]
+    with zipfile.ZipFile(io.BytesIO(word(Note("t", "en", (Table("c", (("a",), ("b",)), rows),))))) as members:
+        text = members.read("word/document.xml").decode("utf-8")
+    assert text.count("<w:tr>") == 10_001
+    assert f"{9999 / 7:.3f}" in text
+
+
+def test_control_characters_and_emoji_do_no_harm():
+    opened = _opened(Note("a\x00\x1b\ud800\N{GRINNING FACE}\n<b>", "en", (Heading(1, "x\x08y\u2028z"),)))
+    assert opened.core_properties.title == "a\N{GRINNING FACE} <b>"
+    assert opened.paragraphs[0].text == "1 xy z"
