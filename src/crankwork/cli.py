@@ -72,6 +72,9 @@ def _usage_sentence(error: click.ClickException) -> str:
             return f"{error.option_name}: there is no such option; {near}"
         case click.BadOptionUsage():
             return f"{error.option_name}: needs a value; see --help"
+        case click.MissingParameter() if isinstance(error.param, click.Option):
+            option = f"{error.param.opts[0]} {error.param.metavar or ''}".strip()
+            return f"{error.param.opts[0]}: is missing; write {option}, see --help"
         case click.MissingParameter():
             name = (error.param.name or "argument").upper() if error.param else "argument"
             return f"{name}: is missing; write it after the command, see --help"
@@ -149,17 +152,7 @@ def run(  # noqa: PLR0913 - one argument per option of the command
     overwrite: bool,
 ) -> None:
     """Compute a machine: print the summary, and write tables and figures with -o."""
-    door = _load("description.machine_file")
-    overrides: list[Any] = list(settings)
-    if step is not None:
-        overrides.append(door.Setting("--step", "table.step", _degrees(step)))
-    if method is not None:
-        overrides.append(door.Setting("--method", "method.kinematics", method))
-    machine = door.read(file, overrides)
-    if per_area and not hasattr(machine, "cylinder"):
-        raise CrankworkError("--per-area: is for machines with a piston; leave it out for a linkage")
-    if per_area and machine.cylinder is None:
-        raise CrankworkError("--per-area: needs the piston area; give cylinder.bore in the file")
+    machine = _machine(file, settings, step, method, per_area=per_area)
     if output is not None:
         if not output:
             raise CrankworkError("-o: is empty; write the name of a folder")
@@ -181,6 +174,56 @@ def run(  # noqa: PLR0913 - one argument per option of the command
 
 
 @commands.command()
+@click.argument("file")
+@click.option(
+    "-o", "--output", required=True, metavar="NOTE", help="Write the note here; its ending is .pdf, .docx or .html."
+)
+@click.option("--step", metavar="DEG", help="Step of the tables, in degrees of crank angle.")
+@click.option("--method", metavar="NAME", help="exact, textbook or series:N, instead of the file's own.")
+@click.option("--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the note.")
+@click.option("--school", type=_LANGUAGE, help="Whose order of sections; that of the language if left out.")
+@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
+@click.option("--per-area", is_flag=True, help="Forces per piston area, in MPa.")
+@click.option("--title", default="", metavar="TEXT", help="Title of the note, instead of the file's.")
+@click.option("--author", default="", metavar="TEXT", help="Who hands it in.")
+@click.option("--no-figures", is_flag=True, help="Leave the figures out.")
+@click.option("--sheets", is_flag=True, help="Write drawing sheets beside it: NOTE-sheet-1.pdf, .svg and .dxf.")
+@click.option("--overwrite", is_flag=True, help="Replace a note that is there.")
+def report(  # noqa: PLR0913 - one argument per option of the command
+    file: str,
+    output: str,
+    step: str | None,
+    method: str | None,
+    language: Any,  # noqa: ANN401 - one of three words, checked by click
+    school: str | None,
+    settings: tuple[str, ...],
+    title: str,
+    author: str,
+    *,
+    per_area: bool,
+    no_figures: bool,
+    sheets: bool,
+    overwrite: bool,
+) -> None:
+    """Write the calculation note of a machine as PDF, Word or web page."""
+    _load("note.formats").check_format(output)
+    files, contents = _load("files"), _load("note.contents")
+    files.check_files(output, overwrite=overwrite)
+    machine = _machine(file, settings, step, method, per_area=per_area)
+    options = _load("note.options").NoteOptions(
+        language=language, school=school or "", per_area=per_area, title=title.strip(), author=author.strip(),
+        figures=not no_figures, sheets=sheets,
+    )  # fmt: skip
+    results = _load("analysis").analyse(machine)
+    written = {output: _load("note.formats").written_note(contents.note_of(results, options), output)}
+    if sheets:
+        stem = os.path.splitext(output)[0]  # noqa: PTH122 - a name, not a file
+        written |= {stem + ending: data for ending, data in contents.sheets_of(results, options).items()}
+    files.write_files(written, overwrite=overwrite)
+    click.echo(f"{_load('report.language').word('written', language)} {', '.join(written)}")
+
+
+@commands.command()
 def schema() -> None:
     """Print the JSON Schema of the machine file, for editors."""
     click.echo(_load("description.machine_file").json_schema())
@@ -189,6 +232,24 @@ def schema() -> None:
 def _load(module: str) -> Any:  # noqa: ANN401 - a module
     """Import a room when a command needs it."""
     return importlib.import_module(f"crankwork.{module}")
+
+
+def _machine(
+    file: str, settings: tuple[str, ...], step: str | None, method: str | None, *, per_area: bool
+) -> Any:  # noqa: ANN401 - a machine of any kind
+    """Return the machine of a file with the options of a command put into it."""
+    door = _load("description.machine_file")
+    overrides: list[Any] = list(settings)
+    if step is not None:
+        overrides.append(door.Setting("--step", "table.step", _degrees(step)))
+    if method is not None:
+        overrides.append(door.Setting("--method", "method.kinematics", method))
+    machine = door.read(file, overrides)
+    if per_area and not hasattr(machine, "cylinder"):
+        raise CrankworkError("--per-area: is for machines with a piston; leave it out for a linkage")
+    if per_area and machine.cylinder is None:
+        raise CrankworkError("--per-area: needs the piston area; give cylinder.bore in the file")
+    return machine
 
 
 def _degrees(text: str) -> str:

@@ -7,7 +7,7 @@ import errno
 import os
 import stat
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TextIO
 
@@ -113,7 +113,44 @@ def write_new(path: str | Path, text: str, *, overwrite: bool = False) -> None:
     CrankworkError
         If the file exists and `overwrite` is not set, or it cannot be written.
     """
-    path = Path(path)
+    _check_new(Path(path), overwrite=overwrite)
+    try:
+        Path(path).parent.mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError) as error:
+        raise _unwritable(Path(path), error) from None
+    write_files({path: text.encode("utf-8")}, overwrite=overwrite)
+
+
+def check_files(*paths: str | Path, overwrite: bool = False) -> None:
+    """Raise unless files may be written, before anything is computed for them.
+
+    Parameters
+    ----------
+    *paths : path
+        The files.
+    overwrite : bool
+        Whether they may be there already.
+
+    Raises
+    ------
+    CrankworkError
+        With the fix.
+    """
+    for path in map(Path, paths):
+        _check_new(path, overwrite=overwrite)
+        try:
+            if not path.parent.is_dir():
+                raise CrankworkError(f"{path}: there is no folder {path.parent}; make it or choose another place")
+            if not os.access(path.parent, os.W_OK | os.X_OK):
+                raise CrankworkError(
+                    f"{path}: cannot be written ({path.parent} is not a writable folder); choose another place"
+                )
+        except (OSError, ValueError) as error:
+            raise _unwritable(path, error) from None
+
+
+def _check_new(path: Path, *, overwrite: bool) -> None:
+    """Raise if something stands where a file is to go."""
     try:
         if path.is_dir():
             raise CrankworkError(f"{path}: is a folder; give a file name")
@@ -121,9 +158,42 @@ def write_new(path: str | Path, text: str, *, overwrite: bool = False) -> None:
             raise CrankworkError(f"{path}: is not an ordinary file; choose another name")
         if path.exists() and not overwrite:
             raise CrankworkError(f"{path}: exists already; choose another name or add --overwrite")
-        _replace(path, text.encode("utf-8"))
     except (OSError, ValueError) as error:
         raise _unwritable(path, error) from None
+
+
+def write_files(contents: Mapping[str | Path, bytes], *, overwrite: bool = False) -> None:
+    """Write files into folders that are there, so that a failure leaves what was there before.
+
+    Parameters
+    ----------
+    contents : mapping of path to bytes
+        Data by the file that it goes to.
+    overwrite : bool
+        Replace files that are there.
+
+    Raises
+    ------
+    CrankworkError
+        If a file exists and `overwrite` is not set, or one cannot be written.
+    """
+    check_files(*contents, overwrite=overwrite)
+    staged: list[tuple[Path, Path]] = []
+    path = Path()
+    try:
+        for path, data in ((Path(name), data) for name, data in contents.items()):
+            descriptor, name = tempfile.mkstemp(prefix=_STAGING, dir=path.parent)
+            staged.append((Path(name), path))
+            os.close(descriptor)
+            _write_through(Path(name), data)
+            Path(name).chmod(0o644)
+        for one, path in staged:
+            one.replace(path)
+    except (OSError, ValueError) as error:
+        raise _unwritable(path, error) from None
+    finally:
+        for one, _ in staged:
+            one.unlink(missing_ok=True)
 
 
 def write_folder(
@@ -259,19 +329,6 @@ def _locked(folder: Path) -> Iterator[None]:
         yield
     finally:
         os.close(descriptor)
-
-
-def _replace(path: Path, data: bytes) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    descriptor, name = tempfile.mkstemp(prefix=_STAGING, dir=path.parent)
-    try:
-        os.close(descriptor)
-        _write_through(Path(name), data)
-        Path(name).chmod(0o644)
-        Path(name).replace(path)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
 
 
 def _unwritable(path: Path, error: Exception) -> CrankworkError:

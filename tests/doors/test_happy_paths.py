@@ -17,7 +17,7 @@ from crankwork.quantities import LANGUAGES, QUANTITIES, base_key
 from crankwork.units import UNITS
 
 SHEET = {"x": "http://schemas.openxmlformats.org/spreadsheetml/2006/main"}
-ENGINES = ("engine", "slider-crank", "compressor")
+ENGINES = ("engine", "slider-crank", "compressor", "whole-engine")
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 

@@ -85,6 +85,12 @@ def test_captions_follow_the_custom_of_each_language():
     ]
 
 
+@pytest.mark.parametrize(("place", "shown"), [("vol. 2, ch. 8", "т. 2, гл. 8"), ("ch. 6 (offset mechanism)", "гл. 6")])
+def test_places_in_sources_are_in_the_language_of_the_note(place, shown):
+    assert place_in_source(place, "ru") == shown
+    assert place_in_source(place, "en") == place
+
+
 # --- equations
 
 

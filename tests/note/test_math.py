@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import operator
 import re
 import xml.etree.ElementTree as ET
@@ -228,11 +229,18 @@ def test_how_a_number_prints(value, language, box):
         ("ΔJ", Row((Upright("Δ"), Letter("J")))),
         ("sin 2φ", Apply(Upright("sin"), Row((Digits("2"), Letter("φ"))))),
         ("cos(φ+β)", Apply(Upright("cos"), Fence(Row((Letter("φ"), Sign("+"), Letter("β")))))),
+        ("1/cos β", Fraction(Digits("1"), Apply(Upright("cos"), Letter("β")))),
         ("S/D", Row((Letter("S"), Sign("/", "slash"), Letter("D")))),
     ],
 )
 def test_how_a_symbol_prints(text, box):
     assert symbol_box(text) == box
+
+
+def test_an_exact_pi_stays_a_symbol_and_another_is_a_number():
+    tree = record(lambda pi, D: pi * D)
+    assert formula_box(tree, {"pi": math.pi, "D": 2}) == Row((Letter("π"), DOT, Digits("2")))
+    assert formula_box(tree, {"pi": 3.14, "D": 2}) == Row((Digits("3.14"), DOT, Digits("2")))
 
 
 def test_a_power_of_a_function_stands_at_its_name():

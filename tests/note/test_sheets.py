@@ -288,6 +288,22 @@ def test_everything_has_room(name, language, size):
             assert within(extent(text), paper.frame), text
 
 
+@pytest.mark.parametrize("offset", ["0 mm", "5 mm"])
+@pytest.mark.parametrize(("radius", "length", "ratio"), [(12, 40, 22), (33, 110, 5), (420, 1700, 14)])
+def test_engines_of_any_size_have_room(radius, length, ratio, offset):
+    text = template("engine").replace('radius = "45 mm"', f'radius = "{radius} mm"')
+    text = text.replace('length = "160 mm"', f'length = "{length} mm"').replace(
+        "compression_ratio = 9.0", f"compression_ratio = {ratio}"
+    )
+    found = analyse(read_machine(text.replace('# offset = "0 mm"', f'offset = "{offset}"')))
+    assert found.machine.cylinder is not None
+    for sheet in engine_sheets(found, "vi", paper=SIGNED):
+        for graph in sheet.graphs:
+            assert all(within(extent(item), graph.box) for item in graph.items), graph.name
+        names = {one.name for one in sheet.graphs}
+        assert ("brix" in names) == ("tolle" in names) == (sheet.name == "engine-motion" and offset == "0 mm")
+
+
 def within(box, other, spare=1e-6):
     return (
         box.left >= other.left - spare

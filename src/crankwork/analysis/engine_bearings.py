@@ -12,7 +12,6 @@ import numpy as np
 from crankwork.analysis.cylinders import WholeEngine, cylinder_columns
 from crankwork.analysis.results import Listing
 from crankwork.cylinders.bearings import (
-    BearingLoad,
     big_end_bearing_load,
     big_end_inertia_force,
     crank_frame_load,
@@ -23,6 +22,7 @@ from crankwork.cylinders.counterweights import Unbalance, throw_counterweights
 from crankwork.cylinders.journal_loads import main_journal_loads
 from crankwork.cylinders.layout import Layout
 from crankwork.cylinders.load_statistics import LoadStatistics, load_reversal, load_statistics, specific_loads
+from crankwork.cylinders.load_vectors import BearingLoad
 from crankwork.cylinders.wear import oil_hole, ray_angles, wear_sums
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 
@@ -279,7 +279,7 @@ def bearing_summary(whole: WholeEngine, degrees: Array, loads: BearingLoads) -> 
     loads : BearingLoads, shape (n,)
         The loads there. [N]
     """
-    result = {}
+    result: dict[str, float] = {}
     cycle, coarse = whole.layout.cycle, slice(None, None, round(_WEAR_STEP / _DENSE_STEP))
     for pin, load in loads.crankpins.items():
         found = load_statistics(load, degrees, cycle)

@@ -9,6 +9,7 @@ import numpy as np
 from crankwork.analysis.cylinders import WholeEngine, cylinder_columns
 from crankwork.analysis.results import Listing
 from crankwork.analysis.solved import Notice
+from crankwork.cylinders.layout import Layout
 from crankwork.cylinders.torque import firing_intervals, torques_along_shaft
 from crankwork.cylinders.torque_harmonics import (
     curve_harmonics,
@@ -175,8 +176,9 @@ def torque_checks(whole: WholeEngine, torque: EngineTorque) -> dict[str, float]:
     if len(works) == len(whole.cylinders) and not whole.machine.angular_acceleration:
         work = torque.excess.work_per_cycle
         result["engine_work"] = abs(work - sum(works)) / max(abs(work), 1e-300)
-    if len(set(map(id, whole.cylinders))) == 1 and len(whole.cylinders) > 1:
-        degrees = np.arange(_SAMPLES) * (whole.layout.cycle / _SAMPLES)
+    samples = _common_samples(whole.layout)
+    if len(set(map(id, whole.cylinders))) == 1 and len(whole.cylinders) > 1 and samples:
+        degrees: Array = np.arange(float(samples)) * (whole.layout.cycle / samples)
         each = cylinder_columns(whole, degrees)["crank_torque"]
         count = round(_ORDERS * whole.layout.cycle / 360)
         one = torque_harmonics(each[0], whole.layout.cycle, count)
@@ -187,3 +189,12 @@ def torque_checks(whole: WholeEngine, torque: EngineTorque) -> dict[str, float]:
         apart = np.hypot(stars.cosine - direct.cosine, stars.sine - direct.sine)
         result["phase_stars"] = float(np.max(apart)) / max(float(np.max(one.amplitude)), 1e-300)
     return result
+
+
+def _common_samples(layout: Layout) -> int:
+    """Return how many samples of a cycle have one at every firing; 0 if no moderate number has."""
+    firing = np.array([one.firing_angle for one in layout.places]) / layout.cycle
+    for count in range(_SAMPLES, 2 * _SAMPLES):
+        if np.max(np.abs(firing * count - np.rint(firing * count))) < 1e-9 * count:
+            return count
+    return 0

@@ -17,6 +17,7 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.extremes import dead_centres
 from crankwork.kinematics.piston import PistonMotion, as_slider_crank, piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank
+from crankwork.kinematics.transfer import Transfer
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.indicator import IndicatorDiagram, solve_diagram
 from crankwork.loads.measured import measured_diagram, wrap_is_rough
@@ -159,12 +160,19 @@ def _with_space(solved: Solved, notices: list[Notice]) -> Solved:
     clearance = _clearance(cylinder, swept)
     ambient = gas.ambient if gas.is_absolute else 0.0
 
+    last: list[tuple[Array, Transfer]] = []
+
+    def piston_at(degrees: Array) -> Transfer:
+        # volume and its derivative are asked for at the same angles, one after the other
+        if not last or last[0][0] is not degrees:
+            last[:] = [(degrees, solved.motion(CrankGrid.from_degrees(degrees)).piston)]
+        return last[0][1]
+
     def volume_at(degrees: Array) -> Array:
-        x = solved.motion(CrankGrid.from_degrees(degrees)).piston.position
-        return np.asarray(gas_formulas.cylinder_volume(clearance, area, x))
+        return np.asarray(gas_formulas.cylinder_volume(clearance, area, piston_at(degrees).position))
 
     def volume_rate_at(degrees: Array) -> Array:
-        return np.asarray(area * solved.motion(CrankGrid.from_degrees(degrees)).piston.position_1)
+        return np.asarray(area * piston_at(degrees).position_1)
 
     calculated = None
     if gas.calculated is not None:

@@ -214,7 +214,7 @@ def _fuel(given: object) -> Fuel | None:
     parts = [table.get(key, 0.0) for key in ("carbon", "hydrogen", "oxygen")]
     if abs(sum(parts) - 1) > 0.01:
         raise CrankworkError(f"fuel has parts that add up to {sum(parts):g}; carbon, hydrogen and oxygen make 1")
-    return Fuel(*parts, molar_mass=table.get("molar_mass"), heating_value=_si(table, "heating_value"))
+    return Fuel(parts[0], parts[1], parts[2], table.get("molar_mass"), _si(table, "heating_value"))
 
 
 def _lost_stroke(values: Mapping[str, Any], timing: Timing) -> float:
@@ -229,7 +229,7 @@ def _lost_stroke(values: Mapping[str, Any], timing: Timing) -> float:
         return 0.0
     bottom = dead_centres(lengths)[1]
     x = piston_motion(lengths, CrankGrid.from_degrees(np.array([bottom + closes]))).piston.position[0]
-    return 1 - float(x) / lengths.stroke
+    return 1 - float(x) / float(lengths.stroke)
 
 
 def _sized(values: Mapping[str, Any], cycle: CalculatedCycle) -> dict[str, Any]:

@@ -25,7 +25,14 @@ _ONLY_FOR = {
     "bank_stagger": ("V", "boxer", "W"),
     "articulated": ("V", "radial"),
 }
-_SIZES = ("crankpin_diameter", "crankpin_length", "main_diameter", "main_length", "pin_diameter", "pin_length")
+_SIZES: tuple[str, ...] = (
+    "crankpin_diameter",
+    "crankpin_length",
+    "main_diameter",
+    "main_length",
+    "pin_diameter",
+    "pin_length",
+)
 
 
 def build_engine(
@@ -60,7 +67,7 @@ def build_engine(
     return Engine(
         layout=layout,
         slaves=_slaves(table, layout, lengths, reader),
-        bearings=Bearings(*(_value(sizes, key) for key in _SIZES), rays=sizes.get("rays", 12)),
+        bearings=Bearings(**{key: _value(sizes, key) for key in _SIZES}, rays=sizes.get("rays", 12)),
         counterweight=_value(sizes, "counterweight") or 0.0,
         rotating_share=balance.get("rotating_share", 0.0),
         reciprocating_share=balance.get("reciprocating_share", 0.0),

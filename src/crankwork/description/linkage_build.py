@@ -228,14 +228,19 @@ def _check_count(key: str, column: tuple[float, ...], count: int, reader: Reader
         reader.complain(key, f"has {len(column)} values for {count} positions; give one for each of transfer.angles")
 
 
+def _is_whole(part: object) -> bool:
+    """Return whether an efficiency, or a list of them in parallel, could be read."""
+    return bool(part) and None not in part if isinstance(part, list) else part is not None
+
+
 def _drive(values: Mapping[str, Any], reader: Reader) -> Drive:
     """Return efficiency, motor and flywheel."""
     drive = Drive(fluctuation=values.get("flywheel", {}).get("fluctuation"))
-    if values.get("efficiency", {}).get("chain"):
+    chain = values.get("efficiency", {}).get("chain")
+    # what could not be read has been told already
+    if chain and all(_is_whole(one) for one in chain):
         table = values["efficiency"]
-        parts: list[EfficiencyChain] = [
-            Parallel(tuple(one)) if isinstance(one, list) else one for one in table["chain"]
-        ]
+        parts: list[EfficiencyChain] = [Parallel(tuple(one)) if isinstance(one, list) else one for one in chain]
         whole = efficiency(Series(tuple(parts)))
         drive = replace(drive, efficiency=whole)
         if "decimals" in table:

@@ -21,10 +21,12 @@ _PLACES = {
     "eq.": ("eq.", "ф-ла", "công thức"),
     "fig.": ("fig.", "рис.", "hình"),
     "table": ("table", "табл.", "bảng"),
+    "vol.": ("vol.", "т.", "tập"),
     "ex.": ("ex.", "прим.", "ví dụ"),
     "example": ("example", "пример", "ví dụ"),
 }
-_PLACE = re.compile(r"(?<!\w)(?:ch\.|sec\.|pp\.|p\.|eq\.|fig\.|table|ex\.|example)(?!\w)")
+_PLACE = re.compile(r"(?<!\w)(?:ch\.|vol\.|sec\.|pp\.|p\.|eq\.|fig\.|table|ex\.|example)(?!\w)")
+_REMARK = re.compile(r"\s*\([^)]*\)")
 LANGUAGE_TAGS: dict[Language, str] = {"en": "en-GB", "ru": "ru-RU", "vi": "vi-VN"}
 
 
@@ -46,6 +48,8 @@ def place_in_source(place: str, language: Language) -> str:
     >>> place_in_source("ch. 6", "ru")
     'гл. 6'
     """
+    # a remark in parentheses is in English
+    place = place if language == "en" else _REMARK.sub("", place)
     return _PLACE.sub(lambda found: _PLACES[found[0]][LANGUAGES.index(language)], place)
 
 

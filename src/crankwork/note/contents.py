@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 from crankwork.machine import Machine
@@ -33,3 +34,40 @@ def note_of(results: Results, options: NoteOptions | None = None) -> Note:
     contents = importlib.import_module(f"crankwork.note.{kind}_note")
     note: Note = getattr(contents, f"{kind}_note")(results, options or NoteOptions())
     return note
+
+
+def sheets_of(results: Results, options: NoteOptions | None = None) -> dict[str, bytes]:
+    """Return the drawing sheets of a machine in every format, by the ending of their files.
+
+    Parameters
+    ----------
+    results : Results
+        Of an engine, a linkage, or a table of transfer functions.
+    options : NoteOptions
+        Language and author; sheets of the Russian school have a title block.
+
+    Returns
+    -------
+    dict of str to bytes
+        `-sheet-1.pdf`, `-sheet-1.svg`, `-sheet-1.dxf`, `-sheet-2.pdf` and so on.
+
+    Raises
+    ------
+    MissingExtraError
+        If Typst or ezdxf is not installed.
+    """
+    options = options or NoteOptions()
+    kind = "engine" if isinstance(results.machine, Machine) else "linkage"
+    sheet, title_block = _sheets("sheet"), _sheets("title_block")
+    block = title_block.TitleBlock(drawn_by=options.author) if options.order == "ru" else None
+    more = {"per_area": options.per_area} if kind == "engine" else {}
+    drawn = getattr(_sheets(kind), f"{kind}_sheets")(results, options.language, paper=sheet.Paper(block=block), **more)
+    return {
+        f"-sheet-{number}.{ending}": getattr(_sheets(ending), f"sheet_{ending}")(one)
+        for number, one in enumerate(drawn, start=1)
+        for ending in ("pdf", "svg", "dxf")
+    }
+
+
+def _sheets(module: str) -> ModuleType:
+    return importlib.import_module(f"crankwork.note.sheets.{module}")

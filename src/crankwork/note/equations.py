@@ -29,7 +29,7 @@ from crankwork.note.layout import (
     row,
     width,
 )
-from crankwork.note.math import formula_box
+from crankwork.note.math import formula_box, is_exact_pi
 from crankwork.note.stated_units import RESULT, coherent_unit, display_unit, printed_unit, stated_units
 from crankwork.note.symbols import number_box, symbol_box
 from crankwork.quantities import QUANTITIES, Language, base_key
@@ -179,7 +179,7 @@ def _plain(block: Equation, language: Language) -> str:
     if formula:
         parts.append(text(record(formula.function), language=language))
     if isinstance(step, Step):
-        printed = {name: number(value, language) for name, value in step.values.items()}
+        printed = {name: number(value, language) for name, value in step.values.items() if not is_exact_pi(name, value)}
         parts.append(text(record(step.formula.function), printed, language))
     if not isinstance(step, Formula):
         parts += [value_text(value, unit, language) for value, unit in shown_values(step)]

@@ -101,9 +101,14 @@ def _bound(box: Box, plain: bool) -> tuple[Box, int]:  # noqa: FBT001 - as print
     return box, _SIGNED if leads_with_sign(box) else _PRODUCT
 
 
+def is_exact_pi(name: str, value: float) -> bool:
+    """Return whether an argument is π itself, which is printed as π; a document's 3.14 is a number."""
+    return name == "pi" and value == math.pi
+
+
 def _symbol(name: str, printing: _Printing) -> tuple[Box, int]:
     value = printing.values.get(name)
-    if value is not None and not (name == "pi" and value == math.pi):
+    if value is not None and not is_exact_pi(name, value):
         return _bound(*number_box(value, printing.language, printing.digits))
     box = symbol_box(symbol(name, printing.language))
     if isinstance(box, Row) and any(isinstance(part, Sign) for part in box.parts):

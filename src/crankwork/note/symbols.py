@@ -4,7 +4,21 @@ from __future__ import annotations
 
 import re
 
-from crankwork.note.layout import DOT, MINUS, Apply, Box, Digits, Fence, Letter, Row, Script, Sign, Upright, row
+from crankwork.note.layout import (
+    DOT,
+    MINUS,
+    Apply,
+    Box,
+    Digits,
+    Fence,
+    Fraction,
+    Letter,
+    Row,
+    Script,
+    Sign,
+    Upright,
+    row,
+)
 from crankwork.quantities import Language
 from crankwork.report.language import number
 
@@ -31,15 +45,19 @@ def symbol_box(symbol: str) -> Box:
     >>> symbol_box("v_п.ср")
     Script(base=Letter(text='v'), below=Upright(text='п.ср'), above=None)
     """
+    over, slash, under = symbol.partition("/")
+    if slash and over and under:
+        top, bottom = symbol_box(over), symbol_box(under)
+        tall = isinstance(top, Apply) or isinstance(bottom, Apply)
+        return Fraction(top, bottom) if tall else row(top, Sign("/", "slash"), bottom)
+    if symbol.isdecimal():
+        return Digits(symbol)
     if found := _FUNCTION.fullmatch(symbol):
         rest = found["rest"]
         inside = _sum_box(rest[1:-1]) if rest.startswith("(") and rest.endswith(")") else None
         return Apply(Upright(found["name"]), Fence(inside) if inside else symbol_box(rest))
     if found := _MULTIPLE.fullmatch(symbol):
         return row(Digits(found["count"]), symbol_box(found["rest"]))
-    if "/" in symbol.strip("/"):
-        over, _, under = symbol.partition("/")
-        return row(symbol_box(over), Sign("/", "slash"), symbol_box(under))
     marks, low = "".join(_MARKS.findall(symbol)), "".join(_LOW.findall(symbol)).translate(_LOWERED)
     found = _PLAIN.fullmatch(_LOW.sub("", _MARKS.sub("", symbol)))
     if not found:

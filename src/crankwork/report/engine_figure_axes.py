@@ -18,6 +18,8 @@ WIDTH = 460.8
 LEFT, RIGHT, BOTTOM, TOP = 70.6, 18.0, 45.0, 10.0
 LEGEND_ROW = 13.4
 _TICK, _SMALL, _LEGEND = 8.5, 7.5, 8.5
+# The style of a row of a legend that explains an open circle.
+CIRCLE = "o"
 
 
 class Box(NamedTuple):
@@ -30,7 +32,7 @@ class Box(NamedTuple):
 
 
 class Row(NamedTuple):
-    """A row of a legend: text, line style, width of the line [pt], its colour."""
+    """A row of a legend: text, line style or `CIRCLE`, width of the line [pt] or 0 for none, its colour."""
 
     text: str
     style: Style = SOLID
@@ -159,7 +161,7 @@ class Graph:
     def y_title(self, text: str, offset: float = 44.0) -> None:
         """Write the title of the vertical axis, on two lines if it is long; `offset` is its distance. [pt]"""
         size = 9.0
-        lines = fitted_lines(text, size, self.box.height + 16)
+        lines = fitted_lines(text, size, self.box.height + 10)
         if len(lines) > 2:
             size = 7.5
             lines = fitted_lines(text, size, self.box.height + 16)
@@ -186,16 +188,16 @@ class Graph:
         self.paper.dot(at, level, 2.0)
         half = text_width(text, 8.0) / 2
         at = min(max(at, self.box.left + half + 3), self.box.left + self.box.width - half)
-        self.paper.text(at, level + (10.5 if below else -5.0), text, size=8.0, anchor="middle")
+        self.paper.text(at, level + (11.0 if below else -5.0), text, size=8.0, anchor="middle")
 
-    def boxed(self, x: float, y: float, text: str, anchor: str = "start") -> None:
+    def boxed(self, x: float, y: float, text: str, anchor: str = "start", size: float = 8.5) -> None:
         """Write a text on white, so that no line of the graph runs through it. [pt]"""
-        width = text_width(text, 8.5)
+        width = text_width(text, size)
         left = {"start": x, "middle": x - width / 2, "end": x - width}[anchor] - 2
-        right, top, bottom = left + width + 4, y - 8.5, y + 3.5
+        right, top, bottom = left + width + 4, y - size, y + 0.4 * size
         corners = [left, right, right, left], [top, top, bottom, bottom]
         self.paper.line(*corners, width=0, fill="#ffffff", closed=True)
-        self.paper.text(x, y, text, size=8.5, anchor=anchor)
+        self.paper.text(x, y, text, size=size, anchor=anchor)
 
     def level(self, value: float, style: Style = DASH_DOT, name: str = "") -> None:
         """Draw a horizontal line across the graph at a value. [its unit]"""
@@ -215,7 +217,9 @@ def _draw_legend(paper: Paper, lines: Sequence[tuple[Row | None, str]], top: flo
     """Draw the lines of a legend at the left edge of the graph."""
     for at, (row, text) in enumerate(lines):
         left, level = LEFT + 8, top + LEGEND_ROW * at
-        if row is not None:
+        if row is not None and row.style == CIRCLE:
+            paper.dot(left + 10, level + 6, 2.6, fill="#ffffff", width=1.0)
+        elif row is not None and row.width:
             paper.line([left, left + 20], [level + 6] * 2, style=row.style, width=row.width, colour=row.colour)
         paper.text(left + 27, level + 9, text, size=_LEGEND)
 

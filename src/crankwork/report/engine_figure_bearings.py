@@ -11,6 +11,7 @@ from crankwork.cylinders.load_vectors import BearingLoad
 from crankwork.kinematics.crank_grid import Array
 from crankwork.report.engine_figure_axes import (
     BOTTOM,
+    CIRCLE,
     LEFT,
     RIGHT,
     TOP,
@@ -56,7 +57,7 @@ def crankpin_polar(engine: EngineDrawn, pin: int) -> tuple[Paper, Mapping[str, G
     count = f"{rods} " if rods > 1 else ""
     pole = engine_word("pole_rods" if rods > 1 else "pole", engine.language)
     force = f"{count}{engine.symbol('big_end_inertia_force')} – {engine.named('big_end_inertia_force').partition(' – ')[2]}"
-    rows = [Row(f"O – {pole}"), Row(f"{force}, {engine.value('big_end_inertia_force', -inertia)}", width=1.8)]
+    rows = [Row(f"O – {pole}", CIRCLE), Row(f"{force}, {engine.value('big_end_inertia_force', -inertia)}", width=1.8)]
     titles = (
         f"{engine.symbol('tangential_force')}, {engine.unit('tangential_force')}",
         f"{engine.symbol('radial_force')}, {engine.unit('radial_force')}",
@@ -136,14 +137,13 @@ def _polar(
     if pole[1]:
         paper.arrow(at, origin, width=1.8)
         cross.append(spread(np.array([at[0], origin[0]]), np.array([at[1], origin[1]])))
-    paper.dot(*at, 2.6, fill="#ffffff", width=1.0)
-    paper.text(at[0] - 5, at[1] + 11, "O", anchor="end")
-    cross.append(spread(np.array([at[0] - 12, at[0] - 4]), np.array([at[1] + 8, at[1] + 8])))
     marked = engine.shown(key, diagram.marks_across), sign * engine.shown(key, diagram.marks_down)
     graph.curves["marks"] = marked
     places = zip(diagram.marks, graph.across(marked[0]), graph.down(marked[1]), strict=True)
     line = spread(graph.across(across), graph.down(sign * down))
-    label_marks(paper, [(f"{angle:g}", float(a), float(b)) for angle, a, b in places], np.vstack([line, *cross]))
+    names = [("O", *at), *((f"{angle:g}", float(a), float(b)) for angle, a, b in places)]
+    label_marks(paper, names, np.vstack([line, *cross]))
+    paper.dot(*at, 2.6, fill="#ffffff", width=1.0)
     graph.x_title(titles[0])
     graph.y_title(titles[1], 48.0)
     return paper, {key: graph}
@@ -182,18 +182,25 @@ def crankpin_load(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
         for at, pin in enumerate(sizes)
     ]
     style = (0, (10, 3)) if len(sizes) > 1 else DASHED
-    rows.append(Row(f"{engine.named('mean_crankpin_load')}, {engine.value('mean_crankpin_load', found.mean)}", style, 0.8))
+    which = engine_word("crankpin", engine.language, str(first)) if len(sizes) > 1 else ""
+    rows.append(Row(f"{engine.named('mean_crankpin_load')}{', ' if which else ''}{which}, {engine.value('mean_crankpin_load', found.mean)}", style, 0.8))
+    base = engine.symbol("crankpin_load")[:-1]
+    ends = (
+        f"{base}{',' if '_' in base else '_'}{name}$ = {engine.value('crankpin_load', value)} ({engine.number(angle)}°)"
+        for name, angle, value in (("max", found.max_angle, found.max), ("min", found.min_angle, found.min))
+    )
+    rows.append(Row(f"{which}{': ' if which else ''}{'; '.join(ends)}", width=0.0))
     paper, box = sheet(210.0, rows)
     _, high = limits(*sizes.values(), margin=0.14)
-    graph = over_cycle(paper, box, (0.0, high), engine.cycle, engine.language)
+    # room for the name of a minimum near zero
+    low = -0.08 * high if found.min < 0.08 * found.max else 0.0
+    graph = over_cycle(paper, box, (low, high), engine.cycle, engine.language)
     for at, (pin, values) in enumerate(sizes.items()):
         graph.curve(f"pin_{pin}", np.append(degrees, engine.cycle), np.append(values, values[0]), _LINES[at % len(_LINES)])
     mean = float(engine.shown("crankpin_load", found.mean))
     graph.curve("mean", [0.0, engine.cycle], [mean, mean], style, width=0.8)
     for name, angle, value in (("max", found.max_angle, found.max), ("min", found.min_angle, found.min)):
-        text = f"{engine.symbol('crankpin_load')[:-1]}{',' if '_' in engine.symbol('crankpin_load') else '_'}{name}$"
-        text = f"{text} = {engine.value('crankpin_load', value)}"
-        graph.mark(name, angle, float(engine.shown("crankpin_load", value)), text, below=name == "min" and found.min > 0.12 * found.max)
+        graph.mark(name, angle, float(engine.shown("crankpin_load", value)), name, below=name == "min")
     graph.x_title(engine.title("crank_angle"))
     graph.y_title(engine.title("crankpin_load") if len(sizes) == 1 else f"{engine.symbol('crankpin_load')}, {engine.unit('crankpin_load')}")
     return paper, {"crankpin_load": graph}

@@ -134,13 +134,13 @@ class EngineDrawn:
         str
             Number and unit.
         """
-        shown = number(float(self.shown(key, value)), self.language, digits=digits)
+        shown = self.number(float(self.shown(key, value)), digits)
         unit = self.unit(key)
-        return f"{shown}{'' if unit == '°' else ' '}{unit}".rstrip()
+        return f"{shown}{unit}" if unit in ("", "°") else f"{shown}\N{NO-BREAK SPACE}{unit}"
 
     def number(self, value: float, digits: int = 6) -> str:
         """Return a number as the language prints it."""
-        return number(value, self.language, digits=digits)
+        return number(float(f"{value:.{digits}g}"), self.language, digits=max(digits, 9))
 
     def finished(self, name: str, paper: Paper, remark: str = "", *, forces: bool = False) -> bytes:
         """Return a figure as SVG, with the method that made it.

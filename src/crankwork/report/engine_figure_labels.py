@@ -73,22 +73,38 @@ def label_marks(
         paper.text(x + float(shift[0]), y + float(shift[1]) + 0.36 * size, name, size=size, anchor="middle")
 
 
-def _shift(mark: Array, half: Array, taken: list[tuple[Array, Array]], obstacles: Array, others: Array) -> Array:
-    """Return where the middle of a name goes from its mark: clear first, then near. [pt]"""
-    shifts = np.concatenate([_DIRECTIONS * (reach + np.abs(_DIRECTIONS) * (half - half.min())) for reach in _REACHES])
-    cost = np.repeat(_REACHES, len(_DIRECTIONS)) + 0.05 * np.tile(np.arange(len(_DIRECTIONS)), len(_REACHES))
-    centres = mark + shifts
+def _shift(mark: Array, half: Array, taken: Sequence[tuple[Array, Array]], obstacles: Array, others: Array) -> Array:
+    """Return where the middle of a name goes from its mark: clear first, then near; nearer rings are tried first. [pt]"""
+    best, least = np.zeros(2), np.inf
     near = obstacles[np.all(np.abs(obstacles - mark) < _REACHES[-1] + 2 * half + 4, axis=1)]
-    cost = cost + 10.0 * np.all(np.abs(centres[:, None] - near) < half + 0.8, axis=2).sum(axis=1)
+    for reach in _REACHES:
+        if reach >= least:
+            break
+        shifts = _DIRECTIONS * (reach + np.abs(_DIRECTIONS) * (half - half.min()))
+        cost = reach + 0.05 * np.arange(len(shifts)) + _hidden(mark, shifts, half, taken, near, others)
+        at = int(np.argmin(cost))
+        if cost[at] < least:
+            best, least = shifts[at], float(cost[at])
+    return best
+
+
+def _hidden(
+    mark: Array, shifts: Array, half: Array, taken: Sequence[tuple[Array, Array]], near: Array, others: Array
+) -> Array:
+    """Return what is wrong with each place of a name: lines under it, other marks, other names."""
+    centres = mark + shifts
+    across = np.abs(centres[:, :1] - near[:, 0]) < half[0] + 0.8
+    cost = 10.0 * np.count_nonzero(across & (np.abs(centres[:, 1:] - near[:, 1]) < half[1] + 0.8), axis=1)
     if len(others):
-        apart = np.hypot(*np.moveaxis(centres[:, None] - others, -1, 0)).min(axis=1)
-        cost += 14.0 * (apart < 1.15 * np.hypot(*shifts.T))
-        cost += 60.0 * np.any(np.all(np.abs(centres[:, None] - others) < half + 1.6, axis=2), axis=1)
-    for centre, other in taken:
-        cost += 500.0 * np.all(np.abs(centres - centre) < half + other + 0.5, axis=1)
-        between = mark + shifts[:, None] * np.array([0.25, 0.5, 0.75])[:, None]
-        cost += 40.0 * np.any(np.all(np.abs(between - centre) < other, axis=2), axis=1)
-    return np.asarray(shifts[np.argmin(cost)])
+        x, y = centres[:, :1] - others[:, 0], centres[:, 1:] - others[:, 1]
+        cost += 14.0 * (np.hypot(x, y).min(axis=1) < 1.15 * np.hypot(*shifts.T))
+        cost += 60.0 * np.any((np.abs(x) < half[0] + 1.6) & (np.abs(y) < half[1] + 1.6), axis=1)
+    if taken:
+        middles, sizes = (np.array(one) for one in zip(*taken, strict=True))
+        cost += 500.0 * np.any(np.all(np.abs(centres[:, None] - middles) < half + sizes + 0.5, axis=2), axis=1)
+        between = mark + shifts[:, None, None] * np.array([0.35, 0.7])[:, None, None]
+        cost += 40.0 * np.any(np.all(np.abs(between - middles) < sizes, axis=3), axis=(1, 2))
+    return np.asarray(cost)
 
 
 def _merged(marks: Sequence[tuple[str, float, float]]) -> list[tuple[str, float, float]]:

@@ -181,6 +181,7 @@ def crank_speed(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     rows = [
         Row(engine.named("crank_speed")),
         Row(f"{engine.symbol('speed')} – {word('mean', language)}, {engine.value('speed', engine.whole.master.speed)}", DASHED),
+        Row(f"{engine.named('speed_fluctuation')}, {engine.number(speed.fluctuation, 4)}", width=0.0),
     ]
     paper, box = sheet(200.0, rows)
     room = 0.16 * float(np.ptp(values))
@@ -191,8 +192,6 @@ def crank_speed(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     for name, value, at in (("max", ends.largest, ends.at_largest), ("min", ends.least, ends.at_least)):
         text = f"{engine.symbol('speed')[:-1]}_{name}$ = {engine.value('crank_speed', value, 5)}"
         graph.mark(name, float(np.degrees(at)), float(engine.shown("crank_speed", value)), text, below=name == "min")
-    text = f"{engine.symbol('speed_fluctuation')} = {engine.number(speed.fluctuation, 4)}"
-    graph.boxed(box.left + box.width - 4, box.top + 10, text, "end")
     graph.x_title(engine.title("crank_angle"))
     graph.y_title(engine.title("crank_speed"))
     return paper, {"crank_speed": graph}

@@ -9,6 +9,7 @@ from crankwork.analysis import Results, columns, harmonic_columns
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.quantities import LANGUAGES, QUANTITIES, Language
+from crankwork.report.engine_figure_words import ENGINE_TITLES
 from crankwork.report.figure_look import SOLID, Curve, Style, quantity_title, svg
 from crankwork.report.language import displayed, method_name, word
 
@@ -33,6 +34,7 @@ _TITLES = {
     "torque": ("Crank torque of one cylinder", "Крутящий момент одного цилиндра", "Mômen quay của một xylanh"),
     "crankpin_polar": ("Polar diagram of the load on the crankpin",
                        "Полярная диаграмма нагрузок на шатунную шейку", "Đồ thị phụ tải tác dụng lên chốt khuỷu"),
+    **ENGINE_TITLES,
 }  # fmt: skip
 
 
@@ -51,6 +53,9 @@ def figure_title(name: str, language: Language) -> str:
     str
         The title, without number and full stop.
     """
+    kind, _, last = name.rpartition("_")
+    if last.isdecimal() and kind in _TITLES:
+        return f"{_TITLES[kind][LANGUAGES.index(language)]}, {last}"
     return _TITLES[name][LANGUAGES.index(language)]
 
 

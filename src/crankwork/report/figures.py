@@ -6,6 +6,7 @@ from crankwork.analysis import Results
 from crankwork.errors import MissingExtraError
 from crankwork.machine import Machine
 from crankwork.quantities import Language
+from crankwork.report.engine_figure_list import engine_figures
 from crankwork.report.figure_data import drawn_from
 from crankwork.report.figure_forces import crankpin_forces, piston_forces, rod_forces, torque
 from crankwork.report.figure_gas import indicator, pressure
@@ -62,4 +63,5 @@ def figures(results: Results, *, language: Language = "en", per_area: bool = Fal
     with mpl.rc_context():
         mpl.rcdefaults()
         mpl.rcParams.update(LOOK)
-        return {name: draw(drawn) for name, (draw, key) in _FIGURES.items() if key in drawn.columns}
+        single = {name: draw(drawn) for name, (draw, key) in _FIGURES.items() if key in drawn.columns}
+    return single | dict(engine_figures(drawn))

@@ -141,6 +141,14 @@ def _headline(machine: AnyMachine, summary: Mapping[str, float]) -> list[str]:
     parts = ["slider-crank" if not summary.get("offset") else "offset slider-crank"]
     if machine.gas:
         source = "measured pressure" if machine.gas.measured else f"{len(machine.gas.pieces)} pieces of gas pressure"
+        if machine.gas.calculated is not None:
+            source = "calculated pressure"
         parts.append(f"{source} over {machine.gas.cycle:g} deg")
     parts.append("with masses" if machine.masses else "motion only")
-    return [", ".join(parts)]
+    lines = [", ".join(parts)]
+    if machine.engine is not None:
+        layout = machine.engine.layout
+        order = "-".join(map(str, layout.firing_order))
+        count = len(layout.places)
+        lines.append(f"{layout.kind} engine of {count} cylinder{'s' * (count > 1)}, firing order {order}")
+    return lines

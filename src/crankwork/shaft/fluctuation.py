@@ -13,6 +13,8 @@ from crankwork.expressions import Value, formula
 from crankwork.kinematics.crank_grid import Array
 from crankwork.shaft.curve import Curve, Extremes
 
+# of the mean speed, where rounding begins
+_SETTLED = 3e-16
 _STEPS = 60
 
 
@@ -249,8 +251,11 @@ def true_speed(inertia: Curve, torque: Curve, mean_speed: float) -> TrueSpeed:
     excess = excess_work(torque).curve
     balanced = torque - torque.mean
     inertia_1 = inertia.derivative
-    floor = -excess.extremes().least
-    energy = max(float(kinetic_energy(inertia.mean, mean_speed)), floor * (1 + 1e-6))
+    reach = excess.extremes()
+    floor = -reach.least
+    # what it is with a constant moment of inertia, where the extremes of speed are those of the excess work
+    greatest = mean_speed + (reach.largest - reach.least) / (2 * inertia.mean * mean_speed)
+    energy = max(float(kinetic_energy(inertia.mean, greatest)) - reach.largest, floor * (1 + 1e-6))
     for _ in range(_STEPS):
         extremes = _speed_extremes(inertia, inertia_1, excess, balanced, energy)
         miss = (extremes.largest + extremes.least) / 2 - mean_speed
@@ -260,7 +265,7 @@ def true_speed(inertia: Curve, torque: Curve, mean_speed: float) -> TrueSpeed:
             for w, at in ((extremes.least, extremes.at_least), (extremes.largest, extremes.at_largest))
         )
         following = max(energy - 2 * miss / slope, floor + (energy - floor) / 16)
-        if abs(following - energy) <= 4e-16 * energy:
+        if abs(miss) <= _SETTLED * mean_speed or abs(following - energy) <= 4e-16 * energy:
             break
         energy = following
     if abs(miss) <= 1e-12 * mean_speed:

@@ -29,7 +29,7 @@ from crankwork.working_cycle.heat_steps import work_peak
 _STEP, _LEAST_STEPS, _DOUBLINGS = 0.5, 40, 5
 _AGREEMENT = 1e-9
 _FINE = 2001
-_RELATIVE, _ABSOLUTE = 1e-12, 1e-13
+_RELATIVE, _ABSOLUTE = 1e-11, 1e-12
 
 Notices = tuple[tuple[str, Mapping[str, float | str]], ...]
 

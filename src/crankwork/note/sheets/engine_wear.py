@@ -40,9 +40,9 @@ def wear(drawn: Drawn, extra: Mapping[str, Array | float], box: Box, words: Word
     angles = np.asarray(extra.get("wear_angle", np.arange(sums.size) * 2 * np.pi / max(sums.size, 1)), dtype=float)
     if sums.ndim != 1 or sums.size < 3 or angles.shape != sums.shape or not np.any(sums > 0):
         raise CrankworkError("wear_sums and wear_angle do not fit; give at least three sums and an angle for each")
-    radius = min(box.width / 2 - 16.0, (box.height - 20.0) / 2 - 9.0)
+    radius = min(box.width / 2 - 16.0, (box.height - 20.0) / 2 - 10.5)
     scale = round_scale(float(np.max(sums)) / (_DEEPEST * radius))
-    centre = np.array([box.left + box.width / 2, box.bottom + 9.0 + radius])
+    centre = np.array([box.left + box.width / 2, box.bottom + 12.0 + radius])
     sign = "Σ" + words.say("load_symbol").partition("_")[0]
     depth = Axis(sign, words.unit_of("piston_force"), scale, 0.0, 0.0, radius)
     items = _ring(sums, angles, centre, (radius, scale))

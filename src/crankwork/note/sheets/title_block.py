@@ -52,16 +52,16 @@ def title_block(block: TitleBlock, title: str, place: Box, words: Words) -> list
     """
     items = [rectangle(place, "thick", 1.0), *_lines(place), *_people(block, place, words)]
     right = [
-        (120.0, 47.5, 65.0, 40.0, block.designation, TITLE + 2),
-        (100.0, 27.5, 35.0, 15.0, block.name or title, TITLE),
+        (125.0, 47.5, 60.0, 15.0, block.designation, TITLE + 2),
+        (100.0, 27.5, 35.0, 25.0, block.name or title, TITLE),
         (100.0, 7.5, 35.0, 15.0, block.material, TEXT),
         (160.0, 7.5, 25.0, 15.0, block.organisation, TEXT),
         (142.5, 37.5, 7.5, 5.0, words.say("letter"), SMALL),
         (158.5, 37.5, 8.5, 5.0, words.say("mass"), SMALL),
         (176.0, 37.5, 9.0, 5.0, words.say("scale"), SMALL),
-        (142.5, 27.5, 7.5, 5.0, block.letter, TEXT),
-        (158.5, 27.5, 8.5, 5.0, block.mass, TEXT),
-        (176.0, 27.5, 9.0, 5.0, block.scale, TEXT),
+        (142.5, 27.5, 7.5, 15.0, block.letter, TEXT),
+        (158.5, 27.5, 8.5, 15.0, block.mass, TEXT),
+        (176.0, 27.5, 9.0, 15.0, block.scale, TEXT),
         (145.0, 17.5, 10.0, 5.0, f"{words.say('sheet')} {block.sheet}", SMALL),
         (170.0, 17.5, 15.0, 5.0, f"{words.say('sheets')} {block.sheets}", SMALL),
     ]
@@ -137,7 +137,7 @@ def _written(middle: tuple[float, float], text: str, room: float, tall: float, h
     rows = [text]
     while tall >= 10 and len(rows) < 3 and max(text_width(one, height) for one in rows) > room:
         rows = _broken(text, len(rows) + 1)
-    height = min(_fitting(one, room, height) for one in rows)
+    height = min(tall / (1.75 * len(rows)), *(_fitting(one, room, height) for one in rows))
     step = 1.7 * height
     top = middle[1] + step * (len(rows) - 1) / 2 - height / 2
     return [Text((middle[0], top - step * count), one, height, "middle") for count, one in enumerate(rows)]

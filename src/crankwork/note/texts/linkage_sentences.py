@@ -150,7 +150,6 @@ SENTENCES = {
         "По передаточным функциям таблицы {table} приведённый момент инерции складывается по звеньям {source}:",
         "Từ các hàm truyền ở bảng {table}, mômen quán tính thu gọn là tổng theo các khâu {source}:",
     ),
-    "all_positions": ("At all positions:", "Для всех положений механизма:", "Tại tất cả các vị trí:"),
     "torques": (
         "The static torque {static_torque} balances the loads, the dynamic torque {dynamic_torque} changes the speed"
         " of the masses; their sum is {balancing_torque}.",

@@ -1,0 +1,241 @@
+"""The task of a linkage and its structure: links, fixed points, guides, loads, joints and groups."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from crankwork.kinematics.quality import grashof
+from crankwork.linkage_machine import LinkageMachine
+from crankwork.loads.load import Load
+from crankwork.loads.process import ForceOnPoint, ProcessForce, ProcessForceAtPoint, TorqueOnLink
+from crankwork.loads.spring import SliderSpring, Spring
+from crankwork.loads.weight import Weight
+from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.dyads import PRP, RRP, RRR, Dyad
+from crankwork.mechanism.joints import Pin, joints
+from crankwork.mechanism.linkage import GROUND, Member
+from crankwork.note.document import Block, ItemList, Runs, Table
+from crankwork.note.linkage_material import Material
+from crankwork.note.linkage_tables import equations
+from crankwork.note.linkage_words import Words
+from crankwork.report.summary import results_method
+
+_ROMAN = ("0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
+_MOST_JOINTS = 3
+
+
+def task(material: Material) -> Iterator[Block]:
+    """Yield what is asked and what is given.
+
+    Parameters
+    ----------
+    material : Material
+        Of a linkage.
+    """
+    words, machine = material.words, material.machine
+    crank = machine.mechanism.crank
+    yield words.heading("task")
+    yield words.paragraph("task")
+    (turning,) = words.sentence("clockwise" if crank.direction < 0 else "anticlockwise")
+    yield words.paragraph(
+        "crank",
+        radius=words.amount(crank.radius, "mm"),
+        direction=turning,
+        start=words.amount(crank.start, "deg"),
+        value=words.amount(material.solved.speed, "rad/s"),
+    )
+    if machine.angular_acceleration:
+        yield words.paragraph("acceleration", value=words.amount(machine.angular_acceleration, "rad/s2"))
+    yield _links(material)
+    yield from _places(material)
+    if machine.loads:
+        yield words.paragraph("loads")
+        yield ItemList(tuple(_load(one, words) for one in machine.loads))
+    else:
+        yield words.paragraph("no_loads")
+    if machine.drive.inertia:
+        yield words.paragraph("drive_inertia", value=words.amount(machine.drive.inertia, "kg*m2"))
+    if machine.drive.fluctuation is not None:
+        yield words.paragraph("fluctuation", value=words.number(machine.drive.fluctuation))
+    yield method(material)
+    if material.options.sheets:
+        yield words.paragraph("sheets")
+
+
+def method(material: Material) -> Block:
+    """Return the paragraph that says how everything is computed.
+
+    Parameters
+    ----------
+    material : Material
+        Of any machine without a piston.
+    """
+    results, words = material.results, material.words
+    return words.paragraph(
+        "method",
+        method=results_method(results, words.language),
+        pi=words.number(results.method.pi, digits=9 if results.method.pi == math.pi else 6),
+    )
+
+
+def _links(material: Material) -> Table:
+    """Return links and sliding pieces with their masses."""
+    words, linkage = material.words, material.machine.linkage
+    owners = linkage.owners()
+    rows = []
+    for number, one in enumerate(linkage.members, start=2):
+        shared = [name for name in one.points if len(owners[name]) > 1]
+        rows.append((
+            str(number), one.name, ", ".join(shared), _length(one, shared, words),
+            words.number(one.mass) if one.mass else "–", words.number(one.inertia) if one.inertia else "–",
+            _centre(one, words),
+        ))  # fmt: skip
+    titles: list[Runs] = [(words.column(one),) for one in ("number", "link", "joints")]
+    titles += [(words.column("length", "mm"),), words.titled("body_mass"), words.titled("body_inertia")]
+    titles += [(words.column("centre", "mm"),)]
+    return Table(words.caption("links"), tuple(titles), rows, align="clcrrrc", label="links")
+
+
+def _length(member: Member, shared: list[str], words: Words) -> str:
+    """Return the distances of the joints of a link: `600`, or `AB 100; BC 200` where there are more than two."""
+    pairs = [(a, b) for i, a in enumerate(shared) for b in shared[i + 1 :]] if len(shared) <= _MOST_JOINTS else []
+    spans = [(a, b, math.dist(member.points[a], member.points[b])) for a, b in pairs]
+    if member.guide or not spans:
+        return "–"
+    if len(spans) == 1:
+        return words.number(spans[0][2] * 1e3)
+    return "; ".join(f"{a}{b} {words.number(span * 1e3)}" for a, b, span in spans)
+
+
+def _centre(member: Member, words: Words) -> str:
+    if not member.centre:
+        return "–"
+    x, y = (words.number(one * 1e3) for one in member.points[member.centre])
+    named = "" if "." in member.centre or "_" in member.centre else f"{member.centre} "
+    return f"{named}({x}; {y})"
+
+
+def _places(material: Material) -> Iterator[Table]:
+    """Yield fixed points and guides."""
+    words, linkage = material.words, material.machine.linkage
+    rows = [(name, words.number(x * 1e3), words.number(y * 1e3)) for name, (x, y) in linkage.ground.items()]
+    axes = (words.titled("point_x"), words.titled("point_y"))
+    if rows:
+        yield Table(words.caption("pivots"), ((words.column("point"),), *axes), rows, align="crr")
+    lines = [
+        (
+            name, guide.link or words.column("ground"), *(words.number(one * 1e3) for one in guide.point),
+            words.number(math.degrees(guide.angle)),
+        )
+        for name, guide in linkage.guides.items()
+    ]  # fmt: skip
+    if lines:
+        titles: tuple[Runs, ...] = ((words.column("guide"),), (words.column("carrier"),), *axes)
+        yield Table(words.caption("guides"), (*titles, (words.column("angle"),)), lines, align="ccrrr")
+
+
+def _load(load: Load, words: Words) -> Runs:  # noqa: PLR0911 - one for each kind of load
+    match load:
+        case ProcessForce():
+            return words.sentence("load_slider", name=load.slider, force=_largest(load.force, "N", words))
+        case ProcessForceAtPoint():
+            return words.sentence("load_point", name=load.point, force=_largest(load.force, "N", words))
+        case ForceOnPoint():
+            x, y = words.amount(load.x, "N"), words.amount(load.y, "N")
+            return words.sentence("load_force", name=load.point, x=x, y=y)
+        case TorqueOnLink():
+            return words.sentence("load_torque", name=load.link, torque=_largest(load.torque, "N*m", words))
+        case Spring():
+            stiffness, free = words.amount(load.stiffness, "N/m"), words.amount(load.free_length, "mm")
+            return words.sentence("load_spring", name=load.start, other=load.end, stiffness=stiffness, free=free)
+        case SliderSpring():
+            return words.sentence(
+                "load_slider_spring", name=load.slider, stiffness=words.amount(load.stiffness, "N/m")
+            )
+        case Weight():
+            return words.sentence("load_weight", gravity=words.amount(load.gravity, "m/s2"))
+
+
+def _largest(force: object, unit: str, words: Words) -> str:
+    """Return the largest value of a constant or of a table, `…` for a law that is a program."""
+    values = getattr(force, "values", force)
+    if callable(values):
+        return "…"
+    return words.amount(float(np.max(np.abs(np.asarray(values, dtype=float)))), unit)
+
+
+def structural_analysis(material: Material) -> Iterator[Block]:
+    """Yield links, joints, mobility, groups and class.
+
+    Parameters
+    ----------
+    material : Material
+        Of a linkage.
+    """
+    words, found = material.words, material.structure
+    if found is None:
+        return
+    yield words.heading("structure")
+    yield words.paragraph("structure", n=str(len(found.links)), p=str(found.joints))
+    yield _pairs(material, ("", *found.links))
+    yield words.paragraph("chebyshev")
+    yield from equations(material.steps("structure"), words)
+    yield words.paragraph("one_drive")
+    numbers = {name: str(number) for number, name in enumerate(found.links, start=1)}
+    kinds = {_members(one): type(one).__name__ for one in material.machine.mechanism.dyads}
+    rows = [
+        (
+            str(number),
+            ", ".join(f"{numbers[name]} ({name})" for name in group.members),
+            _ROMAN[group.number],
+            words.species(kinds.get(frozenset(group.members), "")),
+        )
+        for number, group in enumerate(found.groups, start=1)
+    ]
+    titles = tuple((words.column(one),) for one in ("group", "members", "class", "species"))
+    yield Table(words.caption("groups"), titles, rows, align="clcc")
+    yield words.paragraph("formula", formula=found.formula.replace("->", "→"), number=_ROMAN[found.number])
+    kind = _four_bar(material.machine)
+    if kind:
+        yield words.paragraph("grashof", type=words.four_bar(kind))
+
+
+def _members(dyad: Dyad | Chain) -> frozenset[str]:
+    match dyad:
+        case RRR():
+            return frozenset((dyad.link_a, dyad.link_b))
+        case RRP():
+            return frozenset((dyad.link, dyad.piece))
+        case PRP():
+            return frozenset((dyad.block_a, dyad.block_b))
+        case Chain():
+            return frozenset(one.name for one in dyad.links)
+    return frozenset((dyad.link, dyad.block))
+
+
+def _pairs(material: Material, links: tuple[str, ...]) -> Table:
+    """Return the joints with the numbers of the links that they join."""
+    words, crank = material.words, material.machine.mechanism.crank
+    pivot = next((name for name, place in material.machine.mechanism.ground.items() if place == crank.pivot), "")
+    rows = []
+    for number, one in enumerate(joints(material.machine.mechanism), start=1):
+        ends = sorted(0 if name == GROUND else links.index(name) for name in (one.link, one.other))
+        name = (one.point or pivot) if isinstance(one, Pin) else one.link
+        kind = words.column("turning" if isinstance(one, Pin) else "sliding")
+        rows.append((str(number), name, f"{ends[0]}–{ends[1]}", kind))
+    titles = tuple((words.column(one),) for one in ("number", "pair", "between", "kind"))
+    return Table(words.caption("pairs"), titles, rows, align="cccc")
+
+
+def _four_bar(machine: LinkageMachine) -> str:
+    """Return the type of a four-bar linkage, empty for any other."""
+    mechanism = machine.mechanism
+    match mechanism.dyads:
+        case (RRR() as dyad,) if {dyad.joint_a, dyad.joint_b} & set(mechanism.ground):
+            fixed = dyad.joint_a if dyad.joint_a in mechanism.ground else dyad.joint_b
+            lengths = (dyad.length_a, dyad.length_b) if fixed == dyad.joint_b else (dyad.length_b, dyad.length_a)
+            return grashof(mechanism.crank.radius, *lengths, math.dist(mechanism.ground[fixed], mechanism.crank.pivot)).type
+    return ""

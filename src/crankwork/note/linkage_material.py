@@ -1,0 +1,127 @@
+"""What the sections of the note of a linkage are made of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from crankwork.analysis import Results
+from crankwork.analysis.linkage import SolvedLinkage, linkage_columns, reachable, running_at
+from crankwork.analysis.linkage_speed import speed_columns
+from crankwork.analysis.steps import worked_steps
+from crankwork.dynamics.running import Running
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.motion import Motion, linkage_motion
+from crankwork.linkage_machine import LinkageMachine, TabulatedMachine
+from crankwork.mechanism.structure import Structure, structure
+from crankwork.note.document import Block
+from crankwork.note.linkage_words import Words
+from crankwork.note.options import NoteOptions
+from crankwork.report.figures import figures
+from crankwork.steps import AnyStep, StepGroup
+
+_POSITION_STEP = 30.0
+
+
+@dataclass(frozen=True)
+class Material:
+    """Results and what is chosen, and what follows from both, computed when a section asks for it.
+
+    Parameters
+    ----------
+    results : Results
+        Of a linkage, or of a table of transfer functions.
+    options : NoteOptions
+        Language and what else is chosen.
+    """
+
+    results: Results
+    options: NoteOptions
+
+    @cached_property
+    def words(self) -> Words:
+        """The words of the language."""
+        return Words(self.options.language)
+
+    @property
+    def machine(self) -> LinkageMachine:
+        """The linkage."""
+        machine = self.results.machine
+        assert isinstance(machine, LinkageMachine)
+        return machine
+
+    @property
+    def table(self) -> TabulatedMachine:
+        """The table of transfer functions."""
+        machine = self.results.machine
+        assert isinstance(machine, TabulatedMachine)
+        return machine
+
+    @property
+    def solved(self) -> SolvedLinkage:
+        """The linkage made ready."""
+        solved: SolvedLinkage = self.results.solved
+        return solved
+
+    @cached_property
+    def structure(self) -> Structure | None:
+        """Mobility and groups."""
+        return structure(self.machine.linkage)[0]
+
+    @cached_property
+    def positions(self) -> CrankGrid:
+        """The positions of the plans, every 30 degrees, as far as the linkage reaches them."""
+        dense, notices = reachable(self.machine, CrankGrid.steps(1.0, 360.0))
+        grid = CrankGrid.steps(_POSITION_STEP, 360.0)
+        if not notices:
+            return grid
+        inside = [k for k, one in enumerate(grid.degrees) if dense.degrees[0] <= one <= dense.degrees[-1]]
+        # a linkage that reaches none of them is shown where it does move
+        return grid[slice(inside[0], inside[-1] + 1)] if inside else dense[slice(0, len(dense), 5)]
+
+    @cached_property
+    def motion(self) -> Motion:
+        """Motion at the positions."""
+        return linkage_motion(self.machine.mechanism, self.positions)
+
+    @cached_property
+    def running(self) -> Running:
+        """The linkage at work at the positions."""
+        return running_at(self.solved, self.motion)
+
+    @cached_property
+    def columns(self) -> Mapping[str, Array]:
+        """All columns at the positions. [SI]"""
+        columns = linkage_columns(self.solved, self.positions)
+        if "kinetic_energy_change" in self.results.columns:
+            known = linkage_columns(self.solved, CrankGrid.steps(1.0, 360.0))
+            columns |= speed_columns(self.machine, self.solved.speed, known, self.positions.angle)
+        return columns
+
+    @cached_property
+    def groups(self) -> dict[str, StepGroup]:
+        """Worked steps by the name of their group; forces are worked where the loads need the largest torque."""
+        angle = None
+        if isinstance(self.results.machine, LinkageMachine) and self.results.machine.loads:
+            at = int(np.argmax(np.abs(self.columns["static_torque"])))
+            angle = float(self.positions.degrees[at])
+        return {one.name: one for one in worked_steps(self.results, force_angle=angle)}
+
+    def steps(self, group: str, *kinds: str) -> tuple[AnyStep, ...]:
+        """Return the steps of a group, or those of it that give some quantities; none if there is no such group."""
+        steps = self.groups[group].steps if group in self.groups else ()
+        return tuple(one for one in steps if not kinds or one.key.partition(".")[0] in kinds)
+
+    @cached_property
+    def drawn(self) -> Mapping[str, bytes]:
+        """Figures by name; none if they are left out."""
+        return figures(self.results, language=self.options.language) if self.options.figures else {}
+
+    def figures(self, *names: str) -> Iterator[Block]:
+        """Yield figures, those that there are."""
+        for name in names:
+            if name in self.drawn:
+                yield self.words.figure(name, self.drawn[name])

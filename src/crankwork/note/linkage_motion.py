@@ -1,0 +1,117 @@
+"""Kinematics of a linkage: plans, transfer functions, velocities and accelerations."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from crankwork.note.document import Block, Citation
+from crankwork.note.linkage_material import Material
+from crankwork.note.linkage_tables import Column, equations, position_tables, quantity_columns
+from crankwork.note.linkage_words import named
+
+_SOURCE = "artobolevsky_1988, ch. 4"
+_MOVING = ("point_velocity", "link_angular_velocity", "slider_velocity")
+_ACCELERATING = ("point_acceleration", "link_angular_acceleration", "slider_acceleration")
+
+
+def kinematics(material: Material) -> Iterator[Block]:
+    """Yield the section about the motion.
+
+    Parameters
+    ----------
+    material : Material
+        Of a linkage.
+    """
+    words, columns, degrees = material.words, material.columns, material.positions.degrees
+    yield words.heading("kinematics")
+    yield words.heading("plans", 2)
+    yield words.paragraph("positions")
+    yield from material.figures("position_plans")
+    places = [f"point_{axis}.{key.partition('.')[2]}" for key in named(columns, "point_x") for axis in "xy"]
+    keys = [*places, *named(columns, "link_angle", "slider_displacement")]
+    yield from position_tables("positions", degrees, quantity_columns(keys, columns, words), words)
+    yield words.heading("transfer", 2)
+    yield words.paragraph("transfer", source=Citation(_SOURCE))
+    yield from position_tables("transfer", degrees, _transfer_columns(material), words, label="transfer")
+    yield words.heading("worked_motion", 2)
+    yield from worked_at(material, "motion")
+    yield from equations(material.steps("speed"), words)
+    yield from equations(material.steps("motion"), words)
+    velocities = quantity_columns(named(columns, *_MOVING), columns, words)
+    yield from position_tables("velocities", degrees, velocities, words)
+    accelerations = quantity_columns(named(columns, *_ACCELERATING), columns, words)
+    yield from position_tables("accelerations", degrees, accelerations, words)
+    if material.drawn:
+        yield words.heading("polygons", 2)
+        yield from material.figures("velocity_plan", "acceleration_plan", "sliders")
+
+
+def worked_at(material: Material, group: str) -> Iterator[Block]:
+    """Yield the sentence that says at which crank angle a group of steps is worked.
+
+    Parameters
+    ----------
+    material : Material
+        Of any machine without a piston.
+    group : str
+        Name of the group; nothing where it is not there, or holds everywhere.
+    """
+    found = material.groups.get(group)
+    if found is not None and found.crank_angle is not None:
+        words = material.words
+        yield words.paragraph("worked_at", value=words.amount(found.crank_angle, "deg"))
+
+
+def _transfer_columns(material: Material) -> list[Column]:
+    """Return velocities of points and sliders and angular velocities of links, over that of the crank."""
+    words, motion = material.words, material.motion
+    mechanism, found = material.machine.mechanism, []
+    for name, (x, y) in motion.points.items():
+        if name not in mechanism.ground:
+            values = np.hypot(x.position_1, y.position_1)
+            found.append(Column(words.titled(f"velocity_ratio.{name}", "m"), words.column_texts(values.tolist())))
+    for name, one in motion.links.items():
+        if name != mechanism.crank.link:
+            found.append(Column(words.titled(f"rotation_ratio.{name}"), words.column_texts(one.position_1.tolist())))
+    for name, slide in motion.sliders.items():
+        values = slide.position_1.tolist()
+        found.append(Column(words.titled(f"velocity_ratio.{name}", "m"), words.column_texts(values)))
+    return found
+
+
+def law_of_motion(material: Material) -> Iterator[Block]:
+    """Yield the speed of the crank with the flywheel found, or the way from a start, where it is known.
+
+    Parameters
+    ----------
+    material : Material
+        Of a linkage.
+    """
+    words, summary, transient = material.words, material.results.summary, material.machine.transient
+    has_speed = "crank_speed" in material.columns
+    if not has_speed and transient is None and "steady_speed" not in summary:
+        return
+    yield words.heading("law")
+    if has_speed:
+        yield words.paragraph("law")
+        keys = ("kinetic_energy_change", "crank_speed")
+        shown = quantity_columns(keys, material.columns, words)
+        yield from position_tables("speeds", material.positions.degrees, shown, words)
+        yield from material.figures("speed")
+    if "steady_speed" in summary:
+        yield words.paragraph(
+            "steady",
+            speed=words.amount(summary["steady_speed"], "rpm"),
+            fluctuation=words.number(summary["steady_fluctuation"]),
+        )
+    if transient is not None and "final_speed" in summary:
+        yield words.paragraph(
+            "transient",
+            torque=words.amount(transient.torque, "N*m"),
+            time=words.amount(transient.time, "s"),
+            turn=words.amount(summary["final_turn"], "rad") + f" ({words.number(math.degrees(summary['final_turn']))}°)",
+            speed=words.amount(summary["final_speed"], "rad/s"),
+        )

@@ -1,0 +1,70 @@
+"""The note of a linkage: which sections it has, in which order, by school."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from crankwork.analysis import Results
+from crankwork.linkage_machine import TabulatedMachine
+from crankwork.note import linkage_table_note as table
+from crankwork.note.document import Block, Contents, Note, PageBreak, TitlePage
+from crankwork.note.linkage_data import structural_analysis, task
+from crankwork.note.linkage_forces import forces, reduction, torques
+from crankwork.note.linkage_material import Material
+from crankwork.note.linkage_motion import kinematics, law_of_motion
+from crankwork.note.linkage_shaft import appendix, checks, conclusion, flywheel, motor, sources
+from crankwork.note.linkage_tables import explained
+from crankwork.note.options import NoteOptions
+
+Section = Callable[[Material], Iterator[Block]]
+
+_COURSE: tuple[Section, ...] = (
+    task, structural_analysis, kinematics, forces, reduction, torques, motor, flywheel, law_of_motion, checks,
+    conclusion, sources, appendix,
+)  # fmt: skip
+# engineers who read English want the results before the way to them
+_REPORT: tuple[Section, ...] = (
+    task, conclusion, structural_analysis, kinematics, forces, reduction, torques, motor, flywheel, law_of_motion,
+    checks, sources, appendix,
+)  # fmt: skip
+_OF_TABLE: dict[bool, tuple[Section, ...]] = {
+    True: (table.table_task, conclusion, table.static, table.dynamic, table.driving, checks, sources),
+    False: (table.table_task, table.static, table.dynamic, table.driving, checks, conclusion, sources),
+}
+
+
+def linkage_note(results: Results, options: NoteOptions) -> Note:
+    """Return the note of a linkage, or of a table of transfer functions.
+
+    Parameters
+    ----------
+    results : Results
+        Their results.
+    options : NoteOptions
+        Language, school, title and what else is chosen.
+
+    Returns
+    -------
+    Note
+        Title page, contents, data, structure, motion, forces, reduction, torques, motor, flywheel, law of motion,
+        checks, main results, sources, and all columns in an appendix; what is not known is left out.
+
+    References
+    ----------
+    artobolevsky_1988, ch. 2-16.
+    """
+    material = Material(results, options)
+    words, is_report = material.words, options.order == "en"
+    of_table = isinstance(results.machine, TabulatedMachine)
+    sections = _OF_TABLE[is_report] if of_table else _REPORT if is_report else _COURSE
+    blocks: list[Block] = [TitlePage(), Contents(), PageBreak()]
+    for section in sections:
+        blocks.extend(section(material))
+    title = options.title or results.machine.title or words.title("tabulated" if of_table else "linkage")
+    return Note(
+        title,
+        options.language,
+        tuple(explained(blocks, options.language)),
+        subtitle=words.title("subtitle"),
+        authors=(options.author,) if options.author else (),
+    )

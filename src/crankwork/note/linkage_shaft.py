@@ -1,0 +1,182 @@
+"""Motor and flywheel of a linkage, and the end of the note: checks, main results, all columns, sources."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from crankwork.analysis.results import Results
+from crankwork.note.document import Bibliography, Block, Bold, ItemList, Paragraph, Reference, Runs, Table
+from crankwork.note.linkage_material import Material
+from crankwork.note.linkage_tables import any_nonzero, equations, position_tables, quantity_columns
+from crankwork.note.linkage_words import Words, named
+from crankwork.note.stated_units import printed_unit
+from crankwork.report.language import displayed, key_unit, label, word
+from crankwork.report.notices import notice_text
+from crankwork.shaft.flywheel import WAYS
+
+_DYNAMICS = (
+    "reduced_inertia", "reduced_inertia_1", "static_torque", "dynamic_torque", "balancing_torque", "driving_torque",
+    "kinetic_energy_change", "crank_speed",
+)  # fmt: skip
+_MOTION = (
+    "slider_displacement", "slider_velocity", "slider_acceleration",
+    "link_angle", "link_angular_velocity", "link_angular_acceleration",
+)  # fmt: skip
+
+
+def motor(material: Material) -> Iterator[Block]:
+    """Yield the choice of the motor, where there is one.
+
+    Parameters
+    ----------
+    material : Material
+        Of a linkage.
+    """
+    drive, words = material.machine.drive, material.words
+    if drive.motor is None:
+        return
+    yield words.heading("motor")
+    yield words.paragraph("motor", rated=words.amount(drive.rated_power, "kW"))
+    yield from equations(material.steps("motor"), words)
+
+
+def flywheel(material: Material) -> Iterator[Block]:
+    """Yield the flywheel in its four ways, where one is wanted.
+
+    Parameters
+    ----------
+    material : Material
+        Of a linkage.
+    """
+    words, summary = material.words, material.results.summary
+    if "excess_work" not in summary:
+        return
+    yield words.heading("flywheel")
+    yield words.paragraph("flywheel", value=words.number(summary["speed_fluctuation"]))
+    steps = material.steps("flywheel")
+    last = ""
+    for one in steps:
+        way = next((name for name in WAYS if name in one.key.split(".")), last or WAYS[0])
+        if way != last and one.key != "work_per_cycle":
+            yield Paragraph((Bold(words.way(way)[:1].upper() + words.way(way)[1:]), ":"))
+            last = way
+        yield from equations((one,), words, marks=_marks(words))
+    excess = {way: one.value for way in WAYS for one in steps if one.key in (f"excess_work.{way}", "excess_work")}
+    rows = [
+        (words.way(way), words.number(excess[way]), words.number(summary[f"flywheel_inertia.{way}"]))
+        for way in WAYS
+        if f"flywheel_inertia.{way}" in summary and way in excess
+    ]
+    titles: tuple[Runs, ...] = ((words.column("way"),), words.titled("excess_work"), words.titled("flywheel_inertia"))
+    yield Table(words.caption("flywheels"), titles, rows, align="lrr", label="flywheels")
+    yield from material.figures("wittenbauer")
+
+
+def _marks(words: Words) -> Mapping[str, str]:
+    """Return symbols of the slopes and inertias of each way: the name of the way does not stand in a symbol."""
+    found: dict[str, str] = {}
+    for way in WAYS:
+        for kind in ("excess_work", "flywheel_inertia", "whole_inertia"):
+            found[f"{kind}.{way}"] = words.symbol(kind)
+        slope = words.symbol("wittenbauer_slope")
+        ends = {"largest": "max", "least": "min"}
+        found |= {f"wittenbauer_slope.{way}.{end}": f"{slope}_{mark}" for end, mark in ends.items()}
+    return found
+
+
+def checks(material: Material) -> Iterator[Block]:
+    """Yield the identities that were checked, and what the reader should know.
+
+    Parameters
+    ----------
+    material : Material
+        Of any machine without a piston.
+    """
+    words, results = material.words, material.results
+    yield words.heading("checks")
+    if results.checks:
+        yield words.paragraph("checks")
+        rows = [
+            (word(key, words.language), words.number(100.0 * one, digits=2)) for key, one in results.checks.items()
+        ]
+        titles: tuple[Runs, ...] = ((words.column("identity"),), (words.column("difference"),))
+        yield Table(words.caption("checks"), titles, rows, align="lr", label="checks")
+    else:
+        yield words.paragraph("no_checks")
+    if results.notices:
+        yield words.paragraph("notices")
+        yield ItemList(tuple((notice_text(one.code, one.values, words.language),) for one in results.notices))
+
+
+def conclusion(material: Material) -> Iterator[Block]:
+    """Yield the main results as a table.
+
+    Parameters
+    ----------
+    material : Material
+        Of any machine without a piston.
+    """
+    words, results = material.words, material.results
+    yield words.heading("conclusion")
+    yield words.paragraph("conclusion", table=Reference("summary"))
+    rows = [_row(key, results, words) for key in results.summary if not _is_angle(key)]
+    titles = tuple((words.column(one),) for one in ("quantity", "value", "unit", "at"))
+    yield Table(words.caption("summary"), titles, rows, align="lrcr", label="summary")
+
+
+def _is_angle(key: str) -> bool:
+    return key.partition(".")[0].endswith(("_max_angle", "_min_angle"))
+
+
+def _row(key: str, results: Results, words: Words) -> tuple[str, ...]:
+    """Return name, value and unit of a single value, and the crank angle where it is reached."""
+    kind, dot, name = key.partition(".")
+    at = results.summary.get(f"{kind}_angle{dot}{name}") if kind.endswith(("_max", "_min")) else None
+    return (
+        label(key, words.language) if not key.startswith("flywheel_inertia.") else _wheel(key, words),
+        words.number(displayed(key, results.summary[key])),
+        printed_unit(key_unit(key), words.language) or "–",
+        words.number(float(np.degrees(at)), digits=4) if at is not None else "",
+    )
+
+
+def _wheel(key: str, words: Words) -> str:
+    kind, _, way = key.partition(".")
+    return f"{label(kind, words.language)}, {words.way(way)}"
+
+
+def appendix(material: Material) -> Iterator[Block]:
+    """Yield all columns at the step of the tables.
+
+    Parameters
+    ----------
+    material : Material
+        Of a linkage.
+    """
+    words, results = material.words, material.results
+    columns, degrees = results.columns, results.grid.degrees
+    if len(degrees) == len(material.positions) and np.allclose(degrees, material.positions.degrees):
+        # the sections before have the same tables
+        return
+    yield words.heading("appendix")
+    for caption, keys in (
+        ("torques_all", any_nonzero(_DYNAMICS, columns)),
+        ("motion_all", named(columns, *_MOTION)),
+        ("reactions_all", any_nonzero(named(columns, "joint_force", "normal_force", "normal_moment"), columns)),
+    ):
+        shown = quantity_columns(keys, columns, words)
+        yield from position_tables(caption, degrees, shown, words, first=None)
+
+
+def sources(material: Material) -> Iterator[Block]:
+    """Yield the bibliography.
+
+    Parameters
+    ----------
+    material : Material
+        Of any machine without a piston.
+    """
+    yield material.words.heading("sources")
+    yield Bibliography()

@@ -1,0 +1,155 @@
+"""The note of a mechanism that is given by a table of transfer functions, as courses of machines do with a press."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from crankwork.analysis.steps_table import table_steps
+from crankwork.dynamics.tabulated import TabulatedBody, tabulated_inertia
+from crankwork.note.document import Block, Citation, Equation, ItemList, Math, Reference, Runs
+from crankwork.note.linkage_data import method
+from crankwork.note.linkage_forces import efficiency
+from crankwork.note.linkage_material import Material
+from crankwork.note.linkage_motion import worked_at
+from crankwork.note.linkage_tables import Column, equations, position_tables, quantity_columns
+from crankwork.note.linkage_words import Words
+from crankwork.steps import AnyStep
+
+_WORK = "artobolevsky_1988, ch. 15"
+
+
+def table_task(material: Material) -> Iterator[Block]:
+    """Yield what is asked, the masses, and the transfer functions.
+
+    Parameters
+    ----------
+    material : Material
+        Of a table of transfer functions.
+    """
+    words, table = material.words, material.table
+    yield words.heading("task")
+    yield words.paragraph("task_table")
+    yield words.paragraph("table_speed", value=words.amount(material.results.solved.speed, "rad/s"))
+    yield words.paragraph("bodies")
+    yield ItemList(tuple(_body(one, words) for one in table.bodies))
+    yield from position_tables(
+        "table_transfer", material.results.grid.degrees, list(_ratios(material)), words, first=1, label="transfer"
+    )
+    yield method(material)
+    if material.options.sheets:
+        yield words.paragraph("sheets")
+
+
+def _body(body: TabulatedBody, words: Words) -> Runs:
+    mass, inertia = Math(words.symbol(f"body_mass.{body.name}")), Math(f"J_{body.name}")
+    runs: list[str | Math] = [f"{body.name}: "]
+    if body.mass:
+        runs += [mass, f" = {words.amount(body.mass, 'kg')}"]
+    if body.inertia:
+        runs += [", " if body.mass else "", inertia, f" = {words.amount(body.inertia, 'kg*m2')}"]
+    return tuple(runs)
+
+
+def _ratios(material: Material) -> Iterator[Column]:
+    """Yield the columns of the table, in metres and without a unit, as the formulas take them."""
+    words, count = material.words, len(material.table.angles)
+    for body in material.table.bodies:
+        for key, unit, ratios in (
+            ("velocity_ratio", "m", body.velocity_ratio),
+            ("rotation_ratio", "", body.rotation_ratio),
+        ):
+            if any(ratios):
+                whole = ratios if len(ratios) > 1 else ratios * count
+                yield Column(words.titled(f"{key}.{body.name}", unit), [words.number(one) for one in whole])
+
+
+def static(material: Material) -> Iterator[Block]:
+    """Yield the static torque, where it is known.
+
+    Parameters
+    ----------
+    material : Material
+        Of a table of transfer functions.
+    """
+    words, columns = material.words, material.results.columns
+    if "static_torque" not in columns:
+        return
+    yield words.heading("static")
+    if material.table.static_torque is None:
+        yield words.paragraph("given_balancing")
+        yield from worked_at(material, "torques")
+        yield from equations(material.steps("torques", "static_torque"), words)
+    shown = quantity_columns(("static_torque",), columns, words)
+    yield from position_tables("table_static", material.results.grid.degrees, shown, words, first=1, label="static")
+
+
+def dynamic(material: Material) -> Iterator[Block]:
+    """Yield reduced inertia, its derivative and the dynamic torque, at all positions one after the other.
+
+    Parameters
+    ----------
+    material : Material
+        Of a table of transfer functions.
+    """
+    words, columns = material.words, material.results.columns
+    yield words.heading("dynamic")
+    yield words.paragraph("table_reduction", source=Citation(_WORK), table=Reference("transfer"))
+    yield from equations(material.steps("speed"), words)
+    yield from worked_at(material, "reduction")
+    yield from equations(material.steps("reduction", "reduced_inertia"), words)
+    if material.table.reduced_inertia_1 is not None:
+        yield words.paragraph("given_derivative")
+    else:
+        yield from _at_all(material, "reduction", "reduced_inertia_1")
+    shown = _parts(material) + quantity_columns(("reduced_inertia", "reduced_inertia_1"), columns, words)
+    yield from position_tables("reduced", material.results.grid.degrees, shown, words, first=1, label="reduced")
+    yield from material.figures("reduced_inertia")
+    yield from _at_all(material, "torques", "dynamic_torque")
+
+
+def _parts(material: Material) -> list[Column]:
+    """Return the parts of the bodies in the reduced inertia."""
+    words = material.words
+    parts = {
+        f"reduced_inertia.{one.name}": tabulated_inertia([one]) + 0.0 * material.results.grid.angle
+        for one in material.table.bodies
+    }
+    return [
+        Column(words.titled(key), words.column_texts(values.tolist())) for key, values in parts.items() if values.any()
+    ]
+
+
+def driving(material: Material) -> Iterator[Block]:
+    """Yield the driving torque with the losses, at all positions one after the other.
+
+    Parameters
+    ----------
+    material : Material
+        Of a table of transfer functions.
+    """
+    words, columns = material.words, material.results.columns
+    if "driving_torque" not in columns:
+        return
+    yield words.heading("driving")
+    yield words.paragraph("torques")
+    yield from efficiency(material)
+    yield words.paragraph("driving")
+    yield from _at_all(material, "torques", "driving_torque")
+    keys = ("reduced_inertia_1", "dynamic_torque", "static_torque", "balancing_torque", "driving_torque")
+    shown = quantity_columns(keys, columns, words)
+    yield from position_tables("table_torque", material.results.grid.degrees, shown, words, first=1, label="torque")
+    yield from material.figures("torques")
+
+
+def _at_all(material: Material, group: str, kind: str) -> Iterator[Block]:
+    """Yield the equation of a quantity at every position, its number in the subscript."""
+    words = material.words
+    for row in range(len(material.results.grid)):
+        steps: tuple[AnyStep, ...] = next(one.steps for one in table_steps(material.results, row) if one.name == group)
+        for one in steps:
+            if one.key == kind:
+                yield Equation(one, symbol=_numbered(words.symbol(kind), row + 1))
+
+
+def _numbered(symbol: str, position: int) -> str:
+    return f"{symbol}{',' if '_' in symbol else '_'}{position}"

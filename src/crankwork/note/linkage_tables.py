@@ -1,0 +1,180 @@
+"""Tables over positions of the crank, divided where they have too many columns, and equations with their legends."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from crankwork.expressions import Formula
+from crankwork.kinematics.crank_grid import Array
+from crankwork.notation import ARGUMENTS
+from crankwork.note.document import Block, Equation, Math, Runs, Table
+from crankwork.note.equations import legend
+from crankwork.note.linkage_words import Words, in_display_unit
+from crankwork.quantities import QUANTITIES, Language, base_key
+from crankwork.steps import AnyStep, Given, ProductStep, Step, SumStep, all_steps, worked_step
+
+# columns of numbers beside position and crank angle, on a page upright and on its side
+_UPRIGHT, _WIDE = 9, 14
+# in SI: shorter than an atom's nucleus, lighter than a speck of dust
+_NOISE = 1e-15
+# rows of a table that is worth a page on its side
+_LONG = 24
+
+
+class Column:
+    """A column of a table: heading and finished entries."""
+
+    def __init__(self, heading: Runs, entries: Sequence[str]) -> None:
+        self.heading = heading
+        self.entries = entries
+
+
+def quantity_column(key: str, values: Array, words: Words, *, digits: int = 4) -> Column:
+    """Return a column of a quantity in its unit.
+
+    Parameters
+    ----------
+    key : str
+        Key of the quantity, `joint_force.A` for what belongs to a point or link.
+    values : array, shape (n,)
+        Its values. [SI]
+    words : Words
+        The language.
+    digits : int
+        Digits of the largest value.
+    """
+    return Column(words.titled(key), words.column_texts(in_display_unit(key, values.tolist()), digits=digits))
+
+
+def quantity_columns(keys: Iterable[str], columns: Mapping[str, Array], words: Words) -> list[Column]:
+    """Return columns of quantities, four digits for the largest value of each."""
+    return [quantity_column(key, columns[key], words) for key in keys]
+
+
+def position_tables(
+    caption: str,
+    degrees: Array,
+    columns: Sequence[Column],
+    words: Words,
+    *,
+    first: int | None = 0,
+    label: str = "",
+) -> Iterator[Table]:
+    """Yield a table over the positions of the crank, in parts if it has too many columns.
+
+    Parameters
+    ----------
+    caption : str
+        Key of its caption.
+    degrees : array, shape (n,)
+        Crank angles. [deg]
+    columns : sequence of Column
+        What stands beside them.
+    words : Words
+        The language.
+    first : int, optional
+        Number of the first position; without it positions have no numbers.
+    label : str
+        By which sentences refer to it.
+    """
+    if not columns:
+        return
+    count = len(degrees)
+    angle = QUANTITIES["crank_angle"].symbol(words.language)
+    before = [Column((Math(angle), ", °"), [words.number(float(one)) for one in degrees])]
+    if first is not None:
+        before.insert(0, Column((words.column("position"),), [str(first + k) for k in range(count)]))
+    for part, some in enumerate(_parts(columns, _UPRIGHT if count < _LONG else _WIDE), start=1):
+        shown = [*before, *some]
+        rows = list(zip(*(one.entries for one in shown), strict=True))
+        yield Table(
+            words.caption(caption, part),
+            tuple(one.heading for one in shown),
+            rows,
+            wide=len(some) > _UPRIGHT,
+            align="c" * len(before) + "r" * len(some),
+            label=label if part == 1 else "",
+        )
+
+
+def _parts(columns: Sequence[Column], most: int) -> Iterator[Sequence[Column]]:
+    """Yield columns that fit on a page, about as many on each."""
+    count = -(-len(columns) // most)
+    each = -(-len(columns) // count)
+    for start in range(0, len(columns), each):
+        yield columns[start : start + each]
+
+
+def any_nonzero(keys: Iterable[str], columns: Mapping[str, Array]) -> list[str]:
+    """Return the keys whose columns are there and not zero throughout."""
+    return [key for key in keys if key in columns and bool(np.any(columns[key]))]
+
+
+def equations(steps: Iterable[AnyStep], words: Words, *, marks: Mapping[str, str] | None = None) -> Iterator[Equation]:
+    """Yield equations of steps, before each sum those of its terms.
+
+    Parameters
+    ----------
+    steps : iterable of Step, Given, SumStep or ProductStep
+        The steps.
+    words : Words
+        The language.
+    marks : mapping of str to str, optional
+        Symbols by key, instead of those of the table of quantities.
+    """
+    for one in all_steps(steps):
+        if isinstance(one, SumStep | ProductStep):
+            # a sum prints its terms by their keys, which are no symbols where a link has a long name
+            own = tuple(Given(_mark(term.key, words, marks), term.value) for term in one.terms)
+            yield Equation(one._replace(terms=own), symbol=_mark(one.key, words, marks))
+        else:
+            yield Equation(_without_noise(one), symbol=_mark(one.key, words, marks))
+
+
+def _without_noise(step: AnyStep) -> AnyStep:
+    """Return a step in which what is zero but for rounding is zero, so that nobody reads a meaning into it."""
+    if not isinstance(step, Step) or all(value == 0 or abs(value) > _NOISE for value in step.values.values()):
+        return step
+    values = {name: value if abs(value) > _NOISE else 0.0 for name, value in step.values.items()}
+    return worked_step(step.formula.function, *values.values(), key=step.key)
+
+
+def _mark(key: str, words: Words, marks: Mapping[str, str] | None) -> str:
+    return (marks or {}).get(key) or (words.symbol(key) if base_key(key) in QUANTITIES else key)
+
+
+def explained(blocks: Iterable[Block], language: Language) -> Iterator[Block]:
+    """Yield blocks, where each formula that comes for the first time explains the symbols that are new.
+
+    Parameters
+    ----------
+    blocks : iterable of block
+        A whole note; of equations with the same formula only the first keeps its number.
+    language : str
+        Language of the explanations.
+    """
+    seen: set[str] = set()
+    known: set[str] = set()
+    for block in blocks:
+        formula = _formula(block)
+        if not isinstance(block, Equation) or formula is None:
+            yield replace(block, numbered=False) if isinstance(block, Equation) else block
+            continue
+        if formula.name in seen:
+            yield replace(block, numbered=False)
+            continue
+        seen.add(formula.name)
+        yield replace(block, legend=legend(formula, language, frozenset(known)))
+        entries = [ARGUMENTS[name] for name in formula.arguments]
+        known |= {key for one in entries for key in (one.quantity, one.extra) if key}
+
+
+def _formula(block: Block) -> Formula | None:
+    if not isinstance(block, Equation):
+        return None
+    if isinstance(block.step, Formula):
+        return block.step
+    return block.step.formula if isinstance(block.step, Step) else None

@@ -1,0 +1,276 @@
+"""Constructions of the textbooks: Brix's circle for the displacement of a piston, Tolle's tangents for its acceleration."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.kinematics.crank_grid import Array
+from crankwork.kinematics.slider_crank import SliderCrank
+from crankwork.report.engine_figure_axes import (
+    RIGHT,
+    WIDTH,
+    Box,
+    Graph,
+    Row,
+    limits,
+    round_ticks,
+    sheet,
+)
+from crankwork.report.engine_figure_data import EngineDrawn
+from crankwork.report.engine_figure_labels import label_marks, spread
+from crankwork.report.engine_figure_paper import GREY, Paper
+from crankwork.report.engine_figure_words import engine_word
+from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED
+
+_PARTS = 6
+_STEP = 30.0
+_CIRCLE, _MARGIN, _TITLES = 190.0, 26.0, 44.0
+
+
+class BrixPoints(NamedTuple):
+    """Points of Brix's circle for a circle of radius 1 about the crankshaft, up towards top dead centre.
+
+    Parameters
+    ----------
+    pole : array, shape (2,)
+        Where the rays begin: right and up, in crank radii. [-]
+    across, up : array, shape (n,)
+        Where they cut the circle. [-]
+    """
+
+    pole: Array
+    across: Array
+    up: Array
+
+
+def brix_points(lengths: SliderCrank, degrees: Array) -> BrixPoints:
+    """Return where rays from the shifted pole cut the circle; its height below the top is the displacement.
+
+    Parameters
+    ----------
+    lengths : SliderCrank
+        Crank radius, rod length, offset. [m]
+    degrees : array, shape (n,)
+        Crank angles, which the rays make with the axis. [deg]
+
+    Returns
+    -------
+    BrixPoints
+        Pole and points. [-]
+
+    Notes
+    -----
+    The pole lies half the crank-to-rod ratio towards bottom dead centre. Where the cylinder is offset, the axis is
+    turned by the ratio of offset to rod length, which gives the displacement its part of the sine.
+    """
+    turn = float(lengths.offset / lengths.rod_length)
+    pole = -float(lengths.rod_ratio) / 2 * np.array([np.sin(-turn), np.cos(turn)])
+    angle = np.radians(degrees) - turn
+    ray = np.array([np.sin(angle), np.cos(angle)])
+    along = pole @ ray
+    reach = -along + np.sqrt(along**2 + 1 - pole @ pole)
+    return BrixPoints(pole, pole[0] + reach * ray[0], pole[1] + reach * ray[1])
+
+
+def brix(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return Brix's circle beside the displacement over the crank angle, on one vertical scale.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graphs `circle` and `displacement`.
+    """
+    lengths = engine.drawn.results.solved.lengths
+    degrees, radius = engine.drawn.degrees, float(engine.shown("piston_displacement", lengths.crank_radius))
+    turn = degrees <= 360
+    degrees, exact = degrees[turn], engine.drawn.values("piston_displacement")[turn]
+    circle = brix_points(lengths, degrees)
+    error = float(np.max(np.abs(radius * (1 - circle.up) - exact)))
+    shift = engine.value("piston_displacement", float(lengths.crank_radius * lengths.rod_ratio / 2))
+    apart = f"{engine.number(error, 2)} {engine.unit('piston_displacement')}"
+    half = f"{engine.symbol('rod_ratio')}{engine.symbol('crank_radius')}/2"
+    rows = [
+        Row(f"{engine_word('brix_circle', engine.language)} OO′ = {half} = {shift}"),
+        Row(engine_word("brix_error", engine.language, engine.symbol("piston_displacement"), apart), width=0.0),
+    ]
+    height = _CIRCLE * max(1.0, float(exact.max()) / (2 * radius))
+    paper, box = sheet(height + _MARGIN - 10, rows)
+    top = box.top + _MARGIN - 14
+    left = _MARGIN + _CIRCLE + _MARGIN - 6 + _TITLES
+    graph_box = Box(left, top, WIDTH - left - RIGHT, height)
+    graph = Graph(paper, graph_box, (0.0, 360.0), (float(exact.max()), 0.0), engine.language)
+    ring = Graph(paper, Box(_MARGIN, top, _CIRCLE, _CIRCLE), (-radius, radius), (-radius, radius), engine.language)
+    marks = np.arange(0.0, 360.0, _STEP)
+    points = brix_points(lengths, marks)
+    _projections(ring, graph, points, radius, marks)
+    _rays(engine, ring, points, radius, marks)
+    ticks = round_ticks(0.0, float(exact.max()), 8)
+    for at in graph.down(ticks):
+        corners = [left - 28, left - 4, left - 4, left - 28], [at - 5, at - 5, at + 5, at + 5]
+        paper.line(*corners, width=0, fill="#ffffff", closed=True)
+    graph.frame(np.arange(0.0, 361.0, 60.0), ticks)
+    graph.curve("displacement", degrees, exact)
+    graph.curves["construction"] = degrees, radius * (1 - circle.up)
+    graph.x_title(engine.title("crank_angle"))
+    paper.text(WIDTH - RIGHT, top - 10, engine.title("piston_displacement"), anchor="end")
+    return paper, {"circle": ring, "displacement": graph}
+
+
+def _rays(engine: EngineDrawn, ring: Graph, points: BrixPoints, radius: float, marks: Array) -> None:
+    """Draw the circle with its axes, the rays from the pole and their angles."""
+    around = np.radians(np.arange(0.0, 361.0, 3.0))
+    ring.curve("circle", radius * np.sin(around), radius * np.cos(around))
+    axis = -points.pole / np.hypot(*points.pole) * radius * 1.08
+    for x, y in (axis, (axis[1], -axis[0])):
+        ring.paper.line(ring.across(np.array([-x, x])), ring.down(np.array([-y, y])), style=DASH_DOT, width=0.6)
+    pole = radius * points.pole
+    x, y = ring.across(radius * points.across), ring.down(radius * points.up)
+    start = ring.point(float(pole[0]), float(pole[1]))
+    centre = ring.point(0.0, 0.0)
+    ring.paper.segments(np.column_stack([np.full_like(x, start[0]), np.full_like(y, start[1]), x, y]), width=0.6)
+    ring.curves["points"] = radius * points.across, radius * points.up
+    for mark, a, b in zip(marks, x, y, strict=True):
+        ring.paper.dot(float(a), float(b), 1.4)
+        out = np.array([a, b]) - centre
+        place = np.array(centre) + out * (1 + 12 / float(np.hypot(*out)))
+        ring.boxed(float(place[0]), float(place[1]) + 2.8, engine.number(float(mark)), "middle", 7.5)
+    for at, name, right in ((start, "O′", 7.0), (centre, "O", -8.0)):
+        ring.paper.dot(*at, 2.0, fill="#ffffff", width=0.9)
+        ring.paper.text(at[0] + right, at[1] + (10.0 if name == "O′" else -4.0), name, size=8, anchor="middle")
+
+
+def _projections(ring: Graph, graph: Graph, points: BrixPoints, radius: float, marks: Array) -> None:
+    """Draw the lines from the points of the right half of the circle to the curve."""
+    for mark, across, up in zip(marks, points.across, points.up, strict=True):
+        if mark <= 180:
+            x, y = ring.point(radius * float(across), radius * float(up))
+            end = float(graph.across(mark))
+            graph.paper.segments(np.array([[x, y, end, y]]), width=0.5, colour=GREY)
+            graph.paper.dot(end, y, 1.4)
+
+
+class TollePoints(NamedTuple):
+    """Points of Tolle's construction: displacement over the crank radius, acceleration over r w^2.
+
+    Parameters
+    ----------
+    a, b, c, d, e, f : tuple of float
+        A and B at the dead centres on the axis, C and D at the accelerations there, E where CD cuts the axis,
+        F at the acceleration -3 r/l beside E. [-]
+    """
+
+    a: tuple[float, float]
+    b: tuple[float, float]
+    c: tuple[float, float]
+    d: tuple[float, float]
+    e: tuple[float, float]
+    f: tuple[float, float]
+
+
+def tolle_points(ratio: float) -> TollePoints:
+    """Return the points of Tolle's construction for a central slider-crank.
+
+    Parameters
+    ----------
+    ratio : float
+        Crank radius over rod length. [-]
+
+    Returns
+    -------
+    TollePoints
+        In crank radii and r w^2. [-]
+
+    Notes
+    -----
+    With two terms of the series both displacement and acceleration are quadratic in the cosine of the crank angle, so
+    that one over the other is a parabola; CF and FD are its tangents at the dead centres.
+    """
+    cut = 1 + ratio
+    return TollePoints((0.0, 0.0), (2.0, 0.0), (0.0, 1 + ratio), (2.0, ratio - 1), (cut, 0.0), (cut, -3 * ratio))
+
+
+def tolle(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the acceleration over the displacement, and the tangents that envelop it by Tolle's construction.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graph by the name of the figure.
+    """
+    drawn, lengths = engine.drawn, engine.drawn.results.solved.lengths
+    ratio, radius = float(lengths.rod_ratio), float(engine.shown("piston_displacement", lengths.crank_radius))
+    unit = float(engine.shown("piston_acceleration", lengths.crank_radius * drawn.results.solved.speed**2))
+    turn = drawn.degrees <= 360
+    x, y = drawn.values("piston_displacement")[turn], drawn.values("piston_acceleration")[turn]
+    found = tolle_points(ratio)
+    corners = {name.upper(): (a * radius, b * unit) for name, (a, b) in found._asdict().items()}
+    cosine = np.cos(np.radians(np.arange(0.0, 181.0, 3.0)))
+    parabola = radius * (1 - cosine + ratio / 2 * (1 - cosine**2)), unit * (cosine + ratio * (2 * cosine**2 - 1))
+    rows = [Row(engine.title("piston_acceleration").rpartition(",")[0]), Row(engine_word("tangents", engine.language), width=0.5)]
+    is_apart = float(np.max(np.abs(np.interp(x, *parabola) - y))) > 2e-3 * unit
+    if is_apart:
+        rows.insert(1, Row(engine_word("parabola", engine.language), DOTTED, 1.0))
+    paper, box = sheet(270.0, rows)
+    low, high = limits(np.array([one[1] for one in corners.values()]), y, margin=0.09)
+    room = 0.04 * 2 * radius
+    graph = Graph(paper, box, (-room, max(2 * radius, float(x.max())) + room), (low, high), engine.language)
+    graph.frame(round_ticks(0.0, graph.x[1], 8), round_ticks(low, high, 9))
+    tangents = tangent_ends(corners["C"], corners["F"], corners["D"])
+    ends = np.column_stack([graph.across(tangents[:, 0]), graph.down(tangents[:, 1]),
+                            graph.across(tangents[:, 2]), graph.down(tangents[:, 3])])  # fmt: skip
+    paper.segments(ends, width=0.5)
+    graph.curves["tangents"] = tangents[:, [0, 2]], tangents[:, [1, 3]]
+    for one, other in ("AC", "BD", "CD", "EF", "CF", "FD"):
+        pair = np.array([corners[one], corners[other]])
+        graph.curve(one + other, pair[:, 0], pair[:, 1], DASHED if one + other == "CD" else "-", width=0.7)
+    graph.curves["parabola"] = parabola
+    if is_apart:
+        graph.curve("parabola", *parabola, DOTTED, width=1.0)
+    graph.curve("acceleration", x, y, width=1.6)
+    lines = [spread(graph.across(x), graph.down(y))]
+    lines += [spread(graph.across(np.array([a[0], b[0]])), graph.down(np.array([a[1], b[1]])))
+              for a, b in ((corners[one], corners[other]) for one, other in ("AC", "BD", "CD", "EF", "CF", "FD"))]  # fmt: skip
+    level = float(graph.down(0.0))
+    lines.append(spread(np.array([box.left, box.left + box.width]), np.array([level, level])))
+    places = [(name, *graph.point(*place)) for name, place in corners.items()]
+    label_marks(paper, [*places, *_numbered(graph, tangents)], np.vstack(lines), size=8.0)
+    graph.x_title(engine.title("piston_displacement"))
+    graph.y_title(engine.title("piston_acceleration"), 48.0)
+    return paper, {"tolle": graph}
+
+
+def _numbered(graph: Graph, tangents: Array) -> list[tuple[str, float, float]]:
+    """Return the parts of the two outer tangents with their numbers, where they stand on the paper."""
+    one = [(f"{at}", *graph.point(*row[:2])) for at, row in enumerate(tangents.tolist(), start=1)]
+    return one + [(f"{at}′", *graph.point(*row[2:])) for at, row in enumerate(tangents.tolist(), start=1)]
+
+
+def tangent_ends(start: tuple[float, float], corner: tuple[float, float], end: tuple[float, float]) -> Array:
+    """Return the lines that join equal parts of two tangents of a parabola, which are tangents as well.
+
+    Parameters
+    ----------
+    start, corner, end : tuple of float
+        Where the tangents touch the parabola, and between them where they meet. [any]
+
+    Returns
+    -------
+    array, shape (n, 4)
+        Both ends of every line. [any]
+    """
+    share = np.arange(1, _PARTS)[:, None] / _PARTS
+    a, b, c = (np.array(one) for one in (start, corner, end))
+    return np.hstack([a + (b - a) * share, b + (c - b) * share])

@@ -1,0 +1,114 @@
+"""Which figures there are of a machine beyond those of its one crank gear, and what draws each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+
+from crankwork.machine import Machine
+from crankwork.report.engine_figure_axes import Graph
+from crankwork.report.engine_figure_bearings import (
+    big_end_polar,
+    crankpin_load,
+    crankpin_polar,
+    main_journal_polar,
+    small_end_polar,
+)
+from crankwork.report.engine_figure_construction import brix, tolle
+from crankwork.report.engine_figure_data import EngineDrawn
+from crankwork.report.engine_figure_orders import (
+    balance_ellipses,
+    balance_orders,
+    has_free_forces,
+    phase_stars,
+    torque_harmonics,
+)
+from crankwork.report.engine_figure_paper import Paper
+from crankwork.report.engine_figure_torque import accumulated_torque, crank_speed, excess_work, total_torque
+from crankwork.report.engine_figure_wear import crankpin_wear, main_wear
+from crankwork.report.engine_figure_words import engine_word
+from crankwork.report.figure_data import Drawn
+
+Draw = Callable[[EngineDrawn], tuple[Paper, Mapping[str, Graph]]]
+_CONSTRUCTIONS: dict[str, Draw] = {"brix": brix, "tolle": tolle}
+_LOADS: dict[str, Draw] = {
+    "crankpin_load": crankpin_load,
+    "big_end_polar": big_end_polar,
+    "small_end_polar": small_end_polar,
+    "main_journal_polar": main_journal_polar,
+    "crankpin_wear": crankpin_wear,
+    "main_wear": main_wear,
+}
+_OF_FORCES = ("crankpin_polar", *_LOADS)
+
+
+def engine_figures(drawn: Drawn) -> Iterator[tuple[str, bytes]]:
+    """Yield the constructions of a crank gear, and of a machine that has an engine the figures of all its cylinders.
+
+    Parameters
+    ----------
+    drawn : Drawn
+        What the figures share.
+
+    Yields
+    ------
+    tuple of str, bytes
+        Name and SVG.
+    """
+    engine = EngineDrawn(drawn)
+    for name, draw in figure_list(engine).items():
+        kind = name.rstrip("0123456789").rstrip("_")
+        yield name, engine.finished(name, draw(engine)[0], _remark(engine, kind), forces=kind in _OF_FORCES)
+
+
+def figure_list(engine: EngineDrawn) -> dict[str, Draw]:
+    """Return what draws each figure of a machine.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share.
+
+    Returns
+    -------
+    dict of str to callable
+        By name of the figure.
+    """
+    machine, columns = engine.drawn.results.machine, engine.drawn.results.columns
+    if not isinstance(machine, Machine) or machine.engine is None or "crank_torque" not in columns:
+        return dict(_CONSTRUCTIONS)
+    result = _CONSTRUCTIONS | _polars(engine) | _LOADS
+    if len(engine.whole.cylinders) > 1:
+        result["total_torque"] = total_torque
+    if len({place.throw for place in engine.whole.layout.places}) > 1:
+        result["accumulated_torque"] = accumulated_torque
+    result["excess_work"] = excess_work
+    if engine.torque.speed is not None:
+        result["crank_speed"] = crank_speed
+    result["torque_harmonics"] = torque_harmonics
+    if len(engine.whole.cylinders) > 1:
+        result["phase_stars"] = phase_stars
+    result["balance_orders"] = balance_orders
+    if has_free_forces(engine):
+        result["balance_ellipses"] = balance_ellipses
+    return result
+
+
+def _polars(engine: EngineDrawn) -> dict[str, Draw]:
+    """Return the polar diagram of every unlike crankpin; the first has no number."""
+
+    def of_pin(pin: int) -> Draw:
+        return lambda one: crankpin_polar(one, pin)
+
+    pins = list(engine.loads[1].crankpins)
+    return {"crankpin_polar" if at == 0 else f"crankpin_polar_{pin}": of_pin(pin) for at, pin in enumerate(pins)}
+
+
+def _remark(engine: EngineDrawn, kind: str) -> str:
+    """Return what a figure says at its lower left: the frame that its vectors stand in."""
+    frames = {
+        "crankpin_polar": "crank_up",
+        "big_end_polar": "rod_up",
+        "small_end_polar": "rod_up",
+        "main_journal_polar": "crank_one",
+    }
+    return engine_word(frames[kind], engine.language) if kind in frames else ""

@@ -1,0 +1,337 @@
+"""The figures of orders: balance before and after, loci of free forces, torque harmonics and their phase stars."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.cylinders.ellipse import Ellipse, balance_sum
+from crankwork.cylinders.torque_harmonics import PhaseStar, phase_star
+from crankwork.kinematics.crank_grid import Array
+from crankwork.report.engine_figure_axes import (
+    BOTTOM,
+    LEFT,
+    RIGHT,
+    TOP,
+    WIDTH,
+    Box,
+    Graph,
+    round_ticks,
+    small_text,
+)
+from crankwork.report.engine_figure_data import EngineDrawn
+from crankwork.report.engine_figure_paper import BLACK, Paper, text_width
+from crankwork.report.engine_figure_words import engine_word
+from crankwork.report.figure_look import DASHED
+
+_ROUNDING = 1e-9
+_STAR_ORDERS = 6
+# Loci are drawn of the orders up to this one; higher ones are small.
+_LOCI = 2
+
+
+class _Bars(NamedTuple):
+    """Bars of one kind: name of the kind, and height by order."""
+
+    kind: str
+    heights: Mapping[float, float]
+
+
+def _fill(paper: Paper, corners: tuple[float, float, float, float], kind: int) -> None:
+    """Draw a bar from left, top, right, bottom [pt]: white, hatched, grey, dotted grey or black by its kind."""
+    left, top, right, bottom = corners
+    fill = ("#ffffff", "#ffffff", "#b0b0b0", "#ffffff", BLACK)[kind]
+    paper.line([left, right, right, left], [top, top, bottom, bottom], width=0.7, fill=fill, closed=True)
+    if kind in (1, 3):
+        width = right - left
+        rise = np.arange(top - width + 3.5, bottom, 3.5)
+        start, end = np.maximum(rise, top), np.minimum(rise + width, bottom)
+        a, b = left + (start - rise), left + (end - rise)
+        if kind == 3:
+            a, b = right - (start - rise), right - (end - rise)
+        paper.segments(np.column_stack([a, start, b, end]), width=0.5)
+
+
+def _bar_graph(
+    engine: EngineDrawn, paper: Paper, box: Box, bars: Sequence[_Bars], orders: Sequence[float], fills: Sequence[int]
+) -> Graph:
+    """Draw groups of bars over the orders."""
+    most = max((max(one.heights.values(), default=0.0) for one in bars), default=0.0) or 1.0
+    top_end = (1.22 if len(orders) < 8 else 1.1) * most
+    graph = Graph(paper, box, (0.0, float(len(orders))), (0.0, top_end), engine.language)
+    has_any = any(one.heights and max(one.heights.values()) for one in bars)
+    ticks = round_ticks(0.0, top_end, max(3, round(box.height / 26))) if has_any else np.zeros(1)
+    graph.frame(np.array([]), ticks)
+    for place, order in enumerate(orders):
+        present = [at for at, one in enumerate(bars) if order in one.heights]
+        width = 0.8 / max(len(bars), 1)
+        start = place + 0.5 - width * len(present) / 2
+        for at, which in enumerate(present):
+            height = bars[which].heights[order]
+            left, right = graph.across(start + at * width), graph.across(start + (at + 1) * width)
+            top, bottom = graph.down(height), graph.down(0.0)
+            if height > 0.002 * most:
+                _fill(paper, (float(left), float(top), float(right), float(bottom)), fills[which])
+                if len(orders) < 8:
+                    text = engine.number(height, 4)
+                    _value(paper, float(left + right) / 2, float(top) - 3, text, float(right - left))
+            elif len(orders) < 8:
+                small_text(paper, float(left + right) / 2, float(bottom) - 2.5, "0")
+        if len(orders) <= 12 or order == round(order):
+            small_text(paper, float(graph.across(place + 0.5)), box.top + box.height + 11, engine.number(order))
+    for one in bars:
+        graph.curves[one.kind] = np.array(list(one.heights)), np.array(list(one.heights.values()))
+    return graph
+
+
+def _value(paper: Paper, middle: float, bottom: float, text: str, room: float) -> None:
+    """Write a value over its bar, upward if the bar is narrower than the text."""
+    if text_width(text, 7.0) <= room + 1:
+        paper.text(middle, bottom, text, size=7.0, anchor="middle")
+    else:
+        paper.text(middle + 2.5, bottom - text_width(text, 7.0) / 2, text, size=7.0, anchor="middle", upward=True)
+
+
+def _swatches(paper: Paper, texts: Sequence[str], fills: Sequence[int]) -> None:
+    """Write the legend of bars above the graph, on as many lines as they need."""
+    left, top = LEFT, TOP - 4
+    for text, fill in zip(texts, fills, strict=True):
+        width = text_width(text, 8.5) + 30
+        if left > LEFT and left + width > WIDTH - 4:
+            left, top = LEFT, top + 13.4
+        _fill(paper, (left, top + 1.5, left + 13, top + 9.5), fill)
+        paper.text(left + 18, top + 9, text, size=8.5)
+        left += width
+
+
+def _swatch_lines(texts: Sequence[str]) -> int:
+    left, lines = LEFT, 1
+    for text in texts:
+        width = text_width(text, 8.5) + 30
+        if left > LEFT and left + width > WIDTH - 4:
+            left, lines = LEFT, lines + 1
+        left += width
+    return lines
+
+
+def balance_orders(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return free forces and moments per order: of each kind of mass, and what is left of all together.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graphs `force` and, for cylinders side by side, `moment`.
+    """
+    balance, language = engine.balance, engine.language
+    kinds = {
+        "reciprocating": balance.reciprocating,
+        "rotating": (balance.rotating,),
+        "counterweights": (balance.counterweights,) if balance.weights else (),
+        "balance_shafts": balance.shafts,
+        "residual": balance.residual,
+    }
+    kinds = {name: parts for name, parts in kinds.items() if parts}
+    fills = [["reciprocating", "rotating", "balance_shafts", "counterweights", "residual"].index(one) for one in kinds]
+    panels = ["force", "moment"] if len({one.position for one in engine.whole.layout.places}) > 1 else ["force"]
+    texts = [engine_word(kind, language) for kind in kinds]
+    head = 13.4 * _swatch_lines(texts) + 5
+    height = 150.0
+    paper = Paper(WIDTH, TOP + head + len(panels) * height + (len(panels) - 1) * 28 + BOTTOM)
+    _swatches(paper, texts, fills)
+    orders = [float(one.order) for one in balance.reciprocating]
+    graphs: dict[str, Graph] = {}
+    for at, panel in enumerate(panels):
+        key = f"free_{panel}"
+        bars = [
+            _Bars(kind, {float(one.order): float(engine.shown(key, getattr(one, panel).largest)) for one in parts})
+            for kind, parts in kinds.items()
+        ]
+        box = Box(LEFT, TOP + head + at * (height + 28), WIDTH - LEFT - RIGHT, height)
+        graphs[panel] = _bar_graph(engine, paper, box, bars, orders, fills)
+        graphs[panel].y_title(f"{engine_word(key, language)} {engine.symbol(key)}, {engine.unit(key)}")
+    graphs[panels[-1]].x_title(engine_word("order", language, "$q$"))
+    return paper, graphs
+
+
+def has_free_forces(engine: EngineDrawn) -> bool:
+    """Return whether any order leaves a force free before or after balancing."""
+    return bool(_loci(engine))
+
+
+def _loci(engine: EngineDrawn) -> dict[int, tuple[Ellipse, Ellipse]]:
+    """Return the forces of each order of cylinders and cranks, and of all, where either is not nothing."""
+    balance = engine.balance
+    before = {one.order: one.force for one in balance_sum((*balance.reciprocating, balance.rotating))}
+    after = {one.order: one.force for one in balance.residual}
+    least = _ROUNDING * engine.whole.masses.reciprocating * engine.whole.master.lengths.crank_radius
+    least *= engine.whole.master.speed**2
+    return {
+        order: (one, after[order])
+        for order, one in before.items()
+        if order <= _LOCI and max(one.largest, after[order].largest) > least
+    }
+
+
+def balance_ellipses(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the closed curves in which the free forces of each order run, before and after balancing.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share; some order leaves a force free.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graph of each order by its number.
+    """
+    loci, language = _loci(engine), engine.language
+    is_balanced = bool(engine.balance.weights or engine.balance.shafts)
+    rows = [engine_word("before", language), engine_word("after", language)] if is_balanced else []
+    columns = 2 if len(loci) > 1 else 1
+    lines = -(-len(loci) // columns)
+    side, gap = (170.0, 56.0) if columns == 2 else (240.0, 0.0)
+    head = 13.4 * len(rows) + (5 if rows else 0) + 12
+    start = (WIDTH - columns * side - (columns - 1) * gap) / 2 + 16
+    paper = Paper(WIDTH, TOP + head + lines * side + (lines - 1) * 52 + BOTTOM)
+    for at, text in enumerate(rows):
+        paper.line([LEFT, LEFT + 20], [TOP + 2 + 13.4 * at] * 2, style=DASHED if at == 0 else "-", width=1.2)
+        paper.text(LEFT + 27, TOP + 5 + 13.4 * at, text, size=8.5)
+    graphs: dict[str, Graph] = {}
+    for at, (order, (before, after)) in enumerate(loci.items()):
+        box = Box(start + (at % columns) * (side + gap), TOP + head + (at // columns) * (side + 52), side, side)
+        graphs[str(order)] = _locus(engine, paper, box, before, after, is_balanced=is_balanced)
+        small_text(paper, box.left + side / 2, box.top - 5, engine_word("order", language, str(order)))
+        graphs[str(order)].x_title(f"{engine.symbol('free_force')}, {engine.unit('free_force')}")
+    return paper, graphs
+
+
+def _locus(
+    engine: EngineDrawn, paper: Paper, box: Box, before: Ellipse, after: Ellipse, *, is_balanced: bool
+) -> Graph:
+    """Draw the loci of one order, the reference direction of the engine upward."""
+    reach = 1.15 * float(engine.shown("free_force", max(before.largest, after.largest)))
+    graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language)
+    ticks = round_ticks(-reach, reach, 5)
+    graph.frame(ticks, ticks)
+    middle = graph.point(0.0, 0.0)
+    paper.segments(np.array([(middle[0], box.top, middle[0], box.top + box.height)]), width=0.8)
+    drawn = [("before", before, DASHED if is_balanced else "-")] + ([("after", after, "-")] if is_balanced else [])
+    for name, ellipse, style in drawn:
+        points = engine.shown("free_force", 1.0) * ellipse.outline()
+        graph.curve(name, points.imag, points.real, style)
+        if ellipse.largest > 1e-3 * max(before.largest, after.largest):
+            end = graph.point(float(points.imag[0]), float(points.real[0]))
+            paper.arrow(middle, end, width=1.0)
+        else:
+            paper.dot(*middle, 2.2)
+    return graph
+
+
+def torque_harmonics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the amplitudes of the harmonics of the torque of one cylinder and of all as bars over the orders.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share; its results hold the harmonics.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graph by the name of the figure.
+    """
+    columns = engine.drawn.results.listings["torque_harmonics"].columns
+    orders = columns["harmonic_order"].tolist()
+    kinds = {"one_cylinder": "harmonic_amplitude", "all_cylinders": "total_harmonic_amplitude"}
+    if len(engine.whole.cylinders) == 1:
+        kinds.pop("all_cylinders")
+    bars = [
+        _Bars(name, dict(zip(orders, engine.shown(key, columns[key]).tolist(), strict=True)))
+        for name, key in kinds.items()
+    ]
+    texts = [f"{engine.symbol(key)} – {engine_word(name, engine.language)}" for name, key in kinds.items()]
+    paper = Paper(WIDTH, TOP + 19 + 200.0 + BOTTOM)
+    _swatches(paper, texts, [0, 4][: len(texts)])
+    graph = _bar_graph(engine, paper, Box(LEFT, TOP + 19, WIDTH - LEFT - RIGHT, 200.0), bars, orders, [0, 4])
+    graph.x_title(engine.title("harmonic_order"))
+    symbols = ", ".join(engine.symbol(key) for key in kinds.values())
+    graph.y_title(f"{symbols}, {engine.unit('harmonic_amplitude')}")
+    return paper, {"torque_harmonics": graph}
+
+
+def phase_stars(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the phase stars of the orders up to 6, equal directions end to end, with the sum of each.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graph of each order by its number.
+    """
+    step = 360 / engine.cycle
+    stars = [phase_star(engine.whole.layout, step * at) for at in range(1, round(_STAR_ORDERS / step) + 1)]
+    columns = 4 if len(stars) > 6 else 3
+    lines = -(-len(stars) // columns)
+    side, gap, head = (WIDTH - 24) / columns - 8, 8.0, 14.0
+    paper = Paper(WIDTH, TOP + lines * (side + head) + 30)
+    graphs: dict[str, Graph] = {}
+    for at, star in enumerate(stars):
+        box = Box(12 + (at % columns) * (side + gap), TOP + head + (at // columns) * (side + head), side, side)
+        order = engine.number(star.order)
+        graphs[order] = _star(paper, box, star, engine)
+        text = f"$ν$ = {order}  ({engine.number(round(abs(star.sum), 9), 3)})"
+        small_text(paper, box.left + side / 2, box.top - 3, text)
+    paper.text(WIDTH / 2, paper.height - 18, engine_word("star_sum", engine.language), size=8, anchor="middle")
+    return paper, graphs
+
+
+def _star(paper: Paper, box: Box, star: PhaseStar, engine: EngineDrawn) -> Graph:
+    """Draw one phase star, its reference direction upward and angles with the rotation, clockwise."""
+    directions: dict[tuple[float, float], list[int]] = {}
+    for number, vector in enumerate(star.vectors.tolist(), start=1):
+        directions.setdefault((round(vector.real, 6) + 0.0, round(vector.imag, 6) + 0.0), []).append(number)
+    longest = max(max(len(one) for one in directions.values()), abs(star.sum))
+    reach = longest * (1 + 22 / (box.width / 2 - 22))
+    graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language)
+    middle = graph.point(0.0, 0.0)
+    if abs(star.sum) > 1e-9:
+        end = graph.point(star.sum.imag, star.sum.real)
+        paper.arrow(middle, end, width=3.2, colour="#a8a8a8")
+    graph.curves["sum"] = np.array([star.sum.imag]), np.array([star.sum.real])
+    for (up, across), numbers in directions.items():
+        for at in range(len(numbers)):
+            paper.arrow(graph.point(at * across, at * up), graph.point((at + 1) * across, (at + 1) * up), width=0.8)
+        end = graph.point(len(numbers) * across, len(numbers) * up)
+        _numbers(paper, end, (across, up), [str(one) for one in numbers])
+    paper.dot(*middle, 1.6)
+    graph.curves["ends"] = _ends(directions)
+    return graph
+
+
+def _ends(directions: Mapping[tuple[float, float], Sequence[int]]) -> tuple[Array, Array]:
+    lengths = np.array([len(one) for one in directions.values()])
+    up, across = np.array(list(directions)).T
+    return across * lengths, up * lengths
+
+
+def _numbers(paper: Paper, end: tuple[float, float], direction: tuple[float, float], numbers: Sequence[str]) -> None:
+    """Write the numbers of the cylinders beyond the end of their arrow, on two lines if they are many."""
+    half = -(-len(numbers) // 2) if len(numbers) > 3 else len(numbers)
+    lines = [",".join(numbers[:half]), ",".join(numbers[half:])] if half < len(numbers) else [",".join(numbers)]
+    width = max(text_width(one, 7.0) for one in lines)
+    x = end[0] + direction[0] * (4 + width / 2)
+    y = end[1] - direction[1] * (4 + 4 * len(lines))
+    for at, one in enumerate(lines):
+        paper.text(x, y + 2.5 + 8 * (at - (len(lines) - 1) / 2), one, size=7.0, anchor="middle")

@@ -1,0 +1,157 @@
+"""The wear diagrams of crankpins and main journals."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from crankwork.cylinders.wear import oil_hole
+from crankwork.kinematics.crank_grid import Array
+from crankwork.report.engine_figure_axes import TOP, WIDTH, Box, Graph, small_text
+from crankwork.report.engine_figure_data import EngineDrawn
+from crankwork.report.engine_figure_paper import GREY, Paper
+from crankwork.report.engine_figure_words import engine_word
+from crankwork.report.figure_look import DASH_DOT
+
+# The largest sum takes this share of the radius of the journal.
+_DEEPEST = 0.45
+_FOOT, _GAP, _ROOM, _HEAD = 40.0, 14.0, 26.0, 14.0
+_HATCH = 4.0
+# Rings smaller than this say what they have to say above themselves. [pt]
+_SMALL = 200.0
+
+
+def crankpin_wear(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the wear rings of all unlike crankpins.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share; its results hold the sums on the rays.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graph of each crankpin by its number.
+    """
+    return _rings(engine, "crankpin_wear", "crankpin")
+
+
+def main_wear(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the wear rings of all main journals.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share; its results hold the sums on the rays.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graph of each journal by its number.
+    """
+    return _rings(engine, "main_wear", "main_journal")
+
+
+def _rings(engine: EngineDrawn, listing: str, thing: str) -> tuple[Paper, Mapping[str, Graph]]:
+    """Draw the rings of a listing side by side, depths on one scale."""
+    columns = dict(engine.drawn.results.listings[listing].columns)
+    angles = np.degrees(columns.pop("wear_ray_angle"))
+    sums = {key.partition(".")[2]: np.asarray(engine.shown("wear_sum", one)) for key, one in columns.items()}
+    across = len(sums) if len(sums) < 3 else 2 if len(sums) == 4 else 3
+    lines = -(-len(sums) // across)
+    side = min((WIDTH - 24 - (across - 1) * _GAP) / across, 290.0)
+    start = (WIDTH - across * side - (across - 1) * _GAP) / 2
+    is_small = side < _SMALL
+    head = (_HEAD if len(sums) > 1 else 0.0) + (10.0 if is_small else 0.0)
+    paper = Paper(WIDTH, TOP + lines * (side + head) + (lines - 1) * _GAP + _FOOT)
+    deepest = max(float(one.max()) for one in sums.values()) or 1.0
+    graphs = {}
+    for at, (name, one) in enumerate(sums.items()):
+        top = TOP + (at // across) * (side + head + _GAP) + head
+        box = Box(start + (at % across) * (side + _GAP), top, side, side)
+        graphs[name] = _ring(engine, paper, box, angles, one, deepest)
+        if len(sums) > 1:
+            small_text(paper, box.left + side / 2, top - 4 - 10 * is_small, engine_word(thing, engine.language, name))
+        if is_small and oil_hole(one).arc < 360:
+            small_text(paper, box.left + side / 2, top - 3, _hole_words(engine, one))
+    unit = engine.unit("wear_sum")
+    largest = engine_word("largest", engine.language, f"{engine.number(deepest, 4)} {unit}")
+    text = f"{engine.symbol('wear_sum')} – {largest}; {engine_word('worn', engine.language)}"
+    paper.text(WIDTH / 2, paper.height - 35, text, size=8, anchor="middle")
+    frame = engine_word("crank_up" if thing == "crankpin" else "crank_one", engine.language)
+    paper.text(WIDTH / 2, paper.height - 23, frame, size=8, anchor="middle")
+    return paper, graphs
+
+
+def _ring(engine: EngineDrawn, paper: Paper, box: Box, angles: Array, sums: Array, deepest: float) -> Graph:
+    """Draw a journal of radius 1, what is worn off it, its numbered rays and its oil hole."""
+    reach = 1 + _ROOM / (box.width / 2 - _ROOM)
+    graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language)
+    depth = _DEEPEST * sums / deepest
+    fine = np.arange(0.0, 361.0, 2.0)
+    worn = 1 - np.interp(fine, angles, depth, period=360)
+    direction = _towards(fine)
+    _hatch(graph, fine, worn)
+    graph.curve("journal", *direction, width=1.4)
+    graph.curve("worn", *(direction * worn), width=1.0)
+    rays = _towards(angles)
+    inner = rays * (1 - depth)
+    x, y = graph.across(inner[0]), graph.down(inner[1])
+    outer = rays * (1 + 5 / (box.width / 2 - _ROOM))
+    graph.paper.segments(np.column_stack([x, y, graph.across(outer[0]), graph.down(outer[1])]), width=0.6)
+    graph.curves["ends"] = inner[0], inner[1]
+    step = 1 if len(angles) <= 12 or box.width > 200 else 2
+    for at in range(0, len(angles), step):
+        place = rays[:, at] * (1 + 14 / (box.width / 2 - _ROOM))
+        small_text(paper, float(graph.across(place[0])), float(graph.down(place[1])) + 2.7, str(at + 1))
+    cross = np.array([[-0.12, 0, 0.12, 0], [0, -0.12, 0, 0.12]])
+    centre = [graph.across(cross[:, 0]), graph.down(cross[:, 1]), graph.across(cross[:, 2]), graph.down(cross[:, 3])]
+    paper.segments(np.column_stack(centre), width=0.6)
+    _hole(engine, graph, sums)
+    return graph
+
+
+def _hole(engine: EngineDrawn, graph: Graph, sums: Array) -> None:
+    """Draw the oil hole from the surface to the middle, and its angle."""
+    hole = oil_hole(sums)
+    if hole.arc == 360:
+        return
+    axis = _towards(np.array([hole.angle]))[:, 0]
+    beside = np.array([axis[1], -axis[0]]) * 0.045
+    walls = [np.array([beside * side, axis + beside * side]).T for side in (-1, 1)]
+    for wall in walls:
+        graph.paper.line(graph.across(wall[0]), graph.down(wall[1]), width=0.9)
+    end = axis * 0.98
+    graph.curve("oil_hole", [0.0, end[0]], [0.0, end[1]], DASH_DOT, width=0.6)
+    if graph.box.width >= _SMALL:
+        # under the middle where the hole goes up, over it where it goes down
+        level = -0.26 if axis[1] > -0.2 else 0.2
+        graph.boxed(float(graph.across(0.0)), float(graph.down(level)), _hole_words(engine, sums), "middle", 7.5)
+
+
+def _hole_words(engine: EngineDrawn, sums: Array) -> str:
+    return engine_word("oil_hole", engine.language, engine.number(oil_hole(sums).angle, 4))
+
+
+def _hatch(graph: Graph, angles: Array, worn: Array) -> None:
+    """Hatch the ring between the worn surface and the journal, under 45 degrees."""
+    radius = float(graph.across(1.0) - graph.across(0.0))
+    along = np.arange(-radius, radius, 0.6)
+    offsets = np.arange(-radius, radius, _HATCH)
+    a, b = np.meshgrid(along, offsets)
+    x, y = (a + b) / np.sqrt(2), (a - b) / np.sqrt(2)
+    distance = np.hypot(x, y) / radius
+    edge = np.interp(np.degrees(np.arctan2(x, y)), angles, worn, period=360)
+    inside = np.pad((distance >= edge) & (distance <= 1), ((0, 0), (1, 1)))
+    row, start = np.nonzero(inside[:, 1:] & ~inside[:, :-1])
+    _, end = np.nonzero(inside[:, :-1] & ~inside[:, 1:])
+    x0, y0 = float(graph.across(0.0)), float(graph.down(0.0))
+    ends = np.column_stack([x0 + x[row, start], y0 - y[row, start], x0 + x[row, end - 1], y0 - y[row, end - 1]])
+    graph.paper.segments(ends, width=0.4, colour=GREY)
+
+
+def _towards(angles: Array) -> Array:
+    """Return unit vectors, to the right and upward, clockwise from the upward direction, shape (2, n). [deg]"""
+    return np.array([np.sin(np.radians(angles)), np.cos(np.radians(angles))])

@@ -1,0 +1,213 @@
+"""The whole engine: each cylinder is the engine of one cylinder, and sums, orders and energies agree."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import crankwork
+from crankwork.analysis import columns
+from crankwork.analysis.cylinders import cylinder_columns, torque_curves, whole_engine
+from crankwork.analysis.engine_balance import engine_balance
+from crankwork.analysis.engine_bearings import bearing_loads
+from crankwork.cylinders.articulated import articulated_motion
+from crankwork.cylinders.engines import boxer, inline, radial, vee
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.machine import Bearings, Engine, Machine
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+ENGINES = ("petrol-four", "v8-diesel", "radial-five", "two-stroke")
+PETROL = crankwork.read(EXAMPLES / "spark-engine.toml")
+LAYOUTS = {
+    "I4": inline(4, (1, 3, 4, 2), spacing=0.12)[0],
+    "I6": inline(6, (1, 5, 3, 6, 2, 4), spacing=0.12)[0],
+    "V6": vee(6, (1, 4, 2, 5, 3, 6), 90.0, spacing=0.12, bank_stagger=0.03, throws=(0, 120, 240), uneven=True)[0],
+    "V8": vee(8, (1, 5, 4, 2, 6, 3, 7, 8), 90.0, spacing=0.12, bank_stagger=0.03)[0],
+    "B4": boxer(4, (1, 4, 3, 2), spacing=0.12)[0],
+    "R7": radial(7, master=0)[0],
+}
+every_layout = pytest.mark.parametrize("layout", LAYOUTS.values(), ids=LAYOUTS)
+every_example = pytest.mark.parametrize("name", ENGINES)
+
+
+def _machine(layout, **changes) -> Machine:
+    method = PETROL.method.named("exact")
+    return replace(PETROL, method=replace(method, inertia_rod_ratio=None), engine=Engine(layout, **changes))
+
+
+@every_layout
+def test_a_cylinder_is_the_engine_of_one_cylinder_to_the_last_bit(layout):
+    machine = _machine(layout)
+    alone = crankwork.analyse(replace(machine, engine=None))
+    whole = whole_engine(replace(alone.solved, machine=machine))
+    degrees = np.arange(0.0, 720.0, 7.5)
+    together = cylinder_columns(whole, degrees)
+    for at, place in enumerate(layout.places):
+        local = np.mod(degrees - place.firing_angle, 720.0)
+        order = np.argsort(local)
+        single = columns(alone.solved, CrankGrid.from_degrees(local[order]))
+        if float(place.firing_angle).is_integer():
+            for key, values in single.items():
+                assert np.array_equal(together[key][at][order], values), key
+    results = crankwork.analyse(machine)
+    assert np.array_equal(results["crank_torque.1"], alone["crank_torque"])
+    for key, values in alone.columns.items():
+        assert np.array_equal(results[key], values), key
+
+
+@every_layout
+def test_checks_hold(layout):
+    checks = crankwork.analyse(_machine(layout)).checks
+    assert {"engine_work", "phase_stars", "free_forces"} <= set(checks)
+    assert max(checks.values()) < 1e-10
+
+
+@every_example
+def test_examples_hold_their_checks(name):
+    checks = crankwork.analyse(crankwork.read(EXAMPLES / f"{name}.toml")).checks
+    assert checks["work"] < 1e-10
+    assert checks["engine_work"] < 1e-10
+    assert checks["free_forces"] < 1e-10
+    assert max(checks.values()) < 1e-8
+    assert ("first_law" in checks) == (name == "two-stroke")
+
+
+@every_layout
+def test_the_torque_curve_is_the_torque(layout):
+    whole = whole_engine(crankwork.analyse(_machine(layout)).solved)
+    one, total = torque_curves(whole)
+    degrees = np.arange(3.7, 720.0, 11.31)
+    found = cylinder_columns(whole, degrees)["crank_torque"]
+    scale = float(np.max(np.abs(found)))
+    assert one(np.radians(degrees)) == pytest.approx(found[0], abs=1e-8 * scale)
+    assert total(np.radians(degrees)) == pytest.approx(found.sum(axis=0), abs=1e-8 * scale)
+
+
+@every_layout
+def test_loads_of_a_shaft_are_in_equilibrium(layout):
+    """The main bearings hold what rods and throws put on the shaft, at every crank angle."""
+    machine = _machine(layout)
+    whole = whole_engine(crankwork.analyse(machine).solved)
+    degrees = np.arange(0.0, 720.0, 15.0)
+    loads = bearing_loads(whole, degrees)
+    found, r, w = cylinder_columns(whole, degrees), whole.master.lengths.crank_radius, whole.master.speed
+    total = np.zeros(len(degrees), dtype=complex)
+    throws = {place.crankpin: place for place in layout.places}
+    for at, place in enumerate(layout.places):
+        outward = -found["radial_force"][at] + machine.masses.rod_big_end * r * w**2
+        total += (outward + 1j * found["tangential_force"][at]) * np.exp(1j * np.radians(place.pin_angle))
+    for place in throws.values():
+        total += machine.masses.crank * r * w**2 * np.exp(1j * np.radians(place.pin_angle))
+    held = sum(load.x + 1j * load.y for load in loads.mains)
+    assert np.max(np.abs(held + total)) < 1e-10 * np.max(np.abs(found["radial_force"]))
+
+
+def test_counterweights_take_the_load_off_the_main_bearings():
+    layout = LAYOUTS["I4"]
+    bare = crankwork.analyse(_machine(layout)).listings["bearing_loads"]
+    with_weights = crankwork.analyse(_machine(layout, rotating_share=1.0)).listings["bearing_loads"]
+    middle = bare.names.index("main_journal.3")
+    assert with_weights.columns["mean_bearing_load"][middle] < bare.columns["mean_bearing_load"][middle]
+
+
+def test_full_counterweights_and_shafts_leave_nothing_of_the_first_two_orders():
+    machine = _machine(LAYOUTS["I4"], rotating_share=1.0, balance_shafts=(2,))
+    whole = whole_engine(crankwork.analyse(machine).solved)
+    left = {one.order: one for one in engine_balance(whole).residual}
+    single = machine.masses.reciprocating * whole.master.lengths.crank_radius * whole.master.speed**2
+    assert left[1].force.largest < 1e-9 * single
+    assert left[2].force.largest < 1e-9 * single
+    assert left[4].force.largest > 0
+
+
+@pytest.mark.parametrize("cylinders", [5, 7, 9])
+def test_a_radial_engine_of_five_or_more_has_no_free_second_order(cylinders):
+    machine = _machine(radial(cylinders, master=0)[0])
+    whole = whole_engine(crankwork.analyse(machine).solved)
+    free = {one.order: one.force.largest for one in engine_balance(whole).reciprocating}
+    assert free[2] == 0
+    # half of every reciprocating mass turns with the crank
+    single = machine.masses.reciprocating * whole.master.lengths.crank_radius * whole.master.speed**2
+    assert free[1] == pytest.approx(cylinders / 2 * single, rel=0.02)
+
+
+def test_the_torque_of_an_articulated_cylinder_is_force_times_its_own_transfer_function():
+    results = crankwork.analyse(crankwork.read(EXAMPLES / "radial-five.toml"))
+    whole = whole_engine(results.solved)
+    degrees = np.arange(1.0, 720.0, 9.0)
+    found = cylinder_columns(whole, degrees)
+    for at, (solved, rod) in enumerate(zip(whole.cylinders, whole.engine.slaves, strict=True)):
+        if rod is None:
+            continue
+        grid = CrankGrid.from_degrees(np.degrees(found["crank_angle"][at]))
+        x_1 = articulated_motion(solved.lengths, rod, grid).piston.position_1
+        torque = found["piston_force"][at] * x_1
+        assert found["crank_torque"][at] == pytest.approx(torque, abs=1e-9 * np.max(np.abs(torque)))
+
+
+def test_strokes_of_articulated_cylinders_differ_from_that_of_the_master():
+    whole = whole_engine(crankwork.analyse(crankwork.read(EXAMPLES / "radial-five.toml")).solved)
+    strokes = [one.stroke[0] for one in whole.cylinders]
+    assert strokes[0] == pytest.approx(0.115)
+    assert strokes[1] == pytest.approx(strokes[4], abs=1e-9)
+    assert strokes[2] == pytest.approx(strokes[3], abs=1e-9)
+    assert len({round(one, 6) for one in strokes}) == 3
+
+
+def test_the_flywheel_gives_the_wanted_fluctuation():
+    machine = _machine(LAYOUTS["I4"], fluctuation=0.01, inertia=0.05)
+    results = crankwork.analyse(machine)
+    assert results["speed_fluctuation"] == pytest.approx(0.01, rel=1e-12)
+    w = results["speed"]
+    assert (results["crank_speed_max"] + results["crank_speed_min"]) / 2 == pytest.approx(w, rel=1e-12)
+    needed = results["excess_work"] / (0.01 * w**2)
+    assert results["flywheel_inertia"] + 0.05 == pytest.approx(needed, rel=1e-12)
+
+
+def test_excess_work_is_that_of_a_fine_sum():
+    results = crankwork.analyse(_machine(LAYOUTS["I4"]))
+    whole = whole_engine(results.solved)
+    degrees = np.linspace(0.0, 720.0, 14401)
+    torque = cylinder_columns(whole, degrees)["crank_torque"].sum(axis=0)
+    excess = np.cumsum((torque - np.mean(torque[:-1]))[:-1]) * np.radians(0.05)
+    assert results["excess_work"] == pytest.approx(np.ptp(excess), rel=1e-3)
+
+
+def test_specific_loads_need_the_sizes():
+    layout = LAYOUTS["I4"]
+    assert "bearing_pressure" not in crankwork.analyse(_machine(layout)).listings["bearing_loads"].columns
+    sized = crankwork.analyse(_machine(layout, bearings=Bearings(0.06, 0.03)))
+    listing = sized.listings["bearing_loads"]
+    largest = listing.columns["bearing_load_max"][0] / (0.06 * 0.03)
+    assert listing.columns["bearing_pressure_max"][0] == pytest.approx(largest, rel=1e-15)
+    assert np.isnan(listing.columns["bearing_pressure_max"][listing.names.index("main_journal.1")])
+
+
+def test_crankpins_that_only_differ_in_time_are_listed_once():
+    names = crankwork.analyse(_machine(LAYOUTS["I4"])).listings["bearing_loads"].names
+    assert [name for name in names if name.startswith("crankpin")] == ["crankpin.1"]
+    names = crankwork.analyse(_machine(LAYOUTS["V8"])).listings["bearing_loads"].names
+    assert [name for name in names if name.startswith("crankpin")] == ["crankpin.1", "crankpin.4"]
+
+
+def test_weights_act_along_each_bank():
+    """With weight the mean force towards the shaft is that of the lean of each bank, and its mean torque is none."""
+    machine = replace(_machine(LAYOUTS["V8"]), has_gravity=True)
+    whole = whole_engine(crankwork.analyse(machine).solved)
+    found = cylinder_columns(whole, np.arange(0.0, 720.0, 1.0))
+    weight = machine.masses.reciprocating * machine.method.gravity
+    for at, place in enumerate(whole.layout.places):
+        lean = np.radians(place.axis - whole.layout.places[0].axis)
+        assert found["weight_force"][at] == pytest.approx(weight * np.cos(lean))
+
+
+def test_listings_reach_the_tables():
+    results = crankwork.analyse(crankwork.read(EXAMPLES / "petrol-four.toml"))
+    assert {"firing", "torque_harmonics", "bearing_loads", "crankpin_wear", "main_wear", "balance"} == set(
+        results.listings
+    )
+    assert {"engine_torque", "accumulated_torque", "bearings", "main_journals", "speed"} <= set(results.tables)
+    assert results.listings["firing"].columns["firing_interval"] == pytest.approx(np.radians(180.0))

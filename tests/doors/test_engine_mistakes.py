@@ -1,0 +1,146 @@
+"""Mistakes in the file of a whole engine: each is told on its line, with what to write instead."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+ORDER = "firing_order = [1, 3, 4, 2]"
+WIEBE = "combustion_duration = "
+
+# example, the original text, what a user writes, the key blamed, and words of the advice
+MISTAKES = {
+    "order repeats": ("petrol-four", ORDER, "firing_order = [1, 3, 4, 4]", "engine.firing_order",
+                      "names cylinder 4 twice and leaves out cylinder 2"),
+    "order too short": ("petrol-four", ORDER, "firing_order = [1, 3, 4]", "engine.firing_order", "leaves out"),
+    "no such cylinder": ("petrol-four", ORDER, "firing_order = [1, 3, 5, 2]", "engine.firing_order",
+                         "there is no cylinder 5"),
+    "order as text": ("petrol-four", ORDER, 'firing_order = "1-3-4-2"', "engine.firing_order", "must be a list"),
+    "half a cylinder": ("petrol-four", "cylinders = 4", "cylinders = 4.5", "engine.cylinders", "write a whole number"),
+    "no cylinders": ("petrol-four", "cylinders = 4\n", "", "engine.cylinders", "is missing"),
+    "other layout": ("petrol-four", '"inline"', '"star"', "engine.layout", 'write "inline" or "V"'),
+    "key of another layout": ("petrol-four", ORDER, f'{ORDER}\nbank_angle = "60 deg"', "engine.bank_angle",
+                              'belongs to layout = "V"'),
+    "too few throws": ("petrol-four", ORDER, f'{ORDER}\nthrows = ["0 deg", "180 deg"]', "engine.throws",
+                       "the crankshaft has 4 throws"),
+    "order against throws": ("petrol-four", ORDER,
+                             f'{ORDER}\nthrows = ["0 deg", "0 deg", "180 deg", "180 deg"]', "engine.firing_order",
+                             ""),
+    "V without its angle": ("v8-diesel", 'bank_angle = "90 deg"\n', "", "engine.bank_angle", "is missing"),
+    "common pins disagree": ("v8-diesel", 'bank_angle = "90 deg"', 'bank_angle = "60 deg"', "engine.pin_offset",
+                             "engine.uneven = true"),
+    "odd V": ("v8-diesel", "cylinders = 8", "cylinders = 7", "engine.cylinders", "a multiple of 2"),
+    "rod too short": ("radial-five", '"182 mm"', '"60 mm"', "engine.articulated.knuckle_radius", "mm"),
+    "no rod left": ("radial-five", 'knuckle_radius = "48 mm"\nrod_length = "182 mm"', 'knuckle_radius = "240 mm"',
+                    "engine.articulated.rod_length", "smaller radius"),
+    "knuckle angles": ("radial-five", 'rod_length = "182 mm"', 'rod_length = "182 mm"\nknuckle_angles = ["72 deg"]',
+                       "engine.articulated.knuckle_angles", "one for each of the 4 articulated rods"),
+    "throws of a radial": ("radial-five", 'spacing = "160 mm"', 'throws = ["0 deg"]', "engine.throws", "one throw"),
+    "fluctuation of 2": ("petrol-four", "fluctuation = 0.01", "fluctuation = 2", "flywheel.fluctuation", "up to 1"),
+    "counterweight as a mass": ("petrol-four", "[balance]", '[bearings.x]\n[balance]', "bearings.x", "unknown"),
+    "13 rays": ("v8-diesel", "rays = 24", "rays = 13", "bearings.rays", "write 12 or 24"),
+    "third-order shafts": ("two-stroke", "shafts = [1]", "shafts = [3]", "balance.shafts[1]", "write 1 or 2"),
+    "gas and cycle": ("petrol-four", "[cycle]", '[gas]\ncycle = "720 deg"\n[cycle]', "cycle", "says the same as gas"),
+    "key of another cycle": ("two-stroke", WIEBE, f"heat_use = 0.9\n{WIEBE}", "cycle.heat_use",
+                             'does not belong to a cycle of the kind "wiebe"'),
+    "no compression ratio": ("petrol-four", "compression_ratio = 8.5", 'clearance_volume = "50 cm3"',
+                             "cylinder.compression_ratio", "is missing"),
+    "unknown fuel": ("petrol-four", "excess_air = 0.96", 'fuel = "coal"', "cycle.fuel", "write petrol or diesel"),
+    "fuel of half a kilogram": ("petrol-four", "excess_air = 0.96",
+                                'fuel = { carbon = 0.5, hydrogen = 0.1, heating_value = "44 MJ/kg" }', "cycle.fuel",
+                                "add up to 0.6"),
+    "burning too long": ("two-stroke", '"48 deg"', '"150 deg"', "cycle", "shorten the burning"),
+    "no heat": ("two-stroke", 'cycle_heat = "560 J"\n', "", "cycle", 'cycle_heat = "1500 J"'),
+    "exponent of one": ("petrol-four", "1.377", "1.0", "cycle", "1.0001"),
+    "temperature without a scale": ("petrol-four", '"293 K"', "293", "cycle.ambient_temperature", "has no unit"),
+    "pressure of nothing": ("petrol-four", '"0.085 MPa"', '"0 MPa"', "cycle.intake_pressure", "write more than"),
+    "intake below the residual gas": ("petrol-four", '"0.085 MPa"', '"0.005 MPa"', "cycle", "no fresh charge"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "old", "new", "key", "advice"), MISTAKES.values(), ids=MISTAKES)
+def test_a_mistake_is_told_with_its_fix(crankwork, name, old, new, key, advice):
+    text = (EXAMPLES / f"{name}.toml").read_text("utf-8")
+    assert old in text
+    Path("engine.toml").write_text(text.replace(old, new, 1), "utf-8")
+    answer = crankwork("check", "engine.toml")
+    assert answer.code == 2
+    assert "Traceback" not in answer.err
+    told = [line for line in answer.mistakes if f": {key}: " in line]
+    assert told, answer.err
+    assert advice in told[0]
+
+
+def test_several_mistakes_at_once(crankwork):
+    text = (EXAMPLES / "petrol-four.toml").read_text("utf-8")
+    text = text.replace(ORDER, "firing_order = [1, 1, 4, 2]").replace('"0.085 MPa"', "0.085").replace("rod]", "rood]")
+    Path("engine.toml").write_text(text, "utf-8")
+    answer = crankwork("check", "engine.toml")
+    assert answer.code == 2
+    assert len(answer.mistakes) >= 2
+    assert "did you mean rod" in answer.err
+
+
+def test_uneven_intervals_are_said_with_the_intervals(crankwork):
+    text = (EXAMPLES / "v8-diesel.toml").read_text("utf-8")
+    throws = 'throws = ["0 deg", "90 deg", "270 deg", "180 deg"]'
+    text = text.replace('bank_angle = "90 deg"', f'bank_angle = "60 deg"\n{throws}')
+    Path("engine.toml").write_text(text, "utf-8")
+    answer = crankwork("check", "engine.toml")
+    assert answer.code == 0
+    assert "uneven intervals" in answer.out
+    Path("engine.toml").write_text(text.replace("[engine]", "[engine]\nuneven = true"), "utf-8")
+    assert "uneven" not in crankwork("check", "engine.toml").out
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("compression_ratio = 8.5", "compression_ratio = 14.5", "knock"),
+        ("excess_air = 0.96", "excess_air = 2.5", "excess air"),
+        ('"1060 K"', '"700 K"', "residual gas"),
+        ("compression_exponent = 1.377", "compression_exponent = 1.6", "compression"),
+    ],
+)
+def test_values_outside_a_correlation_are_said_and_used(crankwork, old, new, said):
+    text = (EXAMPLES / "petrol-four.toml").read_text("utf-8")
+    before = crankwork("run", str(EXAMPLES / "petrol-four.toml"), "--json")
+    Path("engine.toml").write_text(text.replace(old, new), "utf-8")
+    answer = crankwork("check", "engine.toml")
+    assert answer.code == 0
+    assert any(said in line for line in answer.out.splitlines() if line.startswith("note:")), answer.out
+    assert crankwork("run", "engine.toml", "--json").out != before.out
+
+
+def test_measured_pressure_over_half_a_cycle_is_refused(crankwork):
+    angle = np.arange(0.0, 361.0, 1.0)
+    Path("p.csv").write_text("\n".join(["angle,p", *(f"{one},{0.2 + 0.1 * np.cos(np.radians(one))}" for one in angle)]))
+    text = (EXAMPLES / "petrol-four.toml").read_text("utf-8")
+    head, tail = text.split("[cycle]")
+    gas = '[gas]\ncycle = "720 deg"\n[gas.measured]\nfile = "p.csv"\npressure_unit = "MPa"\n'
+    Path("engine.toml").write_text(head + gas + "[bearings]" + tail.split("[bearings]")[1], "utf-8")
+    answer = crankwork("check", "engine.toml")
+    assert answer.code == 2
+    assert "gas.measured" in answer.err
+    assert "720" in answer.err
+
+
+def test_power_gives_bore_and_stroke(crankwork):
+    text = (EXAMPLES / "petrol-four.toml").read_text("utf-8")
+    text = text.replace('radius = "39 mm"\n', "").replace('bore = "78 mm"\n', "")
+    Path("engine.toml").write_text(text.replace('kind = "petrol"', 'kind = "petrol"\npower = "60 kW"'), "utf-8")
+    answer = crankwork("check", "engine.toml")
+    assert answer.code == 0
+    assert "rounded to 78 and 78 mm" in answer.out
+    assert "78 mm" in answer.out
+
+
+def test_without_a_power_the_crank_needs_its_radius(crankwork):
+    text = (EXAMPLES / "petrol-four.toml").read_text("utf-8").replace('radius = "39 mm"\n', "")
+    Path("engine.toml").write_text(text, "utf-8")
+    answer = crankwork("check", "engine.toml")
+    assert answer.code == 2
+    assert "crank.radius: is missing" in answer.err
