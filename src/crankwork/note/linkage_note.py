@@ -27,10 +27,10 @@ _REPORT: tuple[Section, ...] = (
     task, conclusion, structural_analysis, kinematics, forces, reduction, torques, motor, flywheel, law_of_motion,
     checks, sources, appendix,
 )  # fmt: skip
-_OF_TABLE: dict[bool, tuple[Section, ...]] = {
-    True: (table.table_task, conclusion, table.static, table.dynamic, table.driving, checks, sources),
-    False: (table.table_task, table.static, table.dynamic, table.driving, checks, conclusion, sources),
-}
+# the tables keep the numbers that courses of machines give them
+_OF_TABLE: tuple[Section, ...] = (
+    table.table_task, table.static, table.dynamic, table.driving, checks, conclusion, sources,
+)  # fmt: skip
 
 
 def linkage_note(results: Results, options: NoteOptions) -> Note:
@@ -54,9 +54,8 @@ def linkage_note(results: Results, options: NoteOptions) -> Note:
     artobolevsky_1988, ch. 2-16.
     """
     material = Material(results, options)
-    words, is_report = material.words, options.order == "en"
-    of_table = isinstance(results.machine, TabulatedMachine)
-    sections = _OF_TABLE[is_report] if of_table else _REPORT if is_report else _COURSE
+    words, of_table = material.words, isinstance(results.machine, TabulatedMachine)
+    sections = _OF_TABLE if of_table else _REPORT if options.order == "en" else _COURSE
     blocks: list[Block] = [TitlePage(), Contents(), PageBreak()]
     for section in sections:
         blocks.extend(section(material))

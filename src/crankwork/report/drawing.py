@@ -9,9 +9,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from crankwork.cylinders.throw import throw_mechanism
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import motion
+from crankwork.kinematics.piston import as_slider_crank
 from crankwork.linkage_machine import LinkageMachine
 from crankwork.machine import Machine
 from crankwork.mechanism.mechanism import Mechanism
@@ -69,7 +71,7 @@ def moving_drawing(
     """
     if frames < 8 or not 0 < seconds < math.inf:
         raise CrankworkError("a moving drawing needs at least 8 frames and a time above zero")
-    mechanism, whole = (machine, None) if isinstance(machine, Mechanism) else (machine.mechanism, machine)
+    mechanism, whole = (machine, None) if isinstance(machine, Mechanism) else (_drawn(machine), machine)
     moving = motion(mechanism, CrankGrid.from_degrees(np.arange(frames + 1) * 360 / frames))
     duration, still = f"{seconds:g}s", round(frames * _STILL / 360)
     if isinstance(whole, LinkageMachine) and not links:
@@ -96,6 +98,14 @@ def moving_drawing(
     back = f'<rect x="{x:.0f}" y="{y:.0f}" width="{width:.0f}" height="{height:.0f}" fill="white"/>'
     lines = [head, f"<title>{title}</title>", f"<desc>{about}</desc>", back, *drawn, *foot, "</svg>", ""]
     return "\n".join(lines)
+
+
+def _drawn(machine: Machine | LinkageMachine) -> Mechanism:
+    """Return the mechanism to draw: of an engine with several rods on a crankpin, all of these."""
+    lengths = as_slider_crank(machine.mechanism) if isinstance(machine, Machine) else None
+    if not isinstance(machine, Machine) or machine.engine is None or lengths is None:
+        return machine.mechanism
+    return throw_mechanism(machine.engine.layout, lengths, machine.engine.slaves)
 
 
 def _view_box(reach: Box) -> tuple[float, float, float, float]:

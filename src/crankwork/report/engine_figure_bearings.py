@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from crankwork.cylinders.bearings import big_end_inertia_force
 from crankwork.cylinders.load_statistics import PolarDiagram, load_statistics, polar_diagram
 from crankwork.cylinders.load_vectors import BearingLoad
 from crankwork.kinematics.crank_grid import Array
@@ -54,6 +55,11 @@ def crankpin_polar(engine: EngineDrawn, pin: int) -> tuple[Paper, Mapping[str, G
     rods = len(engine.whole.on_pin[pin - 1])
     inertia = rods * engine.rod_inertia
     diagram = polar_diagram(loads.crankpins[pin], degrees, engine.cycle, inertia)
+    return _pin_polar(engine, diagram, inertia, rods)
+
+
+def _pin_polar(engine: EngineDrawn, diagram: PolarDiagram, inertia: float, rods: int) -> tuple[Paper, Mapping[str, Graph]]:
+    """Draw the polar diagram of a crankpin with the inertia force of so many rods from its pole."""
     count = f"{rods} " if rods > 1 else ""
     pole = engine_word("pole_rods" if rods > 1 else "pole", engine.language)
     force = f"{count}{engine.symbol('big_end_inertia_force')} – {engine.named('big_end_inertia_force').partition(' – ')[2]}"
@@ -63,6 +69,27 @@ def crankpin_polar(engine: EngineDrawn, pin: int) -> tuple[Paper, Mapping[str, G
         f"{engine.symbol('radial_force')}, {engine.unit('radial_force')}",
     )
     return _polar(engine, "crankpin_load", diagram, rows if inertia else [], titles)
+
+
+def crankpin_polar_of_one(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the load of the one rod of a crank gear on its crankpin, from the columns of the results.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share; its machine may have no engine.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graph by the name of the figure.
+    """
+    drawn = engine.drawn
+    solved, masses = drawn.results.solved, drawn.results.machine.masses
+    mass = masses.rod_big_end if masses is not None else 0.0
+    inertia = float(big_end_inertia_force(mass, solved.lengths.crank_radius, solved.speed))
+    load = BearingLoad(-drawn.columns["radial_force"] - inertia, drawn.columns["tangential_force"])
+    return _pin_polar(engine, polar_diagram(load, drawn.degrees, engine.cycle, inertia), inertia, 1)
 
 
 def big_end_polar(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:

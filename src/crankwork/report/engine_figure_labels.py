@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from crankwork.kinematics.crank_grid import Array
+from crankwork.report.engine_figure_axes import Box
 from crankwork.report.engine_figure_paper import GREY, Paper, text_width
 
 _SPACING = 3.0
@@ -40,6 +41,7 @@ def label_marks(
     *,
     size: float = 8.0,
     dot: float = 1.5,
+    frame: Box | None = None,
 ) -> None:
     """Draw marks with their names; those that fall together share one mark, far names get a thin line.
 
@@ -53,6 +55,8 @@ def label_marks(
         Points to keep clear of. [pt]
     size, dot : float
         Of the letters, and radius of the marks. [pt]
+    frame : Box or None
+        What names should stay inside of. [pt]
     """
     marks = _merged(marks)
     places = np.array([(x, y) for _, x, y in marks])
@@ -61,7 +65,7 @@ def label_marks(
         mark = np.array([x, y])
         half = np.array([text_width(name, size) / 2 + 0.8, 0.42 * size])
         others = places[np.any(places != mark, axis=1)]
-        shift = _shift(mark, half, taken, obstacles, others)
+        shift = _shift(mark, half, taken, obstacles, others, frame)
         taken.append((mark + shift, half))
         if np.max(np.abs(shift) - half) > 6:
             start, end = (
@@ -73,7 +77,14 @@ def label_marks(
         paper.text(x + float(shift[0]), y + float(shift[1]) + 0.36 * size, name, size=size, anchor="middle")
 
 
-def _shift(mark: Array, half: Array, taken: Sequence[tuple[Array, Array]], obstacles: Array, others: Array) -> Array:
+def _shift(
+    mark: Array,
+    half: Array,
+    taken: Sequence[tuple[Array, Array]],
+    obstacles: Array,
+    others: Array,
+    frame: Box | None,
+) -> Array:
     """Return where the middle of a name goes from its mark: clear first, then near; nearer rings are tried first. [pt]"""
     best, least = np.zeros(2), np.inf
     near = obstacles[np.all(np.abs(obstacles - mark) < _REACHES[-1] + 2 * half + 4, axis=1)]
@@ -82,6 +93,9 @@ def _shift(mark: Array, half: Array, taken: Sequence[tuple[Array, Array]], obsta
             break
         shifts = _DIRECTIONS * (reach + np.abs(_DIRECTIONS) * (half - half.min()))
         cost = reach + 0.05 * np.arange(len(shifts)) + _hidden(mark, shifts, half, taken, near, others)
+        if frame is not None:
+            low, high = np.array(frame[:2]), np.array(frame[:2]) + np.array(frame[2:])
+            cost += 100.0 * np.any((mark + shifts - half < low) | (mark + shifts + half > high + 6), axis=1)
         at = int(np.argmin(cost))
         if cost[at] < least:
             best, least = shifts[at], float(cost[at])

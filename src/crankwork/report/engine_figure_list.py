@@ -1,4 +1,4 @@
-"""Which figures there are of a machine beyond those of its one crank gear, and what draws each."""
+"""Which figures there are of a slider-crank and of a whole engine, and what draws each."""
 
 from __future__ import annotations
 
@@ -10,11 +10,21 @@ from crankwork.report.engine_figure_bearings import (
     big_end_polar,
     crankpin_load,
     crankpin_polar,
+    crankpin_polar_of_one,
     main_journal_polar,
     small_end_polar,
 )
 from crankwork.report.engine_figure_construction import brix, tolle
+from crankwork.report.engine_figure_cylinder import (
+    crankpin_forces,
+    kinematics,
+    piston_forces,
+    pressure,
+    rod_forces,
+    torque,
+)
 from crankwork.report.engine_figure_data import EngineDrawn
+from crankwork.report.engine_figure_indicator import indicator
 from crankwork.report.engine_figure_orders import (
     balance_ellipses,
     balance_orders,
@@ -27,9 +37,22 @@ from crankwork.report.engine_figure_torque import accumulated_torque, crank_spee
 from crankwork.report.engine_figure_wear import crankpin_wear, main_wear
 from crankwork.report.engine_figure_words import engine_word
 from crankwork.report.figure_data import Drawn
+from crankwork.report.figure_look import figure_word
 
 Draw = Callable[[EngineDrawn], tuple[Paper, Mapping[str, Graph]]]
-_CONSTRUCTIONS: dict[str, Draw] = {"brix": brix, "tolle": tolle}
+# what draws it, and the column it needs
+_ONE_CYLINDER: dict[str, tuple[Draw, str]] = {
+    "kinematics": (kinematics, "piston_displacement"),
+    "brix": (brix, "piston_displacement"),
+    "tolle": (tolle, "piston_displacement"),
+    "pressure": (pressure, "gas_pressure"),
+    "indicator": (indicator, "gas_pressure"),
+    "piston_forces": (piston_forces, "piston_force"),
+    "rod_forces": (rod_forces, "rod_force"),
+    "crankpin_forces": (crankpin_forces, "tangential_force"),
+    "torque": (torque, "crank_torque"),
+    "crankpin_polar": (crankpin_polar_of_one, "tangential_force"),
+}
 _LOADS: dict[str, Draw] = {
     "crankpin_load": crankpin_load,
     "big_end_polar": big_end_polar,
@@ -38,11 +61,11 @@ _LOADS: dict[str, Draw] = {
     "crankpin_wear": crankpin_wear,
     "main_wear": main_wear,
 }
-_OF_FORCES = ("crankpin_polar", *_LOADS)
+_OF_FORCES = ("piston_forces", "rod_forces", "crankpin_forces", "crankpin_polar", *_LOADS)
 
 
 def engine_figures(drawn: Drawn) -> Iterator[tuple[str, bytes]]:
-    """Yield the constructions of a crank gear, and of a machine that has an engine the figures of all its cylinders.
+    """Yield the figures of one cylinder, and of a machine that has an engine those of all its cylinders.
 
     Parameters
     ----------
@@ -73,10 +96,11 @@ def figure_list(engine: EngineDrawn) -> dict[str, Draw]:
     dict of str to callable
         By name of the figure.
     """
-    machine, columns = engine.drawn.results.machine, engine.drawn.results.columns
+    machine, columns = engine.drawn.results.machine, engine.drawn.columns
+    result = {name: draw for name, (draw, key) in _ONE_CYLINDER.items() if key in columns}
     if not isinstance(machine, Machine) or machine.engine is None or "crank_torque" not in columns:
-        return dict(_CONSTRUCTIONS)
-    result = _CONSTRUCTIONS | _polars(engine) | _LOADS
+        return result
+    result |= _polars(engine) | _LOADS
     if len(engine.whole.cylinders) > 1:
         result["total_torque"] = total_torque
     if len({place.throw for place in engine.whole.layout.places}) > 1:
@@ -111,4 +135,6 @@ def _remark(engine: EngineDrawn, kind: str) -> str:
         "small_end_polar": "rod_up",
         "main_journal_polar": "crank_one",
     }
+    if kind == "kinematics" and "piston_velocity_first_order" in engine.drawn.columns:
+        return figure_word("orders", engine.language)
     return engine_word(frames[kind], engine.language) if kind in frames else ""

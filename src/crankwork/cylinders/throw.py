@@ -1,0 +1,50 @@
+"""The crank gear of one throw as a mechanism: all rods that turn on one crankpin, or on the master rod there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from crankwork.cylinders.articulated import ArticulatedRod
+from crankwork.cylinders.layout import Layout
+from crankwork.kinematics.slider_crank import SliderCrank
+from crankwork.mechanism.dyads import RRP
+from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism
+
+_UP = math.pi / 2
+
+
+def throw_mechanism(layout: Layout, lengths: SliderCrank, slaves: Sequence[ArticulatedRod | None] = ()) -> Mechanism:
+    """Return the rods and pistons of the crankpin of cylinder 1, the crank turning clockwise.
+
+    Parameters
+    ----------
+    layout : Layout
+        The cylinders.
+    lengths : SliderCrank
+        Crank, rod and offset of every cylinder, of the master where rods are articulated. [m]
+    slaves : sequence of ArticulatedRod or None
+        The articulated rod of each cylinder that has one.
+
+    Returns
+    -------
+    Mechanism
+        Points `crank_pin`, `piston_pin` of cylinder 1 and `piston_pin_3` of cylinder 3; at a crank angle of zero the
+        crank lies along the axis of cylinder 1.
+    """
+    places = [one for one in layout.places if one.crankpin == layout.places[0].crankpin]
+    points, rods = [], []
+    for place in places:
+        slave = slaves[place.number - 1] if slaves else None
+        mark = "" if place.number == 1 else f"_{place.number}"
+        axis = math.radians(place.axis)
+        joint, length, offset = "crank_pin", lengths.rod_length, lengths.offset
+        if slave is not None:
+            angle = math.radians(slave.knuckle_angle)
+            joint, length, offset = f"knuckle_pin{mark}", slave.length, slave.offset
+            along, across = slave.knuckle_radius * math.cos(angle), -slave.knuckle_radius * math.sin(angle)
+            points.append(LinkPoint(joint, "rod", along, across))
+        beside = (offset * math.cos(axis), -offset * math.sin(axis))
+        rods.append(RRP(joint, f"piston_pin{mark}", f"rod{mark}", length, guide_point=beside, guide_angle=_UP - axis))
+    crank = Crank(lengths.crank_radius, start=_UP - math.radians(places[0].axis), direction=-1)
+    return Mechanism(crank, tuple(rods), points=tuple(points))

@@ -1,0 +1,246 @@
+"""The figures of one cylinder over the crank angle: motion, gas pressure, forces and torque."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.kinematics.crank_grid import Array
+from crankwork.quantities import QUANTITIES
+from crankwork.report.engine_figure_axes import (
+    BOTTOM,
+    LEFT,
+    RIGHT,
+    TOP,
+    WIDTH,
+    Box,
+    Graph,
+    Row,
+    limits,
+    over_cycle,
+    sheet,
+)
+from crankwork.report.engine_figure_data import EngineDrawn
+from crankwork.report.engine_figure_labels import label_marks, spread
+from crankwork.report.engine_figure_paper import Paper
+from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED, SOLID, Style
+
+_HEIGHT, _PANEL, _PANEL_GAP = 216.0, 126.0, 38.0
+_LONGEST = 16
+
+
+class _Line(NamedTuple):
+    """A curve: key of its quantity, values [display unit], line style."""
+
+    key: str
+    values: Array
+    style: Style = SOLID
+
+
+def kinematics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return three panels over one revolution; an approximate method shows the two orders it is made of.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graphs `displacement`, `velocity` and `acceleration`.
+    """
+    drawn = engine.drawn
+    turn = drawn.degrees <= 360
+    has_orders = "piston_velocity_first_order" in drawn.columns
+    gap = _PANEL_GAP if has_orders else 20.0
+    head = 16.0 if has_orders else 4.0
+    paper = Paper(WIDTH, TOP + head + 3 * _PANEL + 2 * gap + BOTTOM)
+    graphs: dict[str, Graph] = {}
+    for row, noun in enumerate(("displacement", "velocity", "acceleration")):
+        keys = {f"piston_{noun}": SOLID}
+        if has_orders:
+            keys |= {f"piston_{noun}_first_order": DASHED, f"piston_{noun}_second_order": DASH_DOT}
+        curves = [_Line(key, drawn.values(key)[turn], style) for key, style in keys.items()]
+        box = Box(LEFT, TOP + head + row * (_PANEL + gap), WIDTH - LEFT - RIGHT, _PANEL)
+        ends = limits(*(one.values for one in curves))
+        graph = over_cycle(paper, box, ends, 360.0, engine.language, numbers=row == 2)
+        for at, one in enumerate(curves):
+            graph.curve(one.key, drawn.degrees[turn], one.values, one.style)
+            if has_orders:
+                left = box.left + 8 + 70 * at
+                paper.line([left, left + 20], [box.top - 10] * 2, style=one.style, width=1.2)
+                paper.text(left + 27, box.top - 7, engine.symbol(one.key), size=8.5)
+        graph.y_title(engine.title(f"piston_{noun}"), 42.0)
+        graphs[noun] = graph
+    graphs["acceleration"].x_title(engine.title("crank_angle"))
+    return paper, graphs
+
+
+def pressure(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the gas pressure over the cycle with the named points of the diagram.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graph by the name of the figure.
+    """
+    degrees, values = engine.drawn.degrees, engine.drawn.values("gas_pressure")
+    paper, box = sheet(_HEIGHT)
+    graph = over_cycle(paper, box, limits(values), engine.cycle, engine.language)
+    graph.curve("gas_pressure", degrees, values)
+    graph.x_title(engine.title("crank_angle"))
+    graph.y_title(engine.title("gas_pressure"))
+    mark_points(graph, named_points(engine), spread(graph.across(degrees), graph.down(values)))
+    return paper, {"pressure": graph}
+
+
+def named_points(engine: EngineDrawn) -> list[tuple[str, float, float]]:
+    """Return the named points of the diagram: name, crank angle [deg] and gauge pressure [display unit].
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share.
+
+    Returns
+    -------
+    list of tuple
+        Names shortened where they are long.
+    """
+    space = engine.drawn.results.solved.space
+    return [
+        (_short(name), angle, float(engine.shown("gas_pressure", value - space.ambient)))
+        for name, (angle, value) in space.diagram.named.items()
+    ]
+
+
+def _short(name: str) -> str:
+    printable = "".join(one if one.isprintable() and one != "$" else "□" for one in name)
+    return printable if len(printable) <= _LONGEST else f"{printable[: _LONGEST - 1]}…"
+
+
+def mark_points(graph: Graph, points: Sequence[tuple[str, float, float]], *lines: Array) -> None:
+    """Mark named points of a graph, their names clear of its lines and axes.
+
+    Parameters
+    ----------
+    graph : Graph
+        Where they are.
+    points : sequence of (str, float, float)
+        Name and place in the units of the scales. [their units]
+    *lines : array, shape (n, 2)
+        Points along lines. [pt]
+    """
+    left, top, width, height = graph.box
+    level = float(graph.down(0.0)) if min(graph.y) < 0 < max(graph.y) else top + height
+    axes = [
+        spread(np.array([left, left]), np.array([top, top + height])),
+        spread(np.array([left, left + width]), np.array([level, level])),
+    ]
+    if points:
+        graph.curves["points"] = np.array([one[1] for one in points]), np.array([one[2] for one in points])
+        marks = [(name, *graph.point(x, y)) for name, x, y in points]
+        label_marks(graph.paper, marks, np.vstack([*lines, *axes]), frame=graph.box)
+
+
+def piston_forces(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the parts of the force on the piston and their sum; a part that is the whole sum stands for it.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graph by the name of the figure.
+    """
+    styles = {"gas_force": DASHED, "inertia_force": DASH_DOT, "weight_force": DOTTED}
+    parts = {key: style for key, style in styles.items() if key in engine.drawn.columns}
+    if len(parts) == 1:
+        return _forces(engine, "piston_forces", dict.fromkeys(parts, SOLID))
+    return _forces(engine, "piston_forces", {**parts, "piston_force": SOLID})
+
+
+def rod_forces(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the force along the rod and the side force.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graph by the name of the figure.
+    """
+    return _forces(engine, "rod_forces", {"rod_force": SOLID, "side_force": DASHED})
+
+
+def crankpin_forces(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the tangential and the radial force on the crankpin.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graph by the name of the figure.
+    """
+    return _forces(engine, "crankpin_forces", {"tangential_force": SOLID, "radial_force": DASHED})
+
+
+def _forces(engine: EngineDrawn, name: str, keys: Mapping[str, Style]) -> tuple[Paper, Mapping[str, Graph]]:
+    """Draw columns of forces over the cycle."""
+    curves = [_Line(key, engine.drawn.values(key), style) for key, style in keys.items()]
+    title = f"{', '.join(engine.symbol(key) for key in keys)}, {engine.unit('piston_force')}"
+    return _over_cycle(engine, name, curves, [Row(engine.named(key), style) for key, style in keys.items()], title)
+
+
+def _over_cycle(
+    engine: EngineDrawn, name: str, curves: Sequence[_Line], rows: Sequence[Row], title: str
+) -> tuple[Paper, Mapping[str, Graph]]:
+    paper, box = sheet(_HEIGHT, rows)
+    graph = over_cycle(paper, box, limits(*(one.values for one in curves)), engine.cycle, engine.language)
+    for one in curves:
+        graph.curve(one.key, engine.drawn.degrees, one.values, one.style)
+    graph.x_title(engine.title("crank_angle"))
+    graph.y_title(title)
+    return paper, {name: graph}
+
+
+def torque(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the crank torque of one cylinder and its mean.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graph by the name of the figure.
+    """
+    values, mean = engine.drawn.values("crank_torque"), engine.drawn.results.summary["mean_torque"]
+    if abs(float(engine.shown("mean_torque", mean))) < 1e-6 * float(np.max(np.abs(values))):
+        mean = 0.0
+    row = QUANTITIES["mean_torque"]
+    text = f"{engine.symbol('mean_torque')} – {row.label(engine.language)}, {engine.value('mean_torque', mean)}"
+    level = np.full_like(values, float(engine.shown("mean_torque", mean)))
+    curves = [_Line("crank_torque", values), _Line("mean_torque", level, DASHED)]
+    rows = [Row(engine.named("crank_torque")), Row(text, DASHED)]
+    return _over_cycle(engine, "torque", curves, rows, engine.title("crank_torque"))

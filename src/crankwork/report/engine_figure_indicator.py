@@ -1,0 +1,71 @@
+"""The indicator diagram over the volume, with the volumes at the dead centres."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from crankwork.kinematics.crank_grid import Array
+from crankwork.report.engine_figure_axes import TOP, Graph, limits, round_ticks, sheet, small_text
+from crankwork.report.engine_figure_cylinder import mark_points, named_points
+from crankwork.report.engine_figure_data import EngineDrawn
+from crankwork.report.engine_figure_labels import spread
+from crankwork.report.engine_figure_paper import Paper
+from crankwork.report.figure_look import DASH_DOT, DASHED, figure_word
+
+_HEIGHT, _ABOVE = 245.0, 24.0
+
+
+def indicator(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the gas pressure over the volume with its named points, and the diagram with sharp corners if known.
+
+    Parameters
+    ----------
+    engine : EngineDrawn
+        What the figures share.
+
+    Returns
+    -------
+    tuple
+        Paper, and the graph by the name of the figure.
+    """
+    drawn, space = engine.drawn, engine.drawn.results.solved.space
+    volume, values = drawn.values("cylinder_volume"), drawn.values("gas_pressure")
+    paper, box = sheet(_HEIGHT + _ABOVE)
+    box = box._replace(top=TOP + _ABOVE, height=_HEIGHT)
+    ends, reach = limits(values), 1.06 * float(np.max(volume))
+    graph = Graph(paper, box, (0.0, reach), ends, engine.language)
+    graph.frame(round_ticks(0.0, reach, 8), round_ticks(*ends, 9))
+    sharp = getattr(space, "theoretical", None)
+    if sharp is not None:
+        pressures = engine.shown("gas_pressure", sharp.pressure(drawn.degrees, drawn.columns["cylinder_volume"]) - space.ambient)
+        graph.curve("theoretical", volume, pressures, DASHED, width=0.9)
+    graph.curve("gas_pressure", volume, values)
+    graph.x_title(engine.title("cylinder_volume"))
+    graph.y_title(engine.title("gas_pressure"))
+    centres = _dead_centres(engine, graph)
+    points = [(name, float(np.interp(angle, drawn.degrees, volume)), value) for name, angle, value in named_points(engine)]
+    mark_points(graph, points, spread(graph.across(volume), graph.down(values)), *centres)
+    return paper, {"indicator": graph}
+
+
+def _dead_centres(engine: EngineDrawn, graph: Graph) -> list[Array]:
+    """Mark the volumes at the dead centres, clearance and swept volume above, and return points along the lines."""
+    space, paper, box = engine.drawn.results.solved.space, graph.paper, graph.box
+    volumes = [float(engine.shown("cylinder_volume", one)) for one in (space.clearance, space.clearance + space.swept)]
+    lines = []
+    for name, volume in zip(("tdc", "bdc"), volumes, strict=True):
+        at = float(graph.across(volume))
+        down = np.array([box.top - 6, box.top + box.height])
+        paper.line([at, at], down, style=DASH_DOT, width=0.6)
+        small_text(paper, at, box.top - 17, figure_word(name, engine.language))
+        lines.append(spread(np.array([at, at]), down))
+    level = box.top - 4
+    for key, start, end in (("clearance_volume", 0.0, volumes[0]), ("swept_volume", *volumes)):
+        left, right = float(graph.across(start)), float(graph.across(end))
+        middle = (left + right) / 2
+        paper.arrow((middle, level), (left, level), width=0.5)
+        paper.arrow((middle, level), (right, level), width=0.5)
+        paper.text(middle, level - 3, engine.symbol(key), size=8, anchor="middle")
+    return lines
