@@ -152,9 +152,7 @@ def _load(load: Load, words: Words) -> Runs:  # noqa: PLR0911 - one for each kin
             stiffness, free = words.amount(load.stiffness, "N/m"), words.amount(load.free_length, "mm")
             return words.sentence("load_spring", name=load.start, other=load.end, stiffness=stiffness, free=free)
         case SliderSpring():
-            return words.sentence(
-                "load_slider_spring", name=load.slider, stiffness=words.amount(load.stiffness, "N/m")
-            )
+            return words.sentence("load_slider_spring", name=load.slider, stiffness=words.amount(load.stiffness, "N/m"))
         case Weight():
             return words.sentence("load_weight", gravity=words.amount(load.gravity, "m/s2"))
 
@@ -237,5 +235,7 @@ def _four_bar(machine: LinkageMachine) -> str:
         case (RRR() as dyad,) if {dyad.joint_a, dyad.joint_b} & set(mechanism.ground):
             fixed = dyad.joint_a if dyad.joint_a in mechanism.ground else dyad.joint_b
             lengths = (dyad.length_a, dyad.length_b) if fixed == dyad.joint_b else (dyad.length_b, dyad.length_a)
-            return grashof(mechanism.crank.radius, *lengths, math.dist(mechanism.ground[fixed], mechanism.crank.pivot)).type
+            return grashof(
+                mechanism.crank.radius, *lengths, math.dist(mechanism.ground[fixed], mechanism.crank.pivot)
+            ).type
     return ""

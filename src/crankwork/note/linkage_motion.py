@@ -112,6 +112,7 @@ def law_of_motion(material: Material) -> Iterator[Block]:
             "transient",
             torque=words.amount(transient.torque, "N*m"),
             time=words.amount(transient.time, "s"),
-            turn=words.amount(summary["final_turn"], "rad") + f" ({words.number(math.degrees(summary['final_turn']))}°)",
+            turn=words.amount(summary["final_turn"], "rad")
+            + f" ({words.number(math.degrees(summary['final_turn']))}°)",
             speed=words.amount(summary["final_speed"], "rad/s"),
         )

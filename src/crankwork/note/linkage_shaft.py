@@ -98,9 +98,7 @@ def checks(material: Material) -> Iterator[Block]:
     yield words.heading("checks")
     if results.checks:
         yield words.paragraph("checks")
-        rows = [
-            (word(key, words.language), words.number(100.0 * one, digits=2)) for key, one in results.checks.items()
-        ]
+        rows = [(word(key, words.language), words.number(100.0 * one, digits=2)) for key, one in results.checks.items()]
         titles: tuple[Runs, ...] = ((words.column("identity"),), (words.column("difference"),))
         yield Table(words.caption("checks"), titles, rows, align="lr", label="checks")
     else:
