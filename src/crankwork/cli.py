@@ -234,9 +234,7 @@ def _load(module: str) -> Any:  # noqa: ANN401 - a module
     return importlib.import_module(f"crankwork.{module}")
 
 
-def _machine(
-    file: str, settings: tuple[str, ...], step: str | None, method: str | None, *, per_area: bool
-) -> Any:  # noqa: ANN401 - a machine of any kind
+def _machine(file: str, settings: tuple[str, ...], step: str | None, method: str | None, *, per_area: bool) -> Any:  # noqa: ANN401 - a machine of any kind
     """Return the machine of a file with the options of a command put into it."""
     door = _load("description.machine_file")
     overrides: list[Any] = list(settings)

@@ -137,7 +137,7 @@ def _places(material: Material) -> Iterator[Table]:
         yield Table(words.caption("guides"), (*titles, (words.column("angle"),)), lines, align="ccrrr")
 
 
-def _load(load: Load, words: Words) -> Runs:  # noqa: PLR0911 - one for each kind of load
+def _load(load: Load, words: Words) -> Runs:
     match load:
         case ProcessForce():
             return words.sentence("load_slider", name=load.slider, force=_largest(load.force, "N", words))

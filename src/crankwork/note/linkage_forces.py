@@ -89,7 +89,7 @@ def differences(routes: list[Array]) -> Array:
         Largest less least, in percent. [%]
     """
     every = np.array(routes)
-    return 100.0 * np.ptp(every, axis=0) / (float(np.max(np.abs(every))) or 1.0)
+    return np.asarray(100.0 * np.ptp(every, axis=0) / (float(np.max(np.abs(every))) or 1.0))
 
 
 def _route(name: str, values: Array, words: Words) -> Column:

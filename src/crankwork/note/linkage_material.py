@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import cast
 
 import numpy as np
 
@@ -49,16 +50,12 @@ class Material:
     @property
     def machine(self) -> LinkageMachine:
         """The linkage."""
-        machine = self.results.machine
-        assert isinstance(machine, LinkageMachine)
-        return machine
+        return cast("LinkageMachine", self.results.machine)
 
     @property
     def table(self) -> TabulatedMachine:
         """The table of transfer functions."""
-        machine = self.results.machine
-        assert isinstance(machine, TabulatedMachine)
-        return machine
+        return cast("TabulatedMachine", self.results.machine)
 
     @property
     def solved(self) -> SolvedLinkage:

@@ -12,7 +12,7 @@ from crankwork.note.linkage_forces import efficiency
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_motion import worked_at
 from crankwork.note.linkage_tables import Column, equations, position_tables, quantity_columns
-from crankwork.note.linkage_words import Words
+from crankwork.note.linkage_words import Words, subscript
 from crankwork.steps import AnyStep
 
 _WORK = "artobolevsky_1988, ch. 15"
@@ -41,7 +41,7 @@ def table_task(material: Material) -> Iterator[Block]:
 
 
 def _body(body: TabulatedBody, words: Words) -> Runs:
-    mass, inertia = Math(words.symbol(f"body_mass.{body.name}")), Math(f"J_{body.name}")
+    mass, inertia = Math(words.symbol(f"body_mass.{body.name}")), Math(f"J_{subscript(body.name)}")
     runs: list[str | Math] = [f"{body.name}: "]
     if body.mass:
         runs += [mass, f" = {words.amount(body.mass, 'kg')}"]

@@ -15,6 +15,7 @@ from crankwork.report.language import symbol as key_symbol
 from crankwork.units import from_si
 
 _RAISED = str.maketrans("0123456789-−", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻")
+_WITHIN = str.maketrans({".": ",", "/": ":", "′": "'", "″": "'"})
 _TIGHT = ("°", "%")
 
 
@@ -79,7 +80,7 @@ class Words:
         shown = QUANTITIES[kind].symbol(self.language) if kind in QUANTITIES else key_symbol(kind, self.language)
         if not name:
             return shown
-        name = name.replace(".", ",").replace(" ", "\u00a0")
+        name = subscript(name)
         if "_i" in shown:
             return shown.replace("_i", f"_{name}", 1)
         return f"{shown}{',' if '_' in shown else '_'}{name}"
@@ -118,6 +119,17 @@ class Words:
         if not shown.strip("-0."):
             shown = shown.lstrip("-")
         return (shown if self.language == "en" else shown.replace(".", ",")).replace("-", "−")
+
+
+def subscript(name: str) -> str:
+    """Return the name of a link or point for the subscript of a symbol, without what would end it or divide it.
+
+    Examples
+    --------
+    >>> subscript("upper rod.x")
+    'upper-rod,x'
+    """
+    return "-".join(name.translate(_WITHIN).split())
 
 
 def _leading_zeros(value: float) -> int:

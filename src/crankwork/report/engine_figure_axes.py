@@ -167,7 +167,7 @@ class Graph:
             lines = fitted_lines(text, size, self.box.height + 16)
         for at, one in enumerate(reversed(lines)):
             x = self.box.left - offset - 11 * at
-            self.paper.text(x, self.box.top + self.box.height / 2, one, size=size, anchor="middle", upward=True)
+            self.paper.upward_text(x, self.box.top + self.box.height / 2, one, size=size)
 
     def mark(self, name: str, x: float, y: float, text: str, *, below: bool = False) -> None:
         """Mark a point of a curve with a dot and a text over or under it, inside the edges of the graph.
@@ -196,7 +196,7 @@ class Graph:
         left = {"start": x, "middle": x - width / 2, "end": x - width}[anchor] - 2
         right, top, bottom = left + width + 4, y - size, y + 0.4 * size
         corners = [left, right, right, left], [top, top, bottom, bottom]
-        self.paper.line(*corners, width=0, fill="#ffffff", closed=True)
+        self.paper.area(*corners)
         self.paper.text(x, y, text, size=size, anchor=anchor)
 
     def level(self, value: float, style: Style = DASH_DOT, name: str = "") -> None:

@@ -13,7 +13,6 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.report.engine_figure_axes import (
     BOTTOM,
     CIRCLE,
-    LEFT,
     RIGHT,
     TOP,
     WIDTH,
@@ -58,11 +57,15 @@ def crankpin_polar(engine: EngineDrawn, pin: int) -> tuple[Paper, Mapping[str, G
     return _pin_polar(engine, diagram, inertia, rods)
 
 
-def _pin_polar(engine: EngineDrawn, diagram: PolarDiagram, inertia: float, rods: int) -> tuple[Paper, Mapping[str, Graph]]:
+def _pin_polar(
+    engine: EngineDrawn, diagram: PolarDiagram, inertia: float, rods: int
+) -> tuple[Paper, Mapping[str, Graph]]:
     """Draw the polar diagram of a crankpin with the inertia force of so many rods from its pole."""
     count = f"{rods} " if rods > 1 else ""
     pole = engine_word("pole_rods" if rods > 1 else "pole", engine.language)
-    force = f"{count}{engine.symbol('big_end_inertia_force')} – {engine.named('big_end_inertia_force').partition(' – ')[2]}"
+    force = (
+        f"{count}{engine.symbol('big_end_inertia_force')} – {engine.named('big_end_inertia_force').partition(' – ')[2]}"
+    )
     rows = [Row(f"O – {pole}", CIRCLE), Row(f"{force}, {engine.value('big_end_inertia_force', -inertia)}", width=1.8)]
     titles = (
         f"{engine.symbol('tangential_force')}, {engine.unit('tangential_force')}",
@@ -85,7 +88,7 @@ def crankpin_polar_of_one(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Grap
         Paper, and the graph by the name of the figure.
     """
     drawn = engine.drawn
-    solved, masses = drawn.results.solved, drawn.results.machine.masses
+    solved, masses = drawn.results.solved, drawn.results.solved.machine.masses
     mass = masses.rod_big_end if masses is not None else 0.0
     inertia = float(big_end_inertia_force(mass, solved.lengths.crank_radius, solved.speed))
     load = BearingLoad(-drawn.columns["radial_force"] - inertia, drawn.columns["tangential_force"])
@@ -145,13 +148,15 @@ def _polar(
     upward: bool = False,
 ) -> tuple[Paper, Mapping[str, Graph]]:
     """Draw a polar diagram on equal scales with its pole, marked every 30 degrees."""
-    across, down = (np.append(one, one[0]) for one in (engine.shown(key, diagram.across), engine.shown(key, diagram.down)))
+    across, down = (
+        np.append(one, one[0]) for one in (engine.shown(key, diagram.across), engine.shown(key, diagram.down))
+    )
     pole = tuple(float(one) for one in engine.shown(key, np.array(diagram.pole)))
     paper, box = sheet(_HEIGHT, rows)
     x, y = _equal_scales(box, np.append(across, [0.0, pole[0]]), np.append(down, [0.0, pole[1]]))
     graph = Graph(paper, box, x, (-y[0], -y[1]) if upward else y, engine.language)
     sign = -1.0 if upward else 1.0
-    graph.frame(round_ticks(*x, 7), round_ticks(*sorted(graph.y), 7))
+    graph.frame(round_ticks(*x, 7), round_ticks(min(graph.y), max(graph.y), 7))
     origin = graph.point(0.0, 0.0)
     paper.segments(np.array([(origin[0], box.top, origin[0], box.top + box.height)]), width=0.8)
     graph.curve("load", across, sign * down)
@@ -203,14 +208,16 @@ def crankpin_load(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     found = load_statistics(loads.crankpins[first], degrees, engine.cycle)
     rows = [
         Row(
-            engine.named("crankpin_load") + (f", {engine_word('crankpin', engine.language, str(pin))}" if len(sizes) > 1 else ""),
+            engine.named("crankpin_load")
+            + (f", {engine_word('crankpin', engine.language, str(pin))}" if len(sizes) > 1 else ""),
             _LINES[at % len(_LINES)],
         )
         for at, pin in enumerate(sizes)
     ]
     style = (0, (10, 3)) if len(sizes) > 1 else DASHED
     which = engine_word("crankpin", engine.language, str(first)) if len(sizes) > 1 else ""
-    rows.append(Row(f"{engine.named('mean_crankpin_load')}{', ' if which else ''}{which}, {engine.value('mean_crankpin_load', found.mean)}", style, 0.8))
+    mean = f"{engine.named('mean_crankpin_load')}{', ' if which else ''}{which}"
+    rows.append(Row(f"{mean}, {engine.value('mean_crankpin_load', found.mean)}", style, 0.8))
     base = engine.symbol("crankpin_load")[:-1]
     ends = (
         f"{base}{',' if '_' in base else '_'}{name}$ = {engine.value('crankpin_load', value)} ({engine.number(angle)}°)"
@@ -223,13 +230,19 @@ def crankpin_load(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     low = -0.08 * high if found.min < 0.08 * found.max else 0.0
     graph = over_cycle(paper, box, (low, high), engine.cycle, engine.language)
     for at, (pin, values) in enumerate(sizes.items()):
-        graph.curve(f"pin_{pin}", np.append(degrees, engine.cycle), np.append(values, values[0]), _LINES[at % len(_LINES)])
-    mean = float(engine.shown("crankpin_load", found.mean))
-    graph.curve("mean", [0.0, engine.cycle], [mean, mean], style, width=0.8)
+        graph.curve(
+            f"pin_{pin}", np.append(degrees, engine.cycle), np.append(values, values[0]), _LINES[at % len(_LINES)]
+        )
+    level = float(engine.shown("crankpin_load", found.mean))
+    graph.curve("mean", [0.0, engine.cycle], [level, level], style, width=0.8)
     for name, angle, value in (("max", found.max_angle, found.max), ("min", found.min_angle, found.min)):
         graph.mark(name, angle, float(engine.shown("crankpin_load", value)), name, below=name == "min")
     graph.x_title(engine.title("crank_angle"))
-    graph.y_title(engine.title("crankpin_load") if len(sizes) == 1 else f"{engine.symbol('crankpin_load')}, {engine.unit('crankpin_load')}")
+    graph.y_title(
+        engine.title("crankpin_load")
+        if len(sizes) == 1
+        else f"{engine.symbol('crankpin_load')}, {engine.unit('crankpin_load')}"
+    )
     return paper, {"crankpin_load": graph}
 
 
@@ -252,7 +265,7 @@ def main_journal_polar(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]
     reach = 1.18 * float(engine.shown("main_journal_load", most)) or 1.0
     columns = min(len(diagrams), 2 if len(diagrams) in (2, 4) else 3)
     lines = -(-len(diagrams) // columns)
-    side, gap = (WIDTH - 52 - RIGHT + 12) / columns - 12, (12.0, 24.0)
+    side, gap = (WIDTH - 52 - RIGHT + 22) / columns - 22, (22.0, 26.0)
     paper = Paper(WIDTH, TOP + 12 + lines * side + (lines - 1) * gap[1] + BOTTOM)
     graphs = {}
     for at, diagram in enumerate(diagrams):
@@ -278,7 +291,10 @@ def _small_polar(
     across, up = engine.shown("main_journal_load", diagram.across), -engine.shown("main_journal_load", diagram.down)
     across, up = np.append(across, across[0]), np.append(up, up[0])
     graph.curve("load", across, up, width=1.0)
-    marked = engine.shown("main_journal_load", diagram.marks_across), -engine.shown("main_journal_load", diagram.marks_down)
+    marked = (
+        engine.shown("main_journal_load", diagram.marks_across),
+        -engine.shown("main_journal_load", diagram.marks_down),
+    )
     graph.curves["marks"] = marked
     places = zip(diagram.marks, graph.across(marked[0]), graph.down(marked[1]), strict=True)
     cross = spread(np.array([box.left, box.left + box.width]), np.full(2, middle[1]))

@@ -1,4 +1,4 @@
-"""Constructions of the textbooks: Brix's circle for the displacement of a piston, Tolle's tangents for its acceleration."""
+"""Constructions of textbooks: Brix's circle for the displacement of a piston, Tolle's tangents for its acceleration."""
 
 from __future__ import annotations
 
@@ -26,6 +26,7 @@ from crankwork.report.engine_figure_words import engine_word
 from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED
 
 _PARTS = 6
+_SIDES = ("AC", "BD", "CD", "EF", "CF", "FD")
 _STEP = 30.0
 _CIRCLE, _MARGIN, _TITLES = 190.0, 26.0, 44.0
 
@@ -115,7 +116,7 @@ def brix(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     ticks = round_ticks(0.0, float(exact.max()), 8)
     for at in graph.down(ticks):
         corners = [left - 28, left - 4, left - 4, left - 28], [at - 5, at - 5, at + 5, at + 5]
-        paper.line(*corners, width=0, fill="#ffffff", closed=True)
+        paper.area(*corners)
     graph.frame(np.arange(0.0, 361.0, 60.0), ticks)
     graph.curve("displacement", degrees, exact)
     graph.curves["construction"] = degrees, radius * (1 - circle.up)
@@ -219,7 +220,10 @@ def tolle(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     corners = {name.upper(): (a * radius, b * unit) for name, (a, b) in found._asdict().items()}
     cosine = np.cos(np.radians(np.arange(0.0, 181.0, 3.0)))
     parabola = radius * (1 - cosine + ratio / 2 * (1 - cosine**2)), unit * (cosine + ratio * (2 * cosine**2 - 1))
-    rows = [Row(engine.title("piston_acceleration").rpartition(",")[0]), Row(engine_word("tangents", engine.language), width=0.5)]
+    rows = [
+        Row(engine.title("piston_acceleration").rpartition(",")[0]),
+        Row(engine_word("tangents", engine.language), width=0.5),
+    ]
     is_apart = float(np.max(np.abs(np.interp(x, *parabola) - y))) > 2e-3 * unit
     if is_apart:
         rows.insert(1, Row(engine_word("parabola", engine.language), DOTTED, 1.0))
@@ -233,7 +237,7 @@ def tolle(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
                             graph.across(tangents[:, 2]), graph.down(tangents[:, 3])])  # fmt: skip
     paper.segments(ends, width=0.5)
     graph.curves["tangents"] = tangents[:, [0, 2]], tangents[:, [1, 3]]
-    for one, other in ("AC", "BD", "CD", "EF", "CF", "FD"):
+    for one, other in map(tuple, _SIDES):
         pair = np.array([corners[one], corners[other]])
         graph.curve(one + other, pair[:, 0], pair[:, 1], DASHED if one + other == "CD" else "-", width=0.7)
     graph.curves["parabola"] = parabola
@@ -241,8 +245,9 @@ def tolle(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
         graph.curve("parabola", *parabola, DOTTED, width=1.0)
     graph.curve("acceleration", x, y, width=1.6)
     lines = [spread(graph.across(x), graph.down(y))]
-    lines += [spread(graph.across(np.array([a[0], b[0]])), graph.down(np.array([a[1], b[1]])))
-              for a, b in ((corners[one], corners[other]) for one, other in ("AC", "BD", "CD", "EF", "CF", "FD"))]  # fmt: skip
+    for side in _SIDES:
+        ends = graph.curves[side]
+        lines.append(spread(graph.across(ends[0]), graph.down(ends[1])))
     level = float(graph.down(0.0))
     lines.append(spread(np.array([box.left, box.left + box.width]), np.array([level, level])))
     places = [(name, *graph.point(*place)) for name, place in corners.items()]

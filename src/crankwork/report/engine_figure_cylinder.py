@@ -24,7 +24,7 @@ from crankwork.report.engine_figure_axes import (
 )
 from crankwork.report.engine_figure_data import EngineDrawn
 from crankwork.report.engine_figure_labels import label_marks, spread
-from crankwork.report.engine_figure_paper import Paper
+from crankwork.report.engine_figure_paper import Paper, has_letter
 from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED, SOLID, Style
 
 _HEIGHT, _PANEL, _PANEL_GAP = 216.0, 126.0, 38.0
@@ -123,8 +123,10 @@ def named_points(engine: EngineDrawn) -> list[tuple[str, float, float]]:
 
 
 def _short(name: str) -> str:
-    printable = "".join(one if one.isprintable() and one != "$" else "□" for one in name)
-    return printable if len(printable) <= _LONGEST else f"{printable[: _LONGEST - 1]}…"
+    """Return the name of a point as it is printed: with a subscript if it has one, shortened if it is long."""
+    known = "".join(one if one.isprintable() and one != "$" and has_letter(one) else "□" for one in name)
+    known = known if len(known) <= _LONGEST else f"{known[: _LONGEST - 1]}…"
+    return f"${known}$" if "_" in known else known
 
 
 def mark_points(graph: Graph, points: Sequence[tuple[str, float, float]], *lines: Array) -> None:

@@ -39,13 +39,17 @@ def indicator(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     graph.frame(round_ticks(0.0, reach, 8), round_ticks(*ends, 9))
     sharp = getattr(space, "theoretical", None)
     if sharp is not None:
-        pressures = engine.shown("gas_pressure", sharp.pressure(drawn.degrees, drawn.columns["cylinder_volume"]) - space.ambient)
+        pressures = engine.shown(
+            "gas_pressure", sharp.pressure(drawn.degrees, drawn.columns["cylinder_volume"]) - space.ambient
+        )
         graph.curve("theoretical", volume, pressures, DASHED, width=0.9)
     graph.curve("gas_pressure", volume, values)
     graph.x_title(engine.title("cylinder_volume"))
     graph.y_title(engine.title("gas_pressure"))
     centres = _dead_centres(engine, graph)
-    points = [(name, float(np.interp(angle, drawn.degrees, volume)), value) for name, angle, value in named_points(engine)]
+    points = [
+        (name, float(np.interp(angle, drawn.degrees, volume)), value) for name, angle, value in named_points(engine)
+    ]
     mark_points(graph, points, spread(graph.across(volume), graph.down(values)), *centres)
     return paper, {"indicator": graph}
 
@@ -62,7 +66,8 @@ def _dead_centres(engine: EngineDrawn, graph: Graph) -> list[Array]:
         small_text(paper, at, box.top - 17, figure_word(name, engine.language))
         lines.append(spread(np.array([at, at]), down))
     level = box.top - 4
-    for key, start, end in (("clearance_volume", 0.0, volumes[0]), ("swept_volume", *volumes)):
+    spans = (("clearance_volume", 0.0, volumes[0]), ("swept_volume", volumes[0], volumes[1]))
+    for key, start, end in spans:
         left, right = float(graph.across(start)), float(graph.across(end))
         middle = (left + right) / 2
         paper.arrow((middle, level), (left, level), width=0.5)

@@ -85,7 +85,7 @@ def _shift(
     others: Array,
     frame: Box | None,
 ) -> Array:
-    """Return where the middle of a name goes from its mark: clear first, then near; nearer rings are tried first. [pt]"""
+    """Return where the middle of a name goes from its mark: clear first, then near; near rings come first. [pt]"""
     best, least = np.zeros(2), np.inf
     near = obstacles[np.all(np.abs(obstacles - mark) < _REACHES[-1] + 2 * half + 4, axis=1)]
     for reach in _REACHES:

@@ -43,7 +43,7 @@ def _fill(paper: Paper, corners: tuple[float, float, float, float], kind: int) -
     """Draw a bar from left, top, right, bottom [pt]: white, hatched, grey, dotted grey or black by its kind."""
     left, top, right, bottom = corners
     fill = ("#ffffff", "#ffffff", "#b0b0b0", "#ffffff", BLACK)[kind]
-    paper.line([left, right, right, left], [top, top, bottom, bottom], width=0.7, fill=fill, closed=True)
+    paper.area([left, right, right, left], [top, top, bottom, bottom], fill=fill, width=0.7)
     if kind in (1, 3):
         width = right - left
         rise = np.arange(top - width + 3.5, bottom, 3.5)
@@ -91,7 +91,7 @@ def _value(paper: Paper, middle: float, bottom: float, text: str, room: float) -
     if text_width(text, 7.0) <= room + 1:
         paper.text(middle, bottom, text, size=7.0, anchor="middle")
     else:
-        paper.text(middle + 2.5, bottom - text_width(text, 7.0) / 2, text, size=7.0, anchor="middle", upward=True)
+        paper.upward_text(middle + 2.5, bottom - text_width(text, 7.0) / 2, text, size=7.0)
 
 
 def _swatches(paper: Paper, texts: Sequence[str], fills: Sequence[int]) -> None:
@@ -213,9 +213,7 @@ def balance_ellipses(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     return paper, graphs
 
 
-def _locus(
-    engine: EngineDrawn, paper: Paper, box: Box, before: Ellipse, after: Ellipse, *, is_balanced: bool
-) -> Graph:
+def _locus(engine: EngineDrawn, paper: Paper, box: Box, before: Ellipse, after: Ellipse, *, is_balanced: bool) -> Graph:
     """Draw the loci of one order, the reference direction of the engine upward."""
     reach = 1.15 * float(engine.shown("free_force", max(before.largest, after.largest)))
     graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language)
@@ -302,7 +300,7 @@ def _star(paper: Paper, box: Box, star: PhaseStar, engine: EngineDrawn) -> Graph
     directions: dict[tuple[float, float], list[int]] = {}
     for number, vector in enumerate(star.vectors.tolist(), start=1):
         directions.setdefault((round(vector.real, 6) + 0.0, round(vector.imag, 6) + 0.0), []).append(number)
-    longest = max(max(len(one) for one in directions.values()), abs(star.sum))
+    longest = max(*(len(one) for one in directions.values()), abs(star.sum))
     reach = longest * (1 + 22 / (box.width / 2 - 22))
     graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language)
     middle = graph.point(0.0, 0.0)

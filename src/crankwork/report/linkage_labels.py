@@ -47,17 +47,32 @@ def labels(drawn: Scene, fixed: Sequence[Array] = (), *, every: int = _EVERY) ->
     still = np.vstack([*fixed, np.zeros((0, 2))])
     count = obstacles.shape[0]
     obstacles = np.concatenate([obstacles, np.broadcast_to(still, (count, *still.shape))], axis=1)
+    seen = np.ascontiguousarray(obstacles[..., 0]), np.ascontiguousarray(obstacles[..., 1])
     placed: list[Label] = []
     for text, is_number, ways in _wanted(drawn):
-        choices = [Label(text, place, is_number) for place, _ in ways]
-        costs = [_cost(one, extra, obstacles, placed, every) for one, (_, extra) in zip(choices, ways, strict=True)]
-        placed.append(choices[int(np.argmin(costs))])
+        placed.append(_cheapest([(Label(text, place, is_number), extra) for place, extra in ways], seen, placed, every))
     return placed
 
 
-def _cost(label: Label, extra: float, obstacles: Array, placed: Sequence[Label], every: int) -> float:
+def _cheapest(
+    ways: Sequence[tuple[Label, float]], obstacles: tuple[Array, Array], placed: Sequence[Label], every: int
+) -> Label:
+    """Return the label that costs least; one that costs more at least than another does is not looked at."""
+    best, found = np.inf, 0
+    for at in sorted(range(len(ways)), key=lambda one: ways[one][1]):
+        label, extra = ways[at]
+        if extra > best:
+            break
+        cost = _cost(label, extra, obstacles, placed, every)
+        if (cost, at) < (best, found):
+            best, found = cost, at
+    return ways[found][0]
+
+
+def _cost(label: Label, extra: float, obstacles: tuple[Array, Array], placed: Sequence[Label], every: int) -> float:
     centre, half = label.places[::every, None], label.half
-    cost = extra + 10.0 * float(np.mean(np.sum(np.all(np.abs(obstacles - centre) < half, axis=2), axis=1)))
+    near = [np.abs(one - centre[..., axis]) < half[axis] for axis, one in enumerate(obstacles)]
+    cost = extra + 10.0 * float(np.count_nonzero(near[0] & near[1])) / len(centre)
     for other in placed:
         apart = np.abs(other.places[::every, None] - centre)
         cost += 60.0 * float(np.mean(np.all(apart < half + other.half + (7.0, 1.0), axis=2)))

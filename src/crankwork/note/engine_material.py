@@ -1,0 +1,248 @@
+"""What the sections of the note of an engine are made of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+from crankwork.analysis import Results, analyse
+from crankwork.analysis.force_functions import force_functions
+from crankwork.analysis.steps import worked_steps
+from crankwork.cylinders.engines import inline
+from crankwork.kinematics.crank_grid import Array
+from crankwork.machine import Engine, Machine
+from crankwork.note.document import Block, Equation, Figure, Reference, Run, Runs, Table
+from crankwork.note.engine_words import EngineWords
+from crankwork.note.options import NoteOptions
+from crankwork.report.figure_data import figure_title
+from crankwork.report.figures import figures
+from crankwork.report.language import label
+from crankwork.report.tables import Sheet, sheets
+from crankwork.steps import AnyStep, Given, ProductStep, StepGroup, SumStep, all_steps
+
+_FOUR_STROKES = 720.0
+# what a figure shows, for who cannot see it
+_SHOWN: Mapping[str, tuple[str, ...]] = {
+    "kinematics": ("piston_displacement", "piston_velocity", "piston_acceleration"),
+    "pressure": ("gas_pressure",),
+    "indicator": ("gas_pressure",),
+    "piston_forces": ("gas_force", "inertia_force", "piston_force"),
+    "rod_forces": ("rod_force", "side_force"),
+    "crankpin_forces": ("tangential_force", "radial_force"),
+    "torque": ("crank_torque",),
+    "crankpin_polar": ("tangential_force", "radial_force"),
+    "brix": ("piston_displacement",),
+    "tolle": ("piston_displacement", "piston_acceleration"),
+    "total_torque": ("total_torque",),
+    "crankpin_load": ("crankpin_load.1",),
+    "big_end_polar": ("big_end_load",),
+    "small_end_polar": ("small_end_load",),
+    "excess_work": ("kinetic_energy_change",),
+    "crank_speed": ("crank_speed",),
+    "crankpin_wear": ("wear_sum.1",),
+    "balance_orders": ("free_force", "free_moment"),
+    "torque_harmonics": ("harmonic_amplitude", "total_harmonic_amplitude"),
+}
+_OVER_CYCLE = {"accumulated_torque": "accumulated_torque", "main_journal_polar": "main_journals"}
+
+
+def whole(results: Results) -> Results:
+    """Return results with those of the whole engine; a crank gear of its own is an engine of one cylinder.
+
+    Parameters
+    ----------
+    results : Results
+        Of an engine.
+    """
+    machine = results.machine
+    if not isinstance(machine, Machine) or machine.engine is not None or "crank_torque" not in results.columns:
+        return results
+    layout, notices = inline(1, (1,), strokes=4 if machine.cycle == _FOUR_STROKES else 2)
+    if layout.cycle != machine.cycle:
+        return results
+    one = replace(machine, engine=Engine(layout, notices=notices))
+    return analyse(one, results.grid, method=results.method)
+
+
+@dataclass
+class Material:
+    """Results and what is chosen, and what follows from both; remembers what the note has shown already.
+
+    Parameters
+    ----------
+    results : Results
+        Of an engine.
+    options : NoteOptions
+        Language and what else is chosen.
+    """
+
+    results: Results
+    options: NoteOptions
+    _shown: set[tuple[object, ...]] = field(default_factory=set)
+    _told: set[str] = field(default_factory=set)
+
+    @property
+    def machine(self) -> Machine:
+        """The machine."""
+        machine = self.results.machine
+        assert isinstance(machine, Machine)
+        return machine
+
+    @property
+    def order(self) -> str:
+        """The school whose order of sections is followed."""
+        return self.options.order
+
+    @property
+    def summary(self) -> Mapping[str, float]:
+        """Single values by key. [SI]"""
+        return self.results.summary
+
+    @property
+    def per_area(self) -> bool:
+        """Whether forces are divided by the piston area; notes of the Vietnamese school do so where they can."""
+        return self.options.per_area or (self.order == "vi" and "piston_area" in self.summary)
+
+    @cached_property
+    def words(self) -> EngineWords:
+        """The words of the language."""
+        return EngineWords(self.options.language, per_area=self.per_area)
+
+    @cached_property
+    def sheets(self) -> dict[str, Sheet]:
+        """Tables by name, in the units in which they are shown."""
+        return sheets(self.results, per_area=self.per_area)
+
+    @cached_property
+    def columns(self) -> dict[str, Array]:
+        """Columns over the crank angle by key, in the units in which they are shown."""
+        found: dict[str, Array] = {}
+        for name in self.results.tables:
+            found |= self.sheets[name].columns
+        # rod functions belong to forces: a machine of which only the motion is known does not need them
+        return found | (force_functions(self.results) if "piston_force" in found else {})
+
+    @cached_property
+    def groups(self) -> dict[str, StepGroup]:
+        """Worked steps by the name of their group."""
+        return {one.name: one for one in worked_steps(self.results)}
+
+    @cached_property
+    def drawn(self) -> Mapping[str, bytes]:
+        """Figures by name; none if they are left out."""
+        if not self.options.figures:
+            return {}
+        return figures(self.results, language=self.options.language, per_area=self.per_area)
+
+    def equations(self, group: str, *kinds: str) -> list[Block]:
+        """Return equations of the steps of a group that the note has not shown yet.
+
+        Parameters
+        ----------
+        group : str
+            Name of the group.
+        *kinds : str
+            Quantities that they give; all if none is named.
+        """
+        steps = self.groups[group].steps if group in self.groups else ()
+        return self.worked(one for one in steps if not kinds or one.key.partition(".")[0] in kinds)
+
+    def worked(self, steps: Iterable[AnyStep]) -> list[Block]:
+        """Return equations of steps that the note has not shown yet, terms before their sum."""
+        found: list[Block] = []
+        for one in all_steps(steps):
+            mark = _identity(one)
+            if mark in self._shown:
+                continue
+            self._shown.add(mark)
+            step = one
+            if isinstance(one, SumStep | ProductStep):
+                # a sum prints its terms by their keys, which are no symbols where they have a long name
+                step = one._replace(terms=tuple(Given(self.words.symbol(term.key), term.value) for term in one.terms))
+            found.append(Equation(step, symbol=self.words.symbol(one.key)))
+        return found
+
+    def intro(self, key: str, equations: list[Block], **values: Run | Runs) -> Iterator[Block]:
+        """Yield a sentence and the equations that it leads to; nothing if there are none."""
+        if equations:
+            yield self.words.paragraph(key, **values)
+            yield from equations
+
+    def worked_at(self, group: str) -> Iterator[Block]:
+        """Yield the sentence that says at which crank angle a group is worked."""
+        found = self.groups.get(group)
+        if found is not None and found.crank_angle is not None:
+            yield self.words.paragraph("worked_at", value=self.words.amount(found.crank_angle, "deg"))
+
+    def presented(self, tables: Iterable[Table | None] = (), names: Iterable[str] = ()) -> Iterator[Block]:
+        """Yield tables and figures after a sentence that refers to them by number.
+
+        Parameters
+        ----------
+        tables : iterable of Table or None
+            The tables; None is left out.
+        names : iterable of str
+            Names of figures; those that are not there, or shown before, are left out.
+        """
+        some = [one for one in tables if one is not None]
+        seen = [self._figure(name) for name in names if name in self.drawn and name not in self._told]
+        sides = {
+            "tables": [one.label for one in some if one.label],
+            "figures": [one.label for one in seen],
+        }
+        known = {side: _listed(labels) for side, labels in sides.items() if labels}
+        if len(known) > 1:
+            yield self.words.paragraph("see_both", **known)
+        for side, runs in known.items() if len(known) == 1 else ():
+            yield self.words.paragraph(f"see_{side if len(sides[side]) > 1 else side[:-1]}", **{side: runs})
+        yield from some
+        yield from seen
+
+    def remaining_figures(self) -> list[str]:
+        """Return the names of figures that no section has shown."""
+        return [name for name in self.drawn if name not in self._told]
+
+    def remaining_steps(self) -> list[Block]:
+        """Return equations of all steps that no section has shown."""
+        return [block for group in self.groups for block in self.equations(group)]
+
+    def _figure(self, name: str) -> Figure:
+        self._told.add(name)
+        title = figure_title(name, self.words.language)
+        return Figure(self.drawn[name], title, f"{title}. {self._seen(name)}".rstrip(". ") + ".", label=f"f:{name}")
+
+    def _seen(self, name: str) -> str:
+        """Return what a figure shows with its extreme values, in words."""
+        keys = _SHOWN.get(name.rstrip("0123456789").rstrip("_"), ())
+        if name in _OVER_CYCLE and _OVER_CYCLE[name] in self.sheets:
+            keys = tuple(key for key in self.sheets[_OVER_CYCLE[name]].columns if key != "crank_angle")
+        return "; ".join(one for one in map(self._range, keys) if one)
+
+    def _range(self, key: str) -> str:
+        """Return the least and the largest value of a column or listing, in words."""
+        words = self.words
+        values = self.columns.get(key)
+        if values is None:
+            values = next((one.columns[key] for one in self.sheets.values() if key in one.columns), None)
+        if values is None or not len(values):
+            return ""
+        unit = words.unit(key)
+        low, high = (words.number(float(one), digits=4) for one in (values.min(), values.max()))
+        return words.phrase("seen", quantity=label(key, words.language), low=low, high=f"{high}\u00a0{unit}".rstrip())
+
+
+def _identity(step: AnyStep) -> tuple[object, ...]:
+    """Return what makes two steps the same line."""
+    formula = getattr(step, "formula", None)
+    if formula is None:
+        return (step.key, step.value)
+    return (formula.name, *step.values.values(), step.key.partition(".")[2])  # type: ignore[union-attr]
+
+
+def _listed(labels: list[str]) -> Runs:
+    """Return references with commas between them."""
+    runs: list[Run] = []
+    for label_ in labels:
+        runs += [", ", Reference(label_)] if runs else [Reference(label_)]
+    return tuple(runs)

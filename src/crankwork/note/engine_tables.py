@@ -1,0 +1,220 @@
+"""Tables of the note of an engine, and equations with what their symbols stand for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from crankwork.expressions import Formula
+from crankwork.kinematics.crank_grid import Array
+from crankwork.notation import ARGUMENTS
+from crankwork.note.document import Block, Equation, Explanation, Math, Runs, Table
+from crankwork.note.engine_material import Material
+from crankwork.note.engine_words import EngineWords, flat
+from crankwork.note.equations import legend
+from crankwork.note.stated_units import printed_unit
+from crankwork.quantities import QUANTITIES, base_key
+from crankwork.report.language import displayed, key_unit, label, symbol
+from crankwork.report.tables import row_name
+from crankwork.steps import Step
+
+# columns of numbers that fit on a page upright
+_UPRIGHT = 9
+_TURN = 360.0
+
+
+def angle_table(
+    material: Material,
+    caption: str,
+    keys: Iterable[str],
+    *,
+    one_turn: bool = False,
+    decimals: Mapping[str, int] | None = None,
+    headings: Mapping[str, Runs] | None = None,
+) -> Table | None:
+    """Return a table over the crank angle.
+
+    Parameters
+    ----------
+    material : Material
+        Of an engine.
+    caption : str
+        Key of its caption, and its label.
+    keys : iterable of str
+        Its columns; those that are not there are left out.
+    one_turn : bool
+        Whether it stops after one turn of the crank.
+    decimals : mapping of str to int, optional
+        Decimals of some columns.
+    headings : mapping of str to runs, optional
+        Headings of some columns.
+
+    Returns
+    -------
+    Table or None
+        None if none of the columns is there.
+    """
+    words, degrees = material.words, material.results.grid.degrees
+    present = [key for key in keys if key in material.columns]
+    if not present:
+        return None
+    rows = degrees <= _TURN if one_turn else np.full(len(degrees), fill_value=True)
+    texts = [[words.number(float(one)) for one in degrees[rows]]]
+    for key in present:
+        texts.append(words.column_texts(material.columns[key][rows].tolist(), decimals=(decimals or {}).get(key)))
+    titles = [words.titled("crank_angle"), *((headings or {}).get(key) or words.titled(key) for key in present)]
+    return Table(
+        words.caption(caption),
+        tuple(titles),
+        list(zip(*texts, strict=True)),
+        wide=len(present) > _UPRIGHT,
+        align="c" + "r" * len(present),
+        label=f"t:{caption}",
+    )
+
+
+def column_table(caption: str, columns: Sequence[tuple[Runs, Sequence[str]]], words: EngineWords) -> Table:
+    """Return a table of finished columns.
+
+    Parameters
+    ----------
+    caption : str
+        Key of its caption, and its label.
+    columns : sequence of (runs, sequence of str)
+        Headings and entries.
+    words : EngineWords
+        The language.
+    """
+    rows = list(zip(*(entries for _, entries in columns), strict=True))
+    return Table(
+        words.caption(caption),
+        tuple(heading for heading, _ in columns),
+        rows,
+        wide=len(columns) - 1 > _UPRIGHT,
+        align="c" + "r" * (len(columns) - 1),
+        label=f"t:{caption}",
+    )
+
+
+def listing_table(material: Material, name: str, caption: str) -> Table | None:
+    """Return a table of results that does not run over the crank angle.
+
+    Parameters
+    ----------
+    material : Material
+        Of an engine.
+    name : str
+        Name of the listing.
+    caption : str
+        Key of its caption, and its label.
+    """
+    words, sheet = material.words, material.sheets.get(name)
+    if sheet is None or name not in material.results.listings:
+        return None
+    columns: list[tuple[Runs, Sequence[str]]] = []
+    if sheet.names:
+        columns.append(((words.column("row"),), [row_name(one, words.language) for one in sheet.names]))
+    for key, values in sheet.columns.items():
+        if sheet.names and not np.any(np.nan_to_num(values)):
+            continue
+        entries = [words.number(float(one)) for one in values] if not columns else words.column_texts(values.tolist())
+        columns.append((words.titled(key), entries))
+    table = column_table(caption, columns, words)
+    return replace(table, align=("l" if sheet.names else "c") + table.align[1:])
+
+
+def value_table(caption: str, rows: Iterable[tuple[str, ...]], words: EngineWords) -> Table:
+    """Return a table of single values: name, symbol, value, unit, and the crank angle where there is a fifth entry.
+
+    Parameters
+    ----------
+    caption : str
+        Key of its caption, and its label.
+    rows : iterable of tuple
+        Its rows, all of one length.
+    words : EngineWords
+        The language.
+    """
+    found = list(rows)
+    titles: list[Runs] = [(words.column(one),) for one in ("quantity", "symbol", "value", "unit")]
+    has_angle = any(len(one) > len(titles) for one in found)
+    if has_angle:
+        titles.append((words.column("at") + " ", Math(words.symbol("crank_angle"))))
+    return Table(words.caption(caption), tuple(titles), found, align="lcrcr"[: len(titles)], label=f"t:{caption}")
+
+
+def value_row(key: str, value: float, words: EngineWords, *, area: float | None = None) -> tuple[str, ...]:
+    """Return name, symbol, value and unit of a single value.
+
+    Parameters
+    ----------
+    key : str
+        Its key.
+    value : float
+        The value. [SI]
+    words : EngineWords
+        The language.
+    area : float, optional
+        Piston area by which forces are divided. [m2]
+    """
+    kind = key.partition(".")[0]
+    shown = words.symbol(key) if kind in QUANTITIES else symbol(key, words.language)
+    return (
+        label(key, words.language),
+        flat(shown),
+        words.number(displayed(key, value, per_area=area)),
+        printed_unit(key_unit(key, per_area=area is not None), words.language) or "–",
+    )
+
+
+def explained(blocks: Iterable[Block], words: EngineWords) -> Iterator[Block]:
+    """Yield blocks, where each equation explains the symbols that come for the first time.
+
+    Parameters
+    ----------
+    blocks : iterable of block
+        A whole note; of equations with the same formula only the first keeps its number.
+    words : EngineWords
+        The language of the explanations.
+    """
+    known: set[str] = set()
+    seen: set[str] = set()
+    for block in blocks:
+        if not isinstance(block, Equation):
+            yield block
+            continue
+        own, formula = _own(block, known, words), _formula(block)
+        rest = legend(formula, words.language, frozenset(known | _left(block))) if formula else ()
+        known |= _left(block) | (_keys(formula) if formula else set())
+        numbered = formula is not None and formula.name not in seen
+        seen |= {formula.name} if formula else set()
+        yield replace(block, legend=(*own, *rest), numbered=numbered)
+
+
+def _own(block: Equation, known: set[str], words: EngineWords) -> tuple[Explanation, ...]:
+    """Return what the symbol on the left stands for, if it is new and that of a whole quantity."""
+    new = _left(block) - known
+    return tuple(Explanation(block.symbol, label(key, words.language)) for key in new)
+
+
+def _left(block: Equation) -> set[str]:
+    key = "" if isinstance(block.step, Formula) else block.step.key
+    return {key} if key in QUANTITIES and base_key(key) == key else set()
+
+
+def _keys(formula: Formula) -> set[str]:
+    entries = [ARGUMENTS[name] for name in formula.arguments]
+    return {key for one in entries for key in (one.quantity, one.extra) if key}
+
+
+def _formula(block: Equation) -> Formula | None:
+    if isinstance(block.step, Formula):
+        return block.step
+    return block.step.formula if isinstance(block.step, Step) else None
+
+
+def any_nonzero(keys: Iterable[str], columns: Mapping[str, Array]) -> list[str]:
+    """Return the keys whose columns are there and not zero throughout."""
+    return [key for key in keys if key in columns and bool(np.any(columns[key]))]

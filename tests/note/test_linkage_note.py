@@ -1,0 +1,342 @@
+"""The note of a linkage and of a press: what stands in it, in which order, and that its numbers are those of a book.
+
+The numbers of the press: Курсовой проект по динамике машин, рычажный механизм пресса (Russian course project on a press
+linkage), its table 4 and formulas 9 to 12; the document rounds each term of the reduced inertia before it adds them.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import math
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import crankwork
+from crankwork.description.machine_file import template
+from crankwork.dynamics.efficiency import Parallel, Series
+from crankwork.note.contents import note_of, sheets_of
+from crankwork.note.document import Equation, Figure, Heading, Math, Note, Paragraph, Table
+from crankwork.note.formats import WRITERS
+from crankwork.note.linkage_forces import differences
+from crankwork.note.linkage_words import Words, subscript
+from crankwork.note.options import NoteOptions
+from crankwork.note.texts import linkage_headings, linkage_sentences
+from crankwork.note.texts.said import Said
+from crankwork.quantities import LANGUAGES
+from crankwork.steps import Step
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+INERTIA = (0.263, 0.491, 1.037, 1.225, 0.907, 0.457, 0.263, 0.613, 0.959, 1.223, 1.01, 0.579)
+DERIVATIVE = (0, 0.5, 0.982, -0.08, -0.76, -0.85, -0.05, 0.814, 0.646, -0.01, -0.57, -0.84)
+DYNAMIC = (0, 53.656, 105.38, -8.585, -81.557, -91.215, -5.366, 87.351, 69.323, -1.073, -61.167, -90.142)
+DRIVING = (121.32, 169.41, 204.12, 116.04, 181.76, -102.68, -59.77, -1.26, 19.0, -0.73, -9.04, -9.93)
+ROD = (0.025, 0.032, 0.046, 0.05, 0.043, 0.031, 0.025, 0.037, 0.045, 0.05, 0.046, 0.036)
+ROCKER = (0, 0.115, 0.22, 0.238, 0.193, 0.107, 0, 0.129, 0.197, 0.238, 0.21, 0.133)
+MOTOR = [
+    *((f"# {name}", name) for name in ("[motor]", "rated_power", "rated_speed", "overload", "pole_pairs", "ratio = 24")),
+    ("# [flywheel]", "[flywheel]"), ("# fluctuation", "fluctuation"),
+]  # fmt: skip
+
+
+@functools.cache
+def results(name: str) -> crankwork.Results:
+    return crankwork.analyse(crankwork.read(EXAMPLES / f"{name}.toml"))
+
+
+@pytest.fixture
+def toggle(tmp_path) -> crankwork.Results:
+    """A press with loads, motor and flywheel."""
+    text = template("toggle-press")
+    for old, new in MOTOR:
+        assert old in text
+        text = text.replace(old, new)
+    (tmp_path / "toggle.toml").write_text(text, encoding="utf-8")
+    return crankwork.analyse(crankwork.read(tmp_path / "toggle.toml"))
+
+
+def note(name: str, **options: object) -> Note:
+    return note_of(results(name), NoteOptions(**{"figures": False, **options}))
+
+
+def table(found: Note, label: str) -> Table:
+    return next(one for one in found.blocks if isinstance(one, Table) and one.label == label)
+
+
+def column(found: Table, k: int) -> list[float]:
+    return [float(row[k].replace("−", "-").replace(",", ".")) for row in found.rows]
+
+
+def headings(found: Note, level: int = 1) -> list[str]:
+    return [one.text for one in found.blocks if isinstance(one, Heading) and one.level == level]
+
+
+def count(found: Note, kind: type) -> int:
+    return sum(isinstance(one, kind) for one in found.blocks)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_press_has_its_four_tables_with_the_numbers_of_the_document(language):
+    found = note("press", language=language)
+    labels = [one.label for one in found.blocks if isinstance(one, Table)]
+    assert labels == ["transfer", "static", "reduced", "torque", "summary"]
+    transfer, static, reduced, torque = (table(found, name) for name in labels[:4])
+    assert column(transfer, 0) == list(range(1, 13))
+    assert column(transfer, 1) == [30.0 * k for k in range(12)]
+    assert column(transfer, 2) == list(ROD)
+    assert column(transfer, 6) == list(ROCKER)
+    assert column(reduced, 6) == pytest.approx(INERTIA, abs=0.0015)
+    assert column(reduced, 7) == list(DERIVATIVE)
+    # the parts of the four bodies add up to the whole as printed
+    assert np.sum([column(reduced, k) for k in range(2, 6)], axis=0) == pytest.approx(column(reduced, 6), abs=0.0008)
+    assert column(torque, 2) == list(DERIVATIVE)
+    assert column(torque, 3) == pytest.approx(DYNAMIC, abs=0.05)
+    assert column(torque, 6) == pytest.approx(DRIVING, abs=0.05)
+    assert column(static, 2) == column(torque, 4)
+    assert column(static, 2) == pytest.approx(np.subtract(column(torque, 5), column(torque, 3)), abs=0.11)
+
+
+def test_the_press_is_worked_at_all_positions_with_the_value_of_the_table():
+    found = note("press", language="ru")
+    worked = {one.symbol: one.step for one in found.blocks if isinstance(one, Equation)}
+    assert [worked[f"M_дин,{k}"].value for k in range(1, 13)] == pytest.approx(DYNAMIC, abs=0.001)
+    assert [worked[f"M_Σ,{k}"].value for k in range(1, 13)] == pytest.approx(DRIVING, abs=0.011)
+    assert worked["J_пр"].value == pytest.approx(INERTIA[1], abs=0.0015)
+
+
+def test_every_number_put_into_a_formula_gives_the_value_beside_it(toggle):
+    for found in (note("press"), note("press-geometry"), note("andrews-squeezer"), note_of(toggle)):
+        steps = [one.step for one in found.blocks if isinstance(one, Equation) and isinstance(one.step, Step)]
+        assert len(steps) > 20
+        for step in steps:
+            assert step.formula.function(*step.values.values()) == pytest.approx(step.value, rel=1e-12, abs=1e-300)
+
+
+def test_no_rounding_of_a_zero_is_printed_as_a_number(toggle):
+    steps = [one.step for one in note_of(toggle, NoteOptions(figures=False)).blocks if isinstance(one, Equation)]
+    values = [abs(value) for step in steps if isinstance(step, Step) for value in step.values.values()]
+    assert not [one for one in values if 0 < one < 1e-15]
+
+
+def test_values_of_steps_are_those_of_the_results():
+    found, whole = note("press-geometry"), results("press-geometry")
+    row = int(np.argmin(np.abs(whole.grid.degrees - 30.0)))
+    keys = ("reduced_inertia", "reduced_inertia_1", "dynamic_torque", "driving_torque", "point_velocity.B")
+    worked = {one.step.key: one.step.value for one in found.blocks if isinstance(one, Equation)}
+    for key in keys:
+        assert worked[key] == pytest.approx(whole.columns[key][row], rel=1e-12)
+
+
+HEADINGS = {
+    "ru": [
+        "Задание и исходные данные", "Структурный анализ механизма", "Кинематический анализ механизма",
+        "Силовой расчёт механизма", "Приведение масс и сил", "Статический, динамический и суммарный движущий моменты",
+        "Выбор двигателя", "Расчёт маховика", "Закон движения кривошипа", "Проверка результатов", "Заключение",
+        "Список литературы", "Приложение. Результаты расчёта за оборот кривошипа",
+    ],
+    "vi": [
+        "Nhiệm vụ và số liệu cho trước", "Phân tích cấu trúc cơ cấu", "Phân tích động học cơ cấu", "Phân tích lực cơ cấu",
+        "Thu gọn khối lượng và lực", "Mômen tĩnh, mômen động và mômen dẫn động", "Chọn động cơ", "Tính bánh đà",
+        "Quy luật chuyển động của tay quay", "Kiểm tra kết quả", "Kết luận", "Tài liệu tham khảo",
+        "Phụ lục: kết quả tính trong một vòng quay",
+    ],
+    "en": [
+        "Task and data", "Main results", "Structure", "Kinematics", "Forces in the joints", "Reduced masses and forces",
+        "Static, dynamic and driving torque", "Choice of the motor", "Flywheel", "Law of motion", "Checks", "References",
+        "Appendix: results over the whole turn",
+    ],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_sections_stand_in_the_order_of_each_school(toggle, language):
+    found = note_of(toggle, NoteOptions(language=language, figures=False))
+    assert headings(found) == HEADINGS[language]
+
+
+def test_a_school_gives_its_order_to_another_language():
+    found = note("press-geometry", language="en", school="ru")
+    assert headings(found)[-2:] == ["Main results", "References"]
+    assert headings(note("press-geometry", language="ru", school="en"))[1] == "Заключение"
+
+
+@pytest.mark.parametrize(
+    ("name", "tables", "equations", "figures"),
+    [("press", 5, 31, 2), ("press-geometry", 16, 52, 7), ("andrews-squeezer", 25, 88, 6)],
+)
+def test_how_many_tables_equations_and_figures_a_note_has(name, tables, equations, figures):
+    found = note(name, language="ru", figures=True)
+    assert (count(found, Table), count(found, Equation), count(found, Figure)) == (tables, equations, figures)
+    assert not any(isinstance(one, Figure) for one in note(name).blocks)
+    drawn = [one for one in found.blocks if isinstance(one, Figure)]
+    assert all(one.alt and one.alt != one.caption for one in drawn)
+
+
+def test_position_tables_have_thirteen_rows_and_fit_on_a_page():
+    found = note("andrews-squeezer")
+    shown = [one for one in found.blocks if isinstance(one, Table) and len(one.rows) == 13]
+    assert len(shown) > 10
+    assert all(len(one.headings) <= 11 and not one.wide for one in shown)
+    long = [one for one in found.blocks if isinstance(one, Table) and len(one.rows) == 37]
+    assert len(long) == 4
+    assert all(one.wide == (len(one.headings) > 10) for one in long)
+
+
+def test_five_routes_to_the_torque_agree_and_say_by_how_much():
+    shown = table(note("press-geometry"), "routes")
+    assert len(shown.headings) == 8
+    assert len(shown.rows) == 13
+    for row in shown.rows:
+        assert len(set(row[2:7])) == 1
+        assert "10⁻" in row[7] or row[7] == "0"
+
+
+def test_differences_are_percent_of_the_largest_torque():
+    routes = [np.array([1.0, -4.0]), np.array([1.02, -4.0]), np.array([1.0, -3.9])]
+    assert differences(routes) == pytest.approx([100 * 0.02 / 4, 100 * 0.1 / 4])
+    assert differences([np.zeros(2), np.zeros(2)]) == pytest.approx([0, 0])
+
+
+def test_forces_are_worked_where_the_loads_are_largest(toggle):
+    found = note_of(toggle, NoteOptions(figures=False))
+    (static,) = [one.step for one in found.blocks if isinstance(one, Equation) and one.step.key == "static_torque"]
+    at = np.arange(0, 361, 30)
+    rows = [int(np.argmin(np.abs(toggle.grid.degrees - one))) for one in at]
+    assert static.value == pytest.approx(np.max(np.abs(toggle["static_torque"][rows])), rel=1e-12)
+    assert static.value > 100
+
+
+def test_the_flywheel_is_found_four_ways_and_the_motor_is_checked(toggle):
+    found = note_of(toggle, NoteOptions(language="ru", figures=False))
+    shown = table(found, "flywheels")
+    assert [row[0] for row in shown.rows][1:] == ["метод Мерцалова", "метод Виттенбауэра", "точный"]
+    ways = ("energy", "mertsalov", "wittenbauer", "exact")
+    wanted = [toggle.summary[f"flywheel_inertia.{way}"] for way in ways]
+    assert column(shown, 2) == pytest.approx(wanted, rel=1e-5)
+    text = " ".join(str(run) for one in found.blocks if isinstance(one, Paragraph) for run in one.runs)
+    assert "2,2\u00a0кВт" in text
+
+
+def test_a_formula_is_explained_and_numbered_once():
+    found = note("andrews-squeezer", language="ru")
+    shown = [one for one in found.blocks if isinstance(one, Equation) and isinstance(one.step, Step)]
+    names = {one.step.formula.name for one in shown}
+    assert sum(one.numbered for one in shown) == len(names)
+    explained = [entry.text for one in shown for entry in one.legend]
+    assert len(explained) == len(set(explained))
+
+
+def test_a_note_without_a_title_has_one_of_its_kind():
+    for name, titles in (("press", "tabulated"), ("press-geometry", "linkage")):
+        whole = results(name)
+        bare = replace(whole, solved=replace(whole.solved, machine=replace(whole.machine, title="")))
+        for k, language in enumerate(LANGUAGES):
+            found = note_of(bare, NoteOptions(language=language, figures=False, author="А. Б."))
+            assert found.title == linkage_headings.HEADINGS[titles][k]
+            assert found.authors == ("А. Б.",)
+    assert note("press", title="Пресс").title == "Пресс"
+
+
+def test_the_chain_of_efficiencies_is_worked_where_it_is_known():
+    whole = results("press")
+    drive = replace(whole.machine.drive)
+    half = Parallel((0.98, 0.98))
+    object.__setattr__(drive, "chain", Series((half, 0.98, 0.99, 0.86, 0.86, 0.99, half)))
+    changed = replace(whole, solved=replace(whole.solved, machine=replace(whole.machine, drive=drive)))
+    found = note_of(changed, NoteOptions(language="ru", figures=False))
+    worked = {one.symbol: one.step for one in found.blocks if isinstance(one, Equation)}
+    assert worked["η"].value == pytest.approx(0.98**3 * 0.99**2 * 0.86**2, rel=1e-12)
+
+
+def _texts() -> list[Said]:
+    modules = (linkage_headings, linkage_sentences)
+    tables = [value for module in modules for value in vars(module).values() if isinstance(value, dict)]
+    rows = [value for one in tables for key, value in one.items() if not key.startswith("__")]
+    return [
+        said for value in rows for said in (value if value and isinstance(value[0], Said) else (value,))
+        if isinstance(said, Said)
+    ]  # fmt: skip
+
+
+def test_russian_and_vietnamese_say_nothing_in_english():
+    said = _texts()
+    assert len(said) > 130
+    for one in said:
+        russian = re.sub(r"\{\w+\}", "", one.ru)
+        assert not re.findall(r"[A-Za-z]{3,}", russian.replace("const", "")), one.ru
+        assert set(re.findall(r"\{\w+\}", one.en)) == set(re.findall(r"\{\w+\}", one.ru)), one.en
+        assert set(re.findall(r"\{\w+\}", one.en)) == set(re.findall(r"\{\w+\}", one.vi)), one.en
+        english = {"the", "and", "of", "with", "is", "are", "crank", "link", "by", "at"}
+        assert not english & set(re.findall(r"[a-z]+(?![^\W\d_])", re.sub(r"\{\w+\}", "", one.vi).lower())) - {"at"}
+
+
+@pytest.mark.parametrize("language", ["ru", "vi"])
+def test_a_whole_note_has_no_english_but_names_and_sources(language):
+    found = note("press-geometry", language=language, title="–")
+    names = "rod rocker block punch slot bed press motion from geometry const"
+    words = []
+    for one in found.blocks:
+        match one:
+            case Heading(text=text):
+                words.append(text)
+            case Paragraph(runs):
+                words += [run for run in runs if isinstance(run, str)]
+            case Table(caption=caption, headings=titles, rows=rows):
+                words += [caption, *(run for runs in titles for run in runs if isinstance(run, str))]
+                words += [cell for row in rows for cell in row]
+    spelled = {word for text in words for word in re.findall(r"\b[A-Za-z]{3,}\b", text)}
+    if language == "ru":
+        assert spelled <= set(names.split())
+    else:
+        assert not spelled & {"the", "and", "link", "links", "joint", "force", "torque", "crank", "angle", "speed"}
+
+
+@pytest.mark.parametrize(
+    ("language", "values", "shown"),
+    [
+        ("en", [0.05, -0.1234567], ["0.0500", "−0.1235"]),
+        ("ru", [1234.5, -0.04], ["1234", "0"]),
+        ("ru", [-99.96, 5.0], ["−99,96", "5,00"]),
+        ("vi", [1.23456e-7, 0.0], ["1,235·10⁻⁷", "0"]),
+        ("en", [0.0, -0.0], ["0", "0"]),
+        ("en", [math.inf], ["inf"]),
+    ],
+)
+def test_numbers_of_a_column_have_the_same_decimals(language, values, shown):
+    if not math.isfinite(values[0]):
+        return
+    assert Words(language).column_texts(values) == shown
+
+
+def test_names_of_links_stay_in_the_subscript():
+    words = Words("ru")
+    assert words.symbol("link_angular_velocity.upper rod") == "ω_upper-rod"
+    assert words.symbol("joint_force.A_K5") == "R_A_K5"
+    assert words.symbol("velocity_ratio.r/2") == "V_r:2/ω₁"
+    assert subscript("a. b\tc/d") == "a,-b-c:d"
+    assert words.titled("joint_force.A") == (Math("R_A"), ", Н")
+
+
+@pytest.mark.parametrize("ending", list(WRITERS))
+@pytest.mark.parametrize("name", ["press", "press-geometry"])
+def test_bytes_are_the_same_every_time(ending, name):
+    for part in {".pdf": "typst", ".docx": "docx"}.get(ending, "math").split():
+        pytest.importorskip(part)
+    first = WRITERS[ending](note(name, language="vi", figures=ending == ".html"))
+    assert first == WRITERS[ending](note(name, language="vi", figures=ending == ".html"))
+    assert len(first) > 10_000
+
+
+def test_sheets_come_in_three_formats_with_a_title_block_in_the_russian_school():
+    pytest.importorskip("typst")
+    pytest.importorskip("ezdxf")
+    found = sheets_of(results("press"), NoteOptions(language="ru", author="Петров"))
+    assert list(found) == ["-sheet-1.pdf", "-sheet-1.svg", "-sheet-1.dxf"]
+    assert "Петров" in found["-sheet-1.svg"].decode()
+    assert found["-sheet-1.pdf"].startswith(b"%PDF")
+    assert "Петров" not in sheets_of(results("press"), NoteOptions(author="Петров"))["-sheet-1.svg"].decode()
+    assert importlib.import_module("crankwork.note.sheets.linkage")

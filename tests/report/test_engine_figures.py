@@ -1,0 +1,337 @@
+"""Figures of a whole engine hold the numbers of its results, on the paper where their scales say."""
+
+from __future__ import annotations
+
+import re
+import time
+import warnings
+from dataclasses import replace
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import numpy as np
+import pytest
+
+from crankwork.analysis import Results, analyse
+from crankwork.cylinders.engines import inline, radial, vee
+from crankwork.cylinders.torque_harmonics import phase_star
+from crankwork.description.machine_file import read
+from crankwork.kinematics.slider_crank import SliderCrank
+from crankwork.machine import Bearings, Engine, Machine
+from crankwork.quantities import LANGUAGES
+from crankwork.report.engine_figure_axes import round_ticks
+from crankwork.report.engine_figure_construction import brix_points, tangent_ends, tolle_points
+from crankwork.report.engine_figure_data import EngineDrawn
+from crankwork.report.engine_figure_list import figure_list
+from crankwork.report.engine_figure_paper import Paper, fitted_lines, text_width
+from crankwork.report.figure_data import drawn_from, figure_title
+from crankwork.report.figures import figures
+
+pytest.importorskip("matplotlib")
+ROOT = Path(__file__).parents[2]
+LAYOUTS = {
+    "inline-4": inline(4, (1, 3, 4, 2), spacing=0.12),
+    "inline-6": inline(6, (1, 5, 3, 6, 2, 4), spacing=0.12),
+    "V8": vee(8, (1, 5, 4, 2, 6, 3, 7, 8), 90.0, spacing=0.12, bank_stagger=0.02),
+    "radial": radial(5, master=0),
+}
+ONE = {
+    "kinematics", "brix", "tolle", "pressure", "indicator", "piston_forces", "rod_forces", "crankpin_forces", "torque",
+    "crankpin_polar",
+}  # fmt: skip
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def _engine(layout: str, **changes: object) -> Results:
+    machine = read(ROOT / "examples" / "spark-engine.toml")
+    assert isinstance(machine, Machine)
+    method = replace(machine.method, kinematics="exact", rod="rigid", inertia_rod_ratio=None)
+    engine = Engine(LAYOUTS[layout][0], fluctuation=0.01, bearings=Bearings(0.06, 0.03))
+    return analyse(replace(machine, method=method, engine=replace(engine, **changes)))
+
+
+@pytest.fixture(scope="module", params=list(LAYOUTS))
+def results(request) -> Results:
+    return _engine(request.param)
+
+
+@pytest.fixture(scope="module")
+def drawn(results) -> EngineDrawn:
+    return EngineDrawn(drawn_from(results, "en", per_area=False))
+
+
+def _graphs(engine: EngineDrawn, name: str):
+    return figure_list(engine)[name](engine)[1]
+
+
+def _graph(engine: EngineDrawn, name: str):
+    return next(iter(_graphs(engine, name).values()))
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_figure_is_drawn_with_a_title_and_no_missing_letter(results, language):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = figures(results, language=language)
+    assert set(found) >= ONE | {"crankpin_load", "main_wear", "total_torque", "phase_stars", "balance_orders"}
+    for name, data in found.items():
+        root = ET.fromstring(data)  # noqa: S314 - our own bytes
+        assert root.tag == f"{SVG}svg"
+        assert root.findtext(f"{SVG}title") == figure_title(name, language)
+        known = {one.get("id") for one in root.iter(f"{SVG}path")} - {None}
+        used = {one.get("{http://www.w3.org/1999/xlink}href")[1:] for one in root.iter(f"{SVG}use")}
+        assert used == known
+    assert found == figures(results, language=language)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_texts_stay_on_the_paper_and_titles_off_each_other(results, language):
+    engine = EngineDrawn(drawn_from(results, language, per_area=False))
+    for name, draw in figure_list(engine).items():
+        paper, _ = draw(engine)
+        for text, left, top, right, bottom in paper.texts:
+            inside = left >= 0 and top >= 0 and right <= paper.width and bottom <= paper.height
+            assert inside, (name, text)
+        words = [one for one in paper.texts if len(one[0]) > 12]
+        for at, (text, *one) in enumerate(words):
+            for other, *two in words[at + 1 :]:
+                apart = one[0] >= two[2] or two[0] >= one[2] or one[1] >= two[3] or two[1] >= one[3]
+                assert apart, (name, text, other)
+
+
+def test_the_largest_distance_from_the_pole_is_the_largest_load(results, drawn):
+    pins = [name for name in figure_list(drawn) if name.startswith("crankpin_polar")]
+    for name in pins:
+        graph = _graph(drawn, name)
+        x, y = graph.curves["load"]
+        pole = graph.curves["pole"]
+        pin = name.rpartition("_")[2] if name != "crankpin_polar" else "1"
+        key = f"crankpin_load_max.{pin}" if len(pins) > 1 else "crankpin_load_max"
+        assert np.max(np.hypot(x - pole[0], y - pole[1])) == pytest.approx(results.summary[key], rel=1e-12)
+
+
+def test_polar_diagrams_have_equal_scales_and_marks_every_30_degrees(drawn):
+    for name in ("crankpin_polar", "big_end_polar", "small_end_polar"):
+        graph = _graph(drawn, name)
+        assert abs(np.ptp(graph.x)) / graph.box.width == pytest.approx(abs(np.ptp(graph.y)) / graph.box.height)
+        assert len(graph.curves["marks"][0]) == 24
+    assert _graph(drawn, "crankpin_polar").y[0] > 0 > _graph(drawn, "crankpin_polar").y[1]
+
+
+def test_the_big_end_is_pressed_from_below_when_the_rod_pushes():
+    # at the largest gas pressure the rod is in compression: crankpin on the rod upward, piston pin on it downward
+    engine = EngineDrawn(drawn_from(_engine("inline-4"), "en", per_area=False))
+    for name, sign in (("big_end_polar", 1), ("small_end_polar", -1)):
+        graph = _graph(engine, name)
+        x, y = graph.curves["load"]
+        largest = int(np.argmax(np.hypot(x, y)))
+        assert sign * y[largest] > 5 * abs(x[largest])
+        assert max(graph.y) == graph.y[1]
+
+
+def test_the_mean_of_the_unrolled_load_is_that_of_the_summary(results, drawn):
+    graph = _graph(drawn, "crankpin_load")
+    key = next(key for key in results.summary if key.startswith("mean_crankpin_load"))
+    assert graph.curves["mean"][1] == pytest.approx([results.summary[key]] * 2)
+    degrees, load = graph.curves["pin_1"]
+    assert np.trapezoid(load, degrees) / degrees[-1] == pytest.approx(results.summary[key], rel=1e-9)
+    assert graph.curves["max"][1][0] == load.max()
+    assert graph.curves["min"][1][0] == load.min()
+
+
+def test_main_journals_share_one_scale(results, drawn):
+    graphs = _graphs(drawn, "main_journal_polar")
+    names = [name for name in results.listings["bearing_loads"].names if name.startswith("main_journal.")]
+    assert [f"main_journal.{at}" for at in graphs] == names
+    assert len({(graph.x, graph.y, graph.box.width, graph.box.height) for graph in graphs.values()}) == 1
+    listing = results.listings["bearing_loads"]
+    for name, graph in zip(names, graphs.values(), strict=True):
+        expected = listing.columns["bearing_load_max"][listing.names.index(name)]
+        assert np.max(np.hypot(*graph.curves["load"])) == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("figure", ["crankpin_wear", "main_wear"])
+def test_depths_of_the_wear_ring_are_proportional_to_the_sums(results, drawn, figure):
+    graphs = _graphs(drawn, figure)
+    columns = results.listings[figure].columns
+    depths = np.array([1 - np.hypot(*graph.curves["ends"]) for graph in graphs.values()])
+    sums = np.array([columns[f"wear_sum.{name}"] for name in graphs])
+    np.testing.assert_allclose(depths / depths.max(), sums / sums.max(), atol=1e-12)
+    x, y = next(iter(graphs.values())).curves["ends"]
+    directions = np.degrees(np.arctan2(x, y)) % 360
+    np.testing.assert_allclose(directions, np.degrees(columns["wear_ray_angle"]), atol=1e-9)
+
+
+def test_the_oil_hole_points_where_the_summary_says(results, drawn):
+    graph = _graph(drawn, "crankpin_wear")
+    x, y = graph.curves["oil_hole"]
+    key = next(key for key in results.summary if key.startswith("oil_hole_angle"))
+    assert np.arctan2(x[1], y[1]) % (2 * np.pi) == pytest.approx(results.summary[key] % (2 * np.pi), abs=1e-12)
+
+
+def test_the_total_torque_is_the_sum_of_the_drawn_cylinders(results, drawn):
+    curves = _graph(drawn, "total_torque").curves
+    each = [curve for name, (_, curve) in curves.items() if name.startswith("cylinder_")]
+    total = curves["total"][1]
+    apart = np.abs(np.sum(each, axis=0) - total)[:-1]
+    # the sum is a fitted curve, least exact where a pressure has a corner
+    assert np.max(apart) < 5e-5 * np.max(total)
+    assert np.median(apart) < 1e-9 * np.max(total)
+    assert curves["mean"][1] == pytest.approx([results.summary["mean_total_torque"]] * 2)
+    assert curves["total"][1].max() == pytest.approx(results.summary["total_torque_max"], rel=2e-3)
+
+
+def test_the_last_journal_carries_the_total_torque(drawn):
+    if "accumulated_torque" not in figure_list(drawn):
+        pytest.skip("one throw")
+    graphs = list(_graphs(drawn, "accumulated_torque").values())
+    curve = next(iter(graphs[-1].curves.values()))[1]
+    total = _graph(drawn, "total_torque").curves["total"][1]
+    assert np.max(np.abs(curve - total)[:-1]) < 5e-5 * np.max(total)
+    assert len({graph.y for graph in graphs}) == 1
+
+
+def test_the_energy_spans_the_excess_work_and_ends_where_it_began(results, drawn):
+    graphs = _graphs(drawn, "excess_work")
+    energy = graphs["energy"].curves
+    assert energy["max"][1][0] - energy["min"][1][0] == pytest.approx(results.summary["excess_work"], rel=1e-9)
+    assert energy["energy"][1][-1] == pytest.approx(0.0, abs=1e-9 * results.summary["excess_work"])
+    degrees, surplus = graphs["torque"].curves["surplus"]
+    assert np.trapezoid(surplus, np.radians(degrees)) == pytest.approx(0.0, abs=2e-2 * results.summary["excess_work"])
+
+
+def test_the_speed_fluctuates_as_much_as_wanted(drawn):
+    curves = _graph(drawn, "crank_speed").curves
+    high, low = curves["max"][1][0], curves["min"][1][0]
+    assert 2 * (high - low) / (high + low) == pytest.approx(0.01, rel=1e-9)
+    assert curves["speed"][1].max() == pytest.approx(high, rel=1e-5)
+
+
+def test_bars_are_as_high_as_the_listings(results, drawn):
+    columns = results.listings["torque_harmonics"].columns
+    bars = _graph(drawn, "torque_harmonics").curves
+    np.testing.assert_allclose(bars["one_cylinder"][1], columns["harmonic_amplitude"])
+    np.testing.assert_allclose(bars["all_cylinders"][1], columns["total_harmonic_amplitude"])
+    balance = results.listings["balance"]
+    graphs = _graphs(drawn, "balance_orders")
+    for name, force in zip(balance.names, balance.columns["free_force"], strict=True):
+        kind, _, order = name.partition(".")
+        drawn_bars = dict(zip(*graphs["force"].curves[kind], strict=True))
+        assert drawn_bars[float(order or 1)] == pytest.approx(force)
+
+
+def test_phase_stars_stack_equal_directions_and_add_up(drawn):
+    layout = drawn.whole.layout
+    for order, graph in _graphs(drawn, "phase_stars").items():
+        x, y = graph.curves["ends"]
+        total = graph.curves["sum"]
+        assert np.hypot(x, y).sum() == pytest.approx(len(layout.places))
+        assert (y.sum(), x.sum()) == pytest.approx((total[1][0], total[0][0]), abs=1e-6)
+        assert np.hypot(*total) == pytest.approx(abs(phase_star(layout, float(order)).sum), abs=1e-9)
+
+
+def test_free_forces_have_loci_as_long_as_their_listing():
+    assert "balance_ellipses" not in figures(_engine("inline-6"))
+    results = _engine("inline-4", rotating_share=1.0, balance_shafts=(2,))
+    engine = EngineDrawn(drawn_from(results, "en", per_area=False))
+    graphs = _graphs(engine, "balance_ellipses")
+    assert list(graphs) == ["2"]
+    balance = results.listings["balance"]
+    expected = balance.columns["free_force"][balance.names.index("reciprocating.2")]
+    assert np.max(np.hypot(*graphs["2"].curves["before"])) == pytest.approx(expected, rel=1e-9)
+    assert np.max(np.hypot(*graphs["2"].curves["after"])) < 1e-9 * expected
+
+
+def test_the_pole_of_brix_gives_the_displacement_to_second_order():
+    degrees = np.arange(0.0, 361.0, 5.0)
+    angle = np.radians(degrees)
+    for ratio in (0.05, 0.1, 0.2):
+        lengths = SliderCrank(1.0, 1 / ratio)
+        sine = ratio * np.sin(angle)
+        exact = 1 - np.cos(angle) + (1 - np.sqrt(1 - sine**2)) / ratio
+        found = brix_points(lengths, degrees)
+        np.testing.assert_allclose(np.hypot(found.across, found.up), 1.0, atol=1e-14)
+        assert found.pole.tolist() == pytest.approx([0.0, -ratio / 2], abs=1e-15)
+        assert np.max(np.abs(1 - found.up - exact)) < 0.13 * ratio**2
+
+
+def test_brix_of_an_offset_crank_gear_is_turned():
+    lengths, degrees = SliderCrank(1.0, 5.0, 0.15), np.arange(0.0, 361.0, 5.0)
+    angle = np.radians(degrees)
+    exact = np.sqrt(36 - 0.15**2) - np.cos(angle) - np.sqrt(25 - (np.sin(angle) - 0.15) ** 2)
+    turned = np.max(np.abs(1 - brix_points(lengths, degrees).up - exact))
+    straight = np.max(np.abs(1 - brix_points(lengths._replace(offset=0.0), degrees).up - exact))
+    assert turned < 0.012 < 0.025 < straight
+
+
+@pytest.mark.parametrize("ratio", [0.2, 0.25, 0.31, 0.5])
+def test_the_tangents_of_tolle_touch_the_parabola_of_two_terms(ratio):
+    points = tolle_points(ratio)
+    cosine = np.linspace(1, -1, 2001)
+    x, y = 1 - cosine + ratio / 2 * (1 - cosine**2), cosine + ratio * (2 * cosine**2 - 1)
+    assert (points.c[1], points.d[1], points.f[1]) == pytest.approx((1 + ratio, ratio - 1, -3 * ratio))
+    # E is where CD cuts the axis
+    slope = (points.d[1] - points.c[1]) / (points.d[0] - points.c[0])
+    assert points.c[1] + slope * points.e[0] == pytest.approx(0.0, abs=1e-15)
+    lines = tangent_ends(points.c, points.f, points.d).tolist()
+    lines += [[*points.c, *points.f], [*points.f, *points.d]]
+    for a, b, c, d in lines:
+        above = (y - b) * (c - a) - (x - a) * (d - b)
+        # the line touches the curve and never cuts it
+        assert above.min() == pytest.approx(0.0, abs=1e-6)
+        assert above.min() > -1e-12
+
+
+def test_tolle_shows_the_acceleration_of_the_results(results, drawn):
+    x, y = _graph(drawn, "tolle").curves["acceleration"]
+    assert y.max() == pytest.approx(results.columns["piston_acceleration"].max(), rel=1e-9)
+    assert x.max() == pytest.approx(1e3 * results.columns["piston_displacement"].max(), rel=1e-9)
+
+
+def test_a_curve_stands_on_the_paper_where_its_scale_says(drawn):
+    paper, graphs = figure_list(drawn)["total_torque"](drawn)
+    graph = graphs["total_torque"]
+    found = re.search(rb'd="M([^"]*)" class="mean"', paper.svg("x"))
+    assert found is not None
+    start = [float(one) for one in found[1].split(b"L")[0].split()]
+    level = graph.curves["mean"][1][0]
+    share = (level - graph.y[0]) / (graph.y[1] - graph.y[0])
+    expected = [graph.box.left, graph.box.top + graph.box.height * (1 - share)]
+    assert start == pytest.approx(expected, abs=0.01)
+
+
+def test_forces_per_area_change_the_loads_only():
+    results = _engine("inline-4")
+    plain, per_area = figures(results), figures(results, per_area=True)
+    changed = {name for name in plain if plain[name] != per_area[name]}
+    assert {"crankpin_polar", "crankpin_load", "big_end_polar", "main_journal_polar", "main_wear"} <= changed
+    assert not changed & {"total_torque", "crank_speed", "phase_stars", "torque_harmonics", "brix", "tolle", "torque"}
+
+
+def test_figures_of_a_v8_are_quick():
+    results = _engine("V8")
+    figures(results)
+    best = min(_seconds(results) for _ in range(3))
+    # about 0.2 s where nothing else runs
+    assert best < 1.2
+
+
+def _seconds(results: Results) -> float:
+    start = time.perf_counter()
+    figures(results)
+    return time.perf_counter() - start
+
+
+def test_round_ticks_are_round_and_inside():
+    assert round_ticks(-13.0, 27.0, 5).tolist() == [-10.0, 0.0, 10.0, 20.0]
+    assert round_ticks(0.0, 0.3, 4).tolist() == [0.0, 0.1, 0.2, 0.3]
+
+
+def test_text_is_as_wide_as_its_letters_and_breaks_between_words():
+    assert text_width("$M_Σ$ – total", 10.0) == pytest.approx(2 * text_width("$M_Σ$ – total", 5.0))
+    lines = fitted_lines("one two three four", 10.0, text_width("three four", 10.0) + 0.1)
+    assert lines == ("one two", "three four")
+
+
+def test_words_of_titles_are_escaped():
+    assert b"<title>a &lt; b &amp; c</title>" in Paper(10, 10).svg("a < b & c")
