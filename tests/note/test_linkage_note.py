@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import functools
 import importlib
-import math
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -38,7 +37,7 @@ DRIVING = (121.32, 169.41, 204.12, 116.04, 181.76, -102.68, -59.77, -1.26, 19.0,
 ROD = (0.025, 0.032, 0.046, 0.05, 0.043, 0.031, 0.025, 0.037, 0.045, 0.05, 0.046, 0.036)
 ROCKER = (0, 0.115, 0.22, 0.238, 0.193, 0.107, 0, 0.129, 0.197, 0.238, 0.21, 0.133)
 MOTOR = [
-    *((f"# {name}", name) for name in ("[motor]", "rated_power", "rated_speed", "overload", "pole_pairs", "ratio = 24")),
+    *((f"# {name}", name) for name in ("[motor]", "rated_power", "rated_speed", "overload", "pole_pairs", "ratio = ")),
     ("# [flywheel]", "[flywheel]"), ("# fluctuation", "fluctuation"),
 ]  # fmt: skip
 
@@ -139,15 +138,16 @@ HEADINGS = {
         "Список литературы", "Приложение. Результаты расчёта за оборот кривошипа",
     ],
     "vi": [
-        "Nhiệm vụ và số liệu cho trước", "Phân tích cấu trúc cơ cấu", "Phân tích động học cơ cấu", "Phân tích lực cơ cấu",
+        "Nhiệm vụ và số liệu cho trước", "Phân tích cấu trúc cơ cấu", "Phân tích động học cơ cấu",
+        "Phân tích lực cơ cấu",
         "Thu gọn khối lượng và lực", "Mômen tĩnh, mômen động và mômen dẫn động", "Chọn động cơ", "Tính bánh đà",
         "Quy luật chuyển động của tay quay", "Kiểm tra kết quả", "Kết luận", "Tài liệu tham khảo",
         "Phụ lục: kết quả tính trong một vòng quay",
     ],
     "en": [
         "Task and data", "Main results", "Structure", "Kinematics", "Forces in the joints", "Reduced masses and forces",
-        "Static, dynamic and driving torque", "Choice of the motor", "Flywheel", "Law of motion", "Checks", "References",
-        "Appendix: results over the whole turn",
+        "Static, dynamic and driving torque", "Choice of the motor", "Flywheel", "Law of motion", "Checks",
+        "References", "Appendix: results over the whole turn",
     ],
 }  # fmt: skip
 
@@ -181,7 +181,7 @@ def test_position_tables_have_thirteen_rows_and_fit_on_a_page():
     shown = [one for one in found.blocks if isinstance(one, Table) and len(one.rows) == 13]
     assert len(shown) > 10
     assert all(len(one.headings) <= 11 and not one.wide for one in shown)
-    long = [one for one in found.blocks if isinstance(one, Table) and len(one.rows) == 37]
+    long = [one for one in found.blocks if isinstance(one, Table) and one.rows[-1][0] == "360"]
     assert len(long) == 4
     assert all(one.wide == (len(one.headings) > 10) for one in long)
 
@@ -254,12 +254,9 @@ def test_the_chain_of_efficiencies_is_worked_where_it_is_known():
 
 def _texts() -> list[Said]:
     modules = (linkage_headings, linkage_sentences)
-    tables = [value for module in modules for value in vars(module).values() if isinstance(value, dict)]
-    rows = [value for one in tables for key, value in one.items() if not key.startswith("__")]
-    return [
-        said for value in rows for said in (value if value and isinstance(value[0], Said) else (value,))
-        if isinstance(said, Said)
-    ]  # fmt: skip
+    tables = [value for module in modules for name, value in vars(module).items() if name.isupper()]
+    rows = [value for one in tables for value in one.values()]
+    return [said for value in rows for said in ((value,) if isinstance(value, Said) else value)]
 
 
 def test_russian_and_vietnamese_say_nothing_in_english():
@@ -300,15 +297,12 @@ def test_a_whole_note_has_no_english_but_names_and_sources(language):
     [
         ("en", [0.05, -0.1234567], ["0.0500", "−0.1235"]),
         ("ru", [1234.5, -0.04], ["1234", "0"]),
-        ("ru", [-99.96, 5.0], ["−99,96", "5,00"]),
+        ("ru", [-99.96, 5.0], ["−100,0", "5,0"]),
         ("vi", [1.23456e-7, 0.0], ["1,235·10⁻⁷", "0"]),
         ("en", [0.0, -0.0], ["0", "0"]),
-        ("en", [math.inf], ["inf"]),
     ],
 )
 def test_numbers_of_a_column_have_the_same_decimals(language, values, shown):
-    if not math.isfinite(values[0]):
-        return
     assert Words(language).column_texts(values) == shown
 
 

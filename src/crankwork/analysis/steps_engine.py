@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import math
 from collections.abc import Iterator, Mapping
 
@@ -33,13 +34,14 @@ def engine_steps(results: Results, crank_angle: float, force_angle: float) -> tu
     -------
     tuple of StepGroup
         Groups `cycle` (the steps that the results themselves hold), `geometry`, `speed`, `motion`, `harmonics`,
-        `extremes`, `masses`, `gas`, `forces`, `force_extremes`, `power`; those without a step are left out.
+        `extremes`, `masses`, `gas`, `forces`, `force_extremes`, `power`, and those of `steps_whole` for an engine of
+        several; those without a step are left out.
     """
     solved: Solved = results.solved
     moving, loaded = EngineMoment.at(solved, crank_angle), EngineMoment.at(solved, force_angle)
     at, there = float(moving.grid.angle[0]), float(loaded.grid.angle[0])
     groups = (
-        StepGroup("cycle", tuple(results.steps)),
+        StepGroup("cycle", tuple(_cycle(results, solved))),
         StepGroup("geometry", tuple(_geometry(solved))),
         StepGroup("speed", tuple(_speed(solved))),
         StepGroup("motion", tuple(motion_steps(moving)), at),
@@ -51,7 +53,37 @@ def engine_steps(results: Results, crank_angle: float, force_angle: float) -> tu
         StepGroup("force_extremes", tuple(force_extreme_steps(solved, results.summary))),
         StepGroup("power", tuple(_power(solved, results.summary))),
     )
+    if solved.machine.engine is not None:
+        # loaded when needed, as the analysis of whole engines is
+        whole = importlib.import_module("crankwork.analysis.steps_whole")
+        groups = (*groups, *whole.whole_engine_steps(results, force_angle))
     return tuple(group for group in groups if group.steps)
+
+
+def _cycle(results: Results, solved: Solved) -> Iterator[AnyStep]:
+    """Yield the steps of a calculated cycle, before them what was given and after them what was integrated.
+
+    A value that the rest of the results has too is that `.cycle`. A size is calculated twice where it was rounded.
+    """
+    calculated = solved.space.calculated if solved.space is not None else None
+    if calculated is None:
+        return
+    last = {step.key: at for at, step in enumerate(results.steps)}
+    others = {"displacement"} if solved.machine.engine is not None else set()
+
+    def key_of(key: str) -> str:
+        return f"{key}.cycle" if f"{key}.cycle" in results.summary or key in others else key
+
+    end = max((at for at, key in enumerate(calculated.values) if key in last), default=-1)
+    known = [
+        (at, Given(key_of(key), value))
+        for at, (key, value) in enumerate(calculated.values.items())
+        if key not in last and key_of(key) in results.summary
+    ]
+    yield from (one for at, one in known if at < end)
+    for at, step in enumerate(results.steps):
+        yield step._replace(key=key_of(step.key) if at == last[step.key] else f"{step.key}.before_rounding")
+    yield from (one for at, one in known if at > end)
 
 
 def _geometry(solved: Solved) -> Iterator[Step]:

@@ -6,22 +6,25 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
+import numpy as np
+
 from crankwork.analysis import Results, analyse
 from crankwork.analysis.force_functions import force_functions
 from crankwork.analysis.steps import worked_steps
 from crankwork.cylinders.engines import inline
 from crankwork.kinematics.crank_grid import Array
-from crankwork.machine import Engine, Machine
+from crankwork.machine import Bearings, Engine, Machine
 from crankwork.note.document import Block, Equation, Figure, Reference, Run, Runs, Table
 from crankwork.note.engine_words import EngineWords
 from crankwork.note.options import NoteOptions
 from crankwork.report.figure_data import figure_title
 from crankwork.report.figures import figures
-from crankwork.report.language import label
-from crankwork.report.tables import Sheet, sheets
+from crankwork.report.language import key_unit, label
 from crankwork.steps import AnyStep, Given, ProductStep, StepGroup, SumStep, all_steps
+from crankwork.units import from_si
 
 _FOUR_STROKES = 720.0
+_RAYS = {"vi": 24}
 # what a figure shows, for who cannot see it
 _SHOWN: Mapping[str, tuple[str, ...]] = {
     "kinematics": ("piston_displacement", "piston_velocity", "piston_acceleration"),
@@ -47,13 +50,15 @@ _SHOWN: Mapping[str, tuple[str, ...]] = {
 _OVER_CYCLE = {"accumulated_torque": "accumulated_torque", "main_journal_polar": "main_journals"}
 
 
-def whole(results: Results) -> Results:
+def whole(results: Results, school: str) -> Results:
     """Return results with those of the whole engine; a crank gear of its own is an engine of one cylinder.
 
     Parameters
     ----------
     results : Results
         Of an engine.
+    school : str
+        Whose wear diagram is drawn where the machine does not say.
     """
     machine = results.machine
     if not isinstance(machine, Machine) or machine.engine is not None or "crank_torque" not in results.columns:
@@ -61,7 +66,7 @@ def whole(results: Results) -> Results:
     layout, notices = inline(1, (1,), strokes=4 if machine.cycle == _FOUR_STROKES else 2)
     if layout.cycle != machine.cycle:
         return results
-    one = replace(machine, engine=Engine(layout, notices=notices))
+    one = replace(machine, engine=Engine(layout, bearings=Bearings(rays=_RAYS.get(school, 12)), notices=notices))
     return analyse(one, results.grid, method=results.method)
 
 
@@ -75,10 +80,13 @@ class Material:
         Of an engine.
     options : NoteOptions
         Language and what else is chosen.
+    has_engine : bool
+        Whether the machine says what engine it is, and not only its crank gear is known.
     """
 
     results: Results
     options: NoteOptions
+    has_engine: bool = True
     _shown: set[tuple[object, ...]] = field(default_factory=set)
     _told: set[str] = field(default_factory=set)
 
@@ -109,19 +117,28 @@ class Material:
         """The words of the language."""
         return EngineWords(self.options.language, per_area=self.per_area)
 
-    @cached_property
-    def sheets(self) -> dict[str, Sheet]:
-        """Tables by name, in the units in which they are shown."""
-        return sheets(self.results, per_area=self.per_area)
+    def shown(self, key: str, values: Array) -> Array:
+        """Return values [SI] in the unit in which tables show their key."""
+        unit = key_unit(key, per_area=self.per_area)
+        if self.per_area and unit != key_unit(key):
+            values = values / self.summary["piston_area"]
+        # adding zero turns -0.0 into 0.0
+        return np.asarray(from_si(values, unit) + 0.0)
 
     @cached_property
     def columns(self) -> dict[str, Array]:
         """Columns over the crank angle by key, in the units in which they are shown."""
-        found: dict[str, Array] = {}
-        for name in self.results.tables:
-            found |= self.sheets[name].columns
+        found = {key: self.shown(key, values) for key, values in self.results.columns.items()}
         # rod functions belong to forces: a machine of which only the motion is known does not need them
         return found | (force_functions(self.results) if "piston_force" in found else {})
+
+    @cached_property
+    def listings(self) -> dict[str, dict[str, Array]]:
+        """Tables that do not run over the crank angle by name: columns by key, in the units in which they are shown."""
+        return {
+            name: {key: self.shown(key, values) for key, values in one.columns.items()}
+            for name, one in self.results.listings.items()
+        }
 
     @cached_property
     def groups(self) -> dict[str, StepGroup]:
@@ -201,7 +218,8 @@ class Material:
 
     def remaining_figures(self) -> list[str]:
         """Return the names of figures that no section has shown."""
-        return [name for name in self.drawn if name not in self._told]
+        left = [name for name in self.drawn if name not in self._told]
+        return [name for name in left if self.has_engine or not name.startswith("main_")]
 
     def remaining_steps(self) -> list[Block]:
         """Return equations of all steps that no section has shown."""
@@ -215,8 +233,8 @@ class Material:
     def _seen(self, name: str) -> str:
         """Return what a figure shows with its extreme values, in words."""
         keys = _SHOWN.get(name.rstrip("0123456789").rstrip("_"), ())
-        if name in _OVER_CYCLE and _OVER_CYCLE[name] in self.sheets:
-            keys = tuple(key for key in self.sheets[_OVER_CYCLE[name]].columns if key != "crank_angle")
+        if name in _OVER_CYCLE:
+            keys = self.results.groups.get(_OVER_CYCLE[name], ())
         return "; ".join(one for one in map(self._range, keys) if one)
 
     def _range(self, key: str) -> str:
@@ -224,7 +242,7 @@ class Material:
         words = self.words
         values = self.columns.get(key)
         if values is None:
-            values = next((one.columns[key] for one in self.sheets.values() if key in one.columns), None)
+            values = next((one[key] for one in self.listings.values() if key in one), None)
         if values is None or not len(values):
             return ""
         unit = words.unit(key)

@@ -22,6 +22,8 @@ from crankwork.steps import Step
 
 # columns of numbers that fit on a page upright
 _UPRIGHT = 9
+# rows that fit on a page, and parts of a table that stand side by side
+_LONG, _MOST_PARTS = 40, 3
 _TURN = 360.0
 
 
@@ -33,6 +35,7 @@ def angle_table(
     one_turn: bool = False,
     decimals: Mapping[str, int] | None = None,
     headings: Mapping[str, Runs] | None = None,
+    folds: bool = True,
 ) -> Table | None:
     """Return a table over the crank angle.
 
@@ -50,6 +53,8 @@ def angle_table(
         Decimals of some columns.
     headings : mapping of str to runs, optional
         Headings of some columns.
+    folds : bool
+        Whether parts of a long narrow table stand side by side.
 
     Returns
     -------
@@ -65,7 +70,7 @@ def angle_table(
     for key in present:
         texts.append(words.column_texts(material.columns[key][rows].tolist(), decimals=(decimals or {}).get(key)))
     titles = [words.titled("crank_angle"), *((headings or {}).get(key) or words.titled(key) for key in present)]
-    return Table(
+    table = Table(
         words.caption(caption),
         tuple(titles),
         list(zip(*texts, strict=True)),
@@ -73,6 +78,26 @@ def angle_table(
         align="c" + "r" * len(present),
         label=f"t:{caption}",
     )
+    return folded(table) if folds else table
+
+
+def folded(table: Table) -> Table:
+    """Return a long narrow table with its parts side by side; any other as it is.
+
+    Parameters
+    ----------
+    table : Table
+        With columns over the crank angle.
+    """
+    count, rows = len(table.headings), list(table.rows)
+    parts = min((_UPRIGHT + 1) // count, _MOST_PARTS)
+    if len(rows) <= _LONG or parts < 2:  # noqa: PLR2004 - one part is the table itself
+        return table
+    height = -(-len(rows) // parts)
+    filled = rows + [("",) * count] * (height * parts - len(rows))
+    beside = zip(*(filled[part * height : (part + 1) * height] for part in range(parts)), strict=True)
+    joined = [tuple(entry for row in one for entry in row) for one in beside]
+    return replace(table, headings=table.headings * parts, rows=joined, align=table.align * parts)
 
 
 def column_table(caption: str, columns: Sequence[tuple[Runs, Sequence[str]]], words: EngineWords) -> Table:
@@ -110,13 +135,16 @@ def listing_table(material: Material, name: str, caption: str) -> Table | None:
     caption : str
         Key of its caption, and its label.
     """
-    words, sheet = material.words, material.sheets.get(name)
-    if sheet is None or name not in material.results.listings:
+    words, sheet = material.words, material.results.listings.get(name)
+    if sheet is None:
         return None
     columns: list[tuple[Runs, Sequence[str]]] = []
+    # of a crank gear of its own nobody knows the journals
+    rows = [k for k, one in enumerate(sheet.names) if material.has_engine or not one.startswith("main_journal")]
     if sheet.names:
-        columns.append(((words.column("row"),), [row_name(one, words.language) for one in sheet.names]))
-    for key, values in sheet.columns.items():
+        columns.append(((words.column("row"),), [row_name(sheet.names[k], words.language) for k in rows]))
+    for key, column in material.listings[name].items():
+        values = column[rows] if sheet.names else column
         if sheet.names and not np.any(np.nan_to_num(values)):
             continue
         entries = [words.number(float(one)) for one in values] if not columns else words.column_texts(values.tolist())

@@ -18,7 +18,7 @@ from crankwork.steps import AnyStep, Given, ProductStep, Step, SumStep, all_step
 
 # columns of numbers beside position and crank angle, on a page upright and on its side
 _UPRIGHT, _WIDE = 9, 14
-# in SI: shorter than an atom's nucleus, lighter than a speck of dust
+# in SI, or of the largest number beside it: shorter than the nucleus of an atom
 _NOISE = 1e-15
 # rows of a table that is worth a page on its side
 _LONG = 24
@@ -136,9 +136,12 @@ def equations(steps: Iterable[AnyStep], words: Words, *, marks: Mapping[str, str
 
 def _without_noise(step: AnyStep) -> AnyStep:
     """Return a step in which what is zero but for rounding is zero, so that nobody reads a meaning into it."""
-    if not isinstance(step, Step) or all(value == 0 or abs(value) > _NOISE for value in step.values.values()):
+    if not isinstance(step, Step):
         return step
-    values = {name: value if abs(value) > _NOISE else 0.0 for name, value in step.values.items()}
+    noise = _NOISE * max(1.0, *(abs(value) for value in step.values.values()))
+    if not any(0 < abs(value) < noise for value in step.values.values()):
+        return step
+    values = {name: value if abs(value) >= noise else 0.0 for name, value in step.values.items()}
     return worked_step(step.formula.function, *values.values(), key=step.key)
 
 

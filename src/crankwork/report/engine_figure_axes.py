@@ -281,10 +281,12 @@ def sheet(height: float, rows: Sequence[Row] = (), *, below: float = BOTTOM) -> 
 
     Parameters
     ----------
-    height, below : float
-        Of the graph, and of the room below it. [pt]
+    height : float
+        Of the graph. [pt]
     rows : sequence of Row
         The legend.
+    below : float
+        Room below the graph. [pt]
 
     Returns
     -------

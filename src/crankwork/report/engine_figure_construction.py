@@ -246,8 +246,8 @@ def tolle(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     graph.curve("acceleration", x, y, width=1.6)
     lines = [spread(graph.across(x), graph.down(y))]
     for side in _SIDES:
-        ends = graph.curves[side]
-        lines.append(spread(graph.across(ends[0]), graph.down(ends[1])))
+        along, up = graph.curves[side]
+        lines.append(spread(graph.across(along), graph.down(up)))
     level = float(graph.down(0.0))
     lines.append(spread(np.array([box.left, box.left + box.width]), np.array([level, level])))
     places = [(name, *graph.point(*place)) for name, place in corners.items()]

@@ -254,10 +254,12 @@ class Paper:
 
         Parameters
         ----------
-        x, y, radius, width : float
-            Middle, radius, width of the line. [pt]
+        x, y, radius : float
+            Middle, radius. [pt]
         fill : str
             As SVG writes it.
+        width : float
+            Of the line. [pt]
         """
         stroke = f' stroke="{BLACK}" stroke-width="{width:g}"' if width else ""
         self._parts.append(f'<circle cx="{x:.2f}" cy="{y:.2f}" r="{radius:g}" fill="{fill}"{stroke}/>')
@@ -293,10 +295,12 @@ class Paper:
 
         Parameters
         ----------
-        x, y, size : float
-            Where its base line begins, ends or has its middle; size of the letters. [pt]
+        x, y : float
+            Where its base line begins, ends or has its middle. [pt]
         text : str
             With symbols `base_subscript` between dollar signs.
+        size : float
+            Of the letters. [pt]
         anchor : str
             start, middle or end: which point of the text stands at x, y.
         colour : str
@@ -313,10 +317,12 @@ class Paper:
 
         Parameters
         ----------
-        x, y, size : float
-            Its base line and its middle, size of the letters. [pt]
+        x, y : float
+            Its base line and its middle. [pt]
         text : str
             With symbols `base_subscript` between dollar signs.
+        size : float
+            Of the letters. [pt]
         """
         half = text_width(text, size) / 2
         self.texts.append((text, x - 0.75 * size, y - half, x + 0.25 * size, y + half))

@@ -44,4 +44,11 @@ ENGINE_WORDS = {
     "charge": ("of the fresh charge", "свежего заряда", "của môi chất mới"),
     "closed": ("in closed form", "по замкнутой формуле", "theo công thức kín"),
     "residual": ("left over, order", "остаток, порядок", "còn dư, bậc"),
+    "throw": ("of a throw", "колена", "của một khuỷu"),
+    "of_cylinder": ("of one cylinder", "одного цилиндра", "của một xylanh"),
+    "given": ("as given", "заданный", "đã cho"),
+    "before_rounding": ("before rounding", "до округления", "trước khi làm tròn"),
+    "indicated": ("by the indicated work", "по индикаторной работе", "theo công chỉ thị"),
+    "articulated": ("Articulated rod", "Прицепной шатун", "Thanh truyền phụ"),
+    "uniformity": ("Evenness of running", "Равномерность хода", "Độ không đồng đều của chuyển động quay"),
 }  # fmt: skip

@@ -87,6 +87,8 @@ CAPTIONS = {
     "firing": ("Cylinders and firing", "Чередование рабочих ходов", "Góc công tác của các xylanh"),
     "crankpin": ("Load on crankpin and rod", "Силы, нагружающие шатунную шейку",
                  "Phụ tải tác dụng trên chốt khuỷu và thanh truyền"),
+    "rods": ("Loads on both ends of the rod", "Нагрузки на головки шатуна",
+             "Phụ tải tác dụng lên đầu to và đầu nhỏ thanh truyền"),
     "loads": ("Mean and largest loads", "Средние и наибольшие нагрузки", "Phụ tải trung bình và lớn nhất"),
     "crankpin_wear": ("Sums of the loads on the rays of the crankpin",
                       "Суммы сил по лучам диаграммы износа шатунной шейки",

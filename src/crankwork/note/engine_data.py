@@ -1,0 +1,156 @@
+"""What the note of an engine begins with: preface, input data and method."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from crankwork.machine import Bearings, Engine
+from crankwork.note.document import Block, Citation, Reference
+from crankwork.note.engine_material import Material
+from crankwork.note.engine_tables import value_row, value_table
+from crankwork.note.engine_words import EngineWords
+from crankwork.note.stated_units import printed_unit
+from crankwork.quantities import QUANTITIES
+from crankwork.quantities import cycle as cycle_quantities
+from crankwork.report.language import label, word
+from crankwork.report.summary import results_method
+
+_GEAR = ("rotational_speed", "angular_acceleration", "crank_radius", "rod_length", "rod_ratio", "offset")
+_SIZES = (
+    ("bearing_diameter", "crankpin_diameter", "crankpin"), ("bearing_length", "crankpin_length", "crankpin"),
+    ("bearing_diameter", "main_diameter", "main_journal"), ("bearing_length", "main_length", "main_journal"),
+    ("bearing_diameter", "pin_diameter", "small_end"), ("bearing_length", "pin_length", "small_end"),
+)  # fmt: skip
+_SOURCES = {"first": "kolchin_demidov_2008, ch. 7", "second": "kolchin_demidov_2008, ch. 9"}
+
+
+def preface(material: Material) -> Iterator[Block]:
+    """Yield the preface of notes that have one.
+
+    Parameters
+    ----------
+    material : Material
+        Of an engine.
+    """
+    yield material.words.heading("preface")
+    yield material.words.paragraph("preface")
+
+
+def data(material: Material) -> Iterator[Block]:
+    """Yield the input data and, except where it is a section of its own, the method.
+
+    Parameters
+    ----------
+    material : Material
+        Of an engine.
+    """
+    words = material.words
+    yield words.heading("data", numbered=material.order != "vi")
+    yield words.paragraph("data", table=Reference("t:data"))
+    yield value_table("data", _rows(material), words)
+    if material.order != "en":
+        yield from _how(material)
+    yield from material.intro(
+        "geometry", material.equations("geometry") + material.equations("speed", "speed", "mean_piston_speed")
+    )
+
+
+def method(material: Material) -> Iterator[Block]:
+    """Yield the section about the method, with what it follows.
+
+    Parameters
+    ----------
+    material : Material
+        Of an engine.
+    """
+    yield material.words.heading("method")
+    yield from _how(material)
+
+
+def _how(material: Material) -> Iterator[Block]:
+    """Yield method, constants, crank-to-rod ratio of every stage, and what is followed."""
+    words, results = material.words, material.results
+    yield words.paragraph(
+        "method",
+        method=results_method(results, words.language),
+        pi=words.number(results.method.pi, digits=9 if results.method.pi == math.pi else 6),
+        gravity=words.number(results.method.gravity),
+    )
+    used, ratio = results.method.inertia_rod_ratio, results.summary["rod_ratio"]
+    if used is not None and not results.method.is_exact:
+        yield words.paragraph("two_ratios", used=words.number(used), ratio=words.number(ratio))
+    else:
+        yield words.paragraph("one_ratio", ratio=words.number(ratio))
+    yield words.paragraph("conventions")
+    if "piston_force" in results.columns:
+        yield words.paragraph("references", **{name: Citation(one) for name, one in _SOURCES.items()})
+
+
+def _rows(material: Material) -> Iterator[tuple[str, ...]]:
+    """Yield what is given, row by row."""
+    words, machine, summary = material.words, material.machine, material.summary
+    known = {**summary, "rotational_speed": machine.speed, "angular_acceleration": machine.angular_acceleration}
+    for key in _GEAR:
+        if known.get(key):
+            yield value_row(key, known[key], words)
+    cylinder, masses = machine.cylinder, machine.masses
+    if cylinder is not None:
+        yield value_row("bore", cylinder.bore, words)
+        for key in ("clearance_volume", "compression_ratio", "inclination"):
+            value = getattr(cylinder, key)
+            if value:
+                yield value_row(key, value, words)
+    if masses is not None:
+        parts = {
+            "piston_mass": masses.piston,
+            "rod_small_end_mass": masses.rod_small_end,
+            "rod_big_end_mass": masses.rod_big_end,
+            "rod_inertia_excess": masses.rod_inertia_excess,
+            "crank_mass": masses.crank,
+        }
+        area = summary.get("piston_area") if material.per_area else None
+        yield from (value_row(key, value, words, area=area) for key, value in parts.items() if value)
+    if machine.gas is not None:
+        yield value_row("cycle_angle", math.radians(machine.gas.cycle), words)
+        if machine.gas.is_absolute:
+            yield value_row("ambient_pressure", machine.gas.ambient, words)
+    if machine.engine is not None and len(machine.engine.layout.places) > 1:
+        yield from _engine(machine.engine, words)
+    if machine.engine is not None:
+        yield from _sizes(machine.engine.bearings, words)
+        if machine.engine.fluctuation is not None:
+            yield value_row("speed_fluctuation", machine.engine.fluctuation, words)
+
+
+def _engine(engine: Engine, words: EngineWords) -> Iterator[tuple[str, ...]]:
+    layout = engine.layout
+    yield value_row("cylinder_count", float(len(layout.places)), words)
+    yield (words.column("arrangement"), "–", words.column(layout.kind), "–")
+    yield (words.column("order"), "–", "–".join(map(str, layout.firing_order)), "–")
+
+
+def _sizes(bearings: Bearings, words: EngineWords) -> Iterator[tuple[str, ...]]:
+    for key, name, part in _SIZES:
+        value = getattr(bearings, name)
+        if value is not None:
+            row = QUANTITIES[key]
+            yield (
+                f"{label(key, words.language)}, {word(part, words.language)}",
+                row.symbol(words.language),
+                words.number(value * 1e3),
+                printed_unit("mm", words.language),
+            )
+
+
+def cycle_rows(material: Material) -> list[tuple[str, ...]]:
+    """Return what is given or chosen for the working cycle: its values that no step gives.
+
+    Parameters
+    ----------
+    material : Material
+        Of an engine.
+    """
+    given = {one.key for one in cycle_quantities.ROWS} - {one.key for one in material.results.steps}
+    left = [key for key in material.summary if key in given and key != "cylinder_count"]
+    return [value_row(key, material.summary[key], material.words) for key in left]

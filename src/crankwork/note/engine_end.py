@@ -1,0 +1,141 @@
+"""The end of the note of an engine: checks, main results, sources and appendix."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from crankwork.note.document import Bibliography, Block, ItemList, Reference, Runs, Table
+from crankwork.note.engine_material import Material
+from crankwork.note.engine_motion import errors
+from crankwork.note.engine_shaft import balance, evenness, mains
+from crankwork.note.engine_tables import value_row, value_table
+from crankwork.note.stated_units import printed_unit
+from crankwork.report.language import displayed, key_unit, label, word
+from crankwork.report.notices import notice_text
+
+_MAIN = (
+    "mean_piston_speed", "piston_velocity_max", "piston_acceleration_max", "piston_acceleration_min",
+    "gas_pressure_max", "inertia_force_max", "inertia_force_min", "piston_force_max", "piston_force_min",
+    "side_force_max", "tangential_force_max", "tangential_force_min", "rotating_inertia_force", "crank_torque_max",
+    "crank_torque_min", "mean_torque", "indicated_work", "indicated_mean_pressure", "indicated_power",
+    "effective_mean_pressure", "effective_power", "effective_torque", "effective_efficiency",
+    "effective_fuel_consumption", "displacement", "mean_total_torque", "total_torque_max", "total_torque_min",
+    "excess_work", "flywheel_inertia", "speed_fluctuation", "mean_crankpin_load", "crankpin_load_max",
+    "oil_hole_angle",
+)  # fmt: skip
+
+
+def checks(material: Material) -> Iterator[Block]:
+    """Yield the identities that were checked, the errors of the method, and what the reader should know.
+
+    Parameters
+    ----------
+    material : Material
+        Of an engine.
+    """
+    words, results = material.words, material.results
+    found = errors(material)
+    if not (results.checks or found or results.notices):
+        return
+    yield words.heading("checks", numbered=material.order != "vi")
+    if results.checks:
+        yield words.paragraph("checks", table=Reference("t:identities"))
+        rows = [
+            (word(key, words.language), words.number(100.0 * one, digits=2)) for key, one in results.checks.items()
+        ]
+        titles: tuple[Runs, ...] = ((words.column("identity"),), (words.column("residual"),))
+        yield Table(words.caption("identities"), titles, rows, align="lr", label="t:identities")
+    if found:
+        yield words.paragraph("errors", table=Reference("t:errors"))
+        yield _errors(material, found)
+    if results.notices:
+        yield words.paragraph("notices")
+        yield ItemList(tuple((notice_text(one.code, one.values, words.language),) for one in results.notices))
+
+
+def _errors(material: Material, found: dict[str, tuple[float, float]]) -> Table:
+    """Return the errors of the method, each also as a share of the largest value."""
+    words = material.words
+    rows = [
+        (
+            label(key.removesuffix("_error"), words.language),
+            words.number(displayed(key, error), digits=4),
+            printed_unit(key_unit(key), words.language) or "–",
+            words.number(100 * share, digits=2),
+        )
+        for key, (error, share) in found.items()
+    ]
+    titles: tuple[Runs, ...] = tuple((words.column(one),) for one in ("quantity", "value", "unit", "relative"))
+    return Table(words.caption("errors"), titles, rows, align="lrcr", label="t:errors")
+
+
+def conclusion(material: Material) -> Iterator[Block]:
+    """Yield the main results as a table.
+
+    Parameters
+    ----------
+    material : Material
+        Of an engine.
+    """
+    words = material.words
+    yield words.heading("results" if material.order == "en" else "conclusion")
+    yield words.paragraph("conclusion", table=Reference("t:summary"))
+    keys = [key for one in _MAIN for key in material.summary if key == one or key.startswith(f"{one}.")]
+    yield value_table("summary", [_row(material, key) for key in keys], words)
+
+
+def _row(material: Material, key: str) -> tuple[str, ...]:
+    """Return name, symbol, value and unit of a single value, and the crank angle where it is reached."""
+    words, summary = material.words, material.summary
+    area = summary["piston_area"] if material.per_area else None
+    kind, dot, name = key.partition(".")
+    at = summary.get(f"{kind}_angle{dot}{name}") if kind.endswith(("_max", "_min")) else None
+    row = value_row(key, summary[key], words, area=area)
+    return (*row, "–" if at is None else words.amount(at, "deg", digits=4))
+
+
+def sources(material: Material) -> Iterator[Block]:
+    """Yield the bibliography.
+
+    Parameters
+    ----------
+    material : Material
+        Of an engine.
+    """
+    yield material.words.heading("sources")
+    yield Bibliography()
+
+
+def appendix(material: Material) -> Iterator[Block]:
+    """Yield what no section has given: journals, balance and flywheel in Vietnamese notes, further values, figures.
+
+    Parameters
+    ----------
+    material : Material
+        Of an engine.
+    """
+    blocks: list[Block] = []
+    if material.order == "vi":
+        blocks += [*mains(material), *balance(material), *evenness(material)]
+    rest = [*material.intro("further", material.remaining_steps()), *_further(material)]
+    if rest:
+        blocks += [material.words.heading("more", 2, numbered=False), *rest]
+    if blocks:
+        yield material.words.heading("appendix")
+        yield from blocks
+
+
+def _further(material: Material) -> Iterator[Block]:
+    """Yield single values that are not among the main results, and figures that no section has."""
+    words, summary = material.words, material.summary
+    main = {key for one in _MAIN for key in summary if key == one or key.startswith(f"{one}.")}
+    stepped = {one.key for group in material.groups.values() for one in group.steps}
+    left = [
+        key
+        for key in summary
+        if key not in main | stepped and not key.partition(".")[0].endswith(("_max_angle", "_min_angle", "_error"))
+    ]
+    if left:
+        yield words.paragraph("more", table=Reference("t:more"))
+        yield value_table("more", [_row(material, key) for key in left], words)
+    yield from material.presented((), material.remaining_figures())

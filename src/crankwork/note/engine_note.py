@@ -1,0 +1,72 @@
+"""The note of an engine: which sections it has, in which order, by school."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from crankwork.analysis import Results
+from crankwork.machine import Machine
+from crankwork.note.document import Block, Contents, Note, PageBreak, TitlePage
+from crankwork.note.engine_cycle import cycle, indicator
+from crankwork.note.engine_data import data, method, preface
+from crankwork.note.engine_end import appendix, checks, conclusion, sources
+from crankwork.note.engine_forces import across, along, dynamics, inertia
+from crankwork.note.engine_material import Material, whole
+from crankwork.note.engine_motion import acceleration, displacement, kinematics, velocity
+from crankwork.note.engine_shaft import balance, big_end, crankpin, evenness, mains, polar, total, unrolled, wear
+from crankwork.note.engine_tables import explained
+from crankwork.note.options import NoteOptions
+
+Section = Callable[[Material], Iterator[Block]]
+
+_ORDERS: dict[str, tuple[Section, ...]] = {
+    "ru": (
+        data, cycle, indicator, kinematics, dynamics, total, crankpin, mains, balance, evenness, checks, conclusion,
+        sources, appendix,
+    ),
+    # between the data and the checks the twelve sections that such notes have
+    "vi": (
+        preface, cycle, data, indicator, displacement, velocity, acceleration, inertia, along, across, total, polar,
+        unrolled, big_end, wear, checks, conclusion, sources, appendix,
+    ),
+    # engineers who read English want the results before the way to them
+    "en": (
+        data, method, conclusion, cycle, indicator, kinematics, dynamics, total, crankpin, mains, balance, evenness,
+        checks, sources, appendix,
+    ),
+}  # fmt: skip
+
+
+def engine_note(results: Results, options: NoteOptions) -> Note:
+    """Return the note of an engine, or of a crank gear of which less is known.
+
+    Parameters
+    ----------
+    results : Results
+        Their results.
+    options : NoteOptions
+        Language, school, title and what else is chosen.
+
+    Returns
+    -------
+    Note
+        Title page, contents, the sections of the school, sources and appendix; what is not known is left out.
+
+    References
+    ----------
+    kolchin_demidov_2008, ch. 4-9.
+    """
+    machine = results.machine
+    has_engine = isinstance(machine, Machine) and machine.engine is not None
+    material = Material(whole(results, options.order), options, has_engine=has_engine)
+    words = material.words
+    blocks: list[Block] = [TitlePage(), Contents(), PageBreak()]
+    for section in _ORDERS[options.order]:
+        blocks.extend(section(material))
+    return Note(
+        options.title or results.machine.title or words.title("crank_gear"),
+        options.language,
+        tuple(explained(blocks, words)),
+        subtitle=words.title("subtitle"),
+        authors=(options.author,) if options.author else (),
+    )

@@ -1,0 +1,245 @@
+"""Worked steps of whole engines: values of the results at any crank angle, rows of the listings, factors of books."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import crankwork
+from crankwork.analysis.cylinders import cylinder_columns, whole_engine
+from crankwork.analysis.steps import worked_steps
+from crankwork.cylinders.engines import boxer, inline, radial, vee
+from crankwork.expressions import evaluate, record
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.machine import Bearings, Engine
+from crankwork.quantities import QUANTITIES, base_key
+from crankwork.report.language import has_word
+from crankwork.steps import Given, Step, SumStep, all_steps
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+PETROL = crankwork.read(EXAMPLES / "spark-engine.toml")
+LAYOUTS = {
+    "I1": inline(1, (1,))[0],
+    "I4": inline(4, (1, 3, 4, 2), spacing=0.12)[0],
+    "V6": vee(6, (1, 4, 2, 5, 3, 6), 90.0, spacing=0.12, bank_stagger=0.03, throws=(0, 120, 240), uneven=True)[0],
+    "V8": vee(8, (1, 5, 4, 2, 6, 3, 7, 8), 90.0, spacing=0.12)[0],
+    "B4": boxer(4, (1, 4, 3, 2), spacing=0.12)[0],
+    "R7": radial(7, master=0)[0],
+}
+WHOLE = (
+    "firing",
+    "engine_torque",
+    "articulated",
+    "bearings",
+    "bearing_loads",
+    "torque_harmonics",
+    "uniformity",
+    "balance",
+)
+
+
+def _machine(layout, **changes):
+    method = PETROL.method.named("exact")
+    return replace(PETROL, method=replace(method, inertia_rod_ratio=None), engine=Engine(layout, **changes))
+
+
+MACHINES = {path.stem: crankwork.read(path) for path in sorted(EXAMPLES.glob("*.toml"))}
+MACHINES = {name: one for name, one in MACHINES.items() if getattr(one, "engine", None) is not None}
+MACHINES |= {name: _machine(layout) for name, layout in LAYOUTS.items()}
+SIZED = {"bearings": Bearings(0.06, 0.03, 0.07, 0.03, 0.025, 0.03), "counterweight": 0.02, "rotating_share": 0.4}
+MACHINES |= {
+    "weights": replace(_machine(LAYOUTS["V8"], **SIZED), has_gravity=True),
+    "unsteady": replace(_machine(LAYOUTS["I4"], fluctuation=0.02, inertia=0.1), angular_acceleration=900.0),
+    "radial with weights": replace(MACHINES["radial-five"], has_gravity=True),
+    "gas alone": replace(_machine(LAYOUTS["I4"]), masses=None),
+    "motion alone": replace(_machine(LAYOUTS["I4"]), masses=None, gas=None),
+    "enough": _machine(LAYOUTS["I4"], fluctuation=0.02, inertia=1e3),
+    "shafts": _machine(LAYOUTS["I4"], balance_shafts=(2,), **SIZED),
+}
+every_machine = pytest.mark.parametrize("machine", MACHINES.values(), ids=MACHINES)
+
+
+def _steps(results, group, **angles):
+    """Return the steps of a group by key."""
+    found = {one.name: one for one in worked_steps(results, **angles)}
+    return {step.key: step for step in all_steps(found[group].steps)} if group in found else {}
+
+
+@every_machine
+@pytest.mark.parametrize("angle", [0.0, 17.3, 200.0, 355.5])
+def test_steps_at_any_angle_are_the_columns_there(machine, angle):
+    results = crankwork.analyse(machine, CrankGrid.from_degrees([angle]))
+    compared = set()
+    for group in worked_steps(results, crank_angle=angle, force_angle=angle):
+        if group.name not in ("engine_torque", "articulated", "bearings"):
+            continue
+        assert group.crank_angle == math.radians(angle)
+        for step in all_steps(group.steps):
+            if step.key in results.columns and step.key not in compared:
+                scale = max(abs(results.columns[step.key][0]), *(abs(one.value) for one in group.steps))
+                assert step.value == pytest.approx(results.columns[step.key][0], rel=1e-12, abs=1e-14 * scale), step.key
+                compared.add(step.key)
+    shown = ("crank_torque.", "total_torque", "journal_torque.", "crankpin_", "big_end", "small_end", "main_journal")
+    wanted = {key for key in results.columns if key.startswith(shown)}
+    assert wanted <= compared
+    assert bool(wanted) == (machine is not MACHINES["motion alone"])
+
+
+@every_machine
+def test_steps_are_their_formulas_belong_to_quantities_and_are_told_once(machine):
+    results = crankwork.analyse(machine)
+    for group in worked_steps(results):
+        if group.name not in WHOLE:
+            continue
+        assert has_word(group.name)
+        told = [step.key for step in all_steps(group.steps) if not isinstance(step, Given)]
+        assert sorted(told) == sorted(set(told))
+        for step in all_steps(group.steps):
+            kind, _, name = step.key.partition(".")
+            assert base_key(kind) in QUANTITIES, step.key
+            assert all(part.isdigit() or has_word(part) for part in name.split(".") if part), step.key
+            if isinstance(step, Step):
+                assert evaluate(record(step.formula.function), step.values) == step.value, step.key
+            if isinstance(step, Step | SumStep) and step.key in results.summary:
+                assert step.value == pytest.approx(results.summary[step.key], rel=1e-12), step.key
+
+
+@every_machine
+def test_rows_of_the_listings_are_those_of_the_steps(machine):
+    results = crankwork.analyse(machine)
+    compared = 0
+    for table, group in (("balance", "balance"), ("bearing_loads", "bearing_loads")):
+        if table not in results.listings:
+            continue
+        listing, steps = results.listings[table], _steps(results, group)
+        for key in ("free_force", "free_moment", "bearing_pressure", "bearing_pressure_max", "bearing_load_ratio"):
+            rows = listing.columns.get(key, ())
+            scale = max((abs(one) for one in rows if np.isfinite(one)), default=0.0)
+            for name, value in zip(listing.names, rows, strict=False):
+                if np.isnan(value):
+                    assert f"{key}.{name}" not in steps
+                    continue
+                assert steps[f"{key}.{name}"].value == pytest.approx(value, rel=1e-12, abs=1e-13 * scale), name
+                compared += 1
+    assert compared > 4 or machine is MACHINES["motion alone"]
+
+
+@every_machine
+def test_harmonics_of_the_steps_are_rows_of_the_listing(machine):
+    results = crankwork.analyse(machine)
+    steps = _steps(results, "torque_harmonics")
+    for number in range(1, len(steps) // 4 + 1):
+        columns = results.listings["torque_harmonics"].columns
+        row = columns["harmonic_order"].tolist().index(steps[f"harmonic_order.{number}"].value)
+        for key in ("harmonic_amplitude", "total_harmonic_amplitude"):
+            value = columns[key][row]
+            scale = float(np.max(columns["total_harmonic_amplitude"]))
+            assert steps[f"{key}.{number}"].value == pytest.approx(value, rel=1e-10, abs=1e-10 * scale)
+    uniform = len(set(map(id, whole_engine(results.solved).cylinders))) == 1
+    assert bool(steps) == (uniform and "crank_torque" in results.columns)
+
+
+@pytest.mark.parametrize("name", ["radial-five", "radial with weights"])
+@pytest.mark.parametrize("angle", [10.0, 250.7, 463.0])
+def test_the_articulated_rod_is_that_of_the_second_cylinder(name, angle):
+    results = crankwork.analyse(MACHINES[name])
+    steps = _steps(results, "articulated", force_angle=angle)
+    columns = cylinder_columns(whole_engine(results.solved), np.array([angle]))
+    keys = {
+        "piston_velocity", "piston_acceleration", "gas_force", "inertia_force", "piston_force", "side_force",
+        "rod_force", "knuckle_couple", "knuckle_side_force",
+    }  # fmt: skip
+    for key in keys:
+        assert steps[f"{key}.2"].value == pytest.approx(columns[key][1, 0], rel=1e-11), key
+    assert math.asin(steps["rod_sine.2"].value) == pytest.approx(columns["rod_angle"][1, 0], rel=1e-12)
+    torque = steps["piston_force.2"].value * steps["piston_transfer_1.2"].value
+    shown = _steps(results, "engine_torque", force_angle=angle)
+    assert shown["crank_torque.2"].value == pytest.approx(torque, rel=1e-9)
+
+
+def test_factors_of_usual_layouts_are_those_of_the_books():
+    """Kolchin and Demidov, ch. 8: four in line keep 4 P_jII, a cross-plane V8 keeps the moment sqrt(10) P_jI a."""
+    four = _steps(crankwork.analyse(MACHINES["I4"]), "balance")
+    assert (four["force_factor.1"].value, four["force_factor.2"].value) == (0.0, pytest.approx(4.0))
+    assert (four["moment_factor.1"].value, four["moment_factor.2"].value) == (0.0, 0.0)
+    eight = _steps(crankwork.analyse(MACHINES["V8"]), "balance")
+    assert [eight[f"force_factor.{order}"].value for order in (1, 2, 4)] == pytest.approx([0, 0, math.sqrt(32)])
+    assert eight["moment_factor.1"].value == pytest.approx(math.sqrt(10), rel=1e-13)
+    assert eight["moment_factor.2"].value == 0
+
+
+def test_the_textbook_shows_the_two_orders_that_it_has():
+    """m r w^2 and m r w^2 lambda."""
+    results = crankwork.analyse(crankwork.with_method(MACHINES["petrol-four"], "textbook"))
+    steps = _steps(results, "balance")
+    one = results["reciprocating_mass"] * results["crank_radius"] * results["speed"] ** 2
+    assert steps["order_inertia_force.1"].value == pytest.approx(one, rel=1e-14)
+    assert steps["free_force.reciprocating.2"].value == pytest.approx(4 * one * results["rod_ratio"], rel=1e-13)
+    assert {key for key in steps if key.startswith("order_inertia_force")} == {
+        "order_inertia_force.1", "order_inertia_force.2",
+    }  # fmt: skip
+
+
+def test_even_and_uneven_firing():
+    assert math.degrees(_steps(crankwork.analyse(MACHINES["I4"]), "firing")["firing_interval"].value) == 180.0
+    steps = _steps(crankwork.analyse(MACHINES["V6"]), "firing")
+    after = [math.degrees(steps[f"firing_interval.{k}"].value) for k in (1, 4, 2, 5, 3, 6)]
+    assert "firing_interval" not in steps
+    assert after == pytest.approx([90.0, 150.0] * 3)
+
+
+def test_the_mean_torque_is_that_of_all_works():
+    results = crankwork.analyse(MACHINES["radial-five"])
+    step = _steps(results, "uniformity")["mean_total_torque"]
+    assert isinstance(step, SumStep)
+    assert len({one.value for one in step.terms}) > 1
+    assert step.value * 4 * math.pi == pytest.approx(
+        sum(one.space.work for one in whole_engine(results.solved).cylinders)
+    )
+
+
+def test_a_flywheel_that_is_not_needed_is_given_as_none():
+    steps = _steps(crankwork.analyse(MACHINES["enough"]), "uniformity")
+    assert steps["flywheel_inertia"] == Given("flywheel_inertia", 0.0)
+    assert 0 < steps["speed_fluctuation"].value < 0.02
+
+
+def test_a_counterweight_takes_its_shares_and_what_is_given():
+    machine = _machine(LAYOUTS["I4"], counterweight=0.01, rotating_share=0.5, reciprocating_share=0.25)
+    steps, m = _steps(crankwork.analyse(machine), "balance"), machine.masses
+    r = crankwork.analyse(machine)["crank_radius"]
+    expected = (0.5 * (m.rod_big_end + m.crank) + 0.25 * m.reciprocating) * r + 0.01
+    assert steps["counterweight_moment.1"].value == pytest.approx(expected, rel=1e-14)
+
+
+def test_a_size_that_was_rounded_is_shown_before_and_after():
+    text = crankwork.template("whole-engine")
+    for old, new in (
+        ('radius = "40 mm"', "# radius"), ('bore = "80 mm"\n', ""), ('# power = "60 kW"', 'power = "60 kW"'),
+    ):  # fmt: skip
+        assert old in text
+        text = text.replace(old, new, 1)
+    results = crankwork.analyse(crankwork.read_machine(text))
+    groups = worked_steps(results)
+    keys = [step.key for step in groups[0].steps]
+    assert groups[0].name == "cycle"
+    assert len(keys) == len(set(keys))
+    steps = {step.key: step for step in groups[0].steps}
+    asked, taken = steps["swept_volume.before_rounding"].value, steps["swept_volume.cycle"].value
+    assert asked != taken
+    assert taken == pytest.approx(results["swept_volume"], rel=1e-12)
+    assert asked == pytest.approx(taken, rel=0.05)
+    for key in keys:
+        if key in results.summary:
+            assert steps[key].value == pytest.approx(results.summary[key], rel=1e-12), key
+
+
+def test_what_a_cycle_was_given_comes_before_what_it_calculates():
+    group = worked_steps(crankwork.analyse(MACHINES["petrol-four"]))[0]
+    keys = [step.key for step in group.steps]
+    assert keys.index("excess_air") < keys.index("air_mass_needed") < keys.index("filling_factor.diagram")
+    assert "displacement.cycle" in keys
