@@ -19,7 +19,7 @@ import crankwork
 from crankwork.description.machine_file import template
 from crankwork.dynamics.efficiency import Parallel, Series
 from crankwork.note.contents import note_of, sheets_of
-from crankwork.note.document import Equation, Figure, Heading, Math, Note, Paragraph, Table
+from crankwork.note.document import Equation, Figure, Heading, ItemList, Math, Note, Paragraph, Table
 from crankwork.note.formats import WRITERS
 from crankwork.note.linkage_forces import differences
 from crankwork.note.linkage_words import Words, subscript
@@ -239,6 +239,40 @@ def test_a_note_without_a_title_has_one_of_its_kind():
             assert found.title == linkage_headings.HEADINGS[titles][k]
             assert found.authors == ("А. Б.",)
     assert note("press", title="Пресс").title == "Пресс"
+
+
+def four_bar(tmp_path: Path, *changes: tuple[str, str]) -> crankwork.Results:
+    text = template("four-bar")
+    for old, new in changes:
+        assert re.search(old, text)
+        text = re.sub(old, new, text)
+    (tmp_path / "four-bar.toml").write_text(text, encoding="utf-8")
+    return crankwork.analyse(crankwork.read(tmp_path / "four-bar.toml"))
+
+
+def test_a_linkage_that_does_not_turn_fully_keeps_the_numbers_of_its_positions(tmp_path):
+    found = note_of(four_bar(tmp_path, ("62.5 mm", "150 mm")), NoteOptions(language="ru", figures=False))
+    rows = table(found, "transfer").rows
+    assert [(row[0], row[1]) for row in rows] == [("1", "30"), ("2", "60"), ("3", "90")]
+    (notices,) = [one for one in found.blocks if isinstance(one, ItemList)]
+    assert re.fullmatch(r"механизм движется только от \d+° до \d+°", notices.items[0][0])
+
+
+def test_a_linkage_without_masses_has_its_motion_only(tmp_path):
+    whole = four_bar(tmp_path, (r", mass.*?centre = (\[.*?\]|\"P\")", ""))
+    assert headings(note_of(whole, NoteOptions(language="en", figures=False))) == [
+        "Task and data", "Main results", "Structure", "Kinematics", "References",
+        "Appendix: results over the whole turn",
+    ]  # fmt: skip
+
+
+def test_an_accelerating_crank_is_said_and_worked(tmp_path):
+    whole = four_bar(tmp_path, ('"100 rpm"', '"100 rpm"\nangular_acceleration = "5 rad/s2"'))
+    found = note_of(whole, NoteOptions(figures=False))
+    worked = {one.step.key: one.step for one in found.blocks if isinstance(one, Equation)}
+    assert worked["dynamic_torque"].values["eps"] == 5
+    runs = [run for one in found.blocks if isinstance(one, Paragraph) for run in one.runs]
+    assert "Angular acceleration of the crank: " in runs
 
 
 def test_the_chain_of_efficiencies_is_worked_where_it_is_known():

@@ -11,9 +11,9 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.loads.gas import cylinder_volume, polytropic_pressure
 from crankwork.loads.indicator import Segment
 from crankwork.note.document import Block, Math, Reference, Runs, Table
-from crankwork.note.engine_data import cycle_rows
+from crankwork.note.engine_data import cycle_keys
 from crankwork.note.engine_material import Material
-from crankwork.note.engine_tables import column_table, value_table
+from crankwork.note.engine_tables import column_table, value_row, value_table
 from crankwork.report.language import displayed, word
 from crankwork.steps import Step
 
@@ -78,21 +78,23 @@ def cycle(material: Material) -> Iterator[Block]:
     material : Material
         Of an engine.
     """
-    words, steps = material.words, material.results.steps
+    words = material.words
+    steps = [one for one in material.groups["cycle"].steps if isinstance(one, Step)] if material.results.steps else []
     if not steps:
         return
     numbered = material.order != "vi"
     yield words.heading("cycle", numbered=numbered)
-    rows = cycle_rows(material)
-    if rows:
+    given = cycle_keys(material)
+    if given:
         yield words.paragraph("cycle_data", table=Reference("t:cycle_data"))
+        rows = (value_row(key, material.summary[key], words) for key in given)
         yield value_table("cycle_data", rows, words)
     yield words.paragraph("cycle")
     for stage, some in _staged(steps).items():
         equations = material.worked(some)
         if equations:
             yield words.heading(stage, 2, numbered=numbered)
-        if stage == "heat_release":
+        if equations and stage == "heat_release":
             yield words.paragraph("heat_release")
         yield from equations
     yield from material.presented([_heat_balance(material)])
@@ -105,7 +107,7 @@ def _staged(steps: Sequence[Step]) -> dict[str, list[Step]]:
     current = "fuel"
     for one in steps:
         kind, dot, _ = one.key.partition(".")
-        if not dot or kind == "heat_share":
+        if not dot or kind == "heat_share" or one.key.endswith(".cycle"):
             current = stages.get(kind, current)
         found[current].append(one)
     return found

@@ -16,12 +16,13 @@ from crankwork.quantities import cycle as cycle_quantities
 from crankwork.report.language import label, word
 from crankwork.report.summary import results_method
 
-_GEAR = ("rotational_speed", "angular_acceleration", "crank_radius", "rod_length", "rod_ratio", "offset")
+GEAR = ("rotational_speed", "angular_acceleration", "crank_radius", "rod_length", "rod_ratio", "offset")
 _SIZES = (
     ("bearing_diameter", "crankpin_diameter", "crankpin"), ("bearing_length", "crankpin_length", "crankpin"),
     ("bearing_diameter", "main_diameter", "main_journal"), ("bearing_length", "main_length", "main_journal"),
     ("bearing_diameter", "pin_diameter", "small_end"), ("bearing_length", "pin_length", "small_end"),
 )  # fmt: skip
+_ELSEWHERE = ("cylinder_count", "displacement")
 _SOURCES = {"first": "kolchin_demidov_2008, ch. 7", "second": "kolchin_demidov_2008, ch. 9"}
 
 
@@ -91,7 +92,7 @@ def _rows(material: Material) -> Iterator[tuple[str, ...]]:
     """Yield what is given, row by row."""
     words, machine, summary = material.words, material.machine, material.summary
     known = {**summary, "rotational_speed": machine.speed, "angular_acceleration": machine.angular_acceleration}
-    for key in _GEAR:
+    for key in GEAR:
         if known.get(key):
             yield value_row(key, known[key], words)
     cylinder, masses = machine.cylinder, machine.masses
@@ -143,7 +144,7 @@ def _sizes(bearings: Bearings, words: EngineWords) -> Iterator[tuple[str, ...]]:
             )
 
 
-def cycle_rows(material: Material) -> list[tuple[str, ...]]:
+def cycle_keys(material: Material) -> list[str]:
     """Return what is given or chosen for the working cycle: its values that no step gives.
 
     Parameters
@@ -152,5 +153,4 @@ def cycle_rows(material: Material) -> list[tuple[str, ...]]:
         Of an engine.
     """
     given = {one.key for one in cycle_quantities.ROWS} - {one.key for one in material.results.steps}
-    left = [key for key in material.summary if key in given and key != "cylinder_count"]
-    return [value_row(key, material.summary[key], material.words) for key in left]
+    return [key for key in material.summary if key in given and key not in _ELSEWHERE]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from crankwork.note.document import Bibliography, Block, ItemList, Reference, Runs, Table
+from crankwork.note.engine_data import GEAR, cycle_keys
 from crankwork.note.engine_material import Material
 from crankwork.note.engine_motion import errors
 from crankwork.note.engine_shaft import balance, evenness, mains
@@ -129,11 +130,13 @@ def _further(material: Material) -> Iterator[Block]:
     """Yield single values that are not among the main results, and figures that no section has."""
     words, summary = material.words, material.summary
     main = {key for one in _MAIN for key in summary if key == one or key.startswith(f"{one}.")}
-    stepped = {one.key for group in material.groups.values() for one in group.steps}
+    main |= {*GEAR, "bore", *(cycle_keys(material) if material.results.steps else ())}
     left = [
         key
         for key in summary
-        if key not in main | stepped and not key.partition(".")[0].endswith(("_max_angle", "_min_angle", "_error"))
+        if key not in main
+        and not material.is_shown(key)
+        and not key.partition(".")[0].endswith(("_max_angle", "_min_angle", "_error"))
     ]
     if left:
         yield words.paragraph("more", table=Reference("t:more"))

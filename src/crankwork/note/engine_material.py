@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -20,7 +21,7 @@ from crankwork.note.options import NoteOptions
 from crankwork.report.figure_data import figure_title
 from crankwork.report.figures import figures
 from crankwork.report.language import key_unit, label
-from crankwork.steps import AnyStep, Given, ProductStep, StepGroup, SumStep, all_steps
+from crankwork.steps import AnyStep, Given, ProductStep, Step, StepGroup, SumStep
 from crankwork.units import from_si
 
 _FOUR_STROKES = 720.0
@@ -47,6 +48,8 @@ _SHOWN: Mapping[str, tuple[str, ...]] = {
     "balance_orders": ("free_force", "free_moment"),
     "torque_harmonics": ("harmonic_amplitude", "total_harmonic_amplitude"),
 }
+# values without a formula that a table of their own gives
+_TABLED = ("free_force", "free_moment", "firing_angle", "cylinder_count", "bearing_load_max", "mean_bearing_load")
 _OVER_CYCLE = {"accumulated_torque": "accumulated_torque", "main_journal_polar": "main_journals"}
 
 
@@ -89,6 +92,8 @@ class Material:
     has_engine: bool = True
     _shown: set[tuple[object, ...]] = field(default_factory=set)
     _told: set[str] = field(default_factory=set)
+    _keys: set[str] = field(default_factory=set)
+    _formulas: set[str] = field(default_factory=set)
 
     @property
     def machine(self) -> Machine:
@@ -152,8 +157,10 @@ class Material:
             return {}
         return figures(self.results, language=self.options.language, per_area=self.per_area)
 
-    def equations(self, group: str, *kinds: str) -> list[Block]:
+    def equations(self, group: str, *kinds: str, first: bool = False) -> list[Block]:
         """Return equations of the steps of a group that the note has not shown yet.
+
+        What results without a formula and stands in a table is left to the table.
 
         Parameters
         ----------
@@ -161,14 +168,18 @@ class Material:
             Name of the group.
         *kinds : str
             Quantities that they give; all if none is named.
+        first : bool
+            Whether each formula is worked once, for the first of what the table has.
         """
         steps = self.groups[group].steps if group in self.groups else ()
-        return self.worked(one for one in steps if not kinds or one.key.partition(".")[0] in kinds)
+        some = [one for one in steps if not kinds or one.key.partition(".")[0] in kinds]
+        some = [one for one in some if not (isinstance(one, Given) and one.key.partition(".")[0] in _TABLED)]
+        return self.worked(_first(some) if first else some)
 
     def worked(self, steps: Iterable[AnyStep]) -> list[Block]:
         """Return equations of steps that the note has not shown yet, terms before their sum."""
         found: list[Block] = []
-        for one in all_steps(steps):
+        for one in _lines(steps):
             mark = _identity(one)
             if mark in self._shown:
                 continue
@@ -177,8 +188,21 @@ class Material:
             if isinstance(one, SumStep | ProductStep):
                 # a sum prints its terms by their keys, which are no symbols where they have a long name
                 step = one._replace(terms=tuple(Given(self.words.symbol(term.key), term.value) for term in one.terms))
-            found.append(Equation(step, symbol=self.words.symbol(one.key)))
+            found.append(Equation(step, symbol=self.words.symbol(self._plain(one.key))))
+            self._keys.add(one.key)
+            self._formulas.add(_formula_name(one))
         return found
+
+    def _plain(self, key: str) -> str:
+        """Return the key of a value of the cycle without its mark, where the diagram gives the same."""
+        kind, _, name = key.partition(".")
+        summary = self.summary
+        same = name == "cycle" and kind in summary and math.isclose(summary.get(key, math.nan), summary[kind])
+        return kind if same else key
+
+    def is_shown(self, key: str) -> bool:
+        """Return whether an equation has given a value."""
+        return key in self._keys
 
     def intro(self, key: str, equations: list[Block], **values: Run | Runs) -> Iterator[Block]:
         """Yield a sentence and the equations that it leads to; nothing if there are none."""
@@ -222,8 +246,13 @@ class Material:
         return [name for name in left if self.has_engine or not name.startswith("main_")]
 
     def remaining_steps(self) -> list[Block]:
-        """Return equations of all steps that no section has shown."""
-        return [block for group in self.groups for block in self.equations(group)]
+        """Return equations of steps that no section has shown: single values, and formulas that are new."""
+        steps = [one for group in self.groups.values() for one in group.steps if not isinstance(one, Given)]
+        return self.worked(
+            one
+            for one in steps
+            if one.key not in self._keys and (one.key in self.summary or _formula_name(one) not in self._formulas)
+        )
 
     def _figure(self, name: str) -> Figure:
         self._told.add(name)
@@ -252,10 +281,33 @@ class Material:
 
 def _identity(step: AnyStep) -> tuple[object, ...]:
     """Return what makes two steps the same line."""
-    formula = getattr(step, "formula", None)
-    if formula is None:
+    if not isinstance(step, Step):
         return (step.key, step.value)
-    return (formula.name, *step.values.values(), step.key.partition(".")[2])  # type: ignore[union-attr]
+    mark = step.key.partition(".")[2]
+    return (step.formula.name, *step.values.values(), "" if mark == "cycle" else mark)
+
+
+def _lines(steps: Iterable[AnyStep]) -> Iterator[AnyStep]:
+    """Yield steps, before each sum or product the terms that have a formula: the others stand in the sum itself."""
+    for one in steps:
+        if isinstance(one, SumStep | ProductStep):
+            yield from _lines(term for term in one.terms if not isinstance(term, Given))
+        yield one
+
+
+def _formula_name(step: AnyStep) -> str:
+    """Return the name of the formula of a step; of a sum, what it sums."""
+    return step.formula.name if isinstance(step, Step) else step.key.partition(".")[0]
+
+
+def _first(steps: list[AnyStep]) -> Iterator[AnyStep]:
+    """Yield the first step of each formula, and for each quantity the first value without one."""
+    seen: set[tuple[str, str]] = set()
+    for one in steps:
+        mark = (_formula_name(one), one.key.partition(".")[0])
+        if mark not in seen:
+            seen.add(mark)
+            yield one
 
 
 def _listed(labels: list[str]) -> Runs:

@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 
-from crankwork.cylinders import balance as balance_formulas
-from crankwork.cylinders import bearings as bearing_formulas
-from crankwork.cylinders import torque as torque_formulas
 from crankwork.note.document import Block, Math, Reference, Runs, Table
 from crankwork.note.engine_material import Material
 from crankwork.note.engine_tables import angle_table, column_table, folded, listing_table
-from crankwork.shaft import flywheel as flywheel_formulas
-from crankwork.shaft import flywheel_parts
-from crankwork.shaft.fluctuation import fluctuation_of_energy
-from crankwork.steps import AnyStep, Given, Step, worked_step
 
-_NEAR = 1e-9
-_HARMONICS = ("torque_harmonics", "phase_stars")
+_AMPLITUDES = ("harmonic_amplitude", "total_harmonic_amplitude")
+_ON_CRANKPIN = (
+    "big_end_inertia_force", "crankpin_radial_force", "crankpin_tangential_force", "crankpin_load",
+)  # fmt: skip
+_STATISTICS = (
+    "mean_crankpin_load", "bearing_load_ratio", "bearing_pressure", "bearing_pressure_max", "reversal_duration",
+    "reversal_ratio",
+)  # fmt: skip
+_ON_ROD = ("big_end_load", "piston_pin_force", "small_end_load")
+_OF_ORDERS = (
+    "acceleration_coefficient", "order_inertia_force", "force_factor", "free_force", "moment_factor", "free_moment",
+    "counterweight_moment", "shaft_unbalance", "unbalance_force",
+)  # fmt: skip
+_ON_MAINS = ("shaft_unbalance", "unbalance_force", "journal_share", "main_journal_load")
 
 
 def _cylinders(material: Material) -> int:
@@ -42,37 +46,28 @@ def total(material: Material) -> Iterator[Block]:
     yield words.paragraph("one_cylinder" if count == 1 else "total")
     if count > 1:
         yield words.paragraph("order", order="–".join(map(str, engine.layout.firing_order)))
-    yield from material.worked(_torque_steps(material, count))
+    yield from material.equations("firing", "displacement", "firing_interval")
+    yield from material.equations("uniformity", "mean_total_torque")
     firing = listing_table(material, "firing", "firing") if count > 1 else None
     if firing is not None:
         yield from material.presented([firing])
+    if count > 1:
+        yield from material.worked_at("engine_torque")
+        yield from material.equations("engine_torque", "total_torque")
     if material.order == "vi":
         yield words.paragraph("tangential_sum")
     yield from material.presented([_total_table(material)], ("total_torque",))
     if count == 1 and "torque" in material.drawn:
         yield words.paragraph("see_figure", figures=Reference("f:torque"))
     if count > 1:
-        yield from material.presented([listing_table(material, "torque_harmonics", "harmonics")], _HARMONICS)
+        yield from _harmonics(material)
 
 
-def _torque_steps(material: Material, count: int) -> Iterator[AnyStep]:
-    summary, cycle = material.summary, math.radians(material.machine.cycle)
-    intervals = material.results.listings["firing"].columns["firing_interval"]
-    step = worked_step(torque_formulas.even_firing_interval, cycle, count)
-    if all(abs(one - step.value) < _NEAR for one in intervals):
-        yield step
-    if "indicated_work" in summary:
-        yield _or_given(
-            worked_step(torque_formulas.mean_torque_of_work, count, summary["indicated_work"], cycle),
-            summary["mean_total_torque"],
-        )
-    else:
-        yield Given("mean_total_torque", summary["mean_total_torque"])
-
-
-def _or_given(step: Step, value: float) -> AnyStep:
-    """Return a step that gives the value of the results, or the value alone where a method makes them differ."""
-    return step if math.isclose(step.value, value, rel_tol=_NEAR, abs_tol=1e-300) else Given(step.key, value)
+def _harmonics(material: Material) -> Iterator[Block]:
+    """Yield amplitudes of the torque by order, worked for the first of them."""
+    yield from material.intro("harmonics", material.equations("torque_harmonics", *_AMPLITUDES, first=True))
+    figures = ("torque_harmonics", "phase_stars")
+    yield from material.presented([listing_table(material, "torque_harmonics", "harmonics")], figures)
 
 
 def _total_table(material: Material) -> Table | None:
@@ -109,6 +104,8 @@ def crankpin(material: Material) -> Iterator[Block]:
         return
     yield material.words.heading("crankpin")
     yield from _crankpin_steps(material)
+    yield from material.equations("bearings", *_ON_ROD)
+    yield from _statistics(material)
     yield from material.presented(
         [angle_table(material, "crankpin", _bearings(material)), listing_table(material, "bearing_loads", "loads")],
         (*_polars(material), "crankpin_load", "big_end_polar", "small_end_polar"),
@@ -143,11 +140,15 @@ def unrolled(material: Material) -> Iterator[Block]:
     """
     if not _bearings(material):
         return
-    words, summary = material.words, material.summary
-    yield words.heading("unrolled")
-    found = [Given(key, summary[key]) for key in summary if key.startswith("mean_crankpin_load")]
-    yield from material.worked(found)
+    yield material.words.heading("unrolled")
+    yield from _statistics(material)
     yield from material.presented([listing_table(material, "bearing_loads", "loads")], ("crankpin_load",))
+
+
+def _statistics(material: Material) -> Iterator[Block]:
+    """Yield means and ratios of the loads, worked for the crankpin."""
+    found = material.equations("bearing_loads", *_STATISTICS, first=True)
+    yield from material.intro("loads", found)
 
 
 def big_end(material: Material) -> Iterator[Block]:
@@ -162,6 +163,8 @@ def big_end(material: Material) -> Iterator[Block]:
         return
     yield material.words.heading("big_end")
     yield material.words.paragraph("big_end")
+    yield from material.worked_at("bearings")
+    yield from material.equations("bearings", *_ON_ROD)
     shown = angle_table(material, "rods", ("big_end_load", "small_end_load"))
     yield from material.presented([shown], ("big_end_polar", "small_end_polar"))
 
@@ -184,21 +187,11 @@ def _polars(material: Material) -> list[str]:
 
 
 def _crankpin_steps(material: Material) -> Iterator[Block]:
-    """Yield the load on the crankpin of one rod, worked at the angle of the forces."""
-    known = {one.key: one.value for one in material.groups["forces"].steps} if "forces" in material.groups else {}
-    given = material.machine.masses
+    """Yield the load on the crankpin, worked at the angle of the forces."""
     yield material.words.paragraph("crankpin")
-    if given is None or not {"tangential_force", "radial_force"} <= known.keys():
-        return
-    radius, speed = float(material.results.solved.lengths.crank_radius), float(material.results.solved.speed)
-    turning = worked_step(bearing_formulas.big_end_inertia_force, given.rod_big_end, radius, speed)
-    radial, tangential = known["radial_force"], known["tangential_force"]
-    yield from material.worked_at("forces")
-    yield from material.worked([
-        turning,
-        worked_step(bearing_formulas.crankpin_radial_force, radial, turning.value),
-        worked_step(bearing_formulas.crankpin_load, tangential, radial, turning.value),
-    ])  # fmt: skip
+    yield from material.equations("articulated")
+    yield from material.worked_at("bearings")
+    yield from material.equations("bearings", *_ON_CRANKPIN)
 
 
 def _wear(material: Material) -> Iterator[Block]:
@@ -221,9 +214,12 @@ def mains(material: Material) -> Iterator[Block]:
         return
     yield from _heading(material, "mains")
     yield material.words.paragraph("mains")
+    yield from material.worked_at("bearings")
+    yield from material.equations("bearings", *_ON_MAINS)
     groups = material.results.groups
     yield from material.presented([angle_table(material, "mains", groups["main_journals"])], ("main_journal_polar",))
     yield from material.presented([listing_table(material, "main_wear", "main_wear")], ("main_wear",))
+    yield from material.equations("engine_torque")
     yield from material.presented(
         [angle_table(material, "accumulated", groups.get("accumulated_torque", ()))], ("accumulated_torque",)
     )
@@ -243,20 +239,11 @@ def balance(material: Material) -> Iterator[Block]:
     material : Material
         Of an engine.
     """
-    summary, solved = material.summary, material.results.solved
     if "balance" not in material.results.listings:
         return
     yield from _heading(material, "balance")
     yield material.words.paragraph("balance")
-    radius, speed = float(solved.lengths.crank_radius), float(solved.speed)
-    ratio = solved.method.inertia_rod_ratio
-    if ratio is None or solved.method.is_exact:
-        ratio = summary["rod_ratio"]
-    mass = summary["reciprocating_mass"]
-    yield from material.worked([
-        worked_step(balance_formulas.primary_inertia_force, mass, radius, speed),
-        worked_step(balance_formulas.secondary_inertia_force, mass, radius, speed, ratio),
-    ])  # fmt: skip
+    yield from material.equations("balance", *_OF_ORDERS)
     yield from material.presented(
         [listing_table(material, "balance", "balance")], ("balance_orders", "balance_ellipses")
     )
@@ -274,31 +261,8 @@ def evenness(material: Material) -> Iterator[Block]:
         return
     yield from _heading(material, "evenness")
     yield material.words.paragraph("evenness")
-    yield from material.worked(_flywheel_steps(material))
+    yield from material.equations("uniformity")
     keys = ("kinetic_energy_change", "crank_speed")
     yield from material.presented([angle_table(material, "speed", keys)], ("excess_work", "crank_speed"))
     if _cylinders(material) == 1:
-        yield from material.presented([listing_table(material, "torque_harmonics", "harmonics")], _HARMONICS)
-
-
-def _flywheel_steps(material: Material) -> Iterator[AnyStep]:
-    summary, engine = material.summary, material.machine.engine
-    excess, cycle = summary["excess_work"], math.radians(material.machine.cycle)
-    yield Given("excess_work", excess)
-    if "energy_fluctuation" in summary:
-        work = worked_step(flywheel_parts.work_of_mean_torque, summary["mean_total_torque"], cycle)
-        ratio = worked_step(fluctuation_of_energy, excess, work.value)
-        if math.isclose(ratio.value, summary["energy_fluctuation"], rel_tol=_NEAR):
-            yield work
-        yield _or_given(ratio, summary["energy_fluctuation"])
-    if engine is not None and engine.fluctuation is not None and "flywheel_inertia" in summary:
-        speed = float(material.results.solved.speed)
-        whole = worked_step(flywheel_formulas.inertia_for_fluctuation, excess, engine.fluctuation, speed)
-        added = worked_step(flywheel_parts.flywheel_beside_machine, whole.value, engine.inertia)
-        if engine.inertia and math.isclose(added.value, summary["flywheel_inertia"], rel_tol=_NEAR):
-            yield whole._replace(key="whole_inertia")
-            yield added
-        else:
-            yield _or_given(whole, summary["flywheel_inertia"])
-    if "speed_fluctuation" in summary:
-        yield Given("speed_fluctuation", summary["speed_fluctuation"])
+        yield from _harmonics(material)

@@ -17,6 +17,7 @@ from crankwork.units import from_si
 
 _RAISED = str.maketrans("0123456789-−", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻")
 _TIGHT = ("°", "%")
+_SHORT = 3
 # what notes of every school leave without a number
 _UNNUMBERED = ("preface", "conclusion", "sources", "appendix")
 
@@ -78,11 +79,12 @@ class EngineWords:
 
     def symbol(self, key: str) -> str:
         """Return the symbol of a key as `base_subscript`, what tells its parts apart in the subscript."""
-        kind, _, name = key.partition(".")
-        if name not in MARKS:
-            return equation_symbol(Given(key, 0.0), self.language)
+        kind, *names = key.split(".")
         shown = equation_symbol(Given(kind, 0.0), self.language)
-        return f"{shown}{',' if '_' in shown else '_'}{MARKS[name][self._place]}"
+        marks = [MARKS[name][self._place] if name in MARKS else name for name in names]
+        # a point or a number tells parts of a quantity apart; a whole word would make no symbol
+        below = ",".join(one for one, name in zip(marks, names, strict=True) if name in MARKS or len(one) <= _SHORT)
+        return f"{shown}{',' if '_' in shown else '_'}{below}" if below else shown
 
     def titled(self, key: str) -> Runs:
         """Return the heading of a column: symbol and unit."""

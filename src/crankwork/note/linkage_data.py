@@ -54,7 +54,7 @@ def task(material: Material) -> Iterator[Block]:
     if machine.loads:
         yield words.paragraph("loads")
         yield ItemList(tuple(_load(one, words) for one in machine.loads))
-    else:
+    elif machine.mechanism.bodies:
         yield words.paragraph("no_loads")
     if machine.drive.inertia:
         yield words.paragraph("drive_inertia", value=words.amount(machine.drive.inertia, "kg*m2"))

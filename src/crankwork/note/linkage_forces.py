@@ -49,7 +49,9 @@ def forces(material: Material) -> Iterator[Block]:
     yield words.paragraph("reactions")
     keys = any_nonzero(named(columns, "joint_force", "normal_force", "normal_moment"), columns)
     shown = quantity_columns(keys, columns, words)
-    yield from position_tables("reactions", material.positions.degrees, shown, words, label="reactions")
+    yield from position_tables(
+        "reactions", material.positions.degrees, shown, words, first=material.first, label="reactions"
+    )
     yield from material.figures("joint_forces")
     yield from _lever(material)
 
@@ -72,7 +74,7 @@ def _lever(material: Material) -> Iterator[Block]:
     )
     shown = [_route(name, values, words) for name, values in routes.items()]
     shown.append(Column((words.column("difference"),), [words.number(one, digits=2) for one in apart.tolist()]))
-    yield from position_tables("routes", material.positions.degrees, shown, words, label="routes")
+    yield from position_tables("routes", material.positions.degrees, shown, words, first=material.first, label="routes")
 
 
 def differences(routes: list[Array]) -> Array:
@@ -114,7 +116,9 @@ def reduction(material: Material) -> Iterator[Block]:
     yield from equations(material.steps("reduction"), words)
     keys = any_nonzero(("reduced_inertia", "reduced_inertia_1"), columns)
     shown = quantity_columns(keys, columns, words)
-    yield from position_tables("reduced", material.positions.degrees, shown, words, label="reduced")
+    yield from position_tables(
+        "reduced", material.positions.degrees, shown, words, first=material.first, label="reduced"
+    )
     yield from material.figures("reduced_inertia")
 
 
@@ -137,7 +141,9 @@ def torques(material: Material) -> Iterator[Block]:
     yield words.paragraph("driving")
     yield from equations(material.steps("torques", "driving_torque"), words)
     shown = quantity_columns(any_nonzero(_TORQUES, columns), columns, words)
-    yield from position_tables("table_torque", material.positions.degrees, shown, words, label="torque")
+    yield from position_tables(
+        "table_torque", material.positions.degrees, shown, words, first=material.first, label="torque"
+    )
     yield from material.figures("torques")
 
 

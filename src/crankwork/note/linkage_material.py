@@ -79,6 +79,12 @@ class Material:
         # a linkage that reaches none of them is shown where it does move
         return grid[slice(inside[0], inside[-1] + 1)] if inside else dense[slice(0, len(dense), 5)]
 
+    @property
+    def first(self) -> int | None:
+        """Number of the first position, counted from a crank angle of zero; none where they have no numbers."""
+        numbers = self.positions.degrees / _POSITION_STEP
+        return round(float(numbers[0])) if np.allclose(numbers, np.round(numbers)) else None
+
     @cached_property
     def motion(self) -> Motion:
         """Motion at the positions."""

@@ -32,18 +32,22 @@ def kinematics(material: Material) -> Iterator[Block]:
     yield from material.figures("position_plans")
     places = [f"point_{axis}.{key.partition('.')[2]}" for key in named(columns, "point_x") for axis in "xy"]
     keys = [*places, *named(columns, "link_angle", "slider_displacement")]
-    yield from position_tables("positions", degrees, quantity_columns(keys, columns, words), words)
+    yield from position_tables(
+        "positions", degrees, quantity_columns(keys, columns, words), words, first=material.first
+    )
     yield words.heading("transfer", 2)
     yield words.paragraph("transfer", source=Citation(_SOURCE))
-    yield from position_tables("transfer", degrees, _transfer_columns(material), words, label="transfer")
+    yield from position_tables(
+        "transfer", degrees, _transfer_columns(material), words, first=material.first, label="transfer"
+    )
     yield words.heading("worked_motion", 2)
     yield from worked_at(material, "motion")
     yield from equations(material.steps("speed"), words)
     yield from equations(material.steps("motion"), words)
     velocities = quantity_columns(named(columns, *_MOVING), columns, words)
-    yield from position_tables("velocities", degrees, velocities, words)
+    yield from position_tables("velocities", degrees, velocities, words, first=material.first)
     accelerations = quantity_columns(named(columns, *_ACCELERATING), columns, words)
-    yield from position_tables("accelerations", degrees, accelerations, words)
+    yield from position_tables("accelerations", degrees, accelerations, words, first=material.first)
     if material.drawn:
         yield words.heading("polygons", 2)
         yield from material.figures("velocity_plan", "acceleration_plan", "sliders")
@@ -99,7 +103,7 @@ def law_of_motion(material: Material) -> Iterator[Block]:
         yield words.paragraph("law")
         keys = ("kinetic_energy_change", "crank_speed")
         shown = quantity_columns(keys, material.columns, words)
-        yield from position_tables("speeds", material.positions.degrees, shown, words)
+        yield from position_tables("speeds", material.positions.degrees, shown, words, first=material.first)
         yield from material.figures("speed")
     if "steady_speed" in summary:
         yield words.paragraph(

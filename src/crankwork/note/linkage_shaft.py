@@ -7,6 +7,8 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from crankwork.analysis.results import Results
+from crankwork.analysis.solved import Notice
+from crankwork.linkage_machine import TabulatedMachine
 from crankwork.note.document import Bibliography, Block, Bold, ItemList, Paragraph, Reference, Runs, Table
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_tables import any_nonzero, equations, position_tables, quantity_columns
@@ -95,17 +97,28 @@ def checks(material: Material) -> Iterator[Block]:
         Of any machine without a piston.
     """
     words, results = material.words, material.results
+    is_table = isinstance(results.machine, TabulatedMachine)
+    if not (results.checks or results.notices or is_table):
+        return
     yield words.heading("checks")
     if results.checks:
         yield words.paragraph("checks")
         rows = [(word(key, words.language), words.number(100.0 * one, digits=2)) for key, one in results.checks.items()]
         titles: tuple[Runs, ...] = ((words.column("identity"),), (words.column("difference"),))
         yield Table(words.caption("checks"), titles, rows, align="lr", label="checks")
-    else:
+    elif is_table:
         yield words.paragraph("no_checks")
     if results.notices:
         yield words.paragraph("notices")
-        yield ItemList(tuple((notice_text(one.code, one.values, words.language),) for one in results.notices))
+        yield ItemList(tuple((_notice(one, words),) for one in results.notices))
+
+
+def _notice(notice: Notice, words: Words) -> str:
+    """Return a notice; what the calculation says of a refusal exists in English only and is left out elsewhere."""
+    values = dict(notice.values)
+    if words.language != "en" and "message" in values:
+        values["message"] = ""
+    return notice_text(notice.code, values, words.language).removesuffix(": ")
 
 
 def conclusion(material: Material) -> Iterator[Block]:

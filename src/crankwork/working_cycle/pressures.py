@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -91,7 +92,11 @@ class HeatReleasePressure:
             Top and bottom dead centre within one revolution. [deg]
         """
         found = self._solved(volume_at, volume_rate_at, dead_centres)
-        values = {key: value for key, value in found.values.items() if "quadrature" not in key}
+        values = {
+            key: math.radians(value) if key.endswith("_angle") else value
+            for key, value in found.values.items()
+            if "quadrature" not in key
+        }
         return Calculated(found.diagram, values, found.steps, found.notices)
 
     def _solved(

@@ -155,4 +155,10 @@ MARKS = {
     "diagram": ("d", "д", "đt"),
     "closed": ("cl", "з", "k"),
     "force": ("F", "P", "P"),
+    "throw": ("t", "кол", "kh"),
+    "of_cylinder": ("cyl", "ц", "xl"),
+    "rotating": ("rot", "вр", "q"),
+    "counterweights": ("b", "пр", "đt"),
+    "crankpin": ("cp", "шш", "ch"),
+    "main_journal": ("mj", "кш", "ck"),
 }  # fmt: skip

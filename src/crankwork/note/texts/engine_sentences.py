@@ -174,6 +174,16 @@ SENTENCES = {
         "Phụ tải tác dụng lên đầu to thanh truyền nhận được từ phụ tải trên chốt khuỷu bằng cách xoay góc"
         " {crank_angle} + β.",
     ),
+    "harmonics": (
+        "The torque is resolved into harmonics; the first of the orders that add up is worked here.",
+        "Крутящий момент разложен в ряд Фурье; ниже приведён расчёт для первого из складывающихся порядков.",
+        "Mômen quay được khai triển thành chuỗi Fourier; dưới đây tính cho bậc đầu tiên được cộng dồn.",
+    ),
+    "loads": (
+        "Mean load, its ratio to the largest one and the specific load of the crankpin; other bearings likewise:",
+        "Средняя нагрузка, её отношение к наибольшей и удельная нагрузка шатунной шейки; остальные – аналогично:",
+        "Phụ tải trung bình, hệ số va đập và phụ tải riêng của chốt khuỷu; các ổ khác tính tương tự:",
+    ),
     "mains": (
         "The load of a throw is shared by the two journals beside it; the torque grows along the shaft from its free"
         " end.",
