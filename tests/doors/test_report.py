@@ -7,6 +7,7 @@ import io
 import os
 import shutil
 import subprocess
+import sys
 import zipfile
 from importlib.util import find_spec
 from pathlib import Path
@@ -172,6 +173,20 @@ def test_of_several_files_all_are_replaced_or_none(monkeypatch) -> None:
     with pytest.raises(files.CrankworkError, match=r"^b: cannot be written"):
         files.write_files({"a": b"2", "b": b"2"}, overwrite=True)
     assert {one.name: one.read_bytes() for one in Path().iterdir()} == {"a": b"1", "b": b"1"}
+
+
+@pytest.mark.parametrize(
+    ("name", "missing", "extra"),
+    [("a.pdf", "typst", "report"), ("a.docx", "docx", "report"), ("a.html", "matplotlib", "figures")],
+)
+def test_a_missing_part_is_named_with_how_to_install_it(
+    crankwork, check_mistakes, monkeypatch, name, missing, extra
+) -> None:
+    monkeypatch.setitem(sys.modules, missing, None)
+    answer = crankwork("report", PRESS, "-o", name, *(() if extra == "figures" else ("--no-figures",)))
+    check_mistakes(answer)
+    assert f"install it with: pip install 'crankwork[{extra}]'" in answer.err
+    assert not list(Path().iterdir())
 
 
 def test_sheets_stand_beside_the_note(crankwork) -> None:

@@ -49,6 +49,11 @@ class WorkingSpace(NamedTuple):
     back_pressure: float = 0.0
     calculated: Calculated | None = None
 
+    @property
+    def theoretical(self) -> IndicatorDiagram | None:
+        """The diagram of a calculated cycle before its corners were rounded."""
+        return self.calculated.theoretical if self.calculated is not None else None
+
 
 @dataclass(frozen=True)
 class Solved:

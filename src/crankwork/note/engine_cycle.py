@@ -135,12 +135,10 @@ def indicator(material: Material) -> Iterator[Block]:
         Of an engine.
     """
     words = material.words
-    if "gas" not in material.groups:
+    if material.results.solved.space is None:
         return
     yield words.heading("indicator")
     yield from material.intro("volumes", material.equations("gas"))
-    if material.results.solved.space is None:
-        return
     polytropes = _polytrope_table(material)
     if polytropes is not None:
         yield words.paragraph("polytropes", polytrope=_exponents(material), table=Reference("t:polytropes"))

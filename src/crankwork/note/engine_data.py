@@ -55,6 +55,8 @@ def data(material: Material) -> Iterator[Block]:
     yield from material.intro(
         "geometry", material.equations("geometry") + material.equations("speed", "speed", "mean_piston_speed")
     )
+    if material.results.solved.space is None:
+        yield from material.intro("volumes", material.equations("gas"))
 
 
 def method(material: Material) -> Iterator[Block]:
@@ -95,13 +97,31 @@ def _rows(material: Material) -> Iterator[tuple[str, ...]]:
     for key in GEAR:
         if known.get(key):
             yield value_row(key, known[key], words)
-    cylinder, masses = machine.cylinder, machine.masses
+    yield from _cylinder(material)
+    yield from _masses(material)
+    if machine.gas is not None:
+        yield value_row("cycle_angle", math.radians(machine.gas.cycle), words)
+        if machine.gas.is_absolute:
+            yield value_row("ambient_pressure", machine.gas.ambient, words)
+    engine = machine.engine
+    if engine is not None:
+        yield from _engine(engine, words) if len(engine.layout.places) > 1 else ()
+        yield from _sizes(engine.bearings, words)
+        if engine.fluctuation is not None:
+            yield value_row("speed_fluctuation", engine.fluctuation, words)
+
+
+def _cylinder(material: Material) -> Iterator[tuple[str, ...]]:
+    cylinder = material.machine.cylinder
     if cylinder is not None:
-        yield value_row("bore", cylinder.bore, words)
-        for key in ("clearance_volume", "compression_ratio", "inclination"):
+        for key in ("bore", "clearance_volume", "compression_ratio", "inclination"):
             value = getattr(cylinder, key)
             if value:
-                yield value_row(key, value, words)
+                yield value_row(key, value, material.words)
+
+
+def _masses(material: Material) -> Iterator[tuple[str, ...]]:
+    masses = material.machine.masses
     if masses is not None:
         parts = {
             "piston_mass": masses.piston,
@@ -110,18 +130,8 @@ def _rows(material: Material) -> Iterator[tuple[str, ...]]:
             "rod_inertia_excess": masses.rod_inertia_excess,
             "crank_mass": masses.crank,
         }
-        area = summary.get("piston_area") if material.per_area else None
-        yield from (value_row(key, value, words, area=area) for key, value in parts.items() if value)
-    if machine.gas is not None:
-        yield value_row("cycle_angle", math.radians(machine.gas.cycle), words)
-        if machine.gas.is_absolute:
-            yield value_row("ambient_pressure", machine.gas.ambient, words)
-    if machine.engine is not None and len(machine.engine.layout.places) > 1:
-        yield from _engine(machine.engine, words)
-    if machine.engine is not None:
-        yield from _sizes(machine.engine.bearings, words)
-        if machine.engine.fluctuation is not None:
-            yield value_row("speed_fluctuation", machine.engine.fluctuation, words)
+        area = material.summary.get("piston_area") if material.per_area else None
+        yield from (value_row(key, value, material.words, area=area) for key, value in parts.items() if value)
 
 
 def _engine(engine: Engine, words: EngineWords) -> Iterator[tuple[str, ...]]:

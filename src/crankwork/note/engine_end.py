@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from crankwork.analysis.solved import Notice
 from crankwork.note.document import Bibliography, Block, ItemList, Reference, Runs, Table
 from crankwork.note.engine_data import GEAR, cycle_keys
 from crankwork.note.engine_material import Material
 from crankwork.note.engine_motion import errors
 from crankwork.note.engine_shaft import balance, evenness, mains
 from crankwork.note.engine_tables import value_row, value_table
+from crankwork.note.engine_words import EngineWords
 from crankwork.note.stated_units import printed_unit
 from crankwork.report.language import displayed, key_unit, label, word
 from crankwork.report.notices import notice_text
@@ -41,9 +43,7 @@ def checks(material: Material) -> Iterator[Block]:
     yield words.heading("checks", numbered=material.order != "vi")
     if results.checks:
         yield words.paragraph("checks", table=Reference("t:identities"))
-        rows = [
-            (word(key, words.language), words.number(100.0 * one, digits=2)) for key, one in results.checks.items()
-        ]
+        rows = [(word(key, words.language), words.number(100.0 * one, digits=2)) for key, one in results.checks.items()]
         titles: tuple[Runs, ...] = ((words.column("identity"),), (words.column("residual"),))
         yield Table(words.caption("identities"), titles, rows, align="lr", label="t:identities")
     if found:
@@ -51,7 +51,17 @@ def checks(material: Material) -> Iterator[Block]:
         yield _errors(material, found)
     if results.notices:
         yield words.paragraph("notices")
-        yield ItemList(tuple((notice_text(one.code, one.values, words.language),) for one in results.notices))
+        yield ItemList(tuple((_notice(one, words),) for one in results.notices))
+
+
+def _notice(notice: Notice, words: EngineWords) -> str:
+    """Return the sentence of a notice; keys of the machine file that it names become what they mean."""
+    values = {
+        name: ", ".join(map(words.meaning, value.split(", "))) if name in ("name", "names") else value
+        for name, value in notice.values.items()
+        if isinstance(value, str)
+    }
+    return notice_text(notice.code, {**notice.values, **values}, words.language)
 
 
 def _errors(material: Material, found: dict[str, tuple[float, float]]) -> Table:

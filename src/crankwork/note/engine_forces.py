@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from crankwork.note.document import Block, Math, Reference, Runs, Table
+from crankwork.note.document import Block, Reference, Table
 from crankwork.note.engine_material import Material
-from crankwork.note.engine_tables import angle_table, any_nonzero
+from crankwork.note.engine_tables import angle_table, any_nonzero, long_table
 
 _ALONG = ("gas_pressure", "gas_force", "piston_acceleration", "inertia_force", "weight_force", "piston_force")
 _ACROSS = (
@@ -132,10 +132,9 @@ def along(material: Material) -> Iterator[Block]:
 def _along_table(material: Material) -> Table | None:
     """Return the gas force, inertia force and their sum, to six decimals where they are per area."""
     if not material.per_area:
-        return angle_table(material, "along", _OF_PISTON, folds=False)
-    unit = _pressure_unit(material)
-    headings: dict[str, Runs] = {key: (Math(material.words.symbol(key)), f", {unit}") for key in _OF_PISTON}
-    return angle_table(material, "along", _OF_PISTON, decimals=_VIETNAMESE, headings=headings, folds=False)
+        return long_table(material, "along", _OF_PISTON)
+    units = dict.fromkeys(_OF_PISTON, _pressure_unit(material))
+    return long_table(material, "along", _OF_PISTON, decimals=_VIETNAMESE, units=units)
 
 
 def across(material: Material) -> Iterator[Block]:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import cast
 
 import numpy as np
 
@@ -16,41 +17,19 @@ from crankwork.cylinders.engines import inline
 from crankwork.kinematics.crank_grid import Array
 from crankwork.machine import Bearings, Engine, Machine
 from crankwork.note.document import Block, Equation, Figure, Reference, Run, Runs, Table
+from crankwork.note.engine_seen import seen
 from crankwork.note.engine_words import EngineWords
 from crankwork.note.options import NoteOptions
 from crankwork.report.figure_data import figure_title
 from crankwork.report.figures import figures
-from crankwork.report.language import key_unit, label
+from crankwork.report.language import key_unit
 from crankwork.steps import AnyStep, Given, ProductStep, Step, StepGroup, SumStep
 from crankwork.units import from_si
 
 _FOUR_STROKES = 720.0
 _RAYS = {"vi": 24}
-# what a figure shows, for who cannot see it
-_SHOWN: Mapping[str, tuple[str, ...]] = {
-    "kinematics": ("piston_displacement", "piston_velocity", "piston_acceleration"),
-    "pressure": ("gas_pressure",),
-    "indicator": ("gas_pressure",),
-    "piston_forces": ("gas_force", "inertia_force", "piston_force"),
-    "rod_forces": ("rod_force", "side_force"),
-    "crankpin_forces": ("tangential_force", "radial_force"),
-    "torque": ("crank_torque",),
-    "crankpin_polar": ("tangential_force", "radial_force"),
-    "brix": ("piston_displacement",),
-    "tolle": ("piston_displacement", "piston_acceleration"),
-    "total_torque": ("total_torque",),
-    "crankpin_load": ("crankpin_load.1",),
-    "big_end_polar": ("big_end_load",),
-    "small_end_polar": ("small_end_load",),
-    "excess_work": ("kinetic_energy_change",),
-    "crank_speed": ("crank_speed",),
-    "crankpin_wear": ("wear_sum.1",),
-    "balance_orders": ("free_force", "free_moment"),
-    "torque_harmonics": ("harmonic_amplitude", "total_harmonic_amplitude"),
-}
 # values without a formula that a table of their own gives
 _TABLED = ("free_force", "free_moment", "firing_angle", "cylinder_count", "bearing_load_max", "mean_bearing_load")
-_OVER_CYCLE = {"accumulated_torque": "accumulated_torque", "main_journal_polar": "main_journals"}
 
 
 def whole(results: Results, school: str) -> Results:
@@ -98,9 +77,7 @@ class Material:
     @property
     def machine(self) -> Machine:
         """The machine."""
-        machine = self.results.machine
-        assert isinstance(machine, Machine)
-        return machine
+        return cast("Machine", self.results.machine)
 
     @property
     def order(self) -> str:
@@ -227,10 +204,10 @@ class Material:
             Names of figures; those that are not there, or shown before, are left out.
         """
         some = [one for one in tables if one is not None]
-        seen = [self._figure(name) for name in names if name in self.drawn and name not in self._told]
+        drawn = [self._figure(name) for name in names if name in self.drawn and name not in self._told]
         sides = {
             "tables": [one.label for one in some if one.label],
-            "figures": [one.label for one in seen],
+            "figures": [one.label for one in drawn],
         }
         known = {side: _listed(labels) for side, labels in sides.items() if labels}
         if len(known) > 1:
@@ -238,7 +215,7 @@ class Material:
         for side, runs in known.items() if len(known) == 1 else ():
             yield self.words.paragraph(f"see_{side if len(sides[side]) > 1 else side[:-1]}", **{side: runs})
         yield from some
-        yield from seen
+        yield from drawn
 
     def remaining_figures(self) -> list[str]:
         """Return the names of figures that no section has shown."""
@@ -257,26 +234,7 @@ class Material:
     def _figure(self, name: str) -> Figure:
         self._told.add(name)
         title = figure_title(name, self.words.language)
-        return Figure(self.drawn[name], title, f"{title}. {self._seen(name)}".rstrip(". ") + ".", label=f"f:{name}")
-
-    def _seen(self, name: str) -> str:
-        """Return what a figure shows with its extreme values, in words."""
-        keys = _SHOWN.get(name.rstrip("0123456789").rstrip("_"), ())
-        if name in _OVER_CYCLE:
-            keys = self.results.groups.get(_OVER_CYCLE[name], ())
-        return "; ".join(one for one in map(self._range, keys) if one)
-
-    def _range(self, key: str) -> str:
-        """Return the least and the largest value of a column or listing, in words."""
-        words = self.words
-        values = self.columns.get(key)
-        if values is None:
-            values = next((one[key] for one in self.listings.values() if key in one), None)
-        if values is None or not len(values):
-            return ""
-        unit = words.unit(key)
-        low, high = (words.number(float(one), digits=4) for one in (values.min(), values.max()))
-        return words.phrase("seen", quantity=label(key, words.language), low=low, high=f"{high}\u00a0{unit}".rstrip())
+        return Figure(self.drawn[name], title, f"{title}. {seen(name, self)}".rstrip(". ") + ".", label=f"f:{name}")
 
 
 def _identity(step: AnyStep) -> tuple[object, ...]:

@@ -52,9 +52,7 @@ def displacement(material: Material) -> Iterator[Block]:
     yield words.paragraph("brix")
     yield from material.worked_at("motion")
     yield from material.equations("motion", *_SWING, "piston_displacement")
-    yield from material.equations(
-        "harmonics", "piston_displacement_first_order", "piston_displacement_second_order"
-    )
+    yield from material.equations("harmonics", "piston_displacement_first_order", "piston_displacement_second_order")
     yield words.paragraph("repeats")
     yield from material.presented([_table(material, "displacement")], ("brix",))
 

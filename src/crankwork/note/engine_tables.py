@@ -27,17 +27,39 @@ _LONG, _MOST_PARTS = 40, 3
 _TURN = 360.0
 
 
-def angle_table(
+def angle_table(material: Material, caption: str, keys: Iterable[str], *, one_turn: bool = False) -> Table | None:
+    """Return a table over the crank angle; parts of a long narrow one stand side by side.
+
+    Parameters
+    ----------
+    material : Material
+        Of an engine.
+    caption : str
+        Key of its caption, and its label.
+    keys : iterable of str
+        Its columns; those that are not there are left out.
+    one_turn : bool
+        Whether it stops after one turn of the crank.
+
+    Returns
+    -------
+    Table or None
+        None if none of the columns is there.
+    """
+    table = long_table(material, caption, keys, one_turn=one_turn)
+    return None if table is None else folded(table)
+
+
+def long_table(
     material: Material,
     caption: str,
     keys: Iterable[str],
     *,
     one_turn: bool = False,
     decimals: Mapping[str, int] | None = None,
-    headings: Mapping[str, Runs] | None = None,
-    folds: bool = True,
+    units: Mapping[str, str] | None = None,
 ) -> Table | None:
-    """Return a table over the crank angle.
+    """Return a table over the crank angle with one row for each.
 
     Parameters
     ----------
@@ -51,10 +73,8 @@ def angle_table(
         Whether it stops after one turn of the crank.
     decimals : mapping of str to int, optional
         Decimals of some columns.
-    headings : mapping of str to runs, optional
-        Headings of some columns.
-    folds : bool
-        Whether parts of a long narrow table stand side by side.
+    units : mapping of str to str, optional
+        Units of some columns as they are to be printed.
 
     Returns
     -------
@@ -66,19 +86,12 @@ def angle_table(
     if not present:
         return None
     rows = degrees <= _TURN if one_turn else np.full(len(degrees), fill_value=True)
-    texts = [[words.number(float(one)) for one in degrees[rows]]]
+    columns = [((words.titled("crank_angle")), [words.number(float(one)) for one in degrees[rows]])]
     for key in present:
-        texts.append(words.column_texts(material.columns[key][rows].tolist(), decimals=(decimals or {}).get(key)))
-    titles = [words.titled("crank_angle"), *((headings or {}).get(key) or words.titled(key) for key in present)]
-    table = Table(
-        words.caption(caption),
-        tuple(titles),
-        list(zip(*texts, strict=True)),
-        wide=len(present) > _UPRIGHT,
-        align="c" + "r" * len(present),
-        label=f"t:{caption}",
-    )
-    return folded(table) if folds else table
+        heading = (Math(words.symbol(key)), f", {units[key]}") if units and key in units else words.titled(key)
+        texts = words.column_texts(material.columns[key][rows].tolist(), decimals=(decimals or {}).get(key))
+        columns.append((heading, texts))
+    return column_table(caption, columns, words)
 
 
 def folded(table: Table) -> Table:
@@ -91,7 +104,7 @@ def folded(table: Table) -> Table:
     """
     count, rows = len(table.headings), list(table.rows)
     parts = min((_UPRIGHT + 1) // count, _MOST_PARTS)
-    if len(rows) <= _LONG or parts < 2:  # noqa: PLR2004 - one part is the table itself
+    if len(rows) <= _LONG or parts == 1 or not parts:
         return table
     height = -(-len(rows) // parts)
     filled = rows + [("",) * count] * (height * parts - len(rows))

@@ -8,7 +8,7 @@ from string import Formatter
 from crankwork.note.document import Heading, Math, Paragraph, Run, Runs
 from crankwork.note.equations import equation_symbol
 from crankwork.note.stated_units import printed_unit
-from crankwork.note.texts.engine_headings import CAPTIONS, COLUMNS, HEADINGS, MARKS
+from crankwork.note.texts.engine_headings import CAPTIONS, COLUMNS, HEADINGS, MARKS, MEANINGS
 from crankwork.note.texts.engine_sentences import SENTENCES
 from crankwork.quantities import LANGUAGES, QUANTITIES, Language
 from crankwork.report.language import key_unit, number
@@ -85,6 +85,14 @@ class EngineWords:
         # a point or a number tells parts of a quantity apart; a whole word would make no symbol
         below = ",".join(one for one, name in zip(marks, names, strict=True) if name in MARKS or len(one) <= _SHORT)
         return f"{shown}{',' if '_' in shown else '_'}{below}" if below else shown
+
+    def meaning(self, name: str) -> str:
+        """Return what a key of the machine file means; the key itself where nobody knows."""
+        key = MEANINGS.get(name, name)
+        return QUANTITIES[key].label(self.language) if key in QUANTITIES else self._column_or(key)
+
+    def _column_or(self, key: str) -> str:
+        return COLUMNS[key][self._place] if key in COLUMNS else key
 
     def titled(self, key: str) -> Runs:
         """Return the heading of a column: symbol and unit."""

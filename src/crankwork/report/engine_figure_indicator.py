@@ -37,7 +37,7 @@ def indicator(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     ends, reach = limits(values), 1.06 * float(np.max(volume))
     graph = Graph(paper, box, (0.0, reach), ends, engine.language)
     graph.frame(round_ticks(0.0, reach, 8), round_ticks(*ends, 9))
-    sharp = getattr(space, "theoretical", None)
+    sharp = space.theoretical
     if sharp is not None:
         pressures = engine.shown(
             "gas_pressure", sharp.pressure(drawn.degrees, drawn.columns["cylinder_volume"]) - space.ambient

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from crankwork.analysis import Results, columns, harmonic_columns
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.quantities import LANGUAGES, QUANTITIES, Language
+from crankwork.quantities import LANGUAGES, Language
 from crankwork.report.engine_figure_words import ENGINE_TITLES
-from crankwork.report.figure_look import SOLID, Curve, Style, quantity_title, svg
-from crankwork.report.language import displayed, method_name, word
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from crankwork.report.figure_look import quantity_title
+from crankwork.report.language import displayed
 
 _STEP = 0.5
 _AFTER = 1e-6
@@ -77,24 +74,9 @@ class Drawn(NamedTuple):
         """Return a column in its display unit."""
         return self.columns[key] * displayed(key, 1.0, per_area=self.area)
 
-    def curve(self, key: str, style: Style = SOLID) -> Curve:
-        """Return a column as a named line."""
-        row = QUANTITIES[key]
-        return Curve(row.symbol(self.language), row.label(self.language), self.values(key), style)
-
     def title(self, key: str) -> str:
         """Return the axis title of a quantity."""
         return quantity_title(key, self.language, per_area=self.per_area)
-
-    def finished(self, name: str, figure: Figure, remark: str = "") -> bytes:
-        """Return a figure as SVG, with the method that made it."""
-        method = self.results.method
-        made = method_name(method.kinematics, method.order, method.rod, self.language)
-        return svg(figure, figure_title(name, self.language), made, remark)
-
-    def forces_finished(self, name: str, figure: Figure) -> bytes:
-        """Return a figure of forces as SVG, saying so if they are per piston area."""
-        return self.finished(name, figure, word("per_area", self.language) if self.per_area else "")
 
 
 def drawn_from(results: Results, language: Language, *, per_area: bool) -> Drawn:

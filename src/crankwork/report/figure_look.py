@@ -48,12 +48,6 @@ _WORDS = {
                "I, II – thành phần cấp một và cấp hai"),
     "tdc": ("TDC", "ВМТ", "ĐCT"),
     "bdc": ("BDC", "НМТ", "ĐCD"),
-    "big_end_inertia": ("inertia force of the rod mass at the crankpin",
-                        "центробежная сила массы шатуна на оси кривошипа",
-                        "lực quán tính ly tâm của khối lượng thanh truyền quy về đầu to"),
-    "big_end_symbol": ("F_cr", "K_Rш", "P_k0"),
-    "pole": ("pole of the force on the crankpin", "полюс силы, действующей на шатунную шейку",
-             "gốc của lực tác dụng lên chốt khuỷu"),
 }  # fmt: skip
 
 

@@ -64,8 +64,7 @@ def _cheapest(
         if extra > best:
             break
         cost = _cost(label, extra, obstacles, placed, every)
-        if (cost, at) < (best, found):
-            best, found = cost, at
+        best, found = min((best, found), (cost, at))
     return ways[found][0]
 
 
