@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from crankwork.dynamics.efficiency import Series
 from crankwork.dynamics.tabulated import Differences, TabulatedBody
 from crankwork.loads.load import Load
 from crankwork.machine import Machine
@@ -31,6 +32,8 @@ class Drive:
         Of the motor. [W]
     fluctuation : float or None
         Wanted fluctuation of the speed, for which a flywheel is to be found. [-]
+    chain : Series or None
+        The efficiencies that make up the whole, as they are given.
     """
 
     efficiency: float = 1.0
@@ -39,6 +42,7 @@ class Drive:
     motor: GearedMotor | None = None
     rated_power: float = 0.0
     fluctuation: float | None = None
+    chain: Series | None = None
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-HEAVY = ("matplotlib", "numba", "numpy", "pydantic", "scipy", "xlsxwriter")
+HEAVY = ("docx", "ezdxf", "lxml", "matplotlib", "numba", "numpy", "pydantic", "scipy", "typst", "xlsxwriter")
 
 
 @pytest.mark.parametrize("name", ["crankwork", "crankwork.cli"])

@@ -241,8 +241,9 @@ def _drive(values: Mapping[str, Any], reader: Reader) -> Drive:
     if chain and all(_is_whole(one) for one in chain):
         table = values["efficiency"]
         parts: list[EfficiencyChain] = [Parallel(tuple(one)) if isinstance(one, list) else one for one in chain]
-        whole = efficiency(Series(tuple(parts)))
-        drive = replace(drive, efficiency=whole)
+        series = Series(tuple(parts))
+        whole = efficiency(series)
+        drive = replace(drive, efficiency=whole, chain=series)
         if "decimals" in table:
             used = round(whole, int(table["decimals"]))
             drive = replace(drive, efficiency=used, exact_efficiency=whole)

@@ -162,7 +162,7 @@ def efficiency(material: Material) -> Iterator[Block]:
         yield words.paragraph("no_losses")
         return
     yield words.paragraph("efficiency", source=Citation(_EFFICIENCY), value=words.number(drive.efficiency))
-    chain = getattr(drive, "chain", None)
+    chain = drive.chain
     if chain is not None:
         yield from equations((efficiency_steps(chain),), words)
     if drive.exact_efficiency is not None:

@@ -63,6 +63,7 @@ _SETTINGS = """
 """
 _SIZE = re.compile(rb'<svg[^>]*?\swidth="([\d.]+)(pt|px|mm|cm|in)?"')
 _POINTS = {b"": 0.75, b"px": 0.75, b"pt": 1.0, b"mm": 72 / 25.4, b"cm": 72 / 2.54, b"in": 72.0}
+_TOGETHER = 16
 _LONG, _SHORT = 300, 14
 # width of the text on a page upright and on its side, in points
 _PAGE, _WIDE_PAGE = 480.0, 725.0
@@ -172,6 +173,10 @@ def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     count = len(block.headings)
     size = 10 if count <= 9 else 9 if count <= 14 else 8
     align = ", ".join(_ALIGN[letter] for letter in (block.align or "r" * count))
+    # a short table stays on one page with its caption
+    whole = len(block.rows) <= _TOGETHER
+    if whole:
+        yield "#block(breakable: false)["
     yield f"#above({typst_string(caption('table', number, block.caption, numbers.language))})"
     headings = ", ".join(f"[{_runs(runs, numbers)}]" for runs in block.headings)
     rows = ",\n".join(", ".join(map(typst_string, row)) for row in block.rows)
@@ -181,6 +186,8 @@ def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
         f"#{{\nset text(size: {size}pt, hyphenate: false)\nset par(justify: false, leading: 0.55em)\n"
         f"align(center, table({columns}, align: ({align},), {header},\n{rows}))\n}}"
     )
+    if whole:
+        yield "]"
 
 
 def _columns(block: Table, size: int) -> str:

@@ -23,6 +23,8 @@ PREFIXES = (
 )
 # twentieths of a point, for an A4 page upright and on its side
 TEXT_WIDTH, WIDE_TEXT_WIDTH = 9638, 14570
+# of a column, so that a heading fits above short numbers [twip]
+_NARROWEST = 640
 _MARK_WIDTH = 2150
 _LEGEND = (
     '<w:tabs><w:tab w:val="left" w:pos="960"/></w:tabs><w:spacing w:after="0"/><w:ind w:left="960" w:hanging="960"/>'
@@ -125,11 +127,12 @@ def table_xml(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     words = caption("table", number, block.caption, numbers.language)
     yield paragraph(text_run(words), "Caption", '<w:keepNext/><w:jc w:val="left"/>')
     full = WIDE_TEXT_WIDTH if block.wide else TEXT_WIDTH
-    width = min(full // max(count, 1), 1700)
+    widths = _widths(block, full, size)
     heading = "".join(
         _cell(width, paragraph(runs_xml(runs, numbers, font), "TableText", '<w:jc w:val="center"/>'), "center")
-        for runs in block.headings
+        for width, runs in zip(widths, block.headings, strict=True)
     )
+    grid = "".join(f'<w:gridCol w:w="{width}"/>' for width in widths)
     borders = "".join(
         f'<w:{side} w:val="single" w:sz="4" w:space="0" w:color="auto"/>'
         for side in ("top", "left", "bottom", "right", "insideH", "insideV")
@@ -147,14 +150,28 @@ def table_xml(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
         for row in block.rows
     )
     yield (
-        f'<w:tbl><w:tblPr><w:tblW w:w="{width * count}" w:type="dxa"/><w:jc w:val="center"/>'
+        f'<w:tbl><w:tblPr><w:tblW w:w="{sum(widths)}" w:type="dxa"/><w:jc w:val="center"/>'
         f'<w:tblBorders>{borders}</w:tblBorders><w:tblLayout w:type="fixed"/>'
         '<w:tblCellMar><w:left w:w="60" w:type="dxa"/><w:right w:w="60" w:type="dxa"/></w:tblCellMar>'
         f'<w:tblCaption w:val="{xml_text(words)}"/></w:tblPr>'
-        f'<w:tblGrid>{f"""<w:gridCol w:w="{width}"/>""" * count}</w:tblGrid>'
+        f"<w:tblGrid>{grid}</w:tblGrid>"
         f"<w:tr><w:trPr><w:cantSplit/><w:tblHeader/></w:trPr>{heading}</w:tr>{rows}</w:tbl>"
     )
     yield paragraph("", "", '<w:spacing w:before="0" w:after="0"/>')
+
+
+def _widths(block: Table, full: int, size: int) -> list[int]:
+    """Return the widths of the columns: as wide as their entries, and together no wider than the text. [twip]"""
+    longest = [max(map(len, column), default=0) for column in zip(*block.rows, strict=True)] or [0] * len(
+        block.headings
+    )
+    wanted = [max(_NARROWEST, round(5.6 * size * length) + 140) for length in longest]
+    room = full - sum(min(one, _NARROWEST) for one in wanted)
+    excess = sum(one - min(one, _NARROWEST) for one in wanted)
+    share = min(1.0, room / excess) if excess > 0 else 1.0
+    if room < 0:
+        return [full // len(wanted)] * len(wanted)
+    return [round(_NARROWEST + share * (one - _NARROWEST)) for one in wanted]
 
 
 def contents_xml(headings: list[tuple[int, str]], language: Language) -> Iterator[str]:

@@ -43,6 +43,8 @@ LOOK: Any = {
     "svg.hashsalt": "crankwork",
 }
 
+# what would mean something in mathtext, where a name is the user's own
+_MATH_SIGNS = frozenset(r"$#\{}%^_~&")
 _WORDS = {
     "orders": ("I, II – parts of first and second order", "I, II – составляющие первого и второго порядков",
                "I, II – thành phần cấp một và cấp hai"),
@@ -84,6 +86,8 @@ def math_symbol(symbol: str) -> str:
     $v_{\text{п.ср}}$ $β$
     """
     base, _, subscript = symbol.partition("_")
+    if not _MATH_SIGNS.isdisjoint(subscript):
+        return f"{base} {subscript}".replace("$", r"\$")
     return rf"${base}_{{\text{{{subscript}}}}}$" if subscript else f"${base}$"
 
 
