@@ -26,6 +26,7 @@ _MAIN = (
     "excess_work", "flywheel_inertia", "speed_fluctuation", "mean_crankpin_load", "crankpin_load_max",
     "oil_hole_angle",
 )  # fmt: skip
+_OF_ENGINES = ("displacement", "mean_total_torque", "total_torque_max", "total_torque_min", "cylinder_count")
 
 
 def checks(material: Material) -> Iterator[Block]:
@@ -91,8 +92,13 @@ def conclusion(material: Material) -> Iterator[Block]:
     words = material.words
     yield words.heading("results" if material.order == "en" else "conclusion")
     yield words.paragraph("conclusion", table=Reference("t:summary"))
-    keys = [key for one in _MAIN for key in material.summary if key == one or key.startswith(f"{one}.")]
-    yield value_table("summary", [_row(material, key) for key in keys], words)
+    yield value_table("summary", [_row(material, key) for key in _main_keys(material)], words)
+
+
+def _main_keys(material: Material) -> list[str]:
+    """Return the keys of the main results, in order; of one cylinder its own torque says it all."""
+    kinds = [one for one in _MAIN if material.has_engine or one not in _OF_ENGINES]
+    return [key for one in kinds for key in material.summary if key == one or key.startswith(f"{one}.")]
 
 
 def _row(material: Material, key: str) -> tuple[str, ...]:
@@ -139,7 +145,7 @@ def appendix(material: Material) -> Iterator[Block]:
 def _further(material: Material) -> Iterator[Block]:
     """Yield single values that are not among the main results, and figures that no section has."""
     words, summary = material.words, material.summary
-    main = {key for one in _MAIN for key in summary if key == one or key.startswith(f"{one}.")}
+    main = {*_main_keys(material), *(() if material.has_engine else _OF_ENGINES)}
     main |= {*GEAR, "bore", *(cycle_keys(material) if material.results.steps else ())}
     left = [
         key

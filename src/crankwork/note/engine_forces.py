@@ -154,3 +154,4 @@ def across(material: Material) -> Iterator[Block]:
     figures = ("rod_forces", "crankpin_forces", "torque")
     yield from material.presented([angle_table(material, "forces", shown)], figures)
     yield from material.intro("extremes", material.equations("force_extremes"))
+    yield from material.equations("power", "mean_torque")

@@ -27,6 +27,8 @@ from crankwork.steps import AnyStep, Given, ProductStep, Step, StepGroup, SumSte
 from crankwork.units import from_si
 
 _FOUR_STROKES = 720.0
+# what a crank gear of its own has no need of
+_OF_ENGINES = ("total_torque", "main_journal", "journal_share")
 _RAYS = {"vi": 24}
 # values without a formula that a table of their own gives
 _TABLED = ("free_force", "free_moment", "firing_angle", "cylinder_count", "bearing_load_max", "mean_bearing_load")
@@ -225,6 +227,8 @@ class Material:
     def remaining_steps(self) -> list[Block]:
         """Return equations of steps that no section has shown: single values, and formulas that are new."""
         steps = [one for group in self.groups.values() for one in group.steps if not isinstance(one, Given)]
+        if not self.has_engine:
+            steps = [one for one in steps if not one.key.startswith(_OF_ENGINES)]
         return self.worked(
             one
             for one in steps

@@ -1,0 +1,105 @@
+"""Notes as a reader sees them: PDF by poppler, Word by LibreOffice, the web page printed by a browser.
+
+Every word must lie within the page, nothing may be a replacement character, and all three must hold the same numbers.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+import crankwork
+from crankwork.note.contents import note_of
+from crankwork.note.formats import written_note
+from crankwork.note.options import NoteOptions
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+WORD = re.compile(r'<word xMin="([-\d.]+)" yMin="([-\d.]+)" xMax="([-\d.]+)" yMax="([-\d.]+)">(.*?)</word>')
+PAGE = re.compile(r'<page width="([\d.]+)" height="([\d.]+)">')
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+
+
+class Printed(NamedTuple):
+    """Pages of a PDF: their sizes [pt], and their words with their boxes."""
+
+    pages: list[tuple[float, float]]
+    words: list[tuple[int, tuple[float, ...], str]]
+
+    @property
+    def text(self) -> str:
+        return " ".join(word for _, _, word in self.words)
+
+
+def _program(*names: str) -> str:
+    found = next((path for name in names if (path := shutil.which(name))), None)
+    if found is None:
+        pytest.skip(f"{names[0]} is not installed")
+    return found
+
+
+def _printed(pdf: Path) -> Printed:
+    boxes = subprocess.run(
+        [_program("pdftotext"), "-bbox", str(pdf), "-"], capture_output=True, text=True, check=True
+    ).stdout
+    pages: list[tuple[float, float]] = []
+    words = []
+    for line in boxes.splitlines():
+        if page := PAGE.search(line):
+            pages.append((float(page[1]), float(page[2])))
+        elif word := WORD.search(line):
+            words.append((len(pages) - 1, tuple(map(float, word.groups()[:4])), word[5]))
+    return Printed(pages, words)
+
+
+@pytest.fixture(scope="module", params=[("spark-engine", "vi"), ("petrol-four", "ru"), ("press", "ru")], ids="-".join)
+def printed(request, tmp_path_factory):
+    name, language = request.param
+    folder = tmp_path_factory.mktemp("note")
+    results = crankwork.analyse(crankwork.read(EXAMPLES / f"{name}.toml"))
+    note = note_of(results, NoteOptions(language=language))
+    for ending in ("pdf", "docx", "html"):
+        (folder / f"note.{ending}").write_bytes(written_note(note, f"note.{ending}"))
+    office = _program("soffice", "libreoffice")
+    subprocess.run(
+        [office, f"-env:UserInstallation=file://{folder}/profile", "--headless", "--convert-to", "pdf:writer_pdf_Export",
+         "--outdir", str(folder / "word"), str(folder / "note.docx")],
+        capture_output=True, check=True, timeout=180,
+    )  # fmt: skip
+    browser = _program(*BROWSERS)
+    subprocess.run(
+        [browser, "--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer",
+         f"--user-data-dir={folder}/browser", f"--print-to-pdf={folder}/web.pdf", str(folder / "note.html")],
+        capture_output=True, check=True, timeout=180,
+    )  # fmt: skip
+    return {"pdf": _printed(folder / "note.pdf"), "word": _printed(folder / "word" / "note.pdf"),
+            "web": _printed(folder / "web.pdf")}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", ["pdf", "word", "web"])
+def test_every_word_lies_on_its_page(printed, kind):
+    shown = printed[kind]
+    assert len(shown.pages) >= 5
+    outside = [
+        (page + 1, word)
+        for page, (left, top, right, bottom), word in shown.words
+        if left < 12 or top < 8 or right > shown.pages[page][0] - 12 or bottom > shown.pages[page][1] - 8
+    ]
+    assert outside == []
+
+
+@pytest.mark.parametrize("kind", ["pdf", "word", "web"])
+def test_no_letter_is_replaced(printed, kind):
+    assert [mark for mark in "\ufffd\u25a1" if mark in printed[kind].text] == []
+
+
+def test_the_three_hold_the_same_numbers(printed):
+    numbers = [set(re.findall(r"\d+,\d{2,}", shown.text)) for shown in printed.values()]
+    common = set.intersection(*numbers)
+    assert len(common) > 100
+    # what breaks over a line in one of them may be missing there
+    assert len(common) > 0.97 * max(map(len, numbers))
