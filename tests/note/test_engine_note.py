@@ -13,6 +13,7 @@ import pytest
 
 import crankwork
 from crankwork.analysis.steps import worked_steps
+from crankwork.errors import CrankworkError
 from crankwork.note import engine_material
 from crankwork.note.contents import note_of
 from crankwork.note.document import Bibliography, Equation, Figure, Heading, ItemList, Note, Paragraph, Reference, Table
@@ -117,6 +118,11 @@ def test_the_school_orders_and_the_language_speaks():
     assert headings(mixed)[1:3] == ["Working cycle", "Indicator diagram"]
 
 
+def test_a_school_that_does_not_exist_is_refused():
+    with pytest.raises(CrankworkError, match="take en, ru or vi"):
+        engine_note(results(SPARK), NoteOptions(school="de", figures=False))
+
+
 def test_the_table_of_forces_is_the_published_one():
     table = tables(note(SPARK, "vi"))["t:along"]
     assert len(table.rows) == 145
@@ -208,7 +214,7 @@ def test_vietnamese_notes_have_no_english_words(name):
         re.findall(
             r"\w+",
             "the of and with from at force crank rod angle table figure load speed per mean largest least pressure"
-            " torque work value point row what is are by on filling heating fuel loss mechanical cylinder journal order",
+            " torque work value point row what is are by on filling heating fuel loss mechanical cylinder journal",
         )
     )
     found = {word.lower() for text in words(note(name, "vi")) for word in re.findall(r"[^\W\d_]+", text)}
@@ -223,6 +229,16 @@ def test_method_constants_and_both_ratios_are_stated():
         "piston displacement", "piston velocity", "piston acceleration",
     ]  # fmt: skip
     assert "t:errors" not in tables(note(FOUR, "en"))
+
+
+def test_inertia_force_is_minus_mass_times_the_acceleration_beside_it():
+    table = tables(note(FOUR, "en"))["t:along"]
+    mass = results(FOUR).summary["reciprocating_mass"]
+    assert [title[0].content for title in table.headings][3:5] == ["a", "F_j"]
+    for row in table.rows:
+        assert value(row[4]) == pytest.approx(-mass * value(row[3]), abs=1.0)
+    # where the inertia force has a ratio of its own, the acceleration of the columns is another one
+    assert "a" not in [title[0].content for title in tables(note(SPARK, "en"))["t:along"].headings]
 
 
 def test_the_heat_balance_adds_up():
@@ -269,7 +285,7 @@ def test_forces_per_area_are_divided_once():
         for chosen in (False, True)
     )
     area = results(SPARK).summary["piston_area"]
-    for label, column in (("t:along", 5), ("t:crankpin", 3)):
+    for label, column in (("t:along", 4), ("t:crankpin", 3)):
         one, other = (value(tables(some)[label].rows[30][column]) for some in (plain, divided))
         assert one / area / 1e6 == pytest.approx(other, rel=1e-3)
 

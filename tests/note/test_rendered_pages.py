@@ -66,8 +66,8 @@ def printed(request, tmp_path_factory):
         (folder / f"note.{ending}").write_bytes(written_note(note, f"note.{ending}"))
     office = _program("soffice", "libreoffice")
     subprocess.run(
-        [office, f"-env:UserInstallation=file://{folder}/profile", "--headless", "--convert-to", "pdf:writer_pdf_Export",
-         "--outdir", str(folder / "word"), str(folder / "note.docx")],
+        [office, f"-env:UserInstallation=file://{folder}/profile", "--headless",
+         "--convert-to", "pdf:writer_pdf_Export", "--outdir", str(folder / "word"), str(folder / "note.docx")],
         capture_output=True, check=True, timeout=180,
     )  # fmt: skip
     browser = _program(*BROWSERS)

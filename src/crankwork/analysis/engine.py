@@ -21,7 +21,8 @@ from crankwork.machine import Machine
 from crankwork.method import Method
 
 _DENSE_STEP = 0.1
-_CHECKED = ("first_law_residual",)
+# what a cycle is calculated with or checked by, and the rest of a summary says in its own way
+_NOT_SHOWN = ("first_law_residual", "rotational_speed")
 _ROUNDING = 1e-13
 GROUPS = {"kinematics": KINEMATICS, "harmonics": HARMONICS, "forces": FORCES}
 
@@ -167,7 +168,7 @@ def _force_summary(solved: Solved, dense: Mapping[str, Array]) -> dict[str, floa
 def _cycle_values(values: Mapping[str, float]) -> dict[str, float]:
     """Return what a calculation of the cycle has to say in a summary: what the rest does not say as well."""
     own = {"indicated_work", "indicated_mean_pressure", "piston_area", "swept_volume", "bore", "stroke"}
-    shown = {key: value for key, value in values.items() if key not in _CHECKED}
+    shown = {key: value for key, value in values.items() if key not in _NOT_SHOWN}
     return {f"{key}.cycle" if key in own else key: value for key, value in shown.items()}
 
 

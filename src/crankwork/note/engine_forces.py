@@ -43,9 +43,12 @@ def dynamics(material: Material) -> Iterator[Block]:
     yield from material.worked_at("forces")
     yield from material.equations("forces")
     yield from per_area(material)
-    yield from material.presented(
-        [angle_table(material, "along", any_nonzero(_ALONG, material.columns))], ("piston_forces",)
-    )
+    method = material.results.method
+    keys = any_nonzero(_ALONG, material.columns)
+    if method.inertia_rod_ratio is not None and not method.is_exact:
+        # the acceleration of the columns is not the one that the inertia force is made of
+        keys.remove("piston_acceleration")
+    yield from material.presented([angle_table(material, "along", keys)], ("piston_forces",))
     across = [key for key in _ACROSS if key != "rod_transverse_force" or any_nonzero((key,), material.columns)]
     yield from material.presented(
         [angle_table(material, "forces", across)], ("rod_forces", "crankpin_forces", "torque")

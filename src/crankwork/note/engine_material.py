@@ -16,7 +16,7 @@ from crankwork.analysis.steps import worked_steps
 from crankwork.cylinders.engines import inline
 from crankwork.kinematics.crank_grid import Array
 from crankwork.machine import Bearings, Engine, Machine
-from crankwork.note.document import Block, Equation, Figure, Reference, Run, Runs, Table
+from crankwork.note.document import Block, Equation, Figure, Paragraph, Reference, Run, Runs, Table
 from crankwork.note.engine_seen import seen
 from crankwork.note.engine_words import EngineWords
 from crankwork.note.options import NoteOptions
@@ -212,10 +212,12 @@ class Material:
             "figures": [one.label for one in drawn],
         }
         known = {side: _listed(labels) for side, labels in sides.items() if labels}
-        if len(known) > 1:
-            yield self.words.paragraph("see_both", **known)
-        for side, runs in known.items() if len(known) == 1 else ():
-            yield self.words.paragraph(f"see_{side if len(sides[side]) > 1 else side[:-1]}", **{side: runs})
+        said: list[Run] = []
+        for side, runs in known.items():
+            sentence = self.words.sentence(f"see_{side if len(sides[side]) > 1 else side[:-1]}", **{side: runs})
+            said += [" ", *sentence] if said else sentence
+        if said:
+            yield Paragraph(tuple(said))
         yield from some
         yield from drawn
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from crankwork.analysis import Results
+from crankwork.errors import CrankworkError
 from crankwork.machine import Machine
 from crankwork.note.document import Block, Contents, Note, PageBreak, TitlePage
 from crankwork.note.engine_cycle import cycle, indicator
@@ -52,10 +53,17 @@ def engine_note(results: Results, options: NoteOptions) -> Note:
     Note
         Title page, contents, the sections of the school, sources and appendix; what is not known is left out.
 
+    Raises
+    ------
+    CrankworkError
+        If no school has this name.
+
     References
     ----------
     kolchin_demidov_2008, ch. 4-9.
     """
+    if options.order not in _ORDERS:
+        raise CrankworkError(f'no school of notes is called "{options.order}"; take en, ru or vi')
     machine = results.machine
     has_engine = isinstance(machine, Machine) and machine.engine is not None
     material = Material(whole(results, options.order), options, has_engine=has_engine)

@@ -15,7 +15,7 @@ from crankwork.note.engine_material import Material
 from crankwork.note.engine_words import EngineWords, flat
 from crankwork.note.equations import legend
 from crankwork.note.stated_units import printed_unit
-from crankwork.quantities import QUANTITIES, base_key
+from crankwork.quantities import QUANTITIES
 from crankwork.report.language import displayed, key_unit, label, symbol
 from crankwork.report.tables import row_name
 from crankwork.steps import Step
@@ -235,14 +235,13 @@ def explained(blocks: Iterable[Block], words: EngineWords) -> Iterator[Block]:
 
 
 def _own(block: Equation, known: set[str], words: EngineWords) -> tuple[Explanation, ...]:
-    """Return what the symbol on the left stands for, if it is new and that of a whole quantity."""
-    new = _left(block) - known
-    return tuple(Explanation(block.symbol, label(key, words.language)) for key in new)
+    """Return what the symbol on the left stands for, if that is new."""
+    return tuple(Explanation(words.symbol(kind), label(kind, words.language)) for kind in _left(block) - known)
 
 
 def _left(block: Equation) -> set[str]:
-    key = "" if isinstance(block.step, Formula) else block.step.key
-    return {key} if key in QUANTITIES and base_key(key) == key else set()
+    kind = "" if isinstance(block.step, Formula) else block.step.key.partition(".")[0]
+    return {kind} if kind in QUANTITIES else set()
 
 
 def _keys(formula: Formula) -> set[str]:

@@ -8,9 +8,10 @@ from string import Formatter
 from crankwork.note.document import Heading, Math, Paragraph, Run, Runs
 from crankwork.note.equations import equation_symbol
 from crankwork.note.stated_units import printed_unit
-from crankwork.note.texts.engine_headings import CAPTIONS, COLUMNS, HEADINGS, MARKS, MEANINGS
+from crankwork.note.texts.engine_headings import CAPTIONS, COLUMNS, HEADINGS, MARKS
 from crankwork.note.texts.engine_sentences import SENTENCES
 from crankwork.quantities import LANGUAGES, QUANTITIES, Language
+from crankwork.report.engine_words import FILE_KEYS
 from crankwork.report.language import key_unit, number
 from crankwork.steps import Given
 from crankwork.units import from_si
@@ -88,7 +89,7 @@ class EngineWords:
 
     def meaning(self, name: str) -> str:
         """Return what a key of the machine file means; the key itself where nobody knows."""
-        key = MEANINGS.get(name, name)
+        key = FILE_KEYS.get(name, name)
         return QUANTITIES[key].label(self.language) if key in QUANTITIES else self._column_or(key)
 
     def _column_or(self, key: str) -> str:

@@ -2,6 +2,14 @@
 
 from __future__ import annotations
 
+# key of the machine file: the quantity or word that it means, where that has another name
+FILE_KEYS = {
+    "heating": "charge_heating",
+    "filling": "filling_factor",
+    "pressure_ratio": "pressure_rise_ratio",
+    "mechanical_loss": "mechanical_loss_pressure",
+}
+
 # word: English, Russian, Vietnamese
 ENGINE_WORDS = {
     "engine_torque": ("Torque of the cylinders and their sum", "Суммарный крутящий момент", "Tổng mômen quay"),
@@ -40,6 +48,9 @@ ENGINE_WORDS = {
     "to_exhaust": ("with the exhaust", "с отработавшими газами", "theo khí thải"),
     "unburnt": ("not burnt", "из-за неполноты сгорания", "do cháy không hoàn toàn"),
     "rest": ("rest", "неучтённые потери", "tổn thất còn lại"),
+    "fuel": ("fuel", "топливо", "nhiên liệu"),
+    "intake_loss_factor": ("loss factor of the intake", "коэффициент потерь на впуске", "hệ số tổn thất nạp"),
+    "intake_speed": ("speed in the intake", "скорость в клапане", "tốc độ khí nạp"),
     "exhaust": ("of the exhaust", "отработавших газов", "của khí thải"),
     "charge": ("of the fresh charge", "свежего заряда", "của môi chất mới"),
     "closed": ("in closed form", "по замкнутой формуле", "theo công thức kín"),

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from crankwork.quantities import LANGUAGES, Language
+from crankwork.quantities import LANGUAGES, QUANTITIES, Language
 from crankwork.report.engine_notices import ENGINE_NOTICES
-from crankwork.report.language import number
+from crankwork.report.engine_words import FILE_KEYS
+from crankwork.report.language import has_word, label, number
 
 _NOTICES = {
     "pi": ("computed with π = {pi}", "расчёт выполнен с π = {pi}", "tính với π = {pi}"),
@@ -45,7 +46,11 @@ _NOTICES = {
     "rounded_efficiency": ("efficiency {used} instead of {exact}: rounded as in the document",
                            "КПД {used} вместо {exact}: округлён, как в документе",
                            "hiệu suất {used} thay vì {exact}: làm tròn như tài liệu"),
-    "no_flywheel": ("no flywheel: {message}", "маховик не найден: {message}", "không tìm được bánh đà: {message}"),
+    "no_flywheel": (
+        "no flywheel: {message}",
+        "маховик не найден: проверьте заданную неравномерность (от 0 до 2) и скорость",
+        "không tìm được bánh đà: hãy kiểm tra hệ số không đều yêu cầu (từ 0 đến 2) và tốc độ",
+    ),
     "overloaded": (
         "the load needs {needed} kW, the motor is rated for {rated} kW; take a stronger one",
         "нагрузке нужно {needed} кВт, номинальная мощность двигателя {rated} кВт; возьмите более мощный",
@@ -56,8 +61,11 @@ _NOTICES = {
         "двигатель даёт не более {torque} Н·м и остановится при {angle}°; увеличьте передаточное отношение",
         "động cơ cho tối đa {torque} N·m trên tay quay và dừng tại {angle}°; hãy tăng tỉ số truyền hoặc công suất",
     ),
-    "no_steady_speed": ("no steady speed: {message}", "нет установившегося движения: {message}",
-                        "không có chế độ ổn định: {message}"),
+    "no_steady_speed": (
+        "no steady speed: {message}",
+        "нет установившегося движения: машина остановится; нужен больший маховик, двигатель или скорость",
+        "không có chế độ ổn định: máy sẽ dừng; cần bánh đà, động cơ hoặc tốc độ lớn hơn",
+    ),
     "ambient": ("no ambient pressure given: {pressure} MPa is taken",
                 "давление среды не задано: принято {pressure} МПа",
                 "không cho áp suất khí trời: lấy {pressure} MPa"),
@@ -74,12 +82,25 @@ def notice_text(code: str, values: Mapping[str, float | str], language: Language
     """Return the sentence of a notice with its numbers printed."""
     shown = {}
     for key, value in values.items():
-        if isinstance(value, str):
+        if key == "names":
+            shown[key] = _meanings(str(value), language)
+        elif isinstance(value, str):
             shown[key] = value
         else:
             # pressure steps are the only values with a unit of their own, MPa
             shown[key] = number(value / 1e6 if key == "step" else value, language, digits=5)
     return _NOTICES[code][LANGUAGES.index(language)].format(**shown)
+
+
+def _meanings(names: str, language: Language) -> str:
+    """Return keys of the machine file with what they mean, in a language that is not theirs."""
+    if language == "en":
+        return names
+    meant = {name: FILE_KEYS.get(name, name) for name in names.split(", ")}
+    return ", ".join(
+        f"{label(key, language)} ({name})" if key in QUANTITIES or has_word(key) else name
+        for name, key in meant.items()
+    )
 
 
 def notice_codes() -> list[str]:

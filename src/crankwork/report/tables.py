@@ -11,7 +11,7 @@ import numpy as np
 from crankwork.analysis import Results
 from crankwork.errors import MissingExtraError
 from crankwork.kinematics.crank_grid import Array
-from crankwork.quantities import QUANTITIES, Language
+from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.report.language import key_unit, label, unit_name, word
 from crankwork.units import from_si
 
@@ -36,7 +36,7 @@ def table_column(results: Results, key: str, *, per_area: bool = False) -> Array
     if key == "crank_angle":
         return results.grid.degrees
     values = results.columns[key]
-    if per_area and QUANTITIES[key].per_area_unit:
+    if per_area and QUANTITIES[base_key(key)].per_area_unit:
         values = values / results.summary["piston_area"]
     # adding zero turns -0.0 into 0.0
     return np.asarray(from_si(values, key_unit(key, per_area=per_area)) + 0.0)

@@ -283,7 +283,6 @@ def _data_values(data: GrinevetskyData, heat: Burning, start: _Intake) -> dict[s
         "fuel_heating_value": heat.heating_value,
         "excess_air": _given(data.excess_air),
         "compression_ratio": data.compression_ratio,
-        "rotational_speed": data.rotational_speed,
         "ambient_temperature": data.ambient_temperature,
         "charge_pressure": start.charge_pressure,
         "charge_temperature": start.charge_temperature,

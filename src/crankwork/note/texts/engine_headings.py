@@ -167,11 +167,3 @@ MARKS = {
     "crankpin": Said("cp", "шш", "ch"),
     "main_journal": Said("mj", "кш", "ck"),
 }  # fmt: skip
-
-# keys of the machine file that notices name, by the quantity or word that they mean
-MEANINGS = {
-    "heating": "charge_heating",
-    "filling": "filling_factor",
-    "pressure_ratio": "pressure_rise_ratio",
-    "mechanical_loss": "mechanical_loss_pressure",
-}
