@@ -168,17 +168,26 @@ def test_the_second_bank_of_a_v_may_hang_on_the_first():
         (
             lambda: inline(4, (1, 2, 3, 4), throws=(0, 180, 180, 0)),
             "engine.firing_order",
-            ["does not allow the firing order 1-2-3-4", "it allows 1-2-4-3, 1-3-4-2", "throws = [0, 180, 0, 180]"],
+            [
+                "does not allow the firing order 1-2-3-4",
+                "it allows 1-2-4-3, 1-3-4-2",
+                'throws = ["0 deg", "180 deg", "0 deg", "180 deg"]',
+            ],
         ),
         (
             lambda: vee(6, (1, 2, 3, 4, 5, 6), 90.0, numbering="pairs"),
             "engine.pin_offset",
-            ["2 30 deg behind that of 1", "engine.pin_offset = -30", "engine.bank_angle = 120", "90, 150, 90, 150"],
+            [
+                "2 30 deg behind that of 1",
+                'engine.pin_offset = "-30 deg"',
+                "engine.bank_angle = 120",
+                "90, 150, 90, 150",
+            ],
         ),
         (
             lambda: vee(8, (1, 5, 4, 2, 6, 3, 8, 7), 90.0),
             "engine.pin_offset",
-            ["cylinders 3 and 7", "engine.firing_order = 1-3-4-2-6-5-7-8"],
+            ["cylinders 3 and 7", "engine.firing_order = [1, 3, 4, 2, 6, 5, 7, 8]"],
         ),
         (lambda: inline(4, (1, 3, 4, 2), throws=(0, 180)), "engine.throws", ["2 angles", "4 throws"]),
         (lambda: vee(7, (1, 2, 3, 4, 5, 6, 7), 90.0), "engine.cylinders", ["a multiple of 2"]),
@@ -197,7 +206,7 @@ def test_the_second_bank_of_a_v_may_hang_on_the_first():
         (
             lambda: vee(6, (1, 2, 3, 4, 5, 6), 60.0, pin_offset=-60.0, numbering="pairs", articulated=True),
             "engine.articulated",
-            ["engine.pin_offset = 0"],
+            ["leave out engine.pin_offset"],
         ),
         (lambda: inline(2, (1, 2), throws=(0, 0), strokes=2), "engine.firing_order", ["does not allow"]),
     ],

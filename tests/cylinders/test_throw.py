@@ -23,7 +23,7 @@ def test_rods_on_one_crankpin_move_like_single_cylinders():
     for place in layout.places:
         own = CrankGrid.from_degrees(grid.degrees - (place.axis - layout.places[0].axis))
         expected = piston_motion(LENGTHS, own).piston
-        found = moving.sliders["piston_pin" if place.number == 1 else f"piston_pin_{place.number}"]
+        found = moving.sliders[f"B{place.number}"]
         assert np.ptp(found.position + expected.position) < 1e-12
         assert found.position_1 == pytest.approx(-expected.position_1, abs=1e-13)
         assert found.position_2 == pytest.approx(-expected.position_2, abs=1e-12)
@@ -38,7 +38,7 @@ def test_articulated_rods_move_like_their_own_formulas():
     for place, rod in zip(layout.places[1:], slaves[1:], strict=True):
         own = CrankGrid.from_degrees(grid.degrees - place.axis)
         expected = articulated_motion(lengths, rod, own).piston
-        found = moving.sliders[f"piston_pin_{place.number}"]
+        found = moving.sliders[f"B{place.number}"]
         assert np.ptp(found.position + expected.position) < 1e-12
         assert found.position_1 == pytest.approx(-expected.position_1, abs=1e-13)
         assert found.position_2 == pytest.approx(-expected.position_2, abs=1e-12)

@@ -136,10 +136,13 @@ def shaft_unbalances(whole: WholeEngine, layout: Layout) -> tuple[Unbalance, ...
         Its cylinders, along the shaft as they are to be taken. [m]
     """
     r, found = whole.master.lengths.crank_radius, []
-    places = [layout.places[members[0].number - 1] for members in whole.on_pin.values()]
-    for members, place in zip(whole.on_pin.values(), places, strict=True):
+    pins = {place.crankpin: place.throw for place in layout.places}
+    for members in whole.on_pin.values():
+        place = layout.places[members[0].number - 1]
         middle = float(np.mean([layout.places[one.number - 1].position for one in members]))
-        found.append(Unbalance(whole.masses.crank * r, place.pin_angle, middle))
+        # split pins share the mass of their throw
+        share = list(pins.values()).count(place.throw)
+        found.append(Unbalance(whole.masses.crank / share * r, place.pin_angle, middle))
     return (*found, *counterweights(whole, layout))
 
 
@@ -175,9 +178,8 @@ def rotating_masses(whole: WholeEngine) -> Array:
     array, shape (cylinders,)
         Masses. [kg]
     """
-    sharing = {place.number: len(members) for members in whole.on_pin.values() for place in members}
-    masses = whole.masses
-    return np.array([masses.rod_big_end + masses.crank / sharing[one.number] for one in whole.layout.places])
+    throws, masses = [one.throw for one in whole.layout.places], whole.masses
+    return np.array([masses.rod_big_end + masses.crank / throws.count(throw) for throw in throws])
 
 
 def bearing_columns(loads: BearingLoads) -> dict[str, Array]:

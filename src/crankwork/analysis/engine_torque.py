@@ -144,7 +144,17 @@ def torque_listings(whole: WholeEngine, torque: EngineTorque) -> dict[str, Listi
     }
     after = dict(zip(layout.firing_order, firing_intervals(layout), strict=True))
     radians["firing_interval"] = [after[one.number] for one in places]
+    if any(one.slave is not None for one in whole.cylinders):
+        strokes = [one.stroke for one in whole.cylinders]
+        radians["top_dead_centre_angle"] = [
+            (place.firing_angle + stroke[1]) % layout.cycle for place, stroke in zip(places, strokes, strict=True)
+        ]
     firing = {key: np.radians(values) for key, values in radians.items()}
+    if "top_dead_centre_angle" in firing:
+        firing["stroke"] = np.array([stroke[0] for stroke in strokes])
+        spaces = [one.space for one in whole.cylinders]
+        if all(space is not None for space in spaces):
+            firing["swept_volume"] = np.array([space.swept for space in spaces if space is not None])
     numbers = np.array([float(one.number) for one in places])
     count = round(_ORDERS * layout.cycle / 360)
     one, total = curve_harmonics(torque.one, count), curve_harmonics(torque.total, count)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 from crankwork.analysis.cylinders import WholeEngine, torque_curves, whole_engine
@@ -54,7 +55,12 @@ def with_whole_engine(results: Results) -> Results:
     notices = [Notice(*one) for one in whole.engine.notices]
     if any(whole.engine.slaves) and whole.masses.rod_inertia_excess:
         notices.append(Notice("articulated_two_mass", {}))
+    if any(whole.engine.slaves) and whole.masses.rod_big_end:
+        notices.append(Notice("articulated_big_ends", {}))
+    if len({one.position for one in whole.layout.places}) == 1 < len({one.throw for one in whole.layout.places}):
+        notices.append(Notice("no_spacing", {}))
     if "crank_torque" not in results.columns:
+        notices.append(Notice("motion_only", {}))
         return replace(results, notices=(*results.notices, *notices))
     torque, told = engine_torque(whole, *torque_curves(whole))
     degrees, loads = dense_loads(whole)
@@ -69,6 +75,7 @@ def with_whole_engine(results: Results) -> Results:
     if whole.machine.masses is not None:
         listings["balance"] = balance_listing(whole, balance)
     summary = _engine_summary(whole) | torque_summary(torque) | bearing_summary(whole, degrees, loads)
+    told = (*told, *_torque_against_cycle(results.summary, summary))
     return replace(
         results,
         columns={**results.columns, **found},
@@ -83,6 +90,14 @@ def with_whole_engine(results: Results) -> Results:
 def _belongs(table: str, key: str) -> bool:
     """Return whether a key that begins like those of a table is one of them."""
     return table != "bearings" or not key.startswith("crankpin_torque")
+
+
+def _torque_against_cycle(one: Mapping[str, float], whole: Mapping[str, float]) -> tuple[Notice, ...]:
+    """Return how far the mean torque is from that of the calculation of the cycle."""
+    if not {"effective_torque", "mechanical_efficiency"} <= set(one):
+        return ()
+    cycle, mean = one["effective_torque"] / one["mechanical_efficiency"], whole["mean_total_torque"]
+    return (Notice("torque_of_cycle", {"torque": mean, "cycle": cycle, "percent": 100 * (mean / cycle - 1)}),)
 
 
 def _engine_summary(whole: WholeEngine) -> dict[str, float]:

@@ -177,7 +177,7 @@ def _disagreement(
     first_bank = [abs(angle - off[number]) <= SAME_ANGLE for one, angle in off.items() if seats[one - 1].bank]
     ways = []
     if banks.kind == "V" and all(first_bank):
-        ways.append(f"set engine.pin_offset = {split:.7g}")
+        ways.append(f'set engine.pin_offset = "{split:.7g} deg"')
         bank_angle = banks.axes[1] - banks.axes[0] - off[number]
         if 0 < abs(bank_angle) < 180:
             ways.append(f"engine.bank_angle = {bank_angle:.7g}")
@@ -186,7 +186,7 @@ def _disagreement(
     if angles:
         steps = intervals([angles[one - 1] for one in order], cycle)
         ways.append(f"engine.uneven = true, which fires at intervals of {angle_list(steps)} deg")
-    ways += [f"engine.firing_order = {order_text(one)}" for one in even_orders(dead_centres, cycle, limit=2)]
+    ways += [f"engine.firing_order = {list(one)}" for one in even_orders(dead_centres, cycle, limit=2)]
     if not ways:
         ways.append("write engine.throws, or another engine.firing_order")
     return LayoutError(
@@ -215,7 +215,8 @@ def _firing(seats: Sequence[Seat], pins: Sequence[float], order: tuple[int, ...]
         needed = even_angles(order, cycle)
         pairs = zip(seats, needed, strict=True)
         throws = {seat.throw: wrapped(seat.axis - seats[0].axis - angle) for seat, angle in pairs}
-        text += f"; that order needs engine.throws = [{angle_list([throws[at] for at in sorted(throws)])}]"
+        quoted = ", ".join(f'"{throws[at]:.7g} deg"' for at in sorted(throws))
+        text += f"; that order needs engine.throws = [{quoted}]"
     raise LayoutError("engine.firing_order", text)
 
 
@@ -224,7 +225,7 @@ def _places(banks: Banks, seats: Sequence[Seat], pins: Sequence[float], firing: 
     masters = {seat.throw: seat.number for seat in reversed(seats) if seat.bank == 0}
     rows = len(banks.axes)
     if banks.articulated and (banks.own_throws or not common):
-        raise LayoutError("engine.articulated", "articulated rods hang on one crankpin; set engine.pin_offset = 0")
+        raise LayoutError("engine.articulated", "articulated rods hang on one crankpin; leave out engine.pin_offset")
     places = []
     for seat, pin, angle in zip(seats, pins, firing, strict=True):
         crankpin = seat.throw if common or banks.own_throws else seat.throw * rows + seat.bank

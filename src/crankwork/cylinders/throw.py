@@ -29,22 +29,23 @@ def throw_mechanism(layout: Layout, lengths: SliderCrank, slaves: Sequence[Artic
     Returns
     -------
     Mechanism
-        Points `crank_pin`, `piston_pin` of cylinder 1 and `piston_pin_3` of cylinder 3; at a crank angle of zero the
-        crank lies along the axis of cylinder 1.
+        Crankpin A, piston pins B1, B2 ... and knuckle pins C2, C3 ... by the numbers of the cylinders; at a crank angle
+        of zero the crank lies along the axis of cylinder 1.
     """
     places = [one for one in layout.places if one.crankpin == layout.places[0].crankpin]
     points, rods = [], []
     for place in places:
         slave = slaves[place.number - 1] if slaves else None
-        mark = "" if place.number == 1 else f"_{place.number}"
         axis = math.radians(place.axis)
-        joint, length, offset = "crank_pin", lengths.rod_length, lengths.offset
+        joint, length, offset = "A", lengths.rod_length, lengths.offset
         if slave is not None:
             angle = math.radians(slave.knuckle_angle)
-            joint, length, offset = f"knuckle_pin{mark}", slave.length, slave.offset
+            joint, length, offset = f"C{place.number}", slave.length, slave.offset
             along, across = slave.knuckle_radius * math.cos(angle), -slave.knuckle_radius * math.sin(angle)
-            points.append(LinkPoint(joint, "rod", along, across))
+            points.append(LinkPoint(joint, "rod 1", along, across))
         beside = (offset * math.cos(axis), -offset * math.sin(axis))
-        rods.append(RRP(joint, f"piston_pin{mark}", f"rod{mark}", length, guide_point=beside, guide_angle=_UP - axis))
-    crank = Crank(lengths.crank_radius, start=_UP - math.radians(places[0].axis), direction=-1)
+        rods.append(
+            RRP(joint, f"B{place.number}", f"rod {place.number}", length, guide_point=beside, guide_angle=_UP - axis)
+        )
+    crank = Crank(lengths.crank_radius, start=_UP - math.radians(places[0].axis), direction=-1, pin="A")
     return Mechanism(crank, tuple(rods), points=tuple(points))

@@ -27,11 +27,12 @@ from crankwork.working_cycle.ideal import IdealData, ideal_cycle
 from crankwork.working_cycle.pressures import CornerPressure, HeatReleasePressure
 from crankwork.working_cycle.rounding import Rounding, Timing
 
-_REAL, _IDEAL = ("petrol", "diesel"), ("otto", "ideal-diesel", "dual")
+_IDEAL = ("otto", "ideal-diesel", "dual")
 _CORNERS = {"corners", "school", "timing", "filling", "peak_level"}
 _COMMON = {"kind", "cycle", "source", "ambient_pressure"}
 _OF_REAL = {
     "fuel", "excess_air", "ambient_temperature", "charge_pressure", "charge_temperature", "intake_pressure",
+    "intake_loss_factor", "intake_speed",
     "residual_pressure", "residual_temperature", "heating", "charge_up", "scavenging", "compression_exponent",
     "expansion_exponent", "heat_use", "pressure_ratio", "mechanical_loss", "heat_capacities", "power",
     "stroke_bore_ratio", "lost_stroke",
@@ -45,7 +46,7 @@ _OF_WIEBE = {
     "cycle_heat", "wall_temperature", "adiabatic_exponent", "timing",
 }  # fmt: skip
 _KEYS = (
-    dict.fromkeys(_REAL, _COMMON | _OF_REAL | _CORNERS)
+    {"petrol": _COMMON | _OF_REAL - {"pressure_ratio"} | _CORNERS, "diesel": _COMMON | _OF_REAL | _CORNERS}
     | dict.fromkeys(_IDEAL, _COMMON | _OF_IDEAL | _CORNERS)
     | {"wiebe": _COMMON | _OF_WIEBE}
 )

@@ -55,7 +55,8 @@ def build_engine(
         return None
     table = values.get("engine", {"layout": "inline", "cylinders": 1})
     _check_keys(table, reader)
-    if reader.doubts("engine.layout", "engine.cylinders", "engine.firing_order") or len(table) < 2:
+    doubtful = ("layout", "cylinders", "firing_order", "bank_angle", "bank_angles", "throws")
+    if reader.doubts(*(f"engine.{key}" for key in doubtful)) or len(table) < 2:
         return None
     try:
         layout, notices = _layout(table, round(cycle / 180))
@@ -116,8 +117,8 @@ def _layout(table: Mapping[str, Any], strokes: int) -> tuple[Layout, tuple[Layou
         if usual is None:
             raise LayoutError(
                 "engine.firing_order",
-                f"no usual order is known for {kind} with {cylinders} cylinders and {strokes} strokes; write it, "
-                "like [1, 3, 4, 2]",
+                f"no usual order is known for {kind} with {cylinders} cylinders, {strokes} strokes and these angles; "
+                f"write it, like [1, 3, 4, 2]{_near(table, strokes)}",
             )
         order = list(usual.order)
         throws = throws or list(usual.throws)
@@ -145,6 +146,15 @@ def _layout(table: Mapping[str, Any], strokes: int) -> tuple[Layout, tuple[Layou
     axes = tuple(_clean(math.degrees(one.value)) for one in table["bank_angles"] if one)
     banks = Banks("W", cylinders, axes, options.pop("spacing"), stagger or 0.0, numbering=options.pop("numbering"))
     return arranged(banks, order, throws=throws, **options)
+
+
+def _near(table: Mapping[str, Any], strokes: int) -> str:
+    """Return the advice to take a customary engine with another split of its pins."""
+    axes = (-_degrees(table, "bank_angle") / 2, _degrees(table, "bank_angle") / 2)
+    for one in standard_orders(table["layout"], int(table["cylinders"]), strokes):
+        if one.axes == axes and one.pin_offset:
+            return f', or pin_offset = "{one.pin_offset:g} deg" for a usual one'
+    return ""
 
 
 def _usual(table: Mapping[str, Any], strokes: int) -> StandardOrder | None:

@@ -9,6 +9,8 @@ from crankwork.description.schema import Choice, Flag, Key, ListOf, NameOr, Numb
 _LENGTH = Quantity(("length",), 0.0, 100.0, above=True)
 _SPACING = Quantity(("length",), 0.0, 100.0)
 _ANGLE = Quantity(("angle",), -4 * math.pi - 1e-9, 4 * math.pi + 1e-9)
+_EVENT = Quantity(("angle",), 0.0, 0.75 * math.pi)
+_BEFORE = Quantity(("angle",), 0.0, math.pi / 2, above=True)
 _PRESSURE = Quantity(("pressure",), 0.0, 1e9, above=True)
 _TEMPERATURE = Quantity(("temperature",), 0.0, 5000.0, above=True)
 _RISE = Quantity(("temperature",), -300.0, 1000.0)
@@ -74,13 +76,13 @@ _FUEL = Table({
 })  # fmt: skip
 
 _TIMING = Table({
-    "intake_opens": Key(_ANGLE, "before the top dead centre of gas exchange"),
-    "intake_closes": Key(_ANGLE, "after the bottom dead centre"),
-    "exhaust_opens": Key(_ANGLE, "before the bottom dead centre"),
-    "exhaust_closes": Key(_ANGLE, "after the top dead centre of gas exchange"),
-    "ignition": Key(_ANGLE, "before the top dead centre of firing"),
-    "ignition_delay": Key(_ANGLE, "from ignition to the rise of pressure"),
-    "peak": Key(_ANGLE, "of the greatest pressure after the top dead centre, 10 to 15 degrees as a rule"),
+    "intake_opens": Key(_EVENT, "before the top dead centre of gas exchange"),
+    "intake_closes": Key(_EVENT, "after the bottom dead centre"),
+    "exhaust_opens": Key(_EVENT, "before the bottom dead centre"),
+    "exhaust_closes": Key(_EVENT, "after the top dead centre of gas exchange"),
+    "ignition": Key(_BEFORE, "before the top dead centre of firing"),
+    "ignition_delay": Key(_EVENT, "from ignition to the rise of pressure"),
+    "peak": Key(_BEFORE, "of the greatest pressure after the top dead centre, 10 to 15 degrees as a rule"),
 })  # fmt: skip
 
 CYCLE = Table({
@@ -96,6 +98,8 @@ CYCLE = Table({
     "charge_temperature": Key(_TEMPERATURE, "behind the compressor and cooler"),
     "intake_pressure": Key(_PRESSURE, "at the end of intake"),
     "intake_temperature": Key(_TEMPERATURE, "at the start of compression, of ideal cycles and Wiebe"),
+    "intake_loss_factor": Key(Number(0.0, 50.0), "of the intake, where its end pressure is not given"),
+    "intake_speed": Key(Quantity(("velocity",), 0.0, 1000.0), "in the narrowest section of the intake"),
     "residual_pressure": Key(_PRESSURE, "of the residual gas"),
     "residual_temperature": Key(_TEMPERATURE, "of the residual gas"),
     "heating": Key(_RISE, "of the fresh charge on its way in"),
@@ -120,10 +124,10 @@ CYCLE = Table({
     "peak_level": Key(Number(0.5, 1.0), "greatest pressure of the rounded diagram over that of the sharp one"),
     "school": Key(Choice(("ru", "vi")), "whose construction rounds the corners"),
     "timing": Key(_TIMING, "of valves or ports and ignition"),
-    "combustion_start": Key(_ANGLE, "before the top dead centre, for Wiebe"),
-    "combustion_duration": Key(_ANGLE, "for Wiebe"),
+    "combustion_start": Key(Quantity(("angle",), -math.pi / 2, math.pi / 2), "before the top dead centre, for Wiebe"),
+    "combustion_duration": Key(Quantity(("angle",), math.radians(1), math.pi), "for Wiebe"),
     "shape": Key(Number(-0.9, 10.0), "exponent m of Wiebe"),
-    "cycle_heat": Key(Quantity(("energy",), 0.0, 1e9), "heat of the fuel of one cycle in one cylinder, for Wiebe"),
+    "cycle_heat": Key(Quantity(("energy",), 0.0, 1e9, above=True), "of the fuel, per cycle and cylinder, for Wiebe"),
     "wall_temperature": Key(_TEMPERATURE, "of the walls, for Woschni; without it there is no heat loss"),
     "source": Key(Text(), "where the data come from"),
 })  # fmt: skip

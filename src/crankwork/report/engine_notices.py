@@ -4,6 +4,26 @@ from __future__ import annotations
 
 # code: English, Russian, Vietnamese
 ENGINE_NOTICES = {
+    "articulated_big_ends": (
+        "the big-end masses of the articulated rods are put at the crankpin, not at the knuckle pins",
+        "массы нижних головок прицепных шатунов отнесены к оси шатунной шейки, а не к пальцам прицепных шатунов",
+        "khối lượng đầu to của các thanh truyền phụ được đặt tại chốt khuỷu, không phải tại các chốt phụ",
+    ),
+    "no_spacing": (
+        "no engine.spacing is given, so there are no moments along the shaft",
+        "расстояние engine.spacing не задано, поэтому моменты вдоль вала не вычислены",
+        "không cho engine.spacing nên không tính các mômen dọc trục",
+    ),
+    "motion_only": (
+        "without masses or gas there is motion only: no torque, bearings, balance or flywheel",
+        "без масс и давления газов вычислена только кинематика: без моментов, нагрузок, уравновешивания и маховика",
+        "không có khối lượng và áp suất khí thể nên chỉ tính động học: không có mômen, phụ tải, cân bằng, bánh đà",
+    ),
+    "torque_of_cycle": (
+        "the mean torque is {torque} N·m, by the calculation of the cycle {cycle} N·m: {percent} % apart",
+        "средний момент {torque} Н·м, по тепловому расчёту {cycle} Н·м: расхождение {percent} %",
+        "mômen trung bình {torque} N·m, theo tính toán nhiệt {cycle} N·m: sai lệch {percent} %",
+    ),
     "articulated_two_mass": (
         "the articulated rods are taken as two masses; the inertia of the rod counts for the master rod only",
         "прицепные шатуны заменены двумя массами; момент инерции учтён только для главного шатуна",

@@ -39,6 +39,7 @@ _WORDS = {
     "method": ("method", "метод", "phương pháp"),
     "summary": ("Summary", "Сводка", "Tóm tắt"),
     "checks": ("Checks (relative residual)", "Проверки (относительная невязка)", "Kiểm tra (sai lệch tương đối)"),
+    "not_met": ("not met", "не выполнено", "không đạt"),
     "notices": ("Notes", "Примечания", "Ghi chú"),
     "written": ("Written to", "Записано в", "Đã ghi vào"),
     "exact": ("exact", "точный", "chính xác"),

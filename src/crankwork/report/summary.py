@@ -27,6 +27,10 @@ if TYPE_CHECKING:
     from crankwork.linkage_machine import AnyMachine
 
 
+# A residual above this is more than rounding.
+_MET = 1e-7
+
+
 def summary_data(results: Results, *, per_area: bool = False) -> dict[str, Any]:
     """Return the summary as plain data: method, value and unit by key, checks and notices.
 
@@ -80,7 +84,12 @@ def summary_text(results: Results, *, language: Language = "en", per_area: bool 
     if results.checks:
         lines += ["", word("checks", language)]
         checks = results.checks.items()
-        lines += aligned([(word(key, language), "", number(value, language, digits=2), "") for key, value in checks])
+        lines += aligned(
+            [
+                (word(key, language), "", number(value, language, digits=2), word("not_met", language) * (value > _MET))
+                for key, value in checks
+            ]
+        )
     if results.notices:
         lines += ["", word("notices", language)]
         lines += [f"  {notice_text(one.code, one.values, language)}" for one in results.notices]

@@ -39,7 +39,7 @@ class HeatReleaseData:
         to open. [deg]
     intake_opens, exhaust_closes : float
         Before and after top dead centre; with two strokes the scavenging ports open before bottom dead
-        centre, and the second number is not used. [deg]
+        centre and the exhaust ports shut after it. [deg]
     exhaust_pressure, intake_pressure : float
         While gas is exchanged; with two strokes the first is that of scavenging. [Pa]
     """
@@ -102,7 +102,11 @@ def stages(data: HeatReleaseData, dead_centres: tuple[float, float]) -> tuple[St
         If burning does not lie within the closed period.
     """
     top, bottom = dead_centres
-    shut, opens = bottom + data.intake_closes, bottom + 360.0 - data.exhaust_opens
+    closes = data.intake_closes
+    if data.cycle == 360:
+        # the ports that shut last begin the compression
+        closes = max(closes, data.exhaust_closes)
+    shut, opens = bottom + closes, bottom + 360.0 - data.exhaust_opens
     begin = top + 360.0 - data.burning_advance
     end = begin + data.burning_duration
     if begin < shut or end > opens:

@@ -269,8 +269,8 @@ def _diagram(data: HeatReleaseData, closed: list[Segment], dead_centres: tuple[f
     if closes > charged:
         segments.append(passage((charged, intake, 0.0), end))
     named = {
-        "IVC": (first.start, data.shut_pressure),
-        "EVO": (opens, float(last.pressures[-1])),
+        "a": (first.start, data.shut_pressure),
+        "b": (opens, float(last.pressures[-1])),
     }
     placed = {name: (angle % data.cycle, pressure) for name, (angle, pressure) in named.items()}
     return IndicatorDiagram(within_cycle(segments, data.cycle), placed)

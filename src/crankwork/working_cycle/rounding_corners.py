@@ -155,7 +155,10 @@ def compression_parts(corners: RoundedCorners) -> list[Part]:
         events.append(("c", corners.top))
     names, angles = zip(*events, strict=True)
     if any(after <= before for before, after in pairwise(angles)):
-        raise CrankworkError("the intake closes after the ignition; correct the valve timing or the ignition advance")
+        raise CrankworkError(
+            f"the events of compression must follow each other, but {', '.join(names)} lie at "
+            f"{', '.join(f'{one:g}' for one in angles)} deg; correct intake_closes, ignition or ignition_delay"
+        )
     points = [Named(name, angle, corners.compression(angle)) for name, angle in zip(names, angles, strict=True)]
     return [Part("polytropic", pair, exponent=corners.theory["n1"], reference="~start") for pair in pairwise(points)]
 
@@ -193,13 +196,14 @@ def _rising(corners: RoundedCorners, peak: float) -> list[Named]:
     left = compression_parts(corners)[-1].points[-1]
     compressed = corners.compression(corners.top)
     if corners.rounding.school == "ru":
-        middle = corners.rounding.rise * compressed
+        # with a small rise of pressure there is no room for the usual one
+        middle = min(corners.rounding.rise * compressed, (compressed + peak) / 2)
     else:
         middle = compressed + (peak - compressed) / 3
     if not compressed < middle < peak:
         raise CrankworkError(
             f"the pressure at c'' of {middle / 1e6:.4g} MPa does not lie between {compressed / 1e6:.4g} MPa at the end "
-            f"of compression and the peak of {peak / 1e6:.4g} MPa; correct rise, peak_level or p_z"
+            f"of compression and the peak of {peak / 1e6:.4g} MPa; correct pressure_ratio or peak_level"
         )
     # burning adds to the compression line as the square of the angle since it began
     angles = [(share, left.angle + share * (corners.top - left.angle)) for share in _RISING]
