@@ -144,3 +144,27 @@ def test_without_a_power_the_crank_needs_its_radius(crankwork):
     answer = crankwork("check", "engine.toml")
     assert answer.code == 2
     assert "crank.radius: is missing" in answer.err
+
+
+def test_forces_per_area_and_the_speed_are_those_of_the_file(crankwork):
+    path = str(EXAMPLES / "petrol-four.toml")
+    answer = crankwork("run", path, "--per-area", "-o", "out", "--no-figures")
+    assert answer.code == 0, answer.err
+    assert "5600 rpm" in answer.out
+    heading = Path("out/tables/bearings.csv").read_text("utf-8").splitlines()[0]
+    assert "crankpin_load.1 [MPa]" in heading
+
+
+def test_a_w_without_bank_angles_is_told_so(crankwork):
+    answer = crankwork("check", str(EXAMPLES / "v8-diesel.toml"), "--set", "engine.layout=W")
+    assert answer.code == 2
+    assert "engine.bank_angles" in answer.err
+    assert "is missing" in answer.err
+
+
+def test_an_engine_of_which_only_the_motion_is_known_says_so(crankwork):
+    text = '[crank]\nradius = "40 mm"\nspeed = "3000 rpm"\n[rod]\nratio = 0.25\n'
+    Path("engine.toml").write_text(text + '[engine]\nlayout = "inline"\ncylinders = 4\n', "utf-8")
+    answer = crankwork("check", "engine.toml")
+    assert answer.code == 0
+    assert "motion only" in answer.out

@@ -19,7 +19,7 @@ from crankwork.kinematics.extremes import dead_centres
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.loads.monotone import hermite, hermite_slope
 from crankwork.working_cycle.first_law import internal_energy_change
-from crankwork.working_cycle.heat_data import HeatReleaseData
+from crankwork.working_cycle.heat_data import HeatReleaseData, stages
 from crankwork.working_cycle.heat_release import HeatReleaseResult, cylinder_volumes, heat_release
 from crankwork.working_cycle.wiebe import wiebe_burning_rate, wiebe_burnt_fraction
 from crankwork.working_cycle.woschni import EXPANSION, woschni_coefficient, woschni_gas_speed
@@ -364,3 +364,9 @@ def test_without_scipy_the_missing_part_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "scipy.integrate", None)
     with pytest.raises(MissingExtraError, match="dynamics"):
         _run(ENGINE)
+
+
+def test_compression_of_two_strokes_begins_when_the_last_port_shuts():
+    for intake, exhaust in ((50.0, 70.0), (70.0, 50.0)):
+        ports = replace(TWO_STROKE, intake_closes=intake, exhaust_closes=exhaust)
+        assert stages(ports, (0.0, 180.0))[0].start == 250.0
