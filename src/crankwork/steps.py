@@ -112,7 +112,7 @@ class Worked:
 
     Examples
     --------
-    >>> from crankwork.dynamics.piston_forces import mean_piston_speed
+    >>> from crankwork.kinematics.lengths import mean_piston_speed
     >>> worked = Worked()
     >>> worked(mean_piston_speed, 0.09, 3000.0)
     9.0

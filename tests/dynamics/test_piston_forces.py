@@ -9,6 +9,7 @@ import pytest
 
 from crankwork.dynamics import piston_forces as forces
 from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.lengths import mean_piston_speed
 from crankwork.kinematics.slider_crank import SliderCrank, rod_swing
 
 SIDE, ALONG = 0.6, 0.8  # the rod leans by the angle of a 3-4-5 triangle
@@ -24,7 +25,7 @@ def test_velocity_and_acceleration_follow_from_the_transfer_functions() -> None:
 def test_speeds_from_revolutions_per_minute() -> None:
     assert forces.angular_speed(math.pi, 30.0) == pytest.approx(math.pi, rel=1e-15)
     assert forces.angular_speed(3.14, 3000.0) == pytest.approx(314.0, rel=1e-15)
-    assert forces.mean_piston_speed(0.1, 3000.0) == pytest.approx(10.0, rel=1e-15)
+    assert mean_piston_speed(0.1, 3000.0) == pytest.approx(10.0, rel=1e-15)
 
 
 def test_inertia_resists_acceleration_and_adds_to_the_other_forces() -> None:

@@ -10,8 +10,8 @@ import pkgutil
 import pytest
 
 import crankwork
-from crankwork.dynamics import piston_forces as forces
 from crankwork.expressions import FORMULAS, Formula, record
+from crankwork.kinematics.lengths import mean_piston_speed
 from crankwork.loads import gas
 from crankwork.note.document import (
     Bibliography,
@@ -60,7 +60,7 @@ def steps(formulas) -> list[Step]:
 def sample(language: Language) -> Note:
     """Return a note with every kind of block and text that every format could take for its own."""
     area = worked_step(gas.piston_area, math.pi, 0.1058)
-    speed = worked_step(forces.mean_piston_speed, 0.1058, 2300.0)
+    speed = worked_step(mean_piston_speed, 0.1058, 2300.0)
     mass = sum_step("reciprocating_mass", [Given("piston_mass", 0.1395), Given("rod_small_end_mass", 0.065)])
     rows = [[f"{k}", f"{k / 7:.3f}", HOSTILE] for k in range(60)]
     blocks = (

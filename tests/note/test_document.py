@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from crankwork.dynamics import piston_forces as forces
 from crankwork.errors import CrankworkError, MissingExtraError
 from crankwork.expressions import FORMULAS
+from crankwork.kinematics.lengths import mean_piston_speed
 from crankwork.loads import gas
 from crankwork.note.captions import caption, place_in_source
 from crankwork.note.characters import plain_text
@@ -26,7 +27,7 @@ from crankwork.quantities import LANGUAGES
 from crankwork.steps import Given, product_step, sum_step, worked_step
 from crankwork.units import UNITS
 
-STEP = worked_step(forces.mean_piston_speed, 0.09, 3000.0)
+STEP = worked_step(mean_piston_speed, 0.09, 3000.0)
 
 
 def _numbered(*blocks):

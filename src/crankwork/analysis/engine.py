@@ -14,6 +14,7 @@ from crankwork.analysis.state import FORCES, HARMONICS, KINEMATICS, columns, har
 from crankwork.dynamics import piston_forces as forces
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.extremes import acceleration_extremes, dead_centres, velocity_extremes
+from crankwork.kinematics.lengths import mean_piston_speed
 from crankwork.kinematics.piston import largest_error
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.cycle import quadrature
@@ -108,7 +109,7 @@ def _motion_summary(solved: Solved) -> dict[str, float]:
     result = {
         "rotational_speed": solved.machine.speed,
         "speed": w,
-        "mean_piston_speed": forces.mean_piston_speed(lengths.stroke, n),
+        "mean_piston_speed": mean_piston_speed(lengths.stroke, n),
         **_extremes("piston_velocity", velocity_at, x_1 * w),
         **_extremes("piston_acceleration", acceleration_at, x_2 * w**2),
     }

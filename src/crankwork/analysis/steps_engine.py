@@ -14,6 +14,7 @@ from crankwork.analysis.steps_motion import EngineMoment, harmonic_steps, motion
 from crankwork.dynamics import masses as mass_formulas
 from crankwork.dynamics import piston_forces as forces
 from crankwork.kinematics import lengths as length_formulas
+from crankwork.kinematics.lengths import mean_piston_speed
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.indicator import Segment
 from crankwork.machine import Machine
@@ -103,7 +104,7 @@ def _geometry(solved: Solved) -> Iterator[Step]:
 def _speed(solved: Solved) -> Iterator[Step]:
     n = solved.machine.speed * 30 / math.pi
     yield worked_step(forces.angular_speed, solved.method.pi, n)
-    yield worked_step(forces.mean_piston_speed, float(solved.lengths.stroke), n)
+    yield worked_step(mean_piston_speed, float(solved.lengths.stroke), n)
 
 
 def _masses(machine: Machine) -> Iterator[Step]:

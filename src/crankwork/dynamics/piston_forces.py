@@ -81,23 +81,6 @@ def angular_speed(pi: Value, n: Value) -> Value:
     return pi * n / 30
 
 
-@formula("mean_piston_speed", "kolchin_demidov_2008, ch. 6")
-def mean_piston_speed(stroke: Value, n: Value) -> Value:
-    """Mean piston speed.
-
-    Parameters
-    ----------
-    stroke, n : float
-        Stroke, revolutions per minute. [m], [rpm]
-
-    Returns
-    -------
-    float
-        Speed. [m/s]
-    """
-    return stroke * n / 30
-
-
 @formula("inertia_force", "kolchin_demidov_2008, ch. 7")
 def inertia_force(m_rec: Value, a: Value) -> Value:
     """Inertia force of the reciprocating mass.

@@ -1,10 +1,27 @@
-"""Stroke, ratios and dead centres of a slider-crank, and the extremes of its motion, as formulas to show."""
+"""Stroke, mean speed, ratios and dead centres of a slider-crank, and the extremes of its motion, as formulas."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from crankwork.expressions import Value, formula
+
+
+@formula("mean_piston_speed", "kolchin_demidov_2008, ch. 6")
+def mean_piston_speed(stroke: Value, n: Value) -> Value:
+    """Mean piston speed.
+
+    Parameters
+    ----------
+    stroke, n : float
+        Stroke, revolutions per minute. [m], [rpm]
+
+    Returns
+    -------
+    float
+        Speed. [m/s]
+    """
+    return stroke * n / 30
 
 
 @formula("rod_ratio", "kolchin_demidov_2008, ch. 6")

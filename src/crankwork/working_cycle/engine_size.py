@@ -7,23 +7,6 @@ import numpy as np
 from crankwork.expressions import Value, formula
 
 
-@formula("mean_piston_speed", "kolchin_demidov_2008, ch. 3")
-def piston_speed(stroke: Value, n: Value) -> Value:
-    """Mean piston speed of the engine that the cycle gives.
-
-    Parameters
-    ----------
-    stroke, n : float
-        Stroke, revolutions per minute. [m], [rpm]
-
-    Returns
-    -------
-    float
-        Speed. [m/s]
-    """
-    return stroke * n / 30
-
-
 @formula("displacement", "kolchin_demidov_2008, ch. 3")
 def displacement_of_power(tau_s: Value, N_e: Value, p_e: Value, n: Value) -> Value:
     """Swept volume of all cylinders that gives a power.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from crankwork.kinematics.lengths import mean_piston_speed
 from crankwork.loads.gas import piston_area, swept_volume
 from crankwork.steps import Worked
 from crankwork.working_cycle import engine_size
@@ -106,7 +107,7 @@ def _effective(worked: Worked, data: GrinevetskyData, indicated: float, stroke: 
     """Return the effective mean pressure at a stroke. [Pa]"""
     if not isinstance(data.mechanical_loss, tuple):
         raise CycleError("mechanical losses need the two coefficients of p_m = a + b v_p")
-    speed = worked(engine_size.piston_speed, stroke, data.rotational_speed)
+    speed = worked(mean_piston_speed, stroke, data.rotational_speed)
     loss = worked(mechanical_loss_pressure, *data.mechanical_loss, speed)
     effective = worked(effective_mean_pressure, indicated, loss)
     if effective <= 0:
