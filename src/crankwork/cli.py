@@ -6,6 +6,7 @@ import contextlib
 import importlib
 import io
 import json
+import re
 import os
 import sys
 import time
@@ -80,7 +81,8 @@ def _usage_sentence(error: click.ClickException) -> str:
             return f"{name}: is missing; write it after the command, see --help"
         case click.BadParameter() if error.param and isinstance(error.param.type, click.Choice):
             choices = " or ".join(error.param.type.choices)
-            return f"{error.param.opts[0]}: is not possible; write {choices}"
+            given = re.search(r"'(.*)' is not one of", error.message)
+            return f"{error.param.opts[0]}: {given[1] if given else 'this'} is not possible; write {choices}"
         case click.exceptions.NoSuchCommand():
             return f'"{error.command_name[:40]}": there is no such command; write {", ".join(commands.commands)}'
         case _:

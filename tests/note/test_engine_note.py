@@ -226,7 +226,9 @@ def test_method_constants_and_both_ratios_are_stated():
     for part in ("textbook, two terms", "3.14159265", "9.80665", "0.34", "0.25"):
         assert part in text
     assert [row[0] for row in tables(note(SPARK, "en"))["t:errors"].rows] == [
-        "piston displacement", "piston velocity", "piston acceleration",
+        "piston displacement", "piston velocity", "piston acceleration", "inertia force of the reciprocating mass",
+        "force on the piston pin", "side force", "tangential force on the crankpin", "radial force on the crankpin",
+        "crank torque",
     ]  # fmt: skip
     assert "t:errors" not in tables(note(FOUR, "en"))
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import importlib
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import Solved, solve
 from crankwork.analysis.state import FORCES, HARMONICS, KINEMATICS, columns, harmonic_columns
-from crankwork.dynamics import piston_forces as forces
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.extremes import acceleration_extremes, dead_centres, velocity_extremes
 from crankwork.kinematics.lengths import mean_piston_speed
@@ -21,7 +21,7 @@ from crankwork.loads.cycle import quadrature
 from crankwork.machine import Machine
 from crankwork.method import Method
 
-_DENSE_STEP = 0.1
+_DENSE_STEP, _ERROR_STEP = 0.1, 1.0
 # what a cycle is calculated with or checked by, and the rest of a summary says in its own way
 _NOT_SHOWN = ("first_law_residual", "rotational_speed")
 _ROUNDING = 1e-13
@@ -55,7 +55,9 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
         grid = CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
     dense = columns(solved, CrankGrid.steps(_DENSE_STEP, machine.cycle))
     table = columns(solved, grid) | harmonic_columns(solved, grid)
-    summary = {**_geometry_summary(solved), **_motion_summary(solved), **_force_summary(solved, dense)}
+    summary = {
+        **_geometry_summary(solved), **_motion_summary(solved), **_force_errors(solved), **_force_summary(solved, dense)
+    }  # fmt: skip
     calculated = solved.space.calculated if solved.space is not None else None
     steps = calculated.steps if calculated is not None else ()
     results = Results(
@@ -136,6 +138,17 @@ def _extremes(key: str, degrees: Array, values: Array) -> dict[str, float]:
         f"{key}_min": float(values[low]),
         f"{key}_min_angle": math.radians(degrees[low]),
     }
+
+
+def _force_errors(solved: Solved) -> dict[str, float]:
+    """Return how far the forces of an approximate method are from those of the exact one at most."""
+    if solved.method.is_exact or (solved.machine.masses is None and solved.space is None):
+        return {}
+    exact = solve(solved.machine, replace(solved.method.named("exact"), inertia_rod_ratio=None))
+    grid = CrankGrid.steps(_ERROR_STEP, solved.machine.cycle)
+    one, other = columns(solved, grid), columns(exact, grid)
+    keys = ("inertia_force", "piston_force", "side_force", "tangential_force", "radial_force", "crank_torque")
+    return {f"{key}_error": float(np.max(np.abs(one[key] - other[key]))) for key in keys if key in one}
 
 
 def _force_summary(solved: Solved, dense: Mapping[str, Array]) -> dict[str, float]:

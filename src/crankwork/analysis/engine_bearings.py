@@ -80,7 +80,9 @@ def bearing_loads(whole: WholeEngine, degrees: Array) -> BearingLoads:
     if "knuckle_side_force" in found:
         side = side + found["knuckle_side_force"].sum(axis=0)
     gas = found["gas_force"][0] if "gas_force" in found else np.zeros_like(degrees)
-    on_pin = piston_pin_force(gas, masses.piston, found["piston_acceleration"][0])
+    # that of the inertia force, where a document has its own
+    acceleration = found.get("inertia_acceleration", found["piston_acceleration"])[0]
+    on_pin = piston_pin_force(gas, masses.piston, acceleration)
     kept = {pin: crankpins[pin] for pin in unlike_pins(whole)}
     return BearingLoads(
         kept, big_end_bearing_load(of_master, swing), small_end_bearing_load(on_pin, side, swing), mains

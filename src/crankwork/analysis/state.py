@@ -26,8 +26,8 @@ HARMONICS = tuple(
     for order in ("first", "second")
 )
 FORCES = (
-    "gas_pressure", "gas_force", "inertia_force", "weight_force", "transverse_weight", "piston_force",
-    "side_force", "rod_force",
+    "gas_pressure", "gas_force", "inertia_acceleration", "inertia_force", "weight_force", "transverse_weight",
+    "piston_force", "side_force", "rod_force",
     "rod_transverse_force", "radial_force", "tangential_force", "rotating_inertia_force", "rotating_torque",
     "crank_torque", "overturning_moment",
 )  # fmt: skip
@@ -149,6 +149,8 @@ def _axial_forces(solved: Solved, grid: CrankGrid, known: Mapping[str, Array]) -
     if masses is None:
         return result | {"piston_force": result["gas_force"]}
     acceleration = _inertia_acceleration(solved, grid, known)
+    if acceleration is not known["piston_acceleration"]:
+        result["inertia_acceleration"] = acceleration
     result["inertia_force"] = forces.inertia_force(masses.reciprocating, acceleration)
     gas = result.get("gas_force", 0.0)
     if not machine.has_gravity:

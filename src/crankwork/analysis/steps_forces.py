@@ -123,7 +123,7 @@ def _inertia_steps(moment: EngineMoment, known: Mapping[str, float]) -> Iterator
         other = moment.with_rod_ratio(ratio)
         steps = list(piston_steps(other))
         yield from (one._replace(key=f"{one.key}.inertia") for one in steps if one.key != "piston_displacement")
-        step = acceleration_step(other.functions, "piston_acceleration.inertia")
+        step = acceleration_step(other.functions, "inertia_acceleration")
         yield step
         acceleration = step.value
     yield named_step(forces.inertia_force, known, a=acceleration)

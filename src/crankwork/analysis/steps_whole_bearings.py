@@ -94,7 +94,7 @@ def _small_end_steps(moment: WholeMoment) -> Iterator[AnyStep]:
         bearing_formulas.piston_pin_force,
         known.get("gas_force", 0.0),
         whole.masses.piston,
-        known["piston_acceleration"],
+        known.get("inertia_acceleration", known["piston_acceleration"]),
     )
     yield along
     across: AnyStep = Given("side_force", known["side_force"])

@@ -113,6 +113,9 @@ def error_bound(material: Material) -> Iterator[Block]:
     if "piston_acceleration_error" in found:
         share = material.words.number(100 * found["piston_acceleration_error"][1], digits=2)
         yield material.words.paragraph("error", share=share, table=Reference("t:errors"))
+    if "inertia_force_error" in found:
+        share = material.words.number(100 * found["inertia_force_error"][1], digits=2)
+        yield material.words.paragraph("force_error", share=share)
 
 
 def errors(material: Material) -> dict[str, tuple[float, float]]:

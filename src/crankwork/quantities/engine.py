@@ -51,6 +51,9 @@ ROWS = (
          "Time derivative of the piston displacement."),
     row("piston_acceleration", "m/s2", "a|j|j", "piston acceleration | ускорение поршня | gia tốc của piston",
          "Second time derivative of the piston displacement."),
+    row("inertia_acceleration", "m/s2", "a_I|j_ин|j_qt", "acceleration behind the inertia force"
+         " | ускорение, по которому вычислена сила инерции | gia tốc dùng tính lực quán tính",
+         "Piston acceleration with the crank-to-rod ratio that a document uses for the inertia force alone."),
     *(
         row(f"piston_{noun}_{order}", unit, f"{en}_{mark}|{ru}_{mark}|{vi}_{mark}",
              f"piston {noun}, {order_en} order | {name_ru} поршня {order_ru} порядка"

@@ -112,6 +112,11 @@ SENTENCES = {
         "Sai số của phương pháp so với kết quả chính xác không quá {share} % đối với gia tốc; các sai số được ghi"
         " trong bảng {table}.",
     ),
+    "force_error": Said(
+        "The inertia force errs by at most {share} %, with the crank-to-rod ratio it is calculated with.",
+        "Погрешность силы инерции при принятом для неё отношении радиуса кривошипа к длине шатуна не более {share} %.",
+        "Sai số của lực quán tính với thông số kết cấu dùng cho nó không quá {share} %.",
+    ),
     "masses": Said(
         "The rod is taken as a mass at the piston pin and a mass at the crankpin.",
         "Масса шатуна заменена двумя массами: на оси поршневого пальца и на оси шатунной шейки.",
