@@ -94,7 +94,8 @@ def test_every_word_lies_on_its_page(printed, kind):
 
 @pytest.mark.parametrize("kind", ["pdf", "word", "web"])
 def test_no_letter_is_replaced(printed, kind):
-    assert [mark for mark in "\ufffd\u25a1" if mark in printed[kind].text] == []
+    # LibreOffice prints an inverted question mark where a formula lacks something, and drops what follows
+    assert [mark for mark in "\ufffd\u25a1\u00bf" if mark in printed[kind].text] == []
 
 
 def test_the_three_hold_the_same_numbers(printed):

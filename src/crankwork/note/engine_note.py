@@ -22,12 +22,12 @@ Section = Callable[[Material], Iterator[Block]]
 
 _ORDERS: dict[str, tuple[Section, ...]] = {
     "ru": (
-        data, cycle, indicator, kinematics, dynamics, total, crankpin, mains, balance, evenness, checks, conclusion,
-        sources, appendix,
+        preface, data, cycle, indicator, kinematics, dynamics, total, crankpin, mains, balance, evenness, checks,
+        conclusion, sources, appendix,
     ),
     # between the data and the checks the twelve sections that such notes have
     "vi": (
-        preface, cycle, data, indicator, displacement, velocity, acceleration, inertia, along, across, total, polar,
+        preface, data, cycle, indicator, displacement, velocity, acceleration, inertia, along, across, total, polar,
         unrolled, big_end, wear, checks, conclusion, sources, appendix,
     ),
     # engineers who read English want the results before the way to them

@@ -16,7 +16,9 @@ NAMESPACES = (
 )
 _FONT = '<w:rPr><w:rFonts w:ascii="Cambria Math" w:hAnsi="Cambria Math" w:cs="Cambria Math"/></w:rPr>'
 # normal text keeps a decimal comma tight, where mathematics would put a space after it
-_STYLES = {"letter": '<m:sty m:val="i"/>', "upright": '<m:sty m:val="p"/>', "text": "<m:nor/>"}
+# a parenthesis whose partner stands on another line is literal, or a reader of formulas looks for the partner
+_STYLES = {"letter": '<m:sty m:val="i"/>', "upright": '<m:sty m:val="p"/>', "text": "<m:nor/>",
+           "literal": '<m:lit/><m:sty m:val="p"/>'}  # fmt: skip
 
 
 def omml(tree: Expression, values: Mapping[str, float] | None = None, language: Language = "en") -> str:
@@ -43,6 +45,8 @@ def omml_box(box: Box) -> str:  # noqa: C901 - one case per kind of box
             return _run(text, "text")
         case Digits(text):
             return _run(text, "text")
+        case Sign(text, "fence"):
+            return _run(text, "literal")
         case Sign(text, _):
             return _run(text or "\u2009", "upright")
         case Row(parts):

@@ -9,10 +9,12 @@ from crankwork.note.texts.said import Said
 
 SENTENCES = {
     "preface": Said(
-        "This report gives the calculation of the crank gear over a whole working cycle: what is given, the formulas"
-        " with the numbers put into them, tables and graphs.",
-        "В записке выполнен расчёт кривошипно-шатунного механизма за полный рабочий цикл: приведены исходные данные,"
-        " формулы с подстановкой чисел, таблицы и графики.",
+        "This report gives the calculation of the crank gear over a whole working cycle: motion, forces and torques."
+        " Each quantity is written as its formula, the numbers put into it and the result; tables and graphs are made"
+        " from these same results.",
+        "В записке выполнен кинематический и динамический расчёт кривошипно-шатунного механизма за полный рабочий"
+        " цикл. Для каждой величины приведены формула, подстановка чисел и результат; таблицы и графики построены по"
+        " тем же результатам. В заключении сведены основные результаты расчёта.",
         "Bản thuyết minh này trình bày phần tính toán động học và động lực học của cơ cấu khuỷu trục – thanh truyền"
         " trong một chu trình làm việc. Mỗi đại lượng được viết theo thứ tự: công thức, thay số, kết quả; các bảng số"
         " liệu và đồ thị được lập từ chính các kết quả đó.",
