@@ -6,8 +6,8 @@ import contextlib
 import importlib
 import io
 import json
-import re
 import os
+import re
 import sys
 import time
 from collections.abc import Callable, Iterable

@@ -27,12 +27,15 @@ class Step(NamedTuple):
         What was put in, by argument name. [SI, or the unit that the formula states]
     value : float
         What came out. [SI, or the unit that the formula states]
+    named : tuple of (str, str)
+        Arguments that stand for one of several values of their quantity, each with the key of that value.
     """
 
     key: str
     formula: Formula
     values: Mapping[str, float]
     value: float
+    named: tuple[tuple[str, str], ...] = ()
 
 
 class Given(NamedTuple):
@@ -173,6 +176,19 @@ def named_step(function: Callable[..., Any], known: Mapping[str, float], *, key:
     """
     values = {**known, **others}
     return worked_step(function, *(values[name] for name in FORMULAS[function.__name__].arguments), key=key)
+
+
+def renamed(step: Step, **keys: str) -> Step:
+    """Return a step that says which of several values of a quantity it takes.
+
+    Parameters
+    ----------
+    step : Step
+        The step.
+    **keys : str
+        Keys of values by argument; the symbol of the key is printed instead of that of the argument.
+    """
+    return step._replace(named=(*step.named, *keys.items()))
 
 
 def sum_step(key: str, terms: Iterable[AnyStep]) -> SumStep:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -174,7 +175,20 @@ def test_what_has_no_step_is_given_or_solved_for(machine, method):
     left = {key for key in left if not key.partition(".")[0].endswith(("_angle", "_error", "_max", "_min"))}
     if not getattr(machine, "loads", True):
         left -= {"static_torque"}
+    if not isinstance(machine, Machine):
+        # what was given, unless the method has a pi of its own
+        left -= {"speed"}
     assert {key for key in left if not key.startswith("flywheel_inertia.") or results.summary[key]} == set()
+
+
+@pytest.mark.parametrize("name", ["press", "press-geometry"])
+def test_a_given_speed_is_not_worked_out_of_the_revolutions_that_follow_from_it(name):
+    machine = crankwork.read(EXAMPLES / f"{name}.toml")
+    assert "speed" not in {group.name for group in worked_steps(analyse(machine))}
+    results = analyse(replace(machine, method=replace(machine.method, pi=3.14)))
+    (step,) = next(group.steps for group in worked_steps(results) if group.name == "speed")
+    assert step.value == pytest.approx(14.65 * 3.14 / math.pi, rel=1e-15)
+    assert results.summary["speed"] == pytest.approx(step.value, rel=1e-15)
 
 
 @pytest.mark.parametrize("angle", [0.0, 37.3, 90.0, 181.0, 360.0])

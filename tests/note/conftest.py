@@ -30,7 +30,7 @@ from crankwork.note.document import (
     Table,
     TitlePage,
 )
-from crankwork.note.equations import legend
+from crankwork.note.legends import legend
 from crankwork.quantities import Language
 from crankwork.steps import Given, Step, sum_step, worked_step
 

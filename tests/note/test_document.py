@@ -17,9 +17,10 @@ from crankwork.loads import gas
 from crankwork.note.captions import caption, place_in_source
 from crankwork.note.characters import plain_text
 from crankwork.note.document import Citation, Equation, Figure, Heading, Note, Paragraph, Reference, Table
-from crankwork.note.equations import legend, printed_equation, shown_values
+from crankwork.note.equations import printed_equation, shown_values
 from crankwork.note.formats import WRITERS, check_format, written_note
 from crankwork.note.layout import SPACE, Fence, Row, Sign, Upright, row, width
+from crankwork.note.legends import legend
 from crankwork.note.numbering import numbering
 from crankwork.note.stated_units import RESULT, printed_unit, stated_units
 from crankwork.note.symbols import number_box, symbol_box

@@ -13,12 +13,15 @@ import pytest
 
 import crankwork
 from crankwork.analysis.steps import worked_steps
+from crankwork.description.machine_file import read_machine, template
 from crankwork.errors import CrankworkError
 from crankwork.note import engine_material
 from crankwork.note.contents import note_of
 from crankwork.note.document import Bibliography, Equation, Figure, Heading, ItemList, Note, Paragraph, Reference, Table
 from crankwork.note.engine_note import engine_note
 from crankwork.note.engine_tables import folded
+from crankwork.note.engine_words import EngineWords
+from crankwork.note.equations import printed_equation
 from crankwork.note.numbering import numbering
 from crankwork.note.options import NoteOptions
 from crankwork.note.texts.engine_headings import CAPTIONS, COLUMNS, HEADINGS
@@ -38,6 +41,23 @@ PUBLISHED = (
     ("360", "2,42322", "-0,956907", "1,466313"), ("390", "3,25336", "-0,739836", "2,513528"),
     ("505", "0,44883", "0,501923", "0,950754"), ("720", "0,11", "-0,956907", "-0,846907"),
 )  # fmt: skip
+
+MEASURED = """
+[crank]
+radius = "45 mm"
+speed = "3000 rpm"
+[rod]
+length = "160 mm"
+[cylinder]
+bore = "85 mm"
+compression_ratio = 9.0
+[gas]
+cycle = "720 deg"
+[gas.measured]
+file = "data/p-v.csv"
+pressure_unit = "bar"
+shift = "-12 deg"
+"""
 
 
 @cache
@@ -127,7 +147,7 @@ def test_the_table_of_forces_is_the_published_one():
     table = tables(note(SPARK, "vi"))["t:along"]
     assert len(table.rows) == 145
     assert [title[0].content for title in table.headings] == ["α", "P_kt", "P_j", "P_1"]
-    assert {title[1] for title in table.headings[1:]} == {", MN/m²"}
+    assert {title[1] for title in table.headings[1:]} == {", MPa"}
     rows = {row[0]: row for row in table.rows}
     assert (table.rows[0][0], table.rows[-1][0]) == ("0", "720")
     for angle, *published in PUBLISHED:
@@ -179,7 +199,7 @@ def test_russian_tables_have_the_columns_of_russian_notes():
         "φ", "tg β", "N", "1/cos β", "S", "cos(φ+β)/cos β", "K", "sin(φ+β)/cos β", "T", "M_кр",
     ]  # fmt: skip
     motion = [title[0].content for title in found["t:motion"].headings]
-    assert motion == ["φ", "S_I", "S_II", "S", "v_I", "v_II", "v", "j_I", "j_II", "j"]
+    assert motion == ["φ", "S_I", "S_II", "S_x", "v_I", "v_II", "v", "j_I", "j_II", "j"]
 
 
 @pytest.mark.parametrize("language", ["en", "ru", "vi"])
@@ -256,6 +276,111 @@ def test_the_polytropes_pass_through_the_points_of_the_diagram():
     # the expansion line starts from z at the clearance volume, the compression line from a
     assert value(first[3]) == pytest.approx(5.98, abs=1e-4)
     assert value(last[2]) == pytest.approx(value(points["a"][3]), abs=2e-4)
+
+
+def test_a_note_names_pressures_by_one_unit():
+    said = " ".join(words(note(SPARK, "vi")))
+    said += " ".join(run for table in tables(note(SPARK, "vi")).values() for title in table.headings
+                     for run in title if isinstance(run, str))  # fmt: skip
+    assert "MPa" in said
+    assert "MN/m" not in said
+
+
+@pytest.mark.parametrize("key", ["indicated_fuel_consumption", "effective_fuel_consumption", "power_per_litre"])
+def test_values_of_the_cycle_end_in_the_unit_of_engineers(key):
+    block = next(one for one in equations(note(FOUR, "ru")) if one.step.key.partition(".")[0] == key)
+    printed = printed_equation(block, "ru").text
+    assert printed.endswith("кВт/л" if key == "power_per_litre" else "г/(кВт·ч)")
+    shown = value(printed.rpartition(" = ")[2].partition("\u00a0")[0])
+    # 1 kg/J = 3.6e9 g/(kW h), 1 W/m3 = 1e-6 kW/l
+    assert shown == pytest.approx(block.step.value * (1e-6 if key == "power_per_litre" else 3.6e9), rel=1e-5)
+
+
+def test_a_polytrope_ends_where_its_piece_ends():
+    one = engine_note(crankwork.analyse(read_machine(template("compressor"))), NoteOptions("en", figures=False))
+    found = tables(one)
+    points = {row[0]: row for row in found["t:points"].rows}
+    rows = found["t:polytropes"].rows
+    # expansion from d to e, compression from a to c: volumes and pressures at the ends are those of the points
+    for column, ends in ((2, "ca"), (3, "de")):
+        there = [row for row in rows if row[column] != "–"]
+        for row, name in zip((there[0], there[-1]), ends, strict=True):
+            assert value(row[1]) == pytest.approx(value(points[name][2]), abs=0.01), name
+            assert value(row[column]) == pytest.approx(value(points[name][3]), rel=1e-4), name
+    assert any(row[2] == "–" for row in rows)
+    assert any(row[3] == "–" for row in rows)
+
+
+@pytest.mark.parametrize("language", ["en", "ru", "vi"])
+def test_measured_pressure_is_named_and_tabulated(tmp_path, language):
+    # two cycles of a peak at 372 degrees by the file, 12 degrees late
+    rows = [f"{angle};{1 + 40 * math.exp(-(((angle % 720 - 372) / 40) ** 2)):.6f}" for angle in range(0, 1441, 2)]
+    (tmp_path / "data").mkdir()
+    (tmp_path / "data" / "p-v.csv").write_text("\n".join(rows), encoding="utf-8")
+    (tmp_path / "m.toml").write_text(MEASURED, encoding="utf-8")
+    options = NoteOptions(language=language, figures=False)
+    one = engine_note(crankwork.analyse(crankwork.read(tmp_path / "m.toml")), options)
+    said = next(
+        "".join(run for run in block.runs if isinstance(run, str))
+        for block in one.blocks
+        if isinstance(block, Paragraph) and any("p-v.csv" in run for run in block.runs if isinstance(run, str))
+    )
+    # the name of the file only, its samples and cycles
+    assert "data" not in said
+    assert {"721", "2"} <= set(re.findall(r"\d+", said))
+    assert any("−12°" in run for block in one.blocks if isinstance(block, Paragraph)
+               for run in block.runs if isinstance(run, str))  # fmt: skip
+    table = tables(one)["t:measured"]
+    pairs = {row[k]: value(row[k + 1]) for row in table.rows for k in range(0, len(row), 2) if row[k]}
+    assert len(pairs) == 73
+    for angle in ("320", "360", "400"):
+        assert pairs[angle] == pytest.approx(0.1 + 4 * math.exp(-(((float(angle) - 360) / 40) ** 2)), rel=1e-4)
+    assert "t:measured" not in tables(note(SPARK, language))
+
+
+@pytest.mark.parametrize(
+    ("language", "captions"),
+    [
+        ("en", ("load on the crankpin, crankpin 1", "load on the crankpin, crankpin 4",
+                "over the crank angle, crankpins 1, 4", "Wear diagram of the crankpin, crankpins 1, 4")),
+        ("ru", ("на шатунную шейку, шейка 1", "на шатунную шейку, шейка 4", "на шатунную шейку, шейки 1, 4",
+                "износа шатунной шейки, шейки 1, 4")),
+        ("vi", ("lên chốt khuỷu, chốt 1", "lên chốt khuỷu, chốt 4", "lên chốt khuỷu, các chốt 1, 4",
+                "mài mòn chốt khuỷu, các chốt 1, 4")),
+    ],
+)  # fmt: skip
+def test_figures_of_crankpins_say_which(language, captions):
+    found = {block.label: block for block in note("v8-diesel", language, drawn=True).blocks
+             if isinstance(block, Figure)}  # fmt: skip
+    names = ("crankpin_polar", "crankpin_polar_4", "crankpin_load", "crankpin_wear")
+    for name, end in zip(names, captions, strict=True):
+        assert found[f"f:{name}"].caption.endswith(end)
+
+
+def test_a_polar_diagram_says_the_load_of_its_own_crankpin():
+    drawn = {block.label: block for block in note("v8-diesel", "en", drawn=True).blocks if isinstance(block, Figure)}
+    columns = results("v8-diesel").columns
+    for name, pin in (("crankpin_polar", "1"), ("crankpin_polar_4", "4")):
+        largest = float(columns[f"crankpin_tangential_force.{pin}"].max())
+        tangential = drawn[f"f:{name}"].alt.partition(";")[0]
+        assert EngineWords("en").number(largest, digits=4) in tangential
+    # of a crank gear with one crankpin there is no other
+    one = {block.label: block for block in note(SPARK, "en", drawn=True).blocks if isinstance(block, Figure)}
+    assert one["f:crankpin_polar"].caption == "Polar diagram of the load on the crankpin"
+
+
+def test_a_table_of_the_speed_is_called_so_only_where_it_has_the_speed():
+    assert "t:speed" in tables(note(FOUR, "ru"))
+    table = tables(note(SPARK, "ru"))["t:energy"]
+    assert "t:speed" not in tables(note(SPARK, "ru"))
+    assert {title[0].content for title in table.headings} == {"φ", "ΔT"}
+
+
+@pytest.mark.parametrize(("language", "wanted"), [("en", "ΣF_rot"), ("ru", "ΣP_вр"), ("vi", "ΣP_quay")])
+def test_rotating_masses_have_no_order(language, wanted):
+    shown = {block.step.key: block.symbol for block in equations(note("v8-diesel", language))}
+    assert shown["free_force.rotating"] == wanted
+    assert EngineWords(language).symbol("free_force.2") == {"en": "ΣF_q,2"}.get(language, "ΣP_jq,2")
 
 
 def test_what_is_not_known_is_left_out():

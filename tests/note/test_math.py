@@ -39,10 +39,12 @@ from crankwork.note.layout import (
 )
 from crankwork.note.math import formula_box
 from crankwork.note.mathml import mathml
-from crankwork.note.omml import NAMESPACES, omml
+from crankwork.note.omml import NAMESPACES, omml, omml_box
 from crankwork.note.symbols import number_box, symbol_box
 from crankwork.note.typst_math import typst_math
 from crankwork.quantities import LANGUAGES
+
+MATH = NAMESPACES.split('"')[1]
 
 # --- reading boxes back
 
@@ -288,6 +290,20 @@ def test_a_long_numerator_is_divided():
     assert lines[0].parts[2:5] == (Fraction(Digits("1"), Letter("d")), DOT, OPEN)
 
 
+def test_parentheses_of_different_lines_are_literal_in_word():
+    top = row(*(part for _ in range(12) for part in (Letter("a"), Sign("+"))), Letter("c"))
+    lines = broken(row(Letter("x"), Sign("=", "relation"), Fraction(top, Letter("d"))), 8.0)
+    marks = []
+    for one in lines:
+        shown = ET.fromstring(f"<m:oMath {NAMESPACES}>{omml_box(one)}</m:oMath>")  # noqa: S314 - our own text
+        for run in shown.iter(f"{{{MATH}}}r"):
+            text = run.findtext(f"{{{MATH}}}t")
+            assert (run.find(f"{{{MATH}}}rPr/{{{MATH}}}lit") is not None) == (text in "()")
+            marks += [text] if text in "()" else []
+    assert len(lines) > 2
+    assert marks == ["(", ")"]
+
+
 # --- the three formats
 
 
@@ -313,9 +329,8 @@ def test_the_formats_of_one_formula():
         "math", "mfrac", "msub", "mi", "mi", "mrow", "msub", "mi", "mi", "mo", "mn",
     ]  # fmt: skip
     word = ET.fromstring(omml(record(piston_forces.side_force)))  # noqa: S314 - our own text
-    math = NAMESPACES.split('"')[1]
-    assert [one.tag for one in word] == [f"{{{math}}}f"]
-    assert len(word.findall(f".//{{{math}}}func")) == 2
+    assert [one.tag for one in word] == [f"{{{MATH}}}f"]
+    assert len(word.findall(f".//{{{MATH}}}func")) == 2
 
 
 def test_a_decimal_comma_is_inside_one_number():

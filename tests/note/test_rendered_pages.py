@@ -5,6 +5,8 @@ Every word must lie within the page, nothing may be a replacement character, and
 
 from __future__ import annotations
 
+import html
+import json
 import re
 import shutil
 import subprocess
@@ -78,6 +80,45 @@ def printed(request, tmp_path_factory):
     )  # fmt: skip
     return {"pdf": _printed(folder / "note.pdf"), "word": _printed(folder / "word" / "note.pdf"),
             "web": _printed(folder / "web.pdf")}  # fmt: skip
+
+
+# a page in a frame as wide as the screen of a telephone, and after it how wide its parts are
+FRAME = """<!DOCTYPE html><meta charset="utf-8"><iframe style="width:420px;height:900px;border:0" srcdoc="{}"></iframe>
+<pre></pre><script>onload = () => {{
+  const page = document.querySelector("iframe").contentDocument, edge = one => one.getBoundingClientRect();
+  const equations = [...page.querySelectorAll(".equation")].map(one => {{
+    const lines = one.querySelector(".lines"), mark = one.querySelector(".mark"), box = edge(lines);
+    return [box.left, box.right, edge(mark).right, edge(mark).top - box.bottom,
+            page.defaultView.getComputedStyle(lines).overflowX];
+  }});
+  document.querySelector("pre").textContent = JSON.stringify({{page: page.documentElement.scrollWidth, equations}});
+}}</script>"""
+
+
+@pytest.fixture(scope="module")
+def narrow(tmp_path_factory):
+    """The web page on a screen of 420 px: its width, and the edges of its equations [px]."""
+    folder = tmp_path_factory.mktemp("narrow")
+    browser = _program(*BROWSERS)
+    results = crankwork.analyse(crankwork.read(EXAMPLES / "petrol-four.toml"))
+    page = written_note(note_of(results, NoteOptions(language="ru")), "note.html").decode("utf-8")
+    (folder / "frame.html").write_text(FRAME.format(html.escape(page)), encoding="utf-8")
+    shown = subprocess.run(
+        [browser, "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", f"--user-data-dir={folder}/browser",
+         str(folder / "frame.html")],
+        capture_output=True, check=True, timeout=180,
+    ).stdout.decode("utf-8")  # fmt: skip
+    return json.loads(shown.rpartition("<pre>")[2].partition("</pre>")[0])
+
+
+def test_a_narrow_screen_shows_or_scrolls_every_formula(narrow):
+    assert len(narrow["equations"]) > 50
+    for left, right, mark, below, overflow in narrow["equations"]:
+        assert overflow == "auto"
+        assert right - left > 360
+        assert mark <= 420
+        assert below >= 0
+    assert narrow["page"] <= 420
 
 
 @pytest.mark.parametrize("kind", ["pdf", "word", "web"])

@@ -16,10 +16,13 @@ from hypothesis import strategies as st
 from crankwork.analysis import analyse
 from crankwork.description.machine_file import read, read_machine, template
 from crankwork.errors import CrankworkError
+from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.textbook import textbook_displacement
+from crankwork.note.engine_material import whole
 from crankwork.note.sheets import Paper, TitleBlock, engine_sheets, linkage_sheets
 from crankwork.note.sheets.engine_gas import brix_point
 from crankwork.note.sheets.engine_motion import tolle_corners
+from crankwork.note.sheets.engine_whole import whole_engine_extra
 from crankwork.note.sheets.linkage_polygons import Numbered, vector_plans
 from crankwork.note.sheets.placing import Named, names_beside
 from crankwork.note.sheets.scene import Box, Circle, Hatch, Polyline, Text, extent, hatch_lines, text_width
@@ -189,6 +192,75 @@ def test_what_is_known_of_the_whole_engine_is_drawn():
     deepest = wear.curve("wear_sums")[int(np.argmax(depth))] - circle.centre
     assert deepest[1] > 0
     assert deepest[0] == pytest.approx(0, abs=1e-9)
+
+
+@functools.cache
+def known_of(name, step=None):
+    """Return whole results and what sheets take of them, with a table of other steps if they are given."""
+    found = results(name)
+    if step is not None:
+        found = analyse(found.machine, CrankGrid.steps(step, found.machine.cycle))
+    found = whole(found, "ru")
+    return found, whole_engine_extra(found)
+
+
+def texts_of(graph):
+    return [one.text for one in graph.items if isinstance(one, Text)]
+
+
+def test_the_sheet_of_the_example_prints_the_mean_load_of_its_note_and_has_its_wear():
+    """Table of the note: mean 8827.61 N; the sums of its wear diagram are those of the listing."""
+    found, known = known_of("spark-engine")
+    sheet = engine_sheets(found, "ru", paper=SIGNED, extra=known)[1]
+    assert any(one.endswith("8827,61 Н") for one in texts_of(sheet.graph("unrolled")))
+    wear = sheet.graph("wear")
+    circle = max((one for one in wear.items if isinstance(one, Circle)), key=lambda one: one.radius)
+    depth = circle.radius - np.hypot(*(wear.curve("wear_sums") - circle.centre).T)
+    largest = found.listings["crankpin_wear"].columns["wear_sum.1"].max()
+    assert depth.max() * written_scale(wear, "ΣR") == pytest.approx(largest, rel=1e-9)
+    assert "total_torque" not in known
+
+
+@pytest.mark.parametrize(("name", "rods", "pins"), [("v8-diesel", 2, 2), ("radial-five", 5, 1), ("petrol-four", 1, 1)])
+def test_the_polar_diagram_shows_all_rods_of_the_crankpin(name, rods, pins):
+    """From the pole, every point is as far as the unrolled load is high, whose mean the note prints."""
+    found, known = known_of(name)
+    sheet = engine_sheets(found, "en", paper=SIGNED, extra=known)[1]
+    polar, unrolled = sheet.graph("polar"), sheet.graph("unrolled")
+    assert known["crankpin_rods"] == rods
+    masses, solved = found.machine.masses, found.solved
+    shift = rods * masses.rod_big_end * solved.lengths.crank_radius * solved.speed**2
+    pole = np.array(polar.point(0.0, shift))
+    loads = np.hypot(*(polar.curve("crankpin_load") - pole).T) * written_scale(polar, "F")
+    line = (unrolled.curve("crankpin_load")[:, 1] - unrolled.y.zero) * written_scale(unrolled, "F")
+    assert np.allclose(line, loads, rtol=1e-9, atol=1e-9 * loads.max())
+    mean = found.summary["mean_crankpin_load" + (".1" if pins > 1 else "")]
+    assert np.trapezoid(line, known["crank_angle"]) / np.ptp(known["crank_angle"]) == pytest.approx(mean, rel=2e-3)
+    for graph in (polar, unrolled, sheet.graph("wear")):
+        assert any(one.endswith("crankpin 1") for one in texts_of(graph)) == (pins > 1)
+
+
+@pytest.mark.parametrize("name", ["petrol-four", "two-stroke"])
+def test_sheets_do_not_depend_on_the_step_of_the_table(name):
+    (_, one), (_, other) = known_of(name), known_of(name, 45.0)
+    assert one.keys() == other.keys()
+    assert len(one["crank_angle"]) > 300
+    for key, values in one.items():
+        assert np.allclose(values, other[key], rtol=1e-12, atol=1e-9 * np.max(np.abs(values))), key
+
+
+def test_nothing_is_known_of_an_engine_without_forces():
+    assert known_of("slider-crank")[1] == {}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("name", ["spark-engine", "v8-diesel", "radial-five"])
+def test_whole_engines_have_room(name, language):
+    found, known = known_of(name)
+    for sheet in engine_sheets(found, language, paper=SIGNED, extra=known):
+        for graph in sheet.graphs:
+            for item in graph.items:
+                assert within(extent(item), graph.box), (graph.name, item)
 
 
 @pytest.mark.parametrize(

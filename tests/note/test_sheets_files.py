@@ -15,6 +15,7 @@ import ezdxf
 import numpy as np
 import pytest
 import typst
+from ezdxf import bbox
 from fontTools.ttLib import TTFont, TTLibError
 from matplotlib.font_manager import findfont, get_font
 
@@ -216,6 +217,19 @@ def test_text_from_outside_cannot_break_a_file():
     assert float(width) == pytest.approx(841 / 25.4 * 72, abs=0.01)
     document = ezdxf.read(io.StringIO(sheet_dxf(sheet).decode()))
     assert document.audit().errors == []
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_readers_of_dxf_break_no_text_and_find_all_on_the_paper(language):
+    for sheet in sheets(language):
+        space = ezdxf.read(io.StringIO(sheet_dxf(sheet).decode())).modelspace()
+        covered = bbox.extents(space)
+        assert min(covered.extmin.x, covered.extmin.y) >= -1e-6, sheet.name
+        assert covered.extmax.x <= 841 + 1e-6, sheet.name
+        assert covered.extmax.y <= 594 + 1e-6, sheet.name
+        for one in space.query("MTEXT"):
+            if not one.dxf.rotation:
+                assert bbox.extents([one]).size.y < 2.5 * one.dxf.char_height, one.text
 
 
 @pytest.mark.parametrize(("write", "module", "format"), [(sheet_pdf, "typst", "PDF"), (sheet_dxf, "ezdxf", "DXF")])

@@ -328,6 +328,36 @@ def test_curves_take_any_keys():
         curves(GRID, {"not_a_row.A": INERTIA}, ["not_a_row.A"], "t")
 
 
+@needs_matplotlib
+@pytest.mark.parametrize(
+    ("language", "title"),
+    [("en", "crank angle $φ$, °"), ("ru", "угол поворота кривошипа $φ$, °"), ("vi", "góc quay của tay quay $α$, °")],
+)
+def test_the_axis_of_a_linkage_names_its_crank_and_no_crankshaft(language, title, monkeypatch):
+    from matplotlib.axes import Axes
+
+    shown = []
+    monkeypatch.setattr(Axes, "set_xlabel", lambda _, text, **__: shown.append(text))
+    grid = CrankGrid.steps(30, 360)
+    curves(grid, {"driving_torque": np.sin(grid.angle)}, ["driving_torque"], "torque", Style(language))
+    speed_curve(grid, 10 + np.sin(grid.angle), Style(language))
+    assert len(shown) == 4
+    assert shown[1::2] == [title, title]
+
+
+@needs_matplotlib
+def test_position_plans_name_the_angle_as_the_language_does(monkeypatch):
+    from matplotlib.axes import Axes
+
+    shown = []
+    text = Axes.text
+    monkeypatch.setattr(Axes, "text", lambda self, x, y, s, **more: shown.append(s) or text(self, x, y, s, **more))
+    for language, sign in (("en", "φ"), ("ru", "φ"), ("vi", "α")):
+        shown.clear()
+        position_plans(FIRST, style=Style(language))
+        assert sum(one.startswith(f"${sign}_{{") for one in shown) == 1
+
+
 def test_without_matplotlib_the_fix_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     with pytest.raises(MissingExtraError, match=r"crankwork\[figures\]"):

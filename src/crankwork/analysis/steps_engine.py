@@ -16,9 +16,9 @@ from crankwork.dynamics import piston_forces as forces
 from crankwork.kinematics import lengths as length_formulas
 from crankwork.kinematics.lengths import mean_piston_speed
 from crankwork.loads import gas as gas_formulas
-from crankwork.loads.indicator import Segment
+from crankwork.loads.indicator import Piece, Segment
 from crankwork.machine import Machine
-from crankwork.steps import AnyStep, Given, Step, StepGroup, named_step, worked_step
+from crankwork.steps import AnyStep, Given, Step, StepGroup, named_step, renamed, worked_step
 
 
 def engine_steps(results: Results, crank_angle: float, force_angle: float) -> tuple[StepGroup, ...]:
@@ -126,12 +126,10 @@ def _gas(solved: Solved) -> Iterator[AnyStep]:
     if cylinder.clearance_volume is None and cylinder.compression_ratio is not None:
         yield worked_step(gas_formulas.clearance_volume, space.swept, cylinder.compression_ratio)
     yield worked_step(gas_formulas.compression_ratio, space.swept, space.clearance)
-    gas = solved.machine.gas
-    for piece in gas.pieces if gas and gas.measured is None else ():
-        if piece.law == "polytropic":
-            for name in (piece.points[0], piece.points[-1]):
-                if name != (piece.reference or piece.points[0]):
-                    yield from _polytrope_end(solved, name, piece.points[-1])
+    for piece in _pieces(solved):
+        for name in (piece.points[0], piece.points[-1]):
+            if name != (piece.reference or piece.points[0]):
+                yield from _polytrope_end(solved, name, piece.points[-1])
 
 
 def _polytrope_end(solved: Solved, name: str, end: str) -> Iterator[AnyStep]:
@@ -142,15 +140,24 @@ def _polytrope_end(solved: Solved, name: str, end: str) -> Iterator[AnyStep]:
     segment = next((one for one in _polytropes(solved) if abs(one.end - named[end][0]) < 1e-9), None)
     if segment is None:
         return
+    start = next((one for one in _pieces(solved) if one.points[-1] == end), None)
+    origin = (start.reference or start.points[0]) if start else ""
     x = EngineMoment.at(solved, named[name][0]).known["piston_displacement"]
     volume = worked_step(
         gas_formulas.cylinder_volume, solved.space.clearance, solved.space.area, x, key=f"cylinder_volume.{name}"
     )
     yield volume
     pressure, reference, exponent = segment.state
-    yield worked_step(
+    found = worked_step(
         gas_formulas.polytropic_pressure, pressure, reference, volume.value, exponent, key=f"diagram_pressure.{name}"
     )
+    yield renamed(found, p_1=f"diagram_pressure.{origin}", V_1=f"cylinder_volume.{origin}", V=volume.key)
+
+
+def _pieces(solved: Solved) -> list[Piece]:
+    """Return the polytropes of a diagram that was given by its points."""
+    gas = solved.machine.gas
+    return [one for one in gas.pieces if one.law == "polytropic"] if gas and gas.measured is None else []
 
 
 def _polytropes(solved: Solved) -> tuple[Segment, ...]:

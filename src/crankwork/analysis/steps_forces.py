@@ -14,7 +14,7 @@ from crankwork.dynamics import piston_forces as forces
 from crankwork.kinematics import rod_functions
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.gauge import gauge_pressure
-from crankwork.steps import AnyStep, Given, Step, named_step, sum_step, worked_step
+from crankwork.steps import AnyStep, Given, Step, named_step, renamed, sum_step, worked_step
 
 # Arguments of formulas that are columns of the results.
 _ARGUMENTS = {
@@ -122,15 +122,26 @@ def _inertia_steps(moment: EngineMoment, known: Mapping[str, float]) -> Iterator
     else:
         other = moment.with_rod_ratio(ratio)
         steps = list(piston_steps(other))
-        yield from (one._replace(key=f"{one.key}.inertia") for one in steps if one.key != "piston_displacement")
-        step = acceleration_step(other.functions, "inertia_acceleration")
+        yield from (_of_own_ratio(one) for one in steps if one.key != "piston_displacement")
+        step = _of_own_ratio(acceleration_step(other.functions, "inertia_acceleration"))
         yield step
         acceleration = step.value
-    yield named_step(forces.inertia_force, known, a=acceleration)
+    force = named_step(forces.inertia_force, known, a=acceleration)
+    yield force if acceleration == known["a"] else renamed(force, a="inertia_acceleration")
     if machine.has_gravity:
         yield named_step(forces.weight_force, known)
         if "F_wn" in known:
             yield named_step(forces.transverse_weight, known)
+
+
+def _of_own_ratio(step: AnyStep) -> AnyStep:
+    """Return a step of the motion under names that tell its rod ratio from that of everything else."""
+    own = {"lam": "rod_ratio.inertia", "l": "rod_length.inertia"}
+    own |= {"x_1": "piston_transfer_1.inertia", "x_2": "piston_transfer_2.inertia"}
+    key = step.key if step.key == "inertia_acceleration" else f"{step.key}.inertia"
+    if not isinstance(step, Step):
+        return step._replace(key=key)
+    return renamed(step, **{name: own[name] for name in step.formula.arguments if name in own})._replace(key=key)
 
 
 def _piston_force_steps(moment: EngineMoment, known: Mapping[str, float]) -> Iterator[AnyStep]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
@@ -10,10 +9,9 @@ from typing import Any
 from crankwork.analysis.linkage import SolvedLinkage, running_at
 from crankwork.analysis.results import Results
 from crankwork.analysis.steps_shaft import flywheel_steps, motor_steps
-from crankwork.analysis.steps_table import table_steps
+from crankwork.analysis.steps_table import speed_steps, table_steps
 from crankwork.analysis.steps_torque import torque_steps
 from crankwork.dynamics import inertia_parts, link_loads, reduction
-from crankwork.dynamics.piston_forces import angular_speed
 from crankwork.kinematics import transfer_rates as rates
 from crankwork.kinematics.bodies import BodyMotion, body_motions
 from crankwork.kinematics.motion import Motion, linkage_motion
@@ -51,7 +49,7 @@ def linkage_steps(results: Results, row: int, force_row: int) -> tuple[StepGroup
     known = {"w": solved.speed, "eps": solved.machine.angular_acceleration}
     groups = [
         StepGroup("structure", tuple(_structure(solved.machine.linkage))),
-        StepGroup("speed", (worked_step(angular_speed, solved.method.pi, solved.machine.speed * 30 / math.pi),)),
+        *speed_steps(solved.method.pi, solved.machine.speed),
         StepGroup("motion", tuple(_motion(solved, motion, row, known)), at),
     ]
     if "reduced_inertia" in results.columns:

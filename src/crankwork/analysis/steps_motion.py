@@ -16,7 +16,7 @@ from crankwork.kinematics.crank_grid import CrankGrid, cos_multiple, sin_multipl
 from crankwork.kinematics.piston import PistonMotion, piston_motion
 from crankwork.kinematics.series import acceleration_harmonics
 from crankwork.kinematics.slider_crank import SliderCrank
-from crankwork.steps import AnyStep, Step, named_step, sum_step
+from crankwork.steps import AnyStep, Step, named_step, renamed, sum_step
 
 Function = Callable[..., Any]
 
@@ -242,10 +242,15 @@ def harmonic_steps(moment: EngineMoment) -> Iterator[Step]:
         yield displacement._replace(key=f"piston_displacement_{order}_order")
         yield first._replace(key=f"piston_transfer_1_{order}_order")
         velocity = named_step(forces.piston_velocity, known, key=f"piston_velocity_{order}_order", x_1=first.value)
-        yield velocity
+        names = {"x_1": f"piston_transfer_1_{order}_order", "x_2": f"piston_transfer_2_{order}_order"}
+        yield _named(velocity, names)
         yield second._replace(key=f"piston_transfer_2_{order}_order")
         changed = {**known, "x_1": first.value, "x_2": second.value}
-        yield acceleration_step(changed, f"piston_acceleration_{order}_order")
+        yield _named(acceleration_step(changed, f"piston_acceleration_{order}_order"), names)
+
+
+def _named(step: Step, names: Mapping[str, str]) -> Step:
+    return renamed(step, **{name: key for name, key in names.items() if name in step.formula.arguments})
 
 
 def _textbook_parts(known: Mapping[str, float]) -> list[tuple[Step, Step, Step]]:

@@ -30,14 +30,32 @@ def table_steps(results: Results, row: int) -> tuple[StepGroup, ...]:
     Returns
     -------
     tuple of StepGroup
-        Groups `speed`, `reduction`, `torques`.
+        Groups `speed` of a method with a pi of its own, `reduction`, `torques`.
     """
     solved, angle = results.solved, float(results.grid.angle[row])
     return (
-        StepGroup("speed", (worked_step(angular_speed, solved.method.pi, solved.machine.speed * 30 / math.pi),)),
+        *speed_steps(solved.method.pi, solved.machine.speed),
         StepGroup("reduction", tuple(_reduction(results, row)), angle),
         StepGroup("torques", tuple(_torques(results, row)), angle),
     )
+
+
+def speed_steps(pi: float, speed: float) -> tuple[StepGroup, ...]:
+    """Return the step from revolutions per minute to the angular speed, where it says anything.
+
+    Parameters
+    ----------
+    pi, speed : float
+        The constant of the method [-], the angular speed as it was given. [rad/s]
+
+    Returns
+    -------
+    tuple of StepGroup
+        None where pi is exact: the angular speed is what was given then, and the revolutions follow from it.
+    """
+    if pi == math.pi:
+        return ()
+    return (StepGroup("speed", (worked_step(angular_speed, pi, speed * 30 / math.pi),)),)
 
 
 def _reduction(results: Results, row: int) -> Iterator[AnyStep]:

@@ -19,7 +19,7 @@ from crankwork.loads import gas as gas_formulas
 from crankwork.shaft.fluctuation import fluctuation_of_energy, fluctuation_of_inertia
 from crankwork.shaft.flywheel import inertia_for_fluctuation
 from crankwork.shaft.flywheel_parts import flywheel_beside_machine, work_of_mean_torque
-from crankwork.steps import AnyStep, Given, StepGroup, sum_step, worked_step
+from crankwork.steps import AnyStep, Given, StepGroup, renamed, sum_step, worked_step
 from crankwork.working_cycle.engine_size import displacement
 
 _SHOWN_ORDERS = 3
@@ -111,7 +111,8 @@ def _uniformity(results: Results, whole: WholeEngine) -> Iterator[AnyStep]:
         # what turns already is enough
         yield Given("flywheel_inertia", found)
     if "speed_fluctuation" in summary:
-        yield worked_step(fluctuation_of_inertia, excess, engine.inertia + (found or 0.0), w)
+        step = worked_step(fluctuation_of_inertia, excess, engine.inertia + (found or 0.0), w)
+        yield renamed(step, J="whole_inertia") if engine.inertia and found else step
 
 
 def _mean_torque(results: Results, whole: WholeEngine) -> Iterator[AnyStep]:
@@ -147,4 +148,5 @@ def _harmonics(results: Results, whole: WholeEngine) -> Iterator[AnyStep]:
         )
         yield one
         yield Given(f"phase_sum.{number}", at["phase_sum"])
-        yield worked_step(amplitude_of_total, one.value, at["phase_sum"], key=f"total_harmonic_amplitude.{number}")
+        step = worked_step(amplitude_of_total, one.value, at["phase_sum"], key=f"total_harmonic_amplitude.{number}")
+        yield renamed(step, M_nu=one.key, s_nu=f"phase_sum.{number}")

@@ -23,7 +23,7 @@ from crankwork.cylinders.balance import (
 from crankwork.cylinders.counterweights import counterweight_moment, rotating_unbalances, turning_forces
 from crankwork.cylinders.journal_loads import unbalance_force
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.steps import AnyStep, Given, product_step, sum_step, worked_step
+from crankwork.steps import AnyStep, Given, Step, product_step, renamed, sum_step, worked_step
 
 _SAMPLES = 720
 
@@ -79,17 +79,22 @@ def _order_steps(whole: WholeEngine) -> Iterator[AnyStep]:
             one = worked_step(
                 order_inertia_force, mass, r, w, float(found[at]), key=f"order_inertia_force.{order}{name}"
             )
-            yield one
+            yield renamed(one, A_q=f"acceleration_coefficient.{order}{name}")
             if name:
                 continue
             largest = factor.force.largest, factor.moment.largest
             yield Given(f"force_factor.{order}", largest[0])
-            yield worked_step(free_force, largest[0], one.value, key=f"free_force.reciprocating.{order}")
+            names = {"F_jq": one.key, "K_F": f"force_factor.{order}", "K_M": f"moment_factor.{order}"}
+            step = worked_step(free_force, largest[0], one.value, key=f"free_force.reciprocating.{order}")
+            yield _named(step, names)
             if pitch:
                 yield Given(f"moment_factor.{order}", largest[1])
-                yield worked_step(
-                    free_moment, largest[1], pitch, one.value, key=f"free_moment.reciprocating.{order}"
-                )  # fmt: skip
+                step = worked_step(free_moment, largest[1], pitch, one.value, key=f"free_moment.reciprocating.{order}")
+                yield _named(step, names)
+
+
+def _named(step: Step, names: Mapping[str, str]) -> Step:
+    return renamed(step, **{name: key for name, key in names.items() if name in step.formula.arguments})
 
 
 def _pitch(whole: WholeEngine) -> float:

@@ -14,7 +14,7 @@ from crankwork.cylinders.journal_loads import journal_share, unbalance_force
 from crankwork.cylinders.layout import Place
 from crankwork.cylinders.load_vectors import BearingLoad, bearing_load
 from crankwork.machine import Bearings
-from crankwork.steps import AnyStep, Given, Step, product_step, sum_step, worked_step
+from crankwork.steps import AnyStep, Given, Step, product_step, renamed, sum_step, worked_step
 
 
 def bearing_steps(moment: WholeMoment) -> Iterator[AnyStep]:
@@ -56,9 +56,12 @@ def _resultant(key: str, load: BearingLoad) -> Step:
 
 def _of_one_rod(moment: WholeMoment, number: int, inertia: float, key: str) -> Step:
     known = moment.of(number)
-    return worked_step(
+    step = worked_step(
         bearing_formulas.crankpin_load, known["tangential_force"], known["radial_force"], inertia, key=key
     )
+    if len(moment.whole.cylinders) == 1:
+        return step
+    return renamed(step, T=f"tangential_force.{number}", K=f"radial_force.{number}")
 
 
 def _crankpin_steps(moment: WholeMoment, pin: int, places: tuple[Place, ...], inertia: float) -> Iterator[AnyStep]:
@@ -90,12 +93,14 @@ def _crankpin_steps(moment: WholeMoment, pin: int, places: tuple[Place, ...], in
 def _small_end_steps(moment: WholeMoment) -> Iterator[AnyStep]:
     """Yield the force of piston 1 on its pin, its side force with what articulated rods add, and the resultant."""
     whole, known = moment.whole, moment.of(1)
-    along = worked_step(
+    along: Step = worked_step(
         bearing_formulas.piston_pin_force,
         known.get("gas_force", 0.0),
         whole.masses.piston,
         known.get("inertia_acceleration", known["piston_acceleration"]),
     )
+    if known.get("inertia_acceleration", known["piston_acceleration"]) != known["piston_acceleration"]:
+        along = renamed(along, a="inertia_acceleration")
     yield along
     across: AnyStep = Given("side_force", known["side_force"])
     if "knuckle_side_force" in known:

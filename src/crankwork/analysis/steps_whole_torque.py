@@ -16,7 +16,7 @@ from crankwork.cylinders.torque import cylinder_angle, torque_behind_throw, torq
 from crankwork.dynamics import piston_forces as forces
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.loads import gas as gas_formulas
-from crankwork.steps import AnyStep, Given, named_step, sum_step, worked_step
+from crankwork.steps import AnyStep, Given, named_step, renamed, sum_step, worked_step
 
 
 @dataclass(frozen=True)
@@ -84,9 +84,10 @@ def torque_steps(moment: WholeMoment) -> Iterator[AnyStep]:
     yield sum_step("total_torque", of_throw)
     journal = 0.0
     for at, step in enumerate(of_throw, start=1):
-        yield worked_step(torque_of_crankpin, journal, step.value, key=f"crankpin_torque.{at}")
+        names = {"M_j": f"journal_torque.{at}", "M_t": step.key}
+        yield renamed(worked_step(torque_of_crankpin, journal, step.value, key=f"crankpin_torque.{at}"), **names)
         behind = worked_step(torque_behind_throw, journal, step.value, key=f"journal_torque.{at + 1}")
-        yield behind
+        yield renamed(behind, **names)
         journal = behind.value
 
 
@@ -96,9 +97,10 @@ def _of_cylinder(moment: WholeMoment, number: int) -> AnyStep:
     key = f"crank_torque.{number}" if len(moment.whole.cylinders) > 1 else "crank_torque"
     if machine.masses is not None and (machine.has_gravity or machine.angular_acceleration):
         return Given(key, known["crank_torque"])
-    return worked_step(
+    step = worked_step(
         forces.crank_torque, known["tangential_force"], moment.whole.master.lengths.crank_radius, key=key
     )
+    return renamed(step, T=f"tangential_force.{number}") if len(moment.whole.cylinders) > 1 else step
 
 
 def articulated_steps(moment: WholeMoment) -> Iterator[AnyStep]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Mapping
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 from typing import Any
 
 import numpy as np
@@ -45,7 +45,9 @@ def read_measured(values: Mapping[str, Any], reader: Reader, folder: Path) -> Me
         return None
     numbers, angles, pressures = zip(*samples, strict=True)
     degrees = np.array(angles) if values.get("angle_unit", "deg") == "deg" else np.degrees(angles)
-    return MeasuredPressure(degrees, np.array(pressures) * UNITS[values["pressure_unit"]].factor, numbers)
+    pressure = np.array(pressures) * UNITS[values["pressure_unit"]].factor
+    # the name in a note is the same whichever system wrote the folders before it
+    return MeasuredPressure(degrees, pressure, numbers, PureWindowsPath(values["file"]).name)
 
 
 def _samples(text: str, values: Mapping[str, Any]) -> list[tuple[int, float, float]]:

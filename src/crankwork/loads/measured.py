@@ -26,11 +26,14 @@ class MeasuredPressure:
         Crank angles, rising throughout, and pressures. [deg], [Pa]
     rows : sequence of int
         Line numbers of the samples in their file, for messages.
+    file : str
+        Name of that file, without its folder.
     """
 
     degrees: Array
     pressure: Array
     rows: Sequence[int]
+    file: str = ""
 
 
 def measured_diagram(

@@ -78,8 +78,18 @@ ARGUMENTS: dict[str, Argument] = {
     "phi_fill": Argument("filling_factor"),
     "p_ind": Argument("indicated_mean_pressure"),
     "eta_ind": Argument("indicated_efficiency"),
-    "a_loss": Argument("", "a_m"),
-    "b_loss": Argument("", "b_m"),
+    "a_loss": Argument(
+        "",
+        "a_m",
+        meaning="constant part of the mechanical losses | постоянная часть давления механических потерь"
+        " | phần không đổi của áp suất tổn thất cơ giới",
+    ),
+    "b_loss": Argument(
+        "",
+        "b_m",
+        meaning="mechanical losses by piston speed | прирост давления механических потерь на единицу скорости поршня"
+        " | hệ số tổn thất cơ giới theo vận tốc piston",
+    ),
     "p_loss": Argument("mechanical_loss_pressure"),
     "p_e": Argument("effective_mean_pressure"),
     "eta_m": Argument("mechanical_efficiency"),
@@ -91,17 +101,35 @@ ARGUMENTS: dict[str, Argument] = {
     "V_engine": Argument("displacement"),
     "N_e": Argument("effective_power"),
     "G_f": Argument("fuel_rate"),
-    "th_gas": Argument("", "t"),
-    "mc_gas": Argument("", "mc_v"),
-    "h_prod": Argument("molar_enthalpy", "{}″"),
-    "h_fresh": Argument("molar_enthalpy", "{}₁"),
+    "th_gas": Argument(
+        "",
+        "t",
+        meaning="temperature counted from the zero of the heat capacities | температура, отсчитанная от начала"
+        " отсчёта теплоёмкостей | nhiệt độ tính từ gốc của nhiệt dung",
+    ),
+    "mc_gas": Argument(
+        "",
+        "mc_v",
+        meaning="mean molar heat capacity of the gas at constant volume | средняя мольная теплоёмкость газа"
+        " при постоянном объёме | nhiệt dung mol đẳng tích trung bình của khí",
+    ),
+    "h_prod": Argument(
+        "molar_enthalpy",
+        "{}_r",
+        meaning="molar enthalpy of the exhaust gas | мольная энтальпия отработавших газов | entanpi mol của khí thải",
+    ),
+    "h_fresh": Argument(
+        "molar_enthalpy",
+        "{}_0",
+        meaning="molar enthalpy of the fresh charge | мольная энтальпия свежего заряда | entanpi mol của môi chất mới",
+    ),
     "c_cool": Argument("cooling_factor"),
     "m_cool": Argument("cooling_exponent"),
     "Q_0": Argument("heat_supplied"),
     "Q_cool": Argument("heat_to_coolant"),
     "Q_exh": Argument("heat_to_exhaust"),
     "Q_unb": Argument("heat_unburnt"),
-    "Q_part": Argument("", "Q"),
+    "Q_part": Argument("", "Q", meaning="part of the heat | составляющая теплового баланса | thành phần nhiệt lượng"),
     # ideal cycles and polytropes
     "kappa": Argument("gas_heat_ratio"),
     "c_v": Argument("isochoric_heat"),
@@ -123,15 +151,33 @@ ARGUMENTS: dict[str, Argument] = {
     "H_fuel": Argument("fuel_heating_value"),
     "Q_fuel": Argument("fuel_heat"),
     "p_cyl": Argument("cylinder_pressure"),
-    "p_shut": Argument("cylinder_pressure", "{}₁"),
+    "p_shut": Argument(
+        "cylinder_pressure",
+        "{}₁",
+        meaning="pressure at intake closing | давление в момент закрытия впуска | áp suất lúc đóng xupáp nạp",
+    ),
     "p_mot": Argument("motored_pressure"),
     "T_cyl": Argument("cylinder_temperature"),
-    "T_shut": Argument("cylinder_temperature", "{}₁"),
-    "V_phi": Argument("cylinder_volume", "{}′"),
+    "T_shut": Argument(
+        "cylinder_temperature",
+        "{}₁",
+        meaning="temperature at intake closing | температура в момент закрытия впуска | nhiệt độ lúc đóng xupáp nạp",
+    ),
+    "V_phi": Argument(
+        "cylinder_volume",
+        "{}′",
+        meaning="derivative of the volume by the crank angle | производная объёма по углу поворота"
+        " | đạo hàm thể tích theo góc quay",
+    ),
     "m_gas": Argument("gas_mass"),
     "R_gas": Argument("specific_gas_constant"),
     "gamma_cyl": Argument("gas_heat_ratio"),
-    "gamma_cyl_0": Argument("gas_heat_ratio", "{}₀"),
+    "gamma_cyl_0": Argument(
+        "gas_heat_ratio",
+        "{}₀",
+        meaning="ratio of specific heats without its change | показатель адиабаты без поправки на температуру"
+        " | chỉ số đoạn nhiệt khi chưa xét nhiệt độ",
+    ),
     "gamma_cyl_T": Argument("gas_heat_ratio_slope"),
     "S_pm": Argument("mean_piston_speed"),
     "C_speed": Argument("gas_speed_factor"),

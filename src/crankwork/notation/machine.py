@@ -15,7 +15,7 @@ ARGUMENTS: dict[str, Argument] = {
     "V": Argument("cylinder_volume"),
     "V_c": Argument("clearance_volume"),
     "V_d": Argument("swept_volume"),
-    "h": Argument("", "h"),
+    "h": Argument("pin_distance"),
     "x": Argument("piston_displacement"),
     "a": Argument("piston_acceleration"),
     "n": Argument("rotational_speed"),
@@ -36,15 +36,29 @@ ARGUMENTS: dict[str, Argument] = {
     "r_c": Argument("compression_ratio"),
     "p": Argument("gas_pressure"),
     "p_0": Argument("ambient_pressure"),
-    "p_1": Argument("gas_pressure", "{}₁"),
-    "V_1": Argument("cylinder_volume", "{}₁"),
-    "n_p": Argument("", "n"),
-    "A_r": Argument("", "A_r"),
-    "p_b": Argument("", "p_b"),
+    "p_1": Argument(
+        "diagram_pressure",
+        "{}₁",
+        meaning="pressure at the known point of the polytrope | давление в известной точке политропы"
+        " | áp suất tại điểm đã biết của đường đa biến",
+    ),
+    "V_1": Argument(
+        "cylinder_volume",
+        "{}₁",
+        meaning="volume at the known point of the polytrope | объём в известной точке политропы"
+        " | thể tích tại điểm đã biết của đường đa biến",
+    ),
+    "n_p": Argument("polytropic_exponent"),
+    "A_r": Argument("", "A_r", meaning="area of the piston rod | площадь штока | diện tích cần piston"),
+    "p_b": Argument(
+        "",
+        "p_b",
+        meaning="pressure on the side of the rod | давление со стороны штока | áp suất phía cần piston",
+    ),
     "W": Argument("indicated_work"),
     "phi_c": Argument("cycle_angle"),
     "pi": Argument("", "π"),
-    "g": Argument("", "g"),
+    "g": Argument("", "g", meaning="gravity | ускорение свободного падения | gia tốc trọng trường"),
     "cos_theta": Argument("inclination", "cos {}"),
     "sin_theta": Argument("inclination", "sin {}"),
     "m": Argument("rod_mass"),
@@ -54,7 +68,12 @@ ARGUMENTS: dict[str, Argument] = {
     "m_k": Argument("crank_mass"),
     "m_rec": Argument("reciprocating_mass"),
     "m_rot": Argument("rotating_mass"),
-    "b": Argument("", "b"),
+    "b": Argument(
+        "",
+        "b",
+        meaning="distance of the centre of the rod from the crankpin | расстояние от оси шатунной шейки до центра"
+        " масс шатуна | khoảng cách từ chốt khuỷu đến trọng tâm thanh truyền",
+    ),
     "J_c": Argument("rod_inertia"),
     "dJ": Argument("rod_inertia_excess"),
     "eps_r": Argument("rod_angular_acceleration"),
@@ -83,14 +102,46 @@ ARGUMENTS: dict[str, Argument] = {
     "theta_1": Argument("link_angle", "{}′"),
     "theta_2": Argument("link_angle", "{}″"),
     "eps_i": Argument("link_angular_acceleration"),
-    "q_1": Argument("", "q′"),
-    "q_2": Argument("", "q″"),
+    "q_1": Argument(
+        "",
+        "q′",
+        meaning="first transfer function of what the crank drives | первая передаточная функция ведомого звена"
+        " | hàm truyền bậc một của khâu bị dẫn",
+    ),
+    "q_2": Argument(
+        "",
+        "q″",
+        meaning="second transfer function of what the crank drives | вторая передаточная функция ведомого звена"
+        " | hàm truyền bậc hai của khâu bị dẫn",
+    ),
     "v_w": Argument("velocity_ratio"),
     "w_w": Argument("rotation_ratio"),
-    "F_x": Argument("", "F_x"),
-    "F_y": Argument("", "F_y"),
-    "x_1F": Argument("", "x_F′"),
-    "y_1F": Argument("", "y_F′"),
+    "F_x": Argument(
+        "",
+        "F_x",
+        meaning="load along x, positive with the axis | проекция нагрузки на ось x, положительна вдоль оси"
+        " | thành phần tải theo trục x, dương theo chiều trục",
+    ),
+    "F_y": Argument(
+        "",
+        "F_y",
+        meaning="load along y, positive with the axis | проекция нагрузки на ось y, положительна вдоль оси"
+        " | thành phần tải theo trục y, dương theo chiều trục",
+    ),
+    "x_1F": Argument(
+        "",
+        "x_F′",
+        meaning="derivative of x of the loaded point by the crank angle"
+        " | производная координаты x точки приложения нагрузки по углу поворота кривошипа"
+        " | đạo hàm toạ độ x của điểm đặt tải theo góc tay quay",
+    ),
+    "y_1F": Argument(
+        "",
+        "y_F′",
+        meaning="derivative of y of the loaded point by the crank angle"
+        " | производная координаты y точки приложения нагрузки по углу поворота кривошипа"
+        " | đạo hàm toạ độ y của điểm đặt tải theo góc tay quay",
+    ),
     "M_i": Argument("link_torque"),
     "R": Argument("joint_force"),
     "N_s": Argument("normal_force"),
@@ -112,7 +163,7 @@ ARGUMENTS: dict[str, Argument] = {
     "W_c": Argument("work_per_cycle"),
     "J_f": Argument("flywheel_inertia"),
     "k_g": Argument("radius_of_gyration"),
-    "rho_m": Argument("", "ρ"),
+    "rho_m": Argument("", "ρ", meaning="density | плотность материала | khối lượng riêng"),
     "v_r": Argument("rim_speed"),
     "i_g": Argument("gear_ratio"),
     "f_m": Argument("mains_frequency"),
@@ -124,15 +175,28 @@ ARGUMENTS: dict[str, Argument] = {
     "a_r": Argument("resistance_ratio"),
     "M_k": Argument("breakdown_torque"),
     "k_s": Argument("power_reserve"),
-    "a_k": Argument("", "a_k"),
-    "b_k": Argument("", "b_k"),
-    "k_h": Argument("", "k"),
+    "a_k": Argument(
+        "",
+        "a_k",
+        meaning="cosine coefficient of order k | косинусный коэффициент порядка k | hệ số cosin bậc k",
+    ),
+    "b_k": Argument(
+        "",
+        "b_k",
+        meaning="sine coefficient of order k | синусный коэффициент порядка k | hệ số sin bậc k",
+    ),
+    "k_h": Argument("", "k", meaning="order of the harmonic | порядок гармоники | bậc điều hoà"),
     "cos_kphi": Argument("crank_angle", "cos k{}"),
     "sin_kphi": Argument("crank_angle", "sin k{}"),
     "cos_kphi_0": Argument("crank_angle", "cos k{}₀"),
     "sin_kphi_0": Argument("crank_angle", "sin k{}₀"),
     "p_abs": Argument("diagram_pressure"),
-    "dN": Argument("side_force", "Δ{}"),
+    "dN": Argument(
+        "side_force",
+        "Δ{}",
+        meaning="side force of the correction couple | боковая сила от момента пары шатуна"
+        " | lực ngang do mômen hiệu chỉnh thanh truyền",
+    ),
     "s_1": Argument("slider_displacement", "{}′"),
     "s_2": Argument("slider_displacement", "{}″"),
     "x_P1": Argument("point_x", "{}′"),
@@ -147,6 +211,14 @@ ARGUMENTS: dict[str, Argument] = {
     "p_5": Argument("lower_pairs"),
     "J_sum": Argument("whole_inertia"),
     "M_mean": Argument("mean_torque"),
-    "k_i": Argument("", "k_i"),
-    "eta_i": Argument("efficiency", "{}_i"),
+    "k_i": Argument(
+        "",
+        "k_i",
+        meaning="share of the power in branch i | доля мощности в ветви i | phần công suất của nhánh i",
+    ),
+    "eta_i": Argument(
+        "efficiency",
+        "{}_i",
+        meaning="efficiency of branch i | КПД ветви i | hiệu suất của nhánh i",
+    ),
 }

@@ -76,7 +76,8 @@ class Explanation:
 class Equation:
     """A worked step, or a formula without numbers, with the number of its source and its own.
 
-    `symbol` replaces the symbol of the step's key; `legend` explains symbols below it, after "where".
+    `symbol` replaces the symbol of the step's key; `legend` explains symbols below it, after "where". `defined` is the
+    key of a value without a formula whose definition stands before the number.
     """
 
     step: AnyStep | Formula
@@ -84,6 +85,7 @@ class Equation:
     numbered: bool = True
     label: str = ""
     legend: tuple[Explanation, ...] = ()
+    defined: str = ""
 
 
 @dataclass(frozen=True)

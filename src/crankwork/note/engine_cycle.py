@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import cast
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.loads.gas import cylinder_volume, polytropic_pressure
-from crankwork.loads.indicator import Segment
+from crankwork.loads.indicator import IndicatorDiagram, Segment
+from crankwork.loads.measured import measured_diagram
 from crankwork.note.document import Block, Math, Reference, Runs, Table
-from crankwork.note.engine_data import cycle_keys
+from crankwork.note.engine_cycle_data import cycle_data_rows
 from crankwork.note.engine_material import Material
-from crankwork.note.engine_tables import column_table, value_row, value_table
+from crankwork.note.engine_tables import column_table, folded, value_table
 from crankwork.report.language import displayed, word
 from crankwork.steps import Step
 
@@ -68,6 +70,7 @@ _SHARES = (
 )  # fmt: skip
 _HALF = 360.0
 _ROWS = 12
+_MEASURED_STEP = 10.0
 
 
 def cycle(material: Material) -> Iterator[Block]:
@@ -84,10 +87,9 @@ def cycle(material: Material) -> Iterator[Block]:
         return
     numbered = material.order != "vi"
     yield words.heading("cycle", numbered=numbered)
-    given = cycle_keys(material)
-    if given:
+    rows = list(cycle_data_rows(material, steps))
+    if rows:
         yield words.paragraph("cycle_data", table=Reference("t:cycle_data"))
-        rows = (value_row(key, material.summary[key], words) for key in given)
         yield value_table("cycle_data", rows, words)
     yield words.paragraph("cycle")
     for stage, some in _staged(steps).items():
@@ -138,6 +140,7 @@ def indicator(material: Material) -> Iterator[Block]:
     if material.results.solved.space is None:
         return
     yield words.heading("indicator")
+    yield from _measured(material)
     yield from material.intro("volumes", material.equations("gas"))
     polytropes = _polytrope_table(material)
     if polytropes is not None:
@@ -146,6 +149,35 @@ def indicator(material: Material) -> Iterator[Block]:
     yield from material.presented([_points(material)], ("indicator", "pressure"))
     kinds = ("indicated_work", "indicated_mean_pressure", "indicated_power")
     yield from material.intro("work", material.equations("power", *kinds))
+
+
+def _measured(material: Material) -> Iterator[Block]:
+    """Yield where measured pressure comes from, with a coarse table of it; nothing if it was not measured."""
+    words, solved = material.words, material.results.solved
+    gas = material.machine.gas
+    if gas is None or gas.measured is None:
+        return
+    _, cycles, _ = measured_diagram(gas.measured, gas.cycle, shift=gas.angle_shift, step=gas.resample)
+    yield words.paragraph(
+        "measured",
+        file=gas.measured.file or "–",
+        samples=words.number(len(gas.measured.degrees)),
+        cycles=words.number(cycles),
+        table=Reference("t:measured"),
+    )
+    if gas.angle_shift:
+        yield words.paragraph("shifted", shift=words.amount(math.radians(gas.angle_shift), "deg"))
+    if gas.resample is not None:
+        yield words.paragraph("resampled", step=words.amount(math.radians(gas.resample), "deg"))
+    degrees = np.arange(0.0, gas.cycle + 1e-9, _MEASURED_STEP)
+    moved = solved.motion(CrankGrid.from_degrees(degrees)).piston.position
+    volumes = np.asarray(cylinder_volume(solved.space.clearance, solved.space.area, moved))
+    pressures = solved.space.diagram.pressure(degrees, volumes)
+    columns: list[tuple[Runs, Sequence[str]]] = [
+        (words.titled("crank_angle"), [words.number(float(one)) for one in degrees]),
+        (words.titled("diagram_pressure"), words.column_texts((pressures / 1e6).tolist())),
+    ]
+    yield folded(column_table("measured", columns, words))
 
 
 def _exponents(material: Material) -> Runs:
@@ -160,7 +192,7 @@ def _polytropes(material: Material) -> dict[str, Segment]:
     """Return the polytropes of compression and expansion; the first of each half of the cycle."""
     half = min(material.machine.cycle / 2, _HALF)
     found: dict[str, Segment] = {}
-    for one in material.results.solved.space.diagram.segments:
+    for one in _diagram(material).segments:
         if one.law == "polytropic":
             is_compression = one.start < half if material.machine.cycle > _HALF else one.start >= half
             found.setdefault("compression" if is_compression else "expansion", one)
@@ -171,19 +203,49 @@ def _polytrope_table(material: Material) -> Table | None:
     words, space, found = material.words, material.results.solved.space, _polytropes(material)
     if not found:
         return None
+    spans = {name: _span(material, one) for name, one in found.items()}
     ratio = 1 + space.swept / space.clearance
     step = max(1.0, math.ceil(ratio / _ROWS))
-    multiples = [*np.arange(1.0, ratio - 1e-9, step).tolist(), ratio]
-    volumes = np.array(multiples) * space.clearance
+    multiples = np.array([*np.arange(1.0, ratio - 1e-9, step), ratio])
+    ends = [end / space.clearance for span in spans.values() for end in span]
+    # an end beside a whole multiple is that multiple
+    ends = [one for one in ends if not np.any(np.isclose(one, multiples, rtol=1e-6))]
+    volumes = np.unique(np.round([*multiples, *ends], 9)) * space.clearance
+    within = {name: _is_within(volumes, *span) for name, span in spans.items()}
+    kept = np.logical_or.reduce(list(within.values()))
+    volumes = volumes[kept]
     columns: list[tuple[Runs, Sequence[str]]] = [
-        ((Math("i"),), [words.number(one, digits=5) for one in multiples]),
+        ((Math("i"),), [words.number(one, digits=5) for one in volumes / space.clearance]),
         (words.titled("cylinder_volume"), words.column_texts((volumes * 1e6).tolist())),
     ]
     for name, segment in found.items():
         pressure, reference, exponent = segment.state
-        values = np.asarray(polytropic_pressure(pressure, reference, volumes, exponent))
-        columns.append(((words.column(name, "MPa"),), words.column_texts((values / 1e6).tolist())))
+        values = np.asarray(polytropic_pressure(pressure, reference, volumes, exponent)) / 1e6
+        values = np.where(within[name][kept], values, np.nan)
+        columns.append(((words.column(name, "MPa"),), words.column_texts(values.tolist())))
     return column_table("polytropes", columns, words)
+
+
+def _span(material: Material, segment: Segment) -> tuple[float, float]:
+    """Return the least and the largest volume of a polytrope, with that of the state it passes through. [m3]"""
+    solved = material.results.solved
+    same = [one for one in _diagram(material).segments if one.law == "polytropic" and one.state == segment.state]
+    degrees = np.array([angle for one in same for angle in (one.start, one.end)])
+    moved = solved.motion(CrankGrid.from_degrees(degrees)).piston.position
+    volumes = np.asarray(cylinder_volume(solved.space.clearance, solved.space.area, moved))
+    reference = segment.state[1]
+    return min(float(volumes.min()), reference), max(float(volumes.max()), reference)
+
+
+def _is_within(volumes: Array, least: float, largest: float) -> Array:
+    """Return which volumes a polytrope has, its ends included."""
+    return np.asarray((volumes >= least * (1 - 1e-6)) & (volumes <= largest * (1 + 1e-6)))
+
+
+def _diagram(material: Material) -> IndicatorDiagram:
+    """Return the diagram whose polytropes are constructed: of a calculated cycle before its corners were rounded."""
+    space = material.results.solved.space
+    return cast("IndicatorDiagram", space.theoretical or space.diagram)
 
 
 def _points(material: Material) -> Table | None:

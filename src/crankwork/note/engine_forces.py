@@ -82,13 +82,7 @@ def per_area(material: Material) -> Iterator[Block]:
     if material.per_area:
         words = material.words
         value = words.amount(material.summary["piston_area"], "cm2")
-        yield words.paragraph("per_area", value=value, unit=_pressure_unit(material))
-
-
-def _pressure_unit(material: Material) -> str:
-    """Return the unit of forces per area: the name that notes of the Vietnamese school have for it."""
-    words = material.words
-    return "MN/m²" if material.order == "vi" and words.language == "vi" else words.unit("gas_pressure")
+        yield words.paragraph("per_area", value=value, unit=words.unit("gas_pressure"))
 
 
 def inertia(material: Material) -> Iterator[Block]:
@@ -136,8 +130,7 @@ def _along_table(material: Material) -> Table | None:
     """Return the gas force, inertia force and their sum, to six decimals where they are per area."""
     if not material.per_area:
         return long_table(material, "along", _OF_PISTON)
-    units = dict.fromkeys(_OF_PISTON, _pressure_unit(material))
-    return long_table(material, "along", _OF_PISTON, decimals=_VIETNAMESE, units=units)
+    return long_table(material, "along", _OF_PISTON, decimals=_VIETNAMESE)
 
 
 def across(material: Material) -> Iterator[Block]:

@@ -17,7 +17,7 @@ from crankwork.cylinders.engines import inline
 from crankwork.kinematics.crank_grid import Array
 from crankwork.machine import Bearings, Engine, Machine
 from crankwork.note.document import Block, Equation, Figure, Paragraph, Reference, Run, Runs, Table
-from crankwork.note.engine_seen import seen
+from crankwork.note.engine_seen import crankpins, kind_of, seen
 from crankwork.note.engine_words import EngineWords
 from crankwork.note.options import NoteOptions
 from crankwork.report.figure_data import figure_title
@@ -167,7 +167,8 @@ class Material:
             if isinstance(one, SumStep | ProductStep):
                 # a sum prints its terms by their keys, which are no symbols where they have a long name
                 step = one._replace(terms=tuple(Given(self.words.symbol(term.key), term.value) for term in one.terms))
-            found.append(Equation(step, symbol=self.words.symbol(self._plain(one.key))))
+            defined = one.key if isinstance(one, Given) else ""
+            found.append(Equation(step, symbol=self.words.symbol(self._plain(one.key)), defined=defined))
             self._keys.add(one.key)
             self._formulas.add(_formula_name(one))
         return found
@@ -237,9 +238,19 @@ class Material:
             if one.key not in self._keys and (one.key in self.summary or _formula_name(one) not in self._formulas)
         )
 
+    def _title(self, name: str) -> str:
+        """Return what a figure shows, of a shaft with several crankpins also which of them."""
+        pins = crankpins(name, self.results.columns)
+        engine = self.machine.engine
+        several = engine is not None and len({place.throw for place in engine.layout.places}) > 1
+        if not pins or not several:
+            return figure_title(name, self.words.language)
+        title = figure_title(kind_of(name), self.words.language)
+        return self.words.phrase("of_pin" if len(pins) == 1 else "of_pins", title=title, pins=", ".join(pins))
+
     def _figure(self, name: str) -> Figure:
         self._told.add(name)
-        title = figure_title(name, self.words.language)
+        title = self._title(name)
         return Figure(self.drawn[name], title, f"{title}. {seen(name, self)}".rstrip(". ") + ".", label=f"f:{name}")
 
 

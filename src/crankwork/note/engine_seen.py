@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Protocol
 
 from crankwork.analysis import Results
@@ -18,19 +18,21 @@ _SHOWN: Mapping[str, tuple[str, ...]] = {
     "rod_forces": ("rod_force", "side_force"),
     "crankpin_forces": ("tangential_force", "radial_force"),
     "torque": ("crank_torque",),
-    "crankpin_polar": ("tangential_force", "radial_force"),
+    "crankpin_polar": ("crankpin_tangential_force", "crankpin_radial_force"),
     "brix": ("piston_displacement",),
     "tolle": ("piston_displacement", "piston_acceleration"),
     "total_torque": ("total_torque",),
-    "crankpin_load": ("crankpin_load.1",),
+    "crankpin_load": ("crankpin_load",),
     "big_end_polar": ("big_end_load",),
     "small_end_polar": ("small_end_load",),
     "excess_work": ("kinetic_energy_change",),
     "crank_speed": ("crank_speed",),
-    "crankpin_wear": ("wear_sum.1",),
+    "crankpin_wear": ("wear_sum",),
     "balance_orders": ("free_force", "free_moment"),
     "torque_harmonics": ("harmonic_amplitude", "total_harmonic_amplitude"),
 }
+# figures that show each crankpin whose load is another
+_OF_CRANKPINS = ("crankpin_polar", "crankpin_load", "crankpin_wear")
 _OVER_CYCLE = {"accumulated_torque": "accumulated_torque", "main_journal_polar": "main_journals"}
 
 
@@ -62,10 +64,43 @@ def seen(name: str, shown: Shown) -> str:
     shown : Shown
         What is shown.
     """
-    keys = _SHOWN.get(name.rstrip("0123456789").rstrip("_"), ())
+    keys = _SHOWN.get(kind_of(name), ())
+    pins = crankpins(name, shown.results.columns)
+    if pins:
+        keys = tuple(f"{key}.{pin}" for pin in pins for key in keys)
     if name in _OVER_CYCLE:
         keys = shown.results.groups.get(_OVER_CYCLE[name], ())
     return "; ".join(one for one in (_range(key, shown) for key in keys) if one)
+
+
+def kind_of(name: str) -> str:
+    """Return the name of a figure without the number of a crankpin.
+
+    Parameters
+    ----------
+    name : str
+        Name of the figure.
+    """
+    return name.rstrip("0123456789").rstrip("_")
+
+
+def crankpins(name: str, columns: Iterable[str]) -> tuple[str, ...]:
+    """Return the numbers of the crankpins that a figure shows: of a polar diagram one, none of other figures.
+
+    Parameters
+    ----------
+    name : str
+        Name of the figure.
+    columns : iterable of str
+        Keys of the results; each unlike crankpin has its load there.
+    """
+    kind = kind_of(name)
+    pins = tuple(key.partition(".")[2] for key in columns if key.startswith("crankpin_load."))
+    if kind not in _OF_CRANKPINS or not pins:
+        return ()
+    if kind != "crankpin_polar":
+        return pins
+    return (name.rpartition("_")[2],) if name != kind else pins[:1]
 
 
 def _range(key: str, shown: Shown) -> str:

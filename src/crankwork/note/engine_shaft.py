@@ -263,6 +263,7 @@ def evenness(material: Material) -> Iterator[Block]:
     yield material.words.paragraph("evenness")
     yield from material.equations("uniformity")
     keys = ("kinetic_energy_change", "crank_speed")
-    yield from material.presented([angle_table(material, "speed", keys)], ("excess_work", "crank_speed"))
+    caption = "speed" if "crank_speed" in material.columns else "energy"
+    yield from material.presented([angle_table(material, caption, keys)], ("excess_work", "crank_speed"))
     if _cylinders(material) == 1:
         yield from _harmonics(material)

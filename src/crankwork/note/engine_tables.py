@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import cast
 
 import numpy as np
 
 from crankwork.expressions import Formula
 from crankwork.kinematics.crank_grid import Array
-from crankwork.notation import ARGUMENTS
 from crankwork.note.document import Block, Equation, Explanation, Math, Runs, Table
 from crankwork.note.engine_material import Material
 from crankwork.note.engine_words import EngineWords, flat
-from crankwork.note.equations import legend
+from crankwork.note.legends import explained_keys, legend
 from crankwork.note.stated_units import printed_unit
 from crankwork.quantities import QUANTITIES
 from crankwork.report.language import displayed, key_unit, label, symbol
@@ -57,7 +57,6 @@ def long_table(
     *,
     one_turn: bool = False,
     decimals: Mapping[str, int] | None = None,
-    units: Mapping[str, str] | None = None,
 ) -> Table | None:
     """Return a table over the crank angle with one row for each.
 
@@ -73,8 +72,6 @@ def long_table(
         Whether it stops after one turn of the crank.
     decimals : mapping of str to int, optional
         Decimals of some columns.
-    units : mapping of str to str, optional
-        Units of some columns as they are to be printed.
 
     Returns
     -------
@@ -88,9 +85,8 @@ def long_table(
     rows = degrees <= _TURN if one_turn else np.full(len(degrees), fill_value=True)
     columns = [((words.titled("crank_angle")), [words.number(float(one)) for one in degrees[rows]])]
     for key in present:
-        heading = (Math(words.symbol(key)), f", {units[key]}") if units and key in units else words.titled(key)
         texts = words.column_texts(material.columns[key][rows].tolist(), decimals=(decimals or {}).get(key))
-        columns.append((heading, texts))
+        columns.append((words.titled(key), texts))
     return column_table(caption, columns, words)
 
 
@@ -227,8 +223,8 @@ def explained(blocks: Iterable[Block], words: EngineWords) -> Iterator[Block]:
             yield block
             continue
         own, formula = _own(block, known, words), _formula(block)
-        rest = legend(formula, words.language, frozenset(known | _left(block))) if formula else ()
-        known |= _left(block) | (_keys(formula) if formula else set())
+        rest = legend(_said(block), words.language, frozenset(known | _left(block))) if formula else ()
+        known |= _left(block) | (explained_keys(_said(block)) if formula else set())
         numbered = formula is not None and formula.name not in seen
         seen |= {formula.name} if formula else set()
         yield replace(block, legend=(*own, *rest), numbered=numbered)
@@ -244,9 +240,8 @@ def _left(block: Equation) -> set[str]:
     return {kind} if kind in QUANTITIES else set()
 
 
-def _keys(formula: Formula) -> set[str]:
-    entries = [ARGUMENTS[name] for name in formula.arguments]
-    return {key for one in entries for key in (one.quantity, one.extra) if key}
+def _said(block: Equation) -> Step | Formula:
+    return cast("Step | Formula", block.step)
 
 
 def _formula(block: Equation) -> Formula | None:

@@ -6,19 +6,17 @@ from collections.abc import Sequence
 from string import Formatter
 
 from crankwork.note.document import Heading, Math, Paragraph, Run, Runs
-from crankwork.note.equations import equation_symbol
+from crankwork.note.equations import value_symbol
 from crankwork.note.stated_units import printed_unit
-from crankwork.note.texts.engine_headings import CAPTIONS, COLUMNS, HEADINGS, MARKS
+from crankwork.note.texts.engine_headings import CAPTIONS, COLUMNS, HEADINGS
 from crankwork.note.texts.engine_sentences import SENTENCES
 from crankwork.quantities import LANGUAGES, QUANTITIES, Language
 from crankwork.report.engine_words import FILE_KEYS
 from crankwork.report.language import key_unit, number
-from crankwork.steps import Given
 from crankwork.units import from_si
 
 _RAISED = str.maketrans("0123456789-−", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻")
 _TIGHT = ("°", "%")
-_SHORT = 3
 # what notes of every school leave without a number
 _UNNUMBERED = ("preface", "conclusion", "sources", "appendix")
 
@@ -80,12 +78,7 @@ class EngineWords:
 
     def symbol(self, key: str) -> str:
         """Return the symbol of a key as `base_subscript`, what tells its parts apart in the subscript."""
-        kind, *names = key.split(".")
-        shown = equation_symbol(Given(kind, 0.0), self.language)
-        marks = [MARKS[name][self._place] if name in MARKS else name for name in names]
-        # a point or a number tells parts of a quantity apart; a whole word would make no symbol
-        below = ",".join(one for one, name in zip(marks, names, strict=True) if name in MARKS or len(one) <= _SHORT)
-        return f"{shown}{',' if '_' in shown else '_'}{below}" if below else shown
+        return value_symbol(key, self.language)
 
     def meaning(self, name: str) -> str:
         """Return what a key of the machine file means; the key itself where nobody knows."""

@@ -11,10 +11,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from crankwork.expressions import Formula, record, symbol, text
-from crankwork.notation import ARGUMENTS
+from crankwork.expressions import Formula, record, text
 from crankwork.note.captions import fixed_word
-from crankwork.note.document import Equation, Explanation
+from crankwork.note.definitions import definition_box, definition_text
+from crankwork.note.document import Equation
 from crankwork.note.layout import (
     DOT,
     EQUALS,
@@ -32,8 +32,9 @@ from crankwork.note.layout import (
 from crankwork.note.math import formula_box, is_exact_pi
 from crankwork.note.stated_units import RESULT, coherent_unit, display_unit, printed_unit, stated_units
 from crankwork.note.symbols import number_box, symbol_box
-from crankwork.quantities import QUANTITIES, Language, base_key
-from crankwork.report.language import label, number
+from crankwork.note.texts.engine_headings import MARKS
+from crankwork.quantities import LANGUAGES, QUANTITIES, Language, base_key
+from crankwork.report.language import number
 from crankwork.report.language import symbol as key_symbol
 from crankwork.steps import AnyStep, Given, ProductStep, Step
 from crankwork.units import UNITS, from_si, to_si
@@ -41,6 +42,9 @@ from crankwork.units import UNITS, from_si, to_si
 LINE_WIDTH = 33.0
 _MANY = 6
 _SHORT_NAME = 3
+_AT_POINTS = ("cylinder_volume", "diagram_pressure")
+_OF_ORDERS = ("free_force", "free_moment")
+_WITHOUT_ORDER = ("rotating", "counterweights")
 _TIGHT_UNITS = ("°", "%")
 
 
@@ -65,7 +69,7 @@ def printed_equation(block: Equation, language: Language, limit: float = LINE_WI
     """
     left = symbol_box(block.symbol or equation_symbol(block.step, language))
     parts: list[Box] = []
-    for part in _parts(block.step, language):
+    for part in (*_definition(block, language), *_parts(block.step, language)):
         if part != left and (not parts or part != parts[-1]):
             parts.append(part)
     return PrintedEquation(tuple(_lines(left, parts, limit)), _plain(block, language))
@@ -83,6 +87,38 @@ def equation_symbol(step: AnyStep | Formula, language: Language) -> str:
     return f"{shown}{',' if '_' in shown else '_'}{name}" if name and len(name) <= _SHORT_NAME else shown
 
 
+def value_symbol(key: str, language: Language) -> str:
+    """Return the symbol of a value as `base_subscript`, what tells it from others of its quantity in the subscript.
+
+    Parameters
+    ----------
+    key : str
+        Its key, `tangential_force.5`.
+    language : str
+        Language of the symbol.
+    """
+    kind, *names = key.split(".")
+    if base_key(kind) not in QUANTITIES:
+        return kind
+    place = LANGUAGES.index(language)
+    shown = equation_symbol(Given(kind, 0.0), language)
+    if kind in _OF_ORDERS and names and names[0] in _WITHOUT_ORDER:
+        # what turns with the shaft has no order
+        shown = shown.partition("_")[0]
+    marks = [MARKS[name][place] if name in MARKS else name for name in names]
+    # a point or a number tells parts of a quantity apart; a whole word would make no symbol
+    below = ",".join(one for one, name in zip(marks, names, strict=True) if name in MARKS or len(one) <= _SHORT_NAME)
+    if kind in _AT_POINTS and below:
+        # the clearance volume has the subscript that the point at the end of compression has
+        below = f"({below})"
+    return f"{shown}{',' if '_' in shown else '_'}{below}" if below else shown
+
+
+def _symbols(step: Step, language: Language) -> dict[str, str]:
+    """Return the symbols of the arguments that stand for one of several values."""
+    return {name: value_symbol(key, language) for name, key in step.named}
+
+
 def _lines(left: Box, parts: list[Box], limit: float) -> Iterator[Row]:
     """Yield lines that fit; each begins with the symbol on the left, or with the sign at which it was divided."""
     line = left if not parts else row(left, EQUALS, parts[0])
@@ -96,6 +132,11 @@ def _lines(left: Box, parts: list[Box], limit: float) -> Iterator[Row]:
     yield from broken(row(line), limit)
 
 
+def _definition(block: Equation, language: Language) -> tuple[Box, ...]:
+    box = definition_box(block.defined, language) if block.defined else None
+    return () if box is None else (box,)
+
+
 def _parts(step: AnyStep | Formula, language: Language) -> Iterator[Box]:
     """Yield what stands between the signs of equality."""
     match step:
@@ -103,16 +144,17 @@ def _parts(step: AnyStep | Formula, language: Language) -> Iterator[Box]:
             yield formula_box(record(function), None, language)
             return
         case Step(formula=formula, values=values):
-            tree = record(formula.function)
-            yield formula_box(tree, None, language)
-            yield formula_box(tree, values, language)
+            tree, symbols = record(formula.function), _symbols(step, language)
+            yield formula_box(tree, None, language, symbols=symbols)
+            yield formula_box(tree, values, language, symbols=symbols)
         case Given():
             pass
         case _:
             sign = DOT if isinstance(step, ProductStep) else Sign("+")
             if len(step.terms) <= _MANY:
                 yield _joined([symbol_box(equation_symbol(one, language)) for one in step.terms], sign)
-            yield _joined([number_box(one.value, language)[0] for one in step.terms], sign)
+            if len(step.terms) > 1:
+                yield _joined([number_box(one.value, language)[0] for one in step.terms], sign)
     for value, unit in shown_values(step):
         yield value_box(value, unit, language)
 
@@ -176,41 +218,17 @@ def _plain(block: Equation, language: Language) -> str:
     step = block.step
     parts = [block.symbol or equation_symbol(step, language)]
     formula = step if isinstance(step, Formula) else step.formula if isinstance(step, Step) else None
+    if block.defined:
+        parts += [one for one in (definition_text(block.defined, language),) if one]
     if formula:
-        parts.append(text(record(formula.function), language=language))
+        named = _symbols(step, language) if isinstance(step, Step) else {}
+        parts.append(text(record(formula.function), named, language))
     if isinstance(step, Step):
         printed = {name: number(value, language) for name, value in step.values.items() if not is_exact_pi(name, value)}
         parts.append(text(record(step.formula.function), printed, language))
     if not isinstance(step, Formula):
         parts += [value_text(value, unit, language) for value, unit in shown_values(step)]
     return " = ".join(parts)
-
-
-def legend(step: Step | Formula, language: Language, known: frozenset[str] = frozenset()) -> tuple[Explanation, ...]:
-    """Return what the symbols of a formula stand for, each with the unit in which the formula takes it.
-
-    Parameters
-    ----------
-    step : Step or Formula
-        Whose symbols.
-    language : str
-        Language of the names.
-    known : frozenset of str
-        Keys of quantities that need no explanation any more.
-    """
-    formula = step.formula if isinstance(step, Step) else step
-    units = stated_units(formula)
-    found: dict[str, Explanation] = {}
-    for name in formula.arguments:
-        entry = ARGUMENTS[name]
-        own = entry.pattern == "{}"
-        for key in (entry.quantity, entry.extra):
-            if key and key not in known and key not in found:
-                unit = units.get(name, "") if own else ""
-                words = label(key, language) + (f", {printed_unit(unit, language)}" if unit else "")
-                shown = symbol(name, language) if own else QUANTITIES[key].symbol(language)
-                found[key] = Explanation(shown, words)
-    return tuple(found.values())
 
 
 def legend_rows(block: Equation, language: Language) -> list[tuple[str, Box, str]]:

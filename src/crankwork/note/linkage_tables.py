@@ -9,9 +9,8 @@ import numpy as np
 
 from crankwork.expressions import Formula
 from crankwork.kinematics.crank_grid import Array
-from crankwork.notation import ARGUMENTS
 from crankwork.note.document import Block, Equation, Math, Runs, Table
-from crankwork.note.equations import legend
+from crankwork.note.legends import explained_keys, legend
 from crankwork.note.linkage_words import Words, in_display_unit
 from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.steps import AnyStep, Given, ProductStep, Step, SumStep, all_steps, worked_step
@@ -171,8 +170,7 @@ def explained(blocks: Iterable[Block], language: Language) -> Iterator[Block]:
             continue
         seen.add(formula.name)
         yield replace(block, legend=legend(formula, language, frozenset(known)))
-        entries = [ARGUMENTS[name] for name in formula.arguments]
-        known |= {key for one in entries for key in (one.quantity, one.extra) if key}
+        known |= explained_keys(formula)
 
 
 def _formula(block: Block) -> Formula | None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -50,10 +51,16 @@ class _Printing(NamedTuple):
     language: Language
     digits: int
     inline: bool = False
+    symbols: Mapping[str, str] = MappingProxyType({})
 
 
 def formula_box(
-    tree: Expression, values: Mapping[str, float] | None = None, language: Language = "en", *, digits: int = 6
+    tree: Expression,
+    values: Mapping[str, float] | None = None,
+    language: Language = "en",
+    *,
+    digits: int = 6,
+    symbols: Mapping[str, str] | None = None,
 ) -> Box:
     """Return the boxes of a recorded formula, with symbols, or with numbers in place of them.
 
@@ -67,8 +74,10 @@ def formula_box(
         Whose symbols and decimal mark.
     digits : int
         Significant digits of the numbers.
+    symbols : mapping of str to str, optional
+        Symbols by argument name, instead of those of the table of arguments.
     """
-    return _box(tree, _Printing(values or {}, language, digits))[0]
+    return _box(tree, _Printing(values or {}, language, digits, symbols=symbols or {}))[0]
 
 
 def _box(tree: Expression, printing: _Printing) -> tuple[Box, int]:
@@ -110,7 +119,7 @@ def _symbol(name: str, printing: _Printing) -> tuple[Box, int]:
     value = printing.values.get(name)
     if value is not None and not is_exact_pi(name, value):
         return _bound(*number_box(value, printing.language, printing.digits))
-    box = symbol_box(symbol(name, printing.language))
+    box = symbol_box(printing.symbols.get(name) or symbol(name, printing.language))
     if isinstance(box, Row) and any(isinstance(part, Sign) for part in box.parts):
         return box, _PRODUCT
     return box, _POWER if isinstance(box, Apply | Row) else _ATOM

@@ -46,6 +46,20 @@ figcaption { margin-top: .5em; }
   .table thead th { position: sticky; top: 0; box-shadow: inset 0 1px #444, inset 0 -1px #444; }
   .wide { position: relative; left: 50%; width: max-content; max-width: 96vw; transform: translateX(-50%); }
 }
+/* a narrow screen: the number below its formula, which has the whole width and scrolls, a shadow at the edge behind
+   which it goes on; tables scroll too */
+@media screen and (max-width: 44rem) {
+  .equation { flex-wrap: wrap; gap: 0 1rem; }
+  .lines { flex: 1 0 100%; max-width: 100%; background:
+    linear-gradient(90deg, #fff 50%, #fff0) 0 0 / 2.5rem 100% no-repeat local,
+    linear-gradient(270deg, #fff 50%, #fff0) 100% 0 / 2.5rem 100% no-repeat local,
+    linear-gradient(90deg, #0003, #0000) 0 0 / .6rem 100% no-repeat scroll,
+    linear-gradient(270deg, #0003, #0000) 100% 0 / .6rem 100% no-repeat scroll; }
+  .lines math { font-size: .82em; }
+  .mark { margin-left: auto; }
+  .table, .wide { position: static; width: auto; max-width: 100%; transform: none; overflow-x: auto; }
+  .table thead th { position: static; box-shadow: none; }
+}
 @page { size: A4; margin: 20mm 15mm 20mm 25mm; }
 @page wide { size: A4 landscape; margin: 25mm 20mm 15mm; }
 @media print {

@@ -45,7 +45,7 @@ ROWS = (
     row("mean_piston_speed", "m/s", "S_p|v_п.ср|C_m", "mean piston speed | средняя скорость поршня"
          " | vận tốc trung bình của piston", "Twice the stroke per revolution."),
     # motion
-    row("piston_displacement", "mm", "x|S|x", "piston displacement | перемещение поршня"
+    row("piston_displacement", "mm", "x|S_x|x", "piston displacement | перемещение поршня"
          " | chuyển vị của piston", "Distance of the piston from top dead centre, positive towards the crankshaft."),
     row("piston_velocity", "m/s", "v", "piston velocity | скорость поршня | vận tốc của piston",
          "Time derivative of the piston displacement."),
@@ -96,10 +96,10 @@ ROWS = (
     row("tangential_factor", "", "sin(φ+β)/cos β|sin(φ+β)/cos β|sin(α+β)/cos β", "tangential force per piston force"
          " | отношение тангенциальной силы к суммарной | tỉ số lực tiếp tuyến trên lực tác dụng lên chốt piston",
          "Tangential force over the force on the piston pin, without a correction couple."),
-    row("piston_transfer_1", "mm", "x′|S′|x′", "first transfer function of the piston"
+    row("piston_transfer_1", "mm", "x′|S_x′|x′", "first transfer function of the piston"
          " | аналог скорости поршня | hàm truyền bậc một của piston",
          "Derivative of the piston displacement by the crank angle in radians."),
-    row("piston_transfer_2", "mm", "x″|S″|x″", "second transfer function of the piston"
+    row("piston_transfer_2", "mm", "x″|S_x″|x″", "second transfer function of the piston"
          " | аналог ускорения поршня | hàm truyền bậc hai của piston",
          "Second derivative of the piston displacement by the crank angle in radians."),
     *(
@@ -150,6 +150,8 @@ ROWS = (
     row("diagram_pressure", "MPa", "p", "pressure of the indicator diagram | давление по индикаторной диаграмме"
          " | áp suất trên đồ thị công",
          "Pressure in the cylinder, absolute or above that in the crankcase, as the diagram is given."),
+    row("polytropic_exponent", "", "n_p|n_п|n_đb", "polytropic exponent | показатель политропы"
+         " | chỉ số đa biến", "Exponent of the volume in the equation of a polytrope."),
     row("ambient_pressure", "MPa", "p_0", "pressure on the crankcase side | давление в картере"
          " | áp suất khí trời", "Absolute pressure under the piston."),
     row("indicated_work", "J", "W_i|L_i|L_i", "indicated work per cycle | индикаторная работа цикла"

@@ -19,12 +19,19 @@ from crankwork.report.figure_look import (
     draw_curves,
     math_symbol,
     new_figure,
-    over_crank_angle,
     svg,
     through_zero,
 )  # fmt: skip
 from crankwork.report.language import unit_name
-from crankwork.report.linkage_look import PLAIN, Style, axis_title, displayed_values, figure_look, quantity_of
+from crankwork.report.linkage_look import (
+    PLAIN,
+    Style,
+    axis_title,
+    displayed_values,
+    figure_look,
+    over_drive_angle,
+    quantity_of,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -115,7 +122,7 @@ def _draw(axes: Axes, grid: CrankGrid, values: Sequence[tuple[Quantity, Array]],
     unit = unit_name(first.unit, style.language)
     has_legend = _has_legend([row for row, _ in values], style)
     draw_curves(axes, grid.degrees, lines, one_row=not has_legend)
-    over_crank_angle(axes, float(grid.degrees[-1]), style.language)
+    over_drive_angle(axes, float(grid.degrees[-1]), style.language)
     through_zero(axes, *(one.values for one in lines))
     if not has_legend:
         axes.set_ylabel(axis_title(first, style.language).replace(" $", "\n$", 1))

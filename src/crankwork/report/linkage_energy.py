@@ -10,9 +10,17 @@ import numpy as np
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.quantities import QUANTITIES, Language
 from crankwork.report.figure_labels import Line, label_points
-from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED, over_crank_angle, single_axes, svg
+from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED, single_axes, svg
 from crankwork.report.language import number, symbol, unit_name
-from crankwork.report.linkage_look import PLAIN, Style, axis_title, figure_look, linkage_title, quantity_of
+from crankwork.report.linkage_look import (
+    PLAIN,
+    Style,
+    axis_title,
+    figure_look,
+    linkage_title,
+    over_drive_angle,
+    quantity_of,
+)
 from crankwork.shaft.flywheel import wittenbauer_slope_largest, wittenbauer_slope_least
 
 if TYPE_CHECKING:
@@ -170,6 +178,6 @@ def speed_curve(grid: CrankGrid, speed: Array, style: Style = PLAIN) -> bytes:
         )
         spare = 0.08 * (high - low) or 0.01 * high
         axes.set_ylim(low - spare, high + spare)
-        over_crank_angle(axes, float(grid.degrees[-1]), language)
+        over_drive_angle(axes, float(grid.degrees[-1]), language)
         axes.set_ylabel(axis_title(row, language))
         return svg(figure, linkage_title("speed", language), style.method)

@@ -5,14 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from crankwork.errors import CrankworkError, MissingExtraError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.quantities import LANGUAGES, QUANTITIES, Language, Quantity
-from crankwork.report.figure_look import LOOK, math_symbol
+from crankwork.report.figure_look import LOOK, math_symbol, over_crank_angle
 from crankwork.report.language import number, unit_name
 from crankwork.units import from_si
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 POINTS_PER_MM = 72 / 25.4
 _TITLES = {
@@ -24,6 +27,11 @@ _TITLES = {
     "speed": ("Angular speed of the crank over one cycle", "Угловая скорость кривошипа за цикл",
               "Vận tốc góc của khâu dẫn trong một chu kỳ"),
 }  # fmt: skip
+
+# a linkage has a crank, no crankshaft
+_CRANK_ANGLE = QUANTITIES["crank_angle"]._replace(
+    labels=("crank angle", "угол поворота кривошипа", "góc quay của tay quay")
+)
 
 
 class Style(NamedTuple):
@@ -105,6 +113,12 @@ def axis_title(row: Quantity, language: Language) -> str:
     """Return the axis title of a quantity: name, symbol, unit."""
     unit = unit_name(row.unit, language)
     return f"{row.label(language)} {math_symbol(row.symbol(language))}" + (f", {unit}" if unit else "")
+
+
+def over_drive_angle(axes: Axes, end: float, language: Language) -> None:
+    """Make the horizontal axis the angle of the crank of a linkage from 0 to `end`. [deg]"""
+    over_crank_angle(axes, end, language)
+    axes.set_xlabel(axis_title(_CRANK_ANGLE, language))
 
 
 def round_scale(least: float) -> float:

@@ -13,7 +13,7 @@ from crankwork.mechanism.mechanism import Mechanism
 from crankwork.report import drawing_parts as parts
 from crankwork.report.figure_labels import Line, label_points
 from crankwork.report.figure_look import DASH_DOT, WIDTH, new_figure, svg
-from crankwork.report.language import number
+from crankwork.report.language import number, symbol
 from crankwork.report.linkage_drawing import corners, slot_middle, walls
 from crankwork.report.linkage_labels import labels
 from crankwork.report.linkage_look import (
@@ -94,7 +94,9 @@ def position_plans(
         at: Any = {"size": 9, "transform": sheet.axes.transAxes, "va": "bottom"}
         foot = 10 / 72 / sheet.figure.get_size_inches()[1]
         sheet.axes.text(0.03, foot, scale_text("μ_l", paper, "mm", style.language), **at)
-        shown = f"$φ_{{{main}}}$ = {number(float(degrees[main]), style.language)}°"
+        shown = (
+            f"${symbol('crank_angle', style.language)}_{{{main}}}$ = {number(float(degrees[main]), style.language)}°"
+        )
         sheet.axes.text(0.97, foot, shown, ha="right", **at)
         return svg(sheet.figure, linkage_title("position_plans", style.language), style.method)
 

@@ -20,6 +20,7 @@ from crankwork.note.sheets.scene import (
     Text,
     hatch_lines,
     runs,
+    text_width,
 )
 from crankwork.note.sheets.sheet import Sheet
 
@@ -31,6 +32,8 @@ _MILLIMETRES = 4
 _HALIGN = {"start": 0, "middle": 1, "end": 2}
 _MTEXT_MIDDLE = {"start": 4, "middle": 5, "end": 6}
 _THROUGH_CORNERS = 128
+# how much wider letters of another font may be
+_SPARE = 1.5
 
 
 def sheet_dxf(sheet: Sheet) -> bytes:
@@ -139,7 +142,10 @@ def _add_text(space: Any, item: Text) -> None:  # noqa: ANN401 - a layout of ezd
         return
     coded = "".join(_coded(one.text, one.shift) for one in parts)
     place = (item.place[0], item.place[1] + item.height / 2)
+    # readers break lines at the width, and those without one at every space
+    width = _SPARE * text_width(item.text, item.height)
     attributes |= {"char_height": item.height, "attachment_point": _MTEXT_MIDDLE[item.anchor], "insert": place}
+    attributes["width"] = width
     space.add_mtext(coded, dxfattribs=attributes)
 
 

@@ -53,7 +53,9 @@ def engine_sheets(
         Divide forces by the piston area.
     extra : mapping of str to array or float, optional
         What is known of the whole engine, in SI: `crank_angle` [rad] of the following, evenly over the cycle without
-        it; `total_torque` [N m] and `total_torque_mean`; `crankpin_load` [N], the size of the load on the crankpin;
+        it; `total_torque` [N m] and `total_torque_mean`; `crankpin_load` [N], the size of the load on the crankpin,
+        and `crankpin_load_mean`; `crankpin_tangential` and `crankpin_radial` [N], the forces of all its rods, from
+        whose origin the pole is `crankpin_inertia` [N] away, that of `crankpin_rods` rods; `crankpin`, its number;
         `wear_sums` [N], the sum of loads on each ray of the crankpin, and `wear_angle` [rad], where the rays are,
         from the outer side of the pin with the rotation, evenly around it without it.
 
@@ -116,9 +118,9 @@ def _force_sheet(drawn: Drawn, paper: Paper, words: Words, extra: Mapping[str, A
     graphs.append(loads.unrolled(drawn, extra, paper.part(408, 303, 408, 134), words))
     worn = wear(drawn, extra, paper.part(630, 60, 186, 240), words)
     if worn is None:
-        graphs.append(loads.polar(drawn, paper.part(408, 60, 408, 240), words))
+        graphs.append(loads.polar(drawn, extra, paper.part(408, 60, 408, 240), words))
     else:
-        graphs += [loads.polar(drawn, paper.part(408, 0, 220, 300), words), worn]
+        graphs += [loads.polar(drawn, extra, paper.part(408, 0, 220, 300), words), worn]
     return Sheet("engine-forces", words.say("second_sheet"), words.language, paper, tuple(graphs))
 
 

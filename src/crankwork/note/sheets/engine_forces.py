@@ -66,6 +66,11 @@ def over_cycle(drawn: Drawn, extra: Mapping[str, Array | float], key: str, kind:
     return OverCycle(degrees, values * displayed(kind, 1.0, per_area=drawn.area))
 
 
+def crankpin_number(extra: Mapping[str, Array | float]) -> str:
+    """Return the number of the crankpin that is shown, nothing where all are alike."""
+    return f"{float(extra['crankpin']):g}" if "crankpin" in extra else ""
+
+
 def forces(drawn: Drawn, name: str, box: Box, words: Words) -> Graph:
     """Return `piston_forces`, `rod_forces` or `crankpin_forces` over the cycle.
 
@@ -121,7 +126,7 @@ def torque(drawn: Drawn, extra: Mapping[str, Array | float], box: Box, words: Wo
         mean = float(np.asarray(extra.get("total_torque_mean", total.mean)))
     if abs(mean) < 1e-6 * float(np.max(np.abs(curves[-1].y))):
         mean = 0.0
-    shown = f"{words.say('mean')} {words.number(mean)} {unit}"
+    shown = f"{words.say('mean')} {words.number(mean, 6)} {unit}"
     mark = indexed(f"{'Σ' if total is not None else ''}M_{words.say('mean_mark')}")
     ends = np.array([0.0, float(drawn.results.machine.cycle)])
     curves.append(Curve("mean_torque", mark, shown, ends, np.full(2, mean), "dash_dot"))
@@ -139,13 +144,37 @@ def big_end_inertia(drawn: Drawn) -> float:
     return displayed("rotating_inertia_force", float(force), per_area=drawn.area)
 
 
-def polar(drawn: Drawn, box: Box, words: Words) -> Graph:
+class _Pin(NamedTuple):
+    """Forces of the rods on a crankpin at crank angles, the inertia of the rods, the sign of that. [display unit]"""
+
+    degrees: Array
+    across: Array
+    along: Array
+    inertia: float
+    sign: str
+
+
+def _pin(drawn: Drawn, extra: Mapping[str, Array | float], words: Words) -> _Pin:
+    """Return the forces on the crankpin of all its rods, where they are known, or of the one rod."""
+    across, along = (over_cycle(drawn, extra, f"crankpin_{one}", "piston_force") for one in ("tangential", "radial"))
+    sign = indexed(words.say("big_end"))
+    if across is None or along is None:
+        forces = drawn.values("tangential_force"), drawn.values("radial_force")
+        return _Pin(drawn.degrees, *forces, big_end_inertia(drawn), sign)
+    rods = round(float(extra.get("crankpin_rods", 1.0)))
+    inertia = displayed("rotating_inertia_force", float(extra.get("crankpin_inertia", 0.0)), per_area=drawn.area)
+    return _Pin(across.degrees, across.values, along.values, inertia, f"{rods}{sign}" if rods > 1 else sign)
+
+
+def polar(drawn: Drawn, extra: Mapping[str, Array | float], box: Box, words: Words) -> Graph:
     """Return the load on the crankpin as its end runs: tangential to the right, radial downward, marks every 30 deg.
 
     Parameters
     ----------
     drawn : Drawn
         What the graphs share.
+    extra : mapping of str to array or float
+        With `crankpin_tangential` and what belongs to it, as `engine_sheets` says; the force of this one rod otherwise.
     box : Box
         Where. [mm]
     words : Words
@@ -157,8 +186,7 @@ def polar(drawn: Drawn, box: Box, words: Words) -> Graph:
         The curve from the origin O, and the pole from which the load is measured, shifted from it by the inertia
         force of the rod mass at the crankpin.
     """
-    across, along = drawn.values("tangential_force"), drawn.values("radial_force")
-    inertia = big_end_inertia(drawn)
+    degrees, across, along, inertia, sign = _pin(drawn, extra, words)
     reach = np.append(along, [0.0, -inertia])
     unit = words.unit_of("tangential_force")
     sides = _equal(
@@ -180,15 +208,14 @@ def polar(drawn: Drawn, box: Box, words: Words) -> Graph:
         box,
     )
     curve = Curve("crankpin_load", "R", "", across, along)
-    shown = graph("polar", box, sides, [curve], words)
+    shown = graph("polar", box, sides, [curve], words, of=crankpin_number(extra))
     items: list[Item] = []
     if inertia:
         pole, origin = shown.point(0.0, -inertia), shown.point(0.0, 0.0)
         items += [Circle(pole, 1.2, "medium", 1.0), *arrow(pole, origin, "thick", head=4.0)]
-        shift = indexed(words.say("big_end"))
-        items.append(Text((pole[0] + 2.0, (pole[1] + origin[1]) / 2), shift))
+        items.append(Text((pole[0] + 2.0, (pole[1] + origin[1]) / 2), sign))
     marks = np.arange(0.0, float(drawn.results.machine.cycle), MARKS)
-    at = np.searchsorted(drawn.degrees, marks)
+    at = np.searchsorted(degrees, marks)
     points = [
         Named(f"{mark:g}", shown.point(float(across[i]), float(along[i]))) for mark, i in zip(marks, at, strict=True)
     ]
@@ -213,7 +240,7 @@ def unrolled(drawn: Drawn, extra: Mapping[str, Array | float], box: Box, words: 
     drawn : Drawn
         What the graphs share.
     extra : mapping of str to array or float
-        With `crankpin_load`, as `engine_sheets` says; that of this one rod otherwise.
+        With `crankpin_load` and `crankpin_load_mean`, as `engine_sheets` says; that of this one rod otherwise.
     box : Box
         Where. [mm]
     words : Words
@@ -226,12 +253,15 @@ def unrolled(drawn: Drawn, extra: Mapping[str, Array | float], box: Box, words: 
     sign = indexed(words.say("load_symbol"))
     base = words.say("load_symbol").partition("_")[0]
     unit = words.unit(words.unit_of("piston_force"))
-    shown = f"{words.say('mean')} {words.number(load.mean)} {unit}"
+    level = load.mean
+    if "crankpin_load_mean" in extra:
+        level = displayed("piston_force", float(extra["crankpin_load_mean"]), per_area=drawn.area)
+    shown = f"{words.say('mean')} {words.number(level, 6)} {unit}"
     mean = indexed(f"{base}_{words.say('mean_mark')}")
     ends = load.degrees[[0, -1]]
     curves = [
         Curve("crankpin_load", sign, "", load.degrees, load.values),
-        Curve("crankpin_load_mean", mean, shown, ends, np.full(2, load.mean), "dashed"),
+        Curve("crankpin_load_mean", mean, shown, ends, np.full(2, level), "dashed"),
     ]
     side = value_side("piston_force", [load.values], words)._replace(symbol=sign, mark=words.say("force"))
-    return graph("unrolled", box, (angle_side(drawn, words), side), curves, words)
+    return graph("unrolled", box, (angle_side(drawn, words), side), curves, words, of=crankpin_number(extra))

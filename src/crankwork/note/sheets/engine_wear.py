@@ -9,7 +9,8 @@ import numpy as np
 
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
-from crankwork.note.sheets.graph import Axis, Graph, heading
+from crankwork.note.sheets.engine_forces import crankpin_number
+from crankwork.note.sheets.graph import Axis, Graph, heading, titled
 from crankwork.note.sheets.scene import SMALL, TEXT, Box, Circle, Hatch, Item, Polyline, Text, line
 from crankwork.note.sheets.words import Words
 from crankwork.report.figure_data import Drawn
@@ -50,7 +51,7 @@ def wear(drawn: Drawn, extra: Mapping[str, Array | float], box: Box, words: Word
     at = angles[int(np.argmin(sums))]
     hole = centre + (radius - 3.0) * _towards(at)
     items.append(Circle((float(hole[0]), float(hole[1])), 2.0, "medium", 1.0))
-    items += heading(words.say("wear"), [words.scale(sign, scale, depth.unit)], [], box)
+    items += heading(titled(words.say("wear"), crankpin_number(extra)), [words.scale(sign, scale, depth.unit)], [], box)
     items.append(Circle((box.left + 3.0, box.bottom + 3.0), 1.4, "medium", 1.0))
     items.append(Text((box.left + 6.0, box.bottom + 3.0 - TEXT / 2), words.say("oil_hole")))
     ends = "; ".join(

@@ -128,8 +128,15 @@ class Graph(NamedTuple):
         return Box(self.x.start, self.y.start, self.x.end - self.x.start, self.y.end - self.y.start)
 
 
-def graph(
-    name: str, box: Box, sides: tuple[Side, Side], curves: Sequence[Curve], words: Words, *, legend: bool = True
+def graph(  # noqa: PLR0913 - what it shows, and two choices
+    name: str,
+    box: Box,
+    sides: tuple[Side, Side],
+    curves: Sequence[Curve],
+    words: Words,
+    *,
+    legend: bool = True,
+    of: str = "",
 ) -> Graph:
     """Return a graph of curves that share their axes.
 
@@ -147,6 +154,8 @@ def graph(
         Language.
     legend : bool
         Name the lines, if there are several.
+    of : str
+        Which of several things it shows, for its title.
     """
     entries = curves if legend and len(curves) > 1 else ()
     room = box.inset(_LEFT, _BOTTOM, 0.0, heading_height(entries, box))
@@ -157,7 +166,7 @@ def graph(
     for one in curves:
         points = np.column_stack([x.place(one.x), y.place(one.y)])
         items.append(Polyline(points, one.kind, name=one.key))
-    items += heading(words.say(name), scales, entries, box)
+    items += heading(titled(words.say(name), of), scales, entries, box)
     return Graph(name, box, x, y, tuple(items))
 
 
@@ -230,6 +239,11 @@ def _axes(x: Axis, y: Axis, words: Words) -> list[Item]:
             at = float(x.place(value))
             items.append(line((at, across - 1.0), (at, across + 1.0)))
     return items
+
+
+def titled(title: str, of: str) -> str:
+    """Return a title that says which of several things a graph shows, if that is to be said."""
+    return f"{title} {of}" if of else title
 
 
 def heading(title: str, scales: Sequence[str], curves: Sequence[Curve], box: Box) -> list[Item]:

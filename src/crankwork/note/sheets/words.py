@@ -29,7 +29,7 @@ _WORDS = {
     "torque": ("Torque", "Крутящий момент", "Mômen quay"),
     "polar": ("Polar diagram of the load on the crankpin", "Полярная диаграмма нагрузки на шатунную шейку",
               "Đồ thị phụ tải tác dụng lên chốt khuỷu"),
-    "unrolled": ("Load on the crankpin over the crank angle", "Развёрнутая диаграмма нагрузки на шатунную шейку",
+    "unrolled": ("Unrolled diagram of the load on the crankpin", "Развёрнутая диаграмма нагрузки на шатунную шейку",
                  "Đồ thị khai triển phụ tải tác dụng lên chốt khuỷu"),
     "wear": ("Wear diagram of the crankpin", "Условная диаграмма износа шатунной шейки",
              "Đồ thị mài mòn chốt khuỷu"),

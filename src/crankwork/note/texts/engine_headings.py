@@ -73,6 +73,8 @@ CAPTIONS = {
     "heat_balance": Said("Heat balance", "Составляющие теплового баланса", "Các thành phần cân bằng nhiệt"),
     "points": Said("Points of the indicator diagram", "Характерные точки индикаторной диаграммы",
                "Các điểm đặc biệt của đồ thị công"),
+    "measured": Said("Measured pressure in the cylinder", "Измеренное давление в цилиндре",
+                 "Áp suất đo trong xylanh"),
     "polytropes": Said("Compression and expansion", "Построение политроп сжатия и расширения",
                    "Bảng tính quá trình nén và quá trình giãn nở"),
     "motion": Said("Displacement, velocity and acceleration of the piston",
@@ -108,6 +110,7 @@ CAPTIONS = {
     "speed": Said("Kinetic energy and speed of the crankshaft",
               "Изменение кинетической энергии и угловая скорость вала",
               "Biến thiên động năng và vận tốc góc của trục khuỷu"),
+    "energy": Said("Kinetic energy of the crankshaft", "Изменение кинетической энергии", "Biến thiên động năng"),
     "identities": Said("Identities and their residuals", "Контрольные тождества и их невязки",
                    "Các đẳng thức kiểm tra và sai lệch"),
     "errors": Said("Largest error of the method against exact", "Наибольшая погрешность метода относительно точного",
@@ -118,6 +121,7 @@ CAPTIONS = {
 }  # fmt: skip
 
 COLUMNS = {
+    "assumed": Said("taken as usual", "принято", "chọn"),
     "quantity": Said("quantity", "величина", "đại lượng"),
     "symbol": Said("symbol", "обозначение", "ký hiệu"),
     "value": Said("value", "значение", "giá trị"),
@@ -162,7 +166,7 @@ MARKS = {
     "force": Said("F", "P", "P"),
     "throw": Said("t", "кол", "kh"),
     "of_cylinder": Said("cyl", "ц", "xl"),
-    "rotating": Said("rot", "вр", "q"),
+    "rotating": Said("rot", "вр", "quay"),
     "counterweights": Said("b", "пр", "đt"),
     "crankpin": Said("cp", "шш", "ch"),
     "main_journal": Said("mj", "кш", "ck"),

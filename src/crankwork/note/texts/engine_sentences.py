@@ -88,9 +88,28 @@ SENTENCES = {
         "Áp suất trên đường nén và đường giãn nở, với {polytrope}, được tính trong bảng {table} theo bội số i của thể"
         " tích buồng cháy.",
     ),
-    "exponents": Said("n = {compression} and n = {expansion}", "n = {compression} и n = {expansion}",
-                  "n = {compression} và n = {expansion}"),
-    "exponent": Said("n = {value}", "n = {value}", "n = {value}"),
+    "measured": Said(
+        "The pressure in the cylinder was measured and is read from the file {file}; samples: {samples}, cycles"
+        " averaged: {cycles}. Table {table} gives it at a coarse step.",
+        "Давление в цилиндре измерено; оно взято из файла {file}: число отсчётов {samples}, число осреднённых циклов"
+        " {cycles}. Таблица {table} даёт его с крупным шагом.",
+        "Áp suất trong xylanh là áp suất đo, lấy từ tệp {file}: số điểm đo {samples}, số chu trình lấy trung bình"
+        " {cycles}. Bảng {table} ghi áp suất này với bước thưa.",
+    ),
+    "shifted": Said(
+        "To the angles of the file {shift} was added, so that {crank_angle} = 0 is top dead centre.",
+        "К углам файла прибавлено {shift}, чтобы {crank_angle} = 0 соответствовало ВМТ.",
+        "Các góc trong tệp được cộng thêm {shift} để {crank_angle} = 0 ứng với điểm chết trên.",
+    ),
+    "resampled": Said(
+        "The samples are resampled at a step of {step}.",
+        "Отсчёты пересчитаны на шаг {step}.",
+        "Các điểm đo được nội suy lại với bước {step}.",
+    ),
+    "exponents": Said("{polytropic_exponent} = {compression} and {polytropic_exponent} = {expansion}",
+                      "{polytropic_exponent} = {compression} и {polytropic_exponent} = {expansion}",
+                      "{polytropic_exponent} = {compression} và {polytropic_exponent} = {expansion}"),
+    "exponent": Said(*("{polytropic_exponent} = {value}",) * 3),
     "work": Said("Work of the diagram:", "Работа и показатели по построенной диаграмме:", "Công của đồ thị:"),
     "worked_at": Said(
         "Worked at {crank_angle} = {value}; the other angles are calculated in the same way.",
@@ -171,6 +190,8 @@ SENTENCES = {
         "На шатунную шейку действуют силы шатуна и центробежная сила массы шатуна, отнесённой к оси шейки.",
         "Chốt khuỷu chịu lực của thanh truyền và lực quán tính ly tâm của khối lượng thanh truyền quy về đầu to.",
     ),
+    "of_pin": Said("{title}, crankpin {pins}", "{title}, шейка {pins}", "{title}, chốt {pins}"),
+    "of_pins": Said("{title}, crankpins {pins}", "{title}, шейки {pins}", "{title}, các chốt {pins}"),
     "wear": Said(
         "Each load counts on the rays within 60° to both sides of its direction; the oil hole lies in the middle of"
         " the least loaded arc, at {oil_hole_angle} = {value}.",

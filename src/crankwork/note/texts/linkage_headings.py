@@ -170,7 +170,7 @@ COLUMNS = {
     "quantity": Said("Quantity", "Величина", "Đại lượng"),
     "value": Said("Value", "Значение", "Giá trị"),
     "unit": Said("Unit", "Единица", "Đơn vị"),
-    "at": Said("at φ, °", "при φ, °", "tại φ, °"),
+    "at": Said("at φ, °", "при φ, °", "tại α, °"),
     "identity": Said("Identity", "Тождество", "Đẳng thức"),
 }  # fmt: skip
 

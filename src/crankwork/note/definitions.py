@@ -1,0 +1,73 @@
+"""What values without a formula are by definition: integrals over the cycle, which are found numerically."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from crankwork.note.layout import SPACE, Box, Fence, Fraction, Row, Sign, Upright, row
+from crankwork.note.symbols import symbol_box
+from crankwork.quantities import QUANTITIES, Language
+
+# mean over the cycle: of which quantity
+_MEANS: Mapping[str, str] = MappingProxyType(
+    {
+        "mean_torque": "crank_torque",
+        "mean_total_torque": "total_torque",
+        "mean_crankpin_load": "crankpin_load",
+        "mean_bearing_load": "bearing_load",
+    }
+)
+
+
+def definition_box(key: str, language: Language) -> Box | None:
+    """Return what a value is by definition; None where nothing is to be said.
+
+    Parameters
+    ----------
+    key : str
+        Key of the value.
+    language : str
+        Language of the symbols.
+    """
+    kind = key.partition(".")[0]
+    if kind == "indicated_work":
+        return row(Upright("∮"), _over("diagram_pressure", "cylinder_volume", language))
+    if kind == "excess_work":
+        beyond = row(_symbol("total_torque", language), Sign("−"), _symbol("mean_total_torque", language))
+        work = row(Upright("∫"), Fence(beyond), SPACE, Upright("d"), _symbol("crank_angle", language))
+        return row(Upright("max"), SPACE, work, Sign("−"), Upright("min"), SPACE, work)
+    if kind in _MEANS:
+        share = Fraction(Upright("1"), _symbol("cycle_angle", language))
+        return row(share, Upright("∫"), _over(_MEANS[kind], "crank_angle", language))
+    return None
+
+
+def definition_text(key: str, language: Language) -> str:
+    """Return the same as one line of text, empty where nothing is to be said.
+
+    Parameters
+    ----------
+    key : str
+        Key of the value.
+    language : str
+        Language of the symbols.
+    """
+    kind = key.partition(".")[0]
+    names = {one: QUANTITIES[one].symbol(language) for one in (*_MEANS, *_MEANS.values(), "crank_angle", "cycle_angle")}
+    if kind == "indicated_work":
+        return f"∮ {QUANTITIES['diagram_pressure'].symbol(language)} d{QUANTITIES['cylinder_volume'].symbol(language)}"
+    if kind == "excess_work":
+        work = f"∫({names['total_torque']} − {names['mean_total_torque']}) d{names['crank_angle']}"
+        return f"max {work} − min {work}"
+    if kind in _MEANS:
+        return f"1/{names['cycle_angle']}·∫ {names[_MEANS[kind]]} d{names['crank_angle']}"
+    return ""
+
+
+def _over(key: str, variable: str, language: Language) -> Row:
+    return row(SPACE, _symbol(key, language), SPACE, Upright("d"), _symbol(variable, language))
+
+
+def _symbol(key: str, language: Language) -> Box:
+    return symbol_box(QUANTITIES[key].symbol(language))

@@ -1,0 +1,116 @@
+"""Every symbol of every printed formula is explained before it comes or where it comes first."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+import crankwork
+from crankwork.expressions import symbol
+from crankwork.notation import ARGUMENTS
+from crankwork.note.contents import note_of
+from crankwork.note.document import Equation, Note, Table
+from crankwork.note.equations import equation_symbol, printed_equation, value_symbol
+from crankwork.note.options import NoteOptions
+from crankwork.quantities import QUANTITIES
+from crankwork.steps import Step
+
+EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
+CONSTANTS = ("pi",)
+
+
+@cache
+def results(path: Path):
+    return crankwork.analyse(crankwork.read(path))
+
+
+def note(path: Path, language: str) -> Note:
+    return note_of(results(path), NoteOptions(language=language, figures=False))
+
+
+def needed(step: Step, language: str) -> dict[str, tuple[str, ...]]:
+    """Return the symbols that must be known by the symbols of a formula as they are printed."""
+    named = dict(step.named)
+    found: dict[str, tuple[str, ...]] = {}
+    for name in step.formula.arguments:
+        entry = ARGUMENTS[name]
+        if name in CONSTANTS:
+            continue
+        if name in named:
+            kind = named[name].partition(".")[0]
+            found[value_symbol(named[name], language)] = (QUANTITIES[kind].symbol(language),)
+        elif any(mark in entry.pattern for mark in ("sin", "cos")):
+            bases = [QUANTITIES[key].symbol(language) for key in (entry.quantity, entry.extra) if key]
+            found[symbol(name, language)] = tuple(bases)
+        else:
+            found[symbol(name, language)] = (symbol(name, language),)
+    return found
+
+
+def unexplained(one: Note, language: str) -> list[str]:
+    known: set[str] = set()
+    missing: list[str] = []
+    for block in one.blocks:
+        if not isinstance(block, Equation):
+            continue
+        known |= {entry.symbol for entry in block.legend}
+        if isinstance(block.step, Step):
+            for printed, wanted in needed(block.step, language).items():
+                if not ({printed} <= known or set(wanted) <= known):
+                    missing.append(f"{printed} in {printed_equation(block, language).text}")
+        known.add(block.symbol or equation_symbol(block.step, language))
+    return missing
+
+
+@pytest.mark.parametrize("language", ["en", "ru", "vi"])
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda one: one.stem)
+def test_every_symbol_of_every_formula_is_explained(path, language):
+    assert not unexplained(note(path, language), language)
+
+
+def test_a_symbol_without_explanation_is_found():
+    one = note(EXAMPLES[0], "en")
+    bare = [Equation(block.step) if isinstance(block, Equation) else block for block in one.blocks]
+    assert unexplained(Note(one.title, "en", tuple(bare)), "en")
+
+
+def printed(name: str, language: str = "ru") -> list[str]:
+    path = next(one for one in EXAMPLES if one.stem == name)
+    blocks = note(path, language).blocks
+    return [printed_equation(one, language).text for one in blocks if isinstance(one, Equation)]
+
+
+@pytest.mark.parametrize(
+    ("name", "line"),
+    [
+        # a volume at a point of the diagram is not the clearance volume, nor an exponent a rotational speed
+        ("spark-engine", "V_(c1) = V_c + F_п·S_x = "),
+        ("spark-engine", "p_(c1) = p_(a)·(V_(a)/V_(c1))^n_п = "),
+        # the inertia force has a rod ratio of its own
+        ("spark-engine", "S_x″,ин = R·(cos φ + λ_ин·cos 2φ) = "),
+        ("spark-engine", "P_j = −m_j·j_ин = "),
+        ("v8-diesel", "δ = L_изб/(J_Σ·ω²) = "),
+        ("v8-diesel", "M_кр,5 = T_5·R = "),
+        ("petrol-four", "Q_r = 1000·G_т·(M_2·h_r − M_1·h_0) = "),
+        ("petrol-four", "M_кш,3 = M_кш,2 + M_кр,2 = "),
+        # integrals say what they are
+        ("spark-engine", "L_i = ∮ p dV = 905,655"),
+        ("spark-engine", "M_ср = 1/φ_ц·∫ M_кр dφ = 72,1365"),
+        ("petrol-four", "L_изб = max ∫(M_Σ − M_Σср) dφ − min ∫(M_Σ − M_Σср) dφ = "),
+    ],
+)
+def test_a_value_has_a_symbol_of_its_own(name, line):
+    assert any(one.startswith(line) for one in printed(name))
+
+
+@pytest.mark.parametrize("name", ["petrol-four", "radial-five"])
+def test_what_is_put_into_the_cycle_stands_in_the_table_of_its_data(name):
+    path = next(one for one in EXAMPLES if one.stem == name)
+    table = next(one for one in note(path, "ru").blocks if isinstance(one, Table) and one.label == "t:cycle_data")
+    symbols = {row[1]: row for row in table.rows}
+    assert {"C", "H", "O", "am", "bm", "c", "m", "mr"} <= symbols.keys()
+    assert (symbols["C"][2], symbols["am"][2:]) == ("0,855", ("34000", "Па"))
+    assert "принято" in symbols["C"][0]
+    assert ("ξвп" in symbols) == (name == "radial-five")
