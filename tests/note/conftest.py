@@ -10,6 +10,7 @@ import pkgutil
 import pytest
 
 import crankwork
+from crankwork.dynamics import piston_forces as forces
 from crankwork.expressions import FORMULAS, Formula, record
 from crankwork.kinematics.lengths import mean_piston_speed
 from crankwork.loads import gas
@@ -74,7 +75,7 @@ def sample(language: Language) -> Note:
         Equation(area, label="area", legend=legend(area, language)),
         Equation(speed),
         Equation(mass),
-        Equation(FORMULAS["side_force"], numbered=False),
+        Equation(FORMULAS[forces.side_force.__name__], numbered=False),
         Table(HOSTILE, (("n",), ("x, ", Math("x_1")), ("text",)), rows, wide=True, align="crl", label="wide"),
         Figure(SVG, HOSTILE, HOSTILE, label="drawing"),
         ItemList(((HOSTILE,), (Math("ω"),))),

@@ -50,7 +50,7 @@ def _missing_character(text: str) -> CrankworkError:
     )
 
 
-def png(svg: bytes, pixels_per_inch: float = 150.0) -> bytes:
+def png(svg: bytes, pixels_per_inch: float = 110.0) -> bytes:
     """Return a drawing as a picture of pixels, for programs that know no SVG.
 
     Parameters
