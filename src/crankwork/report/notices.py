@@ -101,8 +101,3 @@ def _meanings(names: str, language: Language) -> str:
         f"{label(key, language)} ({name})" if key in QUANTITIES or has_word(key) else name
         for name, key in meant.items()
     )
-
-
-def notice_codes() -> list[str]:
-    """Return the codes of all notices."""
-    return list(_NOTICES)
