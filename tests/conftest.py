@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import importlib
 import os
+import pkgutil
 from collections.abc import Generator
 from typing import TypeVar
 
 import pytest
 from hypothesis import settings
+
+import crankwork
+from crankwork.formula.expression import FORMULAS, Formula
 
 Report = TypeVar("Report", pytest.TestReport, pytest.CollectReport)
 
@@ -37,3 +42,12 @@ def _without_skips(report: Report) -> Report:
         report.outcome = "failed"
         report.longrepr = f"A skip is a failure in CI: {reason}"
     return report
+
+
+@pytest.fixture(scope="session")
+def formulas() -> dict[str, Formula]:
+    """Every registered formula by name."""
+    for module in pkgutil.walk_packages(crankwork.__path__, "crankwork."):
+        if not module.name.endswith("__main__"):
+            importlib.import_module(module.name)
+    return FORMULAS

@@ -13,10 +13,36 @@ import importlib
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from crankwork.analysis import Results, analyse, with_method
+    from crankwork.analysis.analyse import analyse, with_method
+    from crankwork.analysis.results import Results
     from crankwork.description.machine_file import json_schema, read, read_machine, template, template_names
+    from crankwork.errors import (
+        CrankworkError,
+        DoubtfulError,
+        GeometryError,
+        InputError,
+        MethodError,
+        MissingExtraError,
+        UnknownKeyError,
+    )
     from crankwork.kinematics.crank_grid import CrankGrid
+    from crankwork.linkage_machine import LinkageMachine
     from crankwork.machine import Machine
+    from crankwork.mechanism.catalog import (
+        crank_shaper,
+        four_bar,
+        scotch_yoke,
+        slotted_press,
+        stephenson_six_bar,
+        toggle_press,
+        watt_six_bar,
+        whitworth,
+    )
+    from crankwork.method import Method
+    from crankwork.note.contents import note_of
+    from crankwork.note.formats import written_note
+    from crankwork.note.options import NoteOptions
+    from crankwork.quantities import QUANTITIES
     from crankwork.report.figures import figures
     from crankwork.report.summary import summary_text
 
@@ -24,33 +50,75 @@ __version__ = "0.1.0"
 
 # Where each name lives; it is imported when first used, so that the command line starts fast.
 _HOMES = {
+    "QUANTITIES": "quantities",
     "CrankGrid": "kinematics.crank_grid",
+    "CrankworkError": "errors",
+    "DoubtfulError": "errors",
+    "GeometryError": "errors",
+    "InputError": "errors",
+    "LinkageMachine": "linkage_machine",
     "Machine": "machine",
+    "Method": "method",
+    "MethodError": "errors",
+    "MissingExtraError": "errors",
+    "NoteOptions": "note.options",
     "Results": "analysis",
+    "UnknownKeyError": "errors",
     "analyse": "analysis",
+    "crank_shaper": "mechanism.catalog",
     "figures": "report.figures",
+    "four_bar": "mechanism.catalog",
     "json_schema": "description.machine_file",
+    "note_of": "note.contents",
     "read": "description.machine_file",
     "read_machine": "description.machine_file",
+    "scotch_yoke": "mechanism.catalog",
+    "slotted_press": "mechanism.catalog",
+    "stephenson_six_bar": "mechanism.catalog",
     "summary_text": "report.summary",
     "template": "description.machine_file",
     "template_names": "description.machine_file",
+    "toggle_press": "mechanism.catalog",
+    "watt_six_bar": "mechanism.catalog",
+    "whitworth": "mechanism.catalog",
     "with_method": "analysis",
+    "written_note": "note.formats",
 }
 
 __all__ = [
     "CrankGrid",
+    "CrankworkError",
+    "DoubtfulError",
+    "GeometryError",
+    "InputError",
+    "LinkageMachine",
     "Machine",
+    "Method",
+    "MethodError",
+    "MissingExtraError",
+    "NoteOptions",
+    "QUANTITIES",
     "Results",
+    "UnknownKeyError",
     "analyse",
+    "crank_shaper",
     "figures",
+    "four_bar",
     "json_schema",
+    "note_of",
     "read",
     "read_machine",
+    "scotch_yoke",
+    "slotted_press",
+    "stephenson_six_bar",
     "summary_text",
     "template",
     "template_names",
+    "toggle_press",
+    "watt_six_bar",
+    "whitworth",
     "with_method",
+    "written_note",
 ]
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import importlib
 import io
 import json
 import os
@@ -11,17 +10,25 @@ import re
 import sys
 import time
 from collections.abc import Callable, Iterable
-from typing import Any
+from typing import TYPE_CHECKING, TextIO
 
 import click
 
-from crankwork.errors import CrankworkError, InputError
+from crankwork.errors import CrankworkError, DoubtfulError, InputError
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from crankwork.analysis import Results
+    from crankwork.description.machine_file import Setting
+    from crankwork.linkage_machine import AnyMachine
+    from crankwork.quantities import Language
 
 _LANGUAGE = click.Choice(["en", "ru", "vi"])
 
 
 def main() -> None:
-    """Run the command line; a mistake of the user ends with code 2 and a sentence."""
+    """Run the command line; a mistake of the user ends with code 2 and a sentence, doubtful results with code 1."""
     # linear systems are small here, and starting threads for them takes longer than solving them
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     for stream in (sys.stdout, sys.stderr):
@@ -38,25 +45,33 @@ def _exit_code() -> int:
         if sys.stdout is not None:
             sys.stdout.flush()
     except InputError as error:
-        _tell(*error.lines(), "nothing was computed")
+        _tell(*error.lines(_told), _told(_refusal("nothing_computed")))
     except CrankworkError as error:
-        _tell(str(error))
+        _tell(_told(error.args[0]))
+        return 1 if isinstance(error, DoubtfulError) else 2
     except click.exceptions.NoArgsIsHelpError as error:
         _tell(error.format_message())
     except click.ClickException as error:
-        _tell(_usage_sentence(error))
+        _tell(_told(_usage_sentence(error)))
     except (click.Abort, KeyboardInterrupt):
         return 130
     except BrokenPipeError:
-        _load("files").send_nowhere(sys.stdout)
+        _send_nowhere(sys.stdout)
         return 1
     except OSError as error:
         # everything else that touches the disk is in `files`, so this is the output itself
-        _load("files").send_nowhere(sys.stdout)
-        _tell(f"the output cannot be written ({(error.strerror or 'unknown reason').lower()}); send it elsewhere")
+        _send_nowhere(sys.stdout)
+        _tell(_told(_refusal("output_unwritable", reason=(error.strerror or "unknown reason").lower())))
     else:
         return 0
     return 2
+
+
+def _send_nowhere(stream: TextIO) -> None:
+    """Let what is still to be written to a stream go nowhere."""
+    from crankwork.files import send_nowhere
+
+    send_nowhere(stream)
 
 
 def _tell(*lines: str) -> None:
@@ -65,26 +80,43 @@ def _tell(*lines: str) -> None:
         click.echo("\n".join(lines), err=True)
 
 
+def _refusal(name: str, **values: object) -> str:
+    """Return a refusal, which `_told` can say in another language."""
+    from crankwork.locale import Refusal
+
+    return Refusal(name, **values)
+
+
+def _told(message: str) -> str:
+    """Return a refusal in the language that the command line asks for, which may be what is wrong with it."""
+    from crankwork.locale import told
+
+    asked = re.findall(r"(?<=\0)--lang(?:\0|=)(en|ru|vi)(?=\0)", "\0".join(["", *sys.argv[1:], ""]))
+    return told(message, asked[-1] if asked else "en")
+
+
 def _usage_sentence(error: click.ClickException) -> str:
     """Return one line on how the command line is written."""
     match error:
         case click.NoSuchOption():
-            near = f"did you mean {error.possibilities[0]}?" if error.possibilities else "see --help"
-            return f"{error.option_name}: there is no such option; {near}"
+            if error.possibilities:
+                return _refusal("option_unknown_near", option=error.option_name, nearest=error.possibilities[0])
+            return _refusal("option_unknown", option=error.option_name)
         case click.BadOptionUsage():
-            return f"{error.option_name}: needs a value; see --help"
+            return _refusal("option_value", option=error.option_name)
         case click.MissingParameter() if isinstance(error.param, click.Option):
             option = f"{error.param.opts[0]} {error.param.metavar or ''}".strip()
-            return f"{error.param.opts[0]}: is missing; write {option}, see --help"
+            return _refusal("option_missing", option=error.param.opts[0], written=option)
         case click.MissingParameter():
             name = (error.param.name or "argument").upper() if error.param else "argument"
-            return f"{name}: is missing; write it after the command, see --help"
+            return _refusal("argument_missing", argument=name)
         case click.BadParameter() if error.param and isinstance(error.param.type, click.Choice):
-            choices = " or ".join(error.param.type.choices)
-            given = re.search(r"'(.*)' is not one of", error.message)
-            return f"{error.param.opts[0]}: {given[1] if given else 'this'} is not possible; write {choices}"
+            found = re.search(r"'(.*)' is not one of", error.message)
+            given, choices = found[1] if found else _refusal("this"), tuple(error.param.type.choices)
+            return _refusal("option_choice", option=error.param.opts[0], given=given, choices=choices)
         case click.exceptions.NoSuchCommand():
-            return f'"{error.command_name[:40]}": there is no such command; write {", ".join(commands.commands)}'
+            known = ", ".join(commands.commands)
+            return _refusal("no_command", command=error.command_name[:40], known=known)
         case _:
             return f"{error.format_message().rstrip('.')}; see crankwork --help"
 
@@ -101,30 +133,39 @@ def commands() -> None:
 @click.option("--overwrite", is_flag=True, help="Replace a file that is there.")
 def new(name: str | None, output: str | None, *, overwrite: bool) -> None:
     """Write a commented machine file to start from: engine, slider-crank or compressor."""
-    door = _load("description.machine_file")
+    from crankwork import files
+    from crankwork.description.machine_file import template, template_names
+
     if name is None:
-        click.echo("\n".join(door.template_names()))
+        click.echo("\n".join(template_names()))
         return
-    text = door.template(name)
+    text = template(name)
     if output is None:
         click.echo(text, nl=False)
         return
-    _load("files").write_new(output, text, overwrite=overwrite)
+    files.write_new(output, text, overwrite=overwrite)
     click.echo(f"{output} written; check it with: crankwork check {output}")
 
 
 @commands.command()
 @click.argument("file")
+@click.option("--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the output.")
 @click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
-def check(file: str, settings: tuple[str, ...]) -> None:
+def check(file: str, language: Language, settings: tuple[str, ...]) -> None:
     """Say what a machine file describes, or every mistake in it at once."""
-    machine = _load("description.machine_file").read(file, settings)
-    results = _load("analysis").analyse(machine)
-    summary = _load("report.summary")
+    from crankwork.analysis import analyse
+    from crankwork.description.machine_file import read
+    from crankwork.locale import say
+    from crankwork.report.notices import notice_text
+    from crankwork.report.summary import description_text
+
+    machine = read(file, settings)
+    results = analyse(machine)
     click.echo(f"{file}: {machine.title}" if machine.title else file)
-    click.echo(summary.description_text(machine, results))
+    click.echo(description_text(machine, results, language))
     for notice in results.notices:
-        click.echo(f"note: {_load('report.notices').notice_text(notice.code, notice.values, 'en')}")
+        click.echo(say("check.note", language, notice=notice_text(notice.code, notice.values, language)))
+    _doubt(file, results, language)
 
 
 @commands.command()
@@ -144,7 +185,7 @@ def run(  # noqa: PLR0913 - one argument per option of the command
     output: str | None,
     step: str | None,
     method: str | None,
-    language: Any,  # noqa: ANN401 - one of three words, checked by click
+    language: Language,
     settings: tuple[str, ...],
     *,
     per_area: bool,
@@ -154,25 +195,33 @@ def run(  # noqa: PLR0913 - one argument per option of the command
     overwrite: bool,
 ) -> None:
     """Compute a machine: print the summary, and write tables and figures with -o."""
+    from crankwork import files
+    from crankwork.analysis import analyse
+    from crankwork.report import summary
+
     machine = _machine(file, settings, step, method, per_area=per_area)
     if output is not None:
         if not output:
-            raise CrankworkError("-o: is empty; write the name of a folder")
-        _load("files").check_folder(output, overwrite=overwrite)
-    results = _load("analysis").analyse(machine)
-    summary = _load("report.summary")
+            raise CrankworkError(_refusal("folder_unnamed"))
+        files.check_folder(output, overwrite=overwrite)
+    results = analyse(machine)
     if as_json:
         click.echo(json.dumps(summary.summary_data(results, per_area=per_area), ensure_ascii=False, indent=1))
     else:
         click.echo(summary.summary_text(results, language=language, per_area=per_area))
     if output is not None:
-        folder = _load("report.results_folder")
-        steps = folder.results_folder(
+        from crankwork.locale import say
+        from crankwork.report.results_folder import left_out, results_folder
+
+        steps = results_folder(
             results, language=language, per_area=per_area, for_excel=excel_csv, with_figures=not no_figures
         )
         contents = _with_progress(steps, 4 - no_figures)
-        _load("files").write_folder(output, contents, overwrite=overwrite, stale=folder.OUTPUTS)
-        click.echo(f"\n{_load('report.language').word('written', language)} {output}", err=as_json)
+        files.write_folder(output, contents, overwrite=overwrite)
+        click.echo(f"\n{say('report.written', language)} {output}", err=as_json)
+        if (missing := left_out(with_figures=not no_figures)) is not None:
+            _tell(f"note: {missing}")
+    _doubt(file, results, language)
 
 
 @commands.command()
@@ -196,7 +245,7 @@ def report(  # noqa: PLR0913 - one argument per option of the command
     output: str,
     step: str | None,
     method: str | None,
-    language: Any,  # noqa: ANN401 - one of three words, checked by click
+    language: Language,
     school: str | None,
     settings: tuple[str, ...],
     title: str,
@@ -208,48 +257,108 @@ def report(  # noqa: PLR0913 - one argument per option of the command
     overwrite: bool,
 ) -> None:
     """Write the calculation note of a machine as PDF, Word or web page."""
-    _load("note.formats").check_format(output)
-    files, contents = _load("files"), _load("note.contents")
+    from crankwork.note.formats import check_format, written_note
+
+    # before anything else is loaded
+    check_format(output, with_figures=not no_figures, with_sheets=sheets)
+    from crankwork import files
+    from crankwork.analysis import analyse
+    from crankwork.locale import say
+    from crankwork.note.contents import note_of, sheets_of
+    from crankwork.note.options import NoteOptions
+
     files.check_files(output, overwrite=overwrite)
     machine = _machine(file, settings, step, method, per_area=per_area)
-    options = _load("note.options").NoteOptions(
+    options = NoteOptions(
         language=language, school=school or "", per_area=per_area, title=title.strip(), author=author.strip(),
         figures=not no_figures, sheets=sheets,
     )  # fmt: skip
-    results = _load("analysis").analyse(machine)
-    written = {output: _load("note.formats").written_note(contents.note_of(results, options), output)}
+    results = analyse(machine)
+    written: dict[str | Path, bytes] = {output: written_note(note_of(results, options), output)}
     if sheets:
         stem = os.path.splitext(output)[0]  # noqa: PTH122 - a name, not a file
-        written |= {stem + ending: data for ending, data in contents.sheets_of(results, options).items()}
+        written |= {stem + ending: data for ending, data in sheets_of(results, options).items()}
     files.write_files(written, overwrite=overwrite)
-    click.echo(f"{_load('report.language').word('written', language)} {', '.join(written)}")
+    click.echo(f"{say('report.written', language)} {', '.join(map(str, written))}")
+    _doubt(file, results, language)
+
+
+@commands.command()
+@click.argument("file")
+@click.argument("key", required=False)
+@click.option("--at", metavar="DEG", type=float, help="Crank angle, for what varies with it.")
+@click.option("--list", "with_keys", is_flag=True, help="Print the keys.")
+@click.option("--method", metavar="NAME", help="exact, textbook or series:N, instead of the file's own.")
+@click.option("--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the output.")
+@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
+def explain(  # noqa: PLR0913 - one argument per option of the command
+    file: str,
+    key: str | None,
+    at: float | None,
+    method: str | None,
+    language: Language,
+    settings: tuple[str, ...],
+    *,
+    with_keys: bool,
+) -> None:
+    """Explain one value of a machine: every step in order, down to the lines of the file."""
+    from crankwork.analysis import analyse
+    from crankwork.description.machine_file import origins, read
+    from crankwork.note.explain import explanation, key_lines, place_text
+
+    if key is None and not with_keys:
+        raise CrankworkError(_refusal("explain_what"))
+    overrides = _overrides(settings, None, method)
+    results = analyse(read(file, overrides))
+    if key is None or with_keys:
+        click.echo("\n".join(key_lines(results, language)))
+        return
+    origin = origins(file, overrides)
+    click.echo(explanation(results, key, at, language, lambda path: place_text(origin(path), language)), nl=False)
 
 
 @commands.command()
 def schema() -> None:
     """Print the JSON Schema of the machine file, for editors."""
-    click.echo(_load("description.machine_file").json_schema())
+    from crankwork.description.machine_file import json_schema
+
+    click.echo(json_schema())
 
 
-def _load(module: str) -> Any:  # noqa: ANN401 - a module
-    """Import a room when a command needs it."""
-    return importlib.import_module(f"crankwork.{module}")
-
-
-def _machine(file: str, settings: tuple[str, ...], step: str | None, method: str | None, *, per_area: bool) -> Any:  # noqa: ANN401 - a machine of any kind
+def _machine(
+    file: str, settings: tuple[str, ...], step: str | None, method: str | None, *, per_area: bool
+) -> AnyMachine:
     """Return the machine of a file with the options of a command put into it."""
-    door = _load("description.machine_file")
-    overrides: list[Any] = list(settings)
-    if step is not None:
-        overrides.append(door.Setting("--step", "table.step", _degrees(step)))
-    if method is not None:
-        overrides.append(door.Setting("--method", "method.kinematics", method))
-    machine = door.read(file, overrides)
-    if per_area and not hasattr(machine, "cylinder"):
-        raise CrankworkError("--per-area: is for machines with a piston; leave it out for a linkage")
-    if per_area and machine.cylinder is None:
-        raise CrankworkError("--per-area: needs the piston area; give cylinder.bore in the file")
+    from crankwork.description.machine_file import read
+    from crankwork.machine import Machine
+
+    machine = read(file, _overrides(settings, step, method))
+    if per_area and not isinstance(machine, Machine):
+        raise CrankworkError(_refusal("per_area_linkage"))
+    if per_area and isinstance(machine, Machine) and machine.cylinder is None:
+        raise CrankworkError(_refusal("per_area_bore"))
     return machine
+
+
+def _overrides(settings: tuple[str, ...], step: str | None, method: str | None) -> list[str | Setting]:
+    """Return the settings of a command with what its options say."""
+    from crankwork.description.machine_file import Setting
+
+    overrides: list[str | Setting] = list(settings)
+    if step is not None:
+        overrides.append(Setting("--step", "table.step", _degrees(step)))
+    if method is not None:
+        overrides.append(Setting("--method", "method.kinematics", method))
+    return overrides
+
+
+def _doubt(file: str, results: Results, language: Language) -> None:
+    """Raise if the results do not hold together, or do not cover what was asked; they have been told and written."""
+    from crankwork.report.summary import warning_text
+
+    warning = warning_text(results, language)
+    if warning:
+        raise DoubtfulError(f"{file}: {warning}")
 
 
 def _degrees(text: str) -> str:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from importlib.util import find_spec
 
 
 class CrankworkError(Exception):
@@ -17,11 +19,36 @@ class MethodError(CrankworkError):
     """A method asked for where it is not defined."""
 
 
-class MissingExtraError(CrankworkError):
-    """A capability whose optional dependency is not installed."""
+class DoubtfulError(CrankworkError):
+    """Results that were computed, but do not hold together or do not cover what was asked."""
 
-    def __init__(self, capability: str, extra: str) -> None:
-        super().__init__(f"{capability} needs an optional part; install it with: pip install 'crankwork[{extra}]'")
+
+class UnknownKeyError(CrankworkError, KeyError):
+    """A key that results do not have; the text names the nearest that they have."""
+
+    # a KeyError would put its text in quotation marks
+    __str__ = Exception.__str__
+
+
+class MissingExtraError(CrankworkError):
+    """A capability whose optional dependencies are not installed, all of them at once."""
+
+    def __init__(self, capability: str, *extras: str) -> None:
+        part, them = ("an optional part", "it") if len(extras) == 1 else ("optional parts", "them")
+        wanted = ",".join(extras)
+        super().__init__(f"{capability} needs {part}; install {them} with: pip install 'crankwork[{wanted}]'")
+
+
+def missing_extras(modules: Mapping[str, str]) -> tuple[str, ...]:
+    """Return the extras that bring the modules which are not installed, each once.
+
+    Parameters
+    ----------
+    modules : mapping of str to str
+        Extra by the module that it brings.
+    """
+    missing = (extra for module, extra in modules.items() if find_spec(module) is None)
+    return tuple(dict.fromkeys(missing))
 
 
 @dataclass(frozen=True)
@@ -43,9 +70,9 @@ class InputError(CrankworkError):
         self.places = places
         super().__init__("\n".join(self.lines()))
 
-    def lines(self) -> list[str]:
-        """Return one line per problem, `place: key: message`."""
+    def lines(self, tell: Callable[[str], str] = str) -> list[str]:
+        """Return one line per problem, `place: key: message`; `tell` says a message in another language."""
         return [
-            ": ".join(part for part in (place, problem.key, problem.message) if part)
+            ": ".join(part for part in (place, problem.key, tell(problem.message)) if part)
             for place, problem in zip(self.places, self.problems, strict=True)
         ]

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import hashlib
+import json
 import os
+import re
+import shutil
 import stat
 import tempfile
 from collections.abc import Iterator, Mapping
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import TextIO
 
 from crankwork.errors import CrankworkError
@@ -22,6 +26,17 @@ MAX_MACHINE_FILE = 256 * 1024
 MAX_LINE = 4096
 MAX_DATA_FILE = 64 * 1024 * 1024
 _STAGING = ".crankwork-"
+_STAGED = re.compile(re.escape(_STAGING) + r"[a-z0-9_]{8}")
+# Names the files that runs wrote into a folder, with their hashes: nothing else is ever deleted there.
+MANIFEST = ".crankwork.json"
+# Stands in a folder while its results are replaced, and stays where that was cut short.
+MARK = "UNFINISHED-crankwork.txt"
+_MARKED = """\
+A run of crankwork was replacing the results in this folder and was stopped before it was done:
+old and new results stand side by side. Run it again with --overwrite.
+"""
+# What was read in this process, which no result may replace.
+_inputs: set[Path] = set()
 
 
 def read_resource(*names: str) -> str:
@@ -68,6 +83,7 @@ def read_text(path: str | Path, *, limit: int = MAX_MACHINE_FILE, advice: str = 
             raise CrankworkError(f"{path}: is not an ordinary file; save its content to a file and give that")
         with path.open("rb") as stream:
             data = stream.read(limit + 1)
+        _inputs.add(path.resolve())
     except FileNotFoundError:
         raise CrankworkError(f"{path}: no such file; {advice}") from None
     except (OSError, ValueError) as error:
@@ -178,28 +194,25 @@ def write_files(contents: Mapping[str | Path, bytes], *, overwrite: bool = False
         If a file exists and `overwrite` is not set, or one cannot be written.
     """
     check_files(*contents, overwrite=overwrite)
-    staged: list[tuple[Path, Path]] = []
     path = Path()
     try:
-        for path, data in ((Path(name), data) for name, data in contents.items()):
-            descriptor, name = tempfile.mkstemp(prefix=_STAGING, dir=path.parent)
-            staged.append((Path(name), path))
-            os.close(descriptor)
-            _write_through(Path(name), data)
-            Path(name).chmod(0o644)
-        for one, path in staged:
-            one.replace(path)
+        with contextlib.ExitStack() as stack:
+            staging = {
+                folder: stack.enter_context(_staging(folder)) for folder in {Path(one).parent for one in contents}
+            }
+            for path, data in ((Path(name), data) for name, data in contents.items()):
+                _write_through(staging[path.parent] / path.name, data)
+            for path in map(Path, contents):
+                (staging[path.parent] / path.name).replace(path)
     except (OSError, ValueError) as error:
         raise _unwritable(path, error) from None
-    finally:
-        for one, _ in staged:
-            one.unlink(missing_ok=True)
 
 
-def write_folder(
-    folder: str | Path, contents: dict[str, bytes], *, overwrite: bool = False, stale: tuple[str, ...] = ()
-) -> None:
+def write_folder(folder: str | Path, contents: dict[str, bytes], *, overwrite: bool = False) -> None:
     """Write files into a folder so that a failure leaves what was there before.
+
+    Killed at any moment, the folder holds the old results, the new ones, or the file `MARK`, which says that both are
+    there.
 
     Parameters
     ----------
@@ -208,14 +221,14 @@ def write_folder(
     contents : dict of str to bytes
         Data by path relative to the folder.
     overwrite : bool
-        Write into a folder that holds something already; files of other names stay.
-    stale : tuple of str
-        Patterns of what an earlier run may have left there; of those, what is not written anew is removed.
+        Write into a folder that holds something already. What an earlier run wrote there, by the folder's manifest, and
+        is not written anew is deleted if it is still as it was written; all other files stay.
 
     Raises
     ------
     CrankworkError
-        If the folder holds something and `overwrite` is not set, or it cannot be written.
+        If the folder holds something and `overwrite` is not set, a link or a file that this run has read stands where a
+        result is to go, or it cannot be written.
     """
     folder = Path(folder)
     check_folder(folder, overwrite=overwrite)
@@ -223,14 +236,12 @@ def write_folder(
         # next to the folder, or in it where it exists, because that may be another disk
         nearby = folder if folder.is_dir() else folder.parent
         nearby.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(prefix=_STAGING, dir=nearby) as staging:
-            staged = Path(staging) / "results"
+        with _staging(nearby) as staging:
+            staged = staging / "results"
             for name, data in contents.items():
                 _write_through(staged / name, data)
+            _write_through(staged / MANIFEST, _manifest({name: [_hash(data)] for name, data in contents.items()}))
             _move(staged, folder, contents, overwrite=overwrite)
-            for old in {path for pattern in stale for path in folder.glob(pattern)}:
-                if str(old.relative_to(folder).as_posix()) not in contents:
-                    old.unlink(missing_ok=True)
     except (OSError, ValueError) as error:
         raise _unwritable(folder, error) from None
 
@@ -281,8 +292,40 @@ def check_folder(folder: str | Path, *, overwrite: bool = False) -> None:
 
 def _check_empty(folder: Path) -> None:
     """Raise if a folder holds anything but what a killed run left behind."""
-    if any(not entry.name.startswith(_STAGING) for entry in folder.iterdir()):
+    if any(not entry.name.startswith(_STAGING) and entry.name != MANIFEST for entry in folder.iterdir()):
         raise CrankworkError(f"{folder}: holds files already; choose another folder or add --overwrite")
+
+
+@contextlib.contextmanager
+def _staging(nearby: Path) -> Iterator[Path]:
+    """Give a folder to write in at first, and sweep those of runs that are dead."""
+    with _locked(nearby):
+        _sweep(nearby)
+        staging = Path(tempfile.mkdtemp(prefix=_STAGING, dir=nearby))
+        life = contextlib.ExitStack()
+        life.enter_context(_locked(staging))
+    with life:
+        try:
+            yield staging
+        finally:
+            shutil.rmtree(staging, ignore_errors=True)
+
+
+def _sweep(nearby: Path) -> None:
+    """Delete what killed runs were writing: a run that lives holds a lock."""
+    if fcntl is None:
+        return
+    for left in nearby.glob(f"{_STAGING}*"):
+        if not _STAGED.fullmatch(left.name) or left.is_symlink() or not left.is_dir():
+            continue
+        # alive, another user's, or on a disk that knows no locks
+        with contextlib.suppress(OSError):
+            descriptor = os.open(left, os.O_RDONLY)
+            try:
+                fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                shutil.rmtree(left)
+            finally:
+                os.close(descriptor)
 
 
 def _write_through(path: Path, data: bytes) -> None:
@@ -295,7 +338,7 @@ def _write_through(path: Path, data: bytes) -> None:
 
 
 def _move(staged: Path, folder: Path, contents: dict[str, bytes], *, overwrite: bool) -> None:
-    """Move staged files into place: the whole folder at once if it is new, else file by file."""
+    """Move staged files into place: the whole folder at once if it is new, else file by file under a mark."""
     try:
         if not folder.exists():
             staged.rename(folder)
@@ -308,11 +351,78 @@ def _move(staged: Path, folder: Path, contents: dict[str, bytes], *, overwrite: 
         if not overwrite:
             _check_empty(folder)
         for name in contents:
-            if (folder / name).is_dir():
-                raise CrankworkError(f"{folder / name}: is a folder; move it away or choose another folder")
-            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            _check_place(folder, name)
         for name in contents:
-            (staged / name).replace(folder / name)
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        _replace(staged, folder, contents)
+
+
+def _replace(staged: Path, folder: Path, contents: dict[str, bytes]) -> None:
+    """Replace the results in a folder, under a mark and with a manifest that always names every file of ours."""
+    earlier = _earlier(folder)
+    both = {name: [*earlier.get(name, []), _hash(data)] for name, data in contents.items()}
+    _write_through(staged.parent / MANIFEST, _manifest(earlier | both))
+    _write_through(staged.parent / MARK, _MARKED.encode())
+    for name in (MANIFEST, MARK):
+        (staged.parent / name).replace(folder / name)
+    for name in contents:
+        (staged / name).replace(folder / name)
+    for name in earlier.keys() - contents.keys():
+        if _is_as_written(folder, name, earlier[name]):
+            (folder / name).unlink()
+    (staged / MANIFEST).replace(folder / MANIFEST)
+    (folder / MARK).unlink()
+
+
+def _check_place(folder: Path, name: str) -> None:
+    """Raise unless a result may go where its name says."""
+    path = folder / name
+    if (link := _link(folder, name)) is not None:
+        raise CrankworkError(f"{link}: is a link to another folder; move it away or choose another folder")
+    if path.is_dir():
+        raise CrankworkError(f"{path}: is a folder; move it away or choose another folder")
+    if path.resolve() in _inputs:
+        raise CrankworkError(f"{path}: is what this run reads; move it away or choose another folder")
+
+
+def _link(folder: Path, name: str) -> Path | None:
+    """Return the link on the way from a folder to a file in it, if there is one."""
+    inside = [folder / parent for parent in PurePosixPath(name).parents if parent.name]
+    return next((one for one in inside if one.is_symlink()), None)
+
+
+def _manifest(written: Mapping[str, list[str]]) -> bytes:
+    about = "files that crankwork run wrote here, with their SHA-256; --overwrite deletes no others"
+    return json.dumps({"about": about, "files": written}, indent=1).encode()
+
+
+def _earlier(folder: Path) -> dict[str, list[str]]:
+    """Return what earlier runs wrote into a folder: possible hashes by name."""
+    try:
+        with (folder / MANIFEST).open("rb") as stream:
+            read = json.loads(stream.read(MAX_DATA_FILE))["files"]
+        return {name: [str(one) for one in hashes] for name, hashes in read.items() if _is_inside(name)}
+    except (OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError):
+        # there is none, or somebody else's: then nothing is known to be ours
+        return {}
+
+
+def _is_inside(name: str) -> bool:
+    path = PurePosixPath(name)
+    return bool(path.name) and not path.is_absolute() and ".." not in path.parts
+
+
+def _is_as_written(folder: Path, name: str, hashes: list[str]) -> bool:
+    """Say whether a file is still what a run wrote, and nobody's input or link."""
+    path = folder / name
+    if _link(folder, name) is not None or path.is_symlink() or not path.is_file() or path.resolve() in _inputs:
+        return False
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest() in hashes
+
+
+def _hash(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()
 
 
 @contextlib.contextmanager

@@ -11,6 +11,8 @@ import re
 import unicodedata
 from typing import Any, NamedTuple
 
+from crankwork.locale import Refusal
+
 
 class Unit(NamedTuple):
     """A unit: the dimension it measures, its size in SI and, for a temperature scale, where its zero lies."""
@@ -100,7 +102,7 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     "power_density": [(1e6, "kW/l кВт/л"), (1.0, "W/m3 W/m³ Вт/м3 Вт/м³")],
     "per_temperature": [(1.0, "1/K 1/К")],
     "speed_per_temperature": [(1.0, "m/(s*K) м/(с*К)")],
-    "power": [(1e3, "kW кВт"), (1.0, "W Вт"), (735.49875, "hp PS л.с. лс mã_lực")],
+    "power": [(1e3, "kW кВт"), (1.0, "W Вт"), (735.49875, "PS л.с. лс mã_lực")],
 }
 
 UNITS: dict[str, Unit] = {
@@ -157,17 +159,21 @@ def parse(text: str, dimensions: tuple[str, ...], *, decimal_comma: bool = False
     match = _match(text, example, decimal_comma=decimal_comma)
     value, name = float(match["number"].replace(",", ".")), match["unit"]
     if name is None:
-        raise ValueError(f'"{_short(text)}" has no unit; write it like "{example}"')
+        raise ValueError(Refusal("unit_missing", text=_short(text), example=example))
     spelling = _spelling(name)
     unit = UNITS.get(spelling)
     if unit is None or unit.dimension not in dimensions:
         known = ", ".join(one for dimension in dimensions for one in spellings(dimension))
-        what = "is not a unit known here" if unit is None else f"measures {_plain(unit.dimension)}"
-        wanted = " or ".join(_plain(dimension) for dimension in dimensions)
-        raise ValueError(f'unit "{_short(name)}" {what}; {wanted} is wanted: {known}')
+        if spelling.lower() == "hp":
+            raise ValueError(Refusal("horsepower", unit=_short(name)))
+        wanted = tuple(_dimension(one) for one in dimensions)
+        if unit is None:
+            raise ValueError(Refusal("unit_unknown", unit=_short(name), wanted=wanted, known=known))
+        measured = _dimension(unit.dimension)
+        raise ValueError(Refusal("unit_other", unit=_short(name), measured=measured, wanted=wanted, known=known))
     value = to_si(value, spelling)
     if not math.isfinite(value):
-        raise ValueError(f'"{_short(text)}" is too large; write a finite number like "{example}"')
+        raise ValueError(Refusal("too_large", text=_short(text), example=example))
     return value, unit.dimension
 
 
@@ -177,14 +183,11 @@ def _match(text: str, example: str, *, decimal_comma: bool) -> re.Match[str]:
         comma = _WITH_COMMA.match(text)
         if comma and not decimal_comma:
             point = f"{comma['number'].replace(',', '.')} {comma['unit'] or example.split()[1]}"
-            raise ValueError(
-                f'"{_short(text)}" has a decimal comma; write "{point}", '
-                'or put decimal_mark = "," at the top of the file'
-            )
+            raise ValueError(Refusal("decimal_comma", text=_short(text), point=point))
         match = comma or _QUANTITY.match(text)
         if match:
             return match
-    raise ValueError(f'"{_short(text)}" is not a number with a unit; write it like "{example}"')
+    raise ValueError(Refusal("no_quantity", text=_short(text), example=example))
 
 
 def _spelling(name: str) -> str:
@@ -216,8 +219,22 @@ def from_si(value: Any, unit: str) -> Any:  # noqa: ANN401 - a float or an array
     return value * inverse if inverse > 1 and abs(inverse * factor - 1) < 1e-12 else value / factor
 
 
-def _plain(dimension: str) -> str:
-    return dimension.replace("_", " ")
+def coherent_unit(unit: str) -> str:
+    """Return the SI unit of what a unit measures, or the unit itself if the table has no such unit.
+
+    Examples
+    --------
+    >>> coherent_unit("MPa"), coherent_unit("rpm")
+    ('Pa', 'rad/s')
+    """
+    if unit not in UNITS:
+        return unit
+    dimension = UNITS[unit].dimension
+    return next((name for name, one in UNITS.items() if one.dimension == dimension and one.factor == 1.0), unit)
+
+
+def _dimension(dimension: str) -> Refusal:
+    return Refusal(f"dimension_{dimension}")
 
 
 def _short(text: str) -> str:

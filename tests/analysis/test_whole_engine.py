@@ -10,11 +10,14 @@ import pytest
 
 import crankwork
 from crankwork.analysis import columns
-from crankwork.analysis.cylinders import cylinder_columns, torque_curves, whole_engine
+from crankwork.analysis.cylinders import whole_engine
 from crankwork.analysis.engine_balance import engine_balance
 from crankwork.analysis.engine_bearings import bearing_loads
+from crankwork.analysis.engine_torque import engine_torque
+from crankwork.analysis.whole_engine import whole_memory
 from crankwork.cylinders.articulated import articulated_motion
 from crankwork.cylinders.engines import boxer, inline, radial, vee
+from crankwork.cylinders.torque import cylinder_angle
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.machine import Bearings, Engine, Machine
 
@@ -44,14 +47,13 @@ def test_a_cylinder_is_the_engine_of_one_cylinder_to_the_last_bit(layout):
     alone = crankwork.analyse(replace(machine, engine=None))
     whole = whole_engine(replace(alone.solved, machine=machine))
     degrees = np.arange(0.0, 720.0, 7.5)
-    together = cylinder_columns(whole, degrees)
     for at, place in enumerate(layout.places):
         local = np.mod(degrees - place.firing_angle, 720.0)
         order = np.argsort(local)
         single = columns(alone.solved, CrankGrid.from_degrees(local[order]))
         if float(place.firing_angle).is_integer():
             for key, values in single.items():
-                assert np.array_equal(together[key][at][order], values), key
+                assert np.array_equal(whole.each(key, degrees)[at][order], values), key
     results = crankwork.analyse(machine)
     assert np.array_equal(results["crank_torque.1"], alone["crank_torque"])
     for key, values in alone.columns.items():
@@ -78,31 +80,33 @@ def test_examples_hold_their_checks(name):
 @every_layout
 def test_the_torque_curve_is_the_torque(layout):
     whole = whole_engine(crankwork.analyse(_machine(layout)).solved)
-    one, total = torque_curves(whole)
+    torque = engine_torque(whole, *whole_memory(whole))
     degrees = np.arange(3.7, 720.0, 11.31)
-    found = cylinder_columns(whole, degrees)["crank_torque"]
+    found = whole.each("crank_torque", degrees)
     scale = float(np.max(np.abs(found)))
-    assert one(np.radians(degrees)) == pytest.approx(found[0], abs=1e-8 * scale)
-    assert total(np.radians(degrees)) == pytest.approx(found.sum(axis=0), abs=1e-8 * scale)
+    assert torque.one(np.radians(degrees)) == pytest.approx(found[0], abs=1e-8 * scale)
+    assert torque.total(np.radians(degrees)) == pytest.approx(found.sum(axis=0), abs=1e-8 * scale)
 
 
 @every_layout
 def test_loads_of_a_shaft_are_in_equilibrium(layout):
     """The main bearings hold what rods and throws put on the shaft, at every crank angle."""
     machine = _machine(layout)
-    whole = whole_engine(crankwork.analyse(machine).solved)
+    results = crankwork.analyse(machine)
+    whole = whole_engine(results.solved)
     degrees = np.arange(0.0, 720.0, 15.0)
-    loads = bearing_loads(whole, degrees)
-    found, r, w = cylinder_columns(whole, degrees), whole.master.lengths.crank_radius, whole.master.speed
+    loads = bearing_loads(whole, results.memory, degrees)
+    radial, tangential = whole.each("radial_force", degrees), whole.each("tangential_force", degrees)
+    r, w = whole.master.lengths.crank_radius, whole.master.speed
     total = np.zeros(len(degrees), dtype=complex)
     throws = {place.crankpin: place for place in layout.places}
     for at, place in enumerate(layout.places):
-        outward = -found["radial_force"][at] + machine.masses.rod_big_end * r * w**2
-        total += (outward + 1j * found["tangential_force"][at]) * np.exp(1j * np.radians(place.pin_angle))
+        outward = -radial[at] + machine.masses.rod_big_end * r * w**2
+        total += (outward + 1j * tangential[at]) * np.exp(1j * np.radians(place.pin_angle))
     for place in throws.values():
         total += machine.masses.crank * r * w**2 * np.exp(1j * np.radians(place.pin_angle))
     held = sum(load.x + 1j * load.y for load in loads.mains)
-    assert np.max(np.abs(held + total)) < 1e-10 * np.max(np.abs(found["radial_force"]))
+    assert np.max(np.abs(held + total)) < 1e-10 * np.max(np.abs(radial))
 
 
 def test_counterweights_take_the_load_off_the_main_bearings():
@@ -138,14 +142,14 @@ def test_the_torque_of_an_articulated_cylinder_is_force_times_its_own_transfer_f
     results = crankwork.analyse(crankwork.read(EXAMPLES / "radial-five.toml"))
     whole = whole_engine(results.solved)
     degrees = np.arange(1.0, 720.0, 9.0)
-    found = cylinder_columns(whole, degrees)
+    pushed, turned = whole.each("piston_force", degrees), whole.each("crank_torque", degrees)
     for at, (solved, rod) in enumerate(zip(whole.cylinders, whole.engine.slaves, strict=True)):
         if rod is None:
             continue
-        grid = CrankGrid.from_degrees(np.degrees(found["crank_angle"][at]))
+        grid = CrankGrid.from_degrees(cylinder_angle(degrees, whole.layout.places[at], 720.0))
         x_1 = articulated_motion(solved.lengths, rod, grid).piston.position_1
-        torque = found["piston_force"][at] * x_1
-        assert found["crank_torque"][at] == pytest.approx(torque, abs=1e-9 * np.max(np.abs(torque)))
+        torque = pushed[at] * x_1
+        assert turned[at] == pytest.approx(torque, abs=1e-9 * np.max(np.abs(torque)))
 
 
 def test_strokes_of_articulated_cylinders_differ_from_that_of_the_master():
@@ -171,7 +175,7 @@ def test_excess_work_is_that_of_a_fine_sum():
     results = crankwork.analyse(_machine(LAYOUTS["I4"]))
     whole = whole_engine(results.solved)
     degrees = np.linspace(0.0, 720.0, 14401)
-    torque = cylinder_columns(whole, degrees)["crank_torque"].sum(axis=0)
+    torque = whole.each("crank_torque", degrees).sum(axis=0)
     excess = np.cumsum((torque - np.mean(torque[:-1]))[:-1]) * np.radians(0.05)
     assert results["excess_work"] == pytest.approx(np.ptp(excess), rel=1e-3)
 
@@ -197,11 +201,11 @@ def test_weights_act_along_each_bank():
     """With weight the mean force towards the shaft is that of the lean of each bank, and its mean torque is none."""
     machine = replace(_machine(LAYOUTS["V8"]), has_gravity=True)
     whole = whole_engine(crankwork.analyse(machine).solved)
-    found = cylinder_columns(whole, np.arange(0.0, 720.0, 1.0))
+    found = whole.each("weight_force", np.arange(0.0, 720.0, 1.0))
     weight = machine.masses.reciprocating * machine.method.gravity
     for at, place in enumerate(whole.layout.places):
         lean = np.radians(place.axis - whole.layout.places[0].axis)
-        assert found["weight_force"][at] == pytest.approx(weight * np.cos(lean))
+        assert found[at] == pytest.approx(weight * np.cos(lean))
 
 
 def test_listings_reach_the_tables():

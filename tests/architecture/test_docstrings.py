@@ -8,6 +8,7 @@ import re
 ROOMS = ("kinematics/", "loads/", "working_cycle/", "dynamics/", "shaft/", "cylinders/")
 NUMERIC = re.compile(r"\b(array|arrays|float|ArrayLike|Array|CrankGrid)\b")
 UNIT = re.compile(r"\[[^\]\s][^\]]*\]")
+SECTION = re.compile(r"^(\w+)\n-{3,}$", re.MULTILINE)
 HEADER = re.compile(r"(?P<names>[*\w]+(?:, [*\w]+)*) : (?P<type>.+)")
 
 
@@ -43,6 +44,18 @@ def test_numbers_of_the_calculation_have_units(modules):
         if NUMERIC.search(kind) and len(UNIT.findall(text)) not in (1, len(names))
     ]
     assert missing == []
+
+
+def test_the_docstring_of_a_formula_repeats_nothing_that_notation_says(modules):
+    long = [
+        f"{module.path}:{node.lineno}: {name}"
+        for module in modules
+        for name, node in _public(module.tree)
+        if isinstance(node, ast.FunctionDef)
+        and any(isinstance(one, ast.Call) and ast.unparse(one.func) == "formula" for one in node.decorator_list)
+        and set(SECTION.findall(ast.get_docstring(node) or "")) - {"Notes"}
+    ]
+    assert long == []
 
 
 def _public(tree, prefix=""):

@@ -6,7 +6,7 @@ import string
 
 import pytest
 
-from crankwork.expressions import FORMULAS, symbol
+from crankwork.formula.expression import FORMULAS, symbol
 from crankwork.notation import ARGUMENTS
 from crankwork.quantities import LANGUAGES, QUANTITIES
 from crankwork.sources import sources
@@ -18,7 +18,7 @@ def test_a_quantity_is_complete(quantity):
     assert quantity.key.isidentifier()
     assert all(quantity.symbol(language).strip() for language in LANGUAGES)
     assert all(quantity.label(language).strip() for language in LANGUAGES)
-    assert len(set(quantity.labels)) == len(LANGUAGES)
+    assert len({quantity.label(language) for language in LANGUAGES}) == len(LANGUAGES)
     assert quantity.definition.endswith(".")
     assert quantity.unit in ("", *UNITS)
     assert quantity.per_area_unit in ("", *UNITS)

@@ -24,6 +24,8 @@ from crankwork.cylinders.locomotive_balance import LocomotiveMasses, locomotive_
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.slider_crank import SliderCrank
 
+pytestmark = pytest.mark.elsewhere
+
 RODS = inertia_harmonics(SliderCrank(0.04, 0.14))
 M_REC, M_ROT, R, W = 0.5, 0.8, 0.04, 300.0
 ONE = M_REC * R * W**2
@@ -137,7 +139,7 @@ def test_a_mass_has_no_moment_about_its_own_position() -> None:
 
 def test_what_is_balanced_needs_no_counterweight() -> None:
     turning = [Unbalance(2.0, 30.0, 0.1), Unbalance(2.0, 210.0, 0.1)]
-    assert one_plane_counterweight(turning, 0.0) == (0, 0, 0)
+    assert one_plane_counterweight(turning, 0.0)[:3] == (0, 0, 0)
     assert [one.mass_moment for one in two_plane_counterweights(turning, (0.0, 1.0))] == [0, 0]
 
 

@@ -18,6 +18,8 @@ from crankwork.cylinders.load_statistics import (
 from crankwork.cylinders.load_vectors import BearingLoad, turned_by
 from crankwork.errors import CrankworkError
 
+pytestmark = pytest.mark.elsewhere
+
 DEGREES = np.arange(0.0, 720.5, 0.5)
 PHI = np.radians(DEGREES)
 

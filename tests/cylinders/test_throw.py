@@ -13,6 +13,8 @@ from crankwork.kinematics.motion import motion
 from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank
 
+pytestmark = pytest.mark.elsewhere
+
 LENGTHS = SliderCrank(0.06, 0.21, 0.004)
 
 

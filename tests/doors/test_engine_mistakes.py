@@ -39,7 +39,7 @@ MISTAKES = {
     "knuckle angles": ("radial-five", 'rod_length = "182 mm"', 'rod_length = "182 mm"\nknuckle_angles = ["72 deg"]',
                        "engine.articulated.knuckle_angles", "one for each of the 4 articulated rods"),
     "throws of a radial": ("radial-five", 'spacing = "160 mm"', 'throws = ["0 deg"]', "engine.throws", "one throw"),
-    "fluctuation of 2": ("petrol-four", "fluctuation = 0.01", "fluctuation = 2", "flywheel.fluctuation", "up to 1"),
+    "fluctuation of 2": ("petrol-four", "fluctuation = 0.01", "fluctuation = 2", "flywheel.fluctuation", "to 1"),
     "counterweight as a mass": ("petrol-four", "[balance]", '[bearings.x]\n[balance]', "bearings.x", "unknown"),
     "13 rays": ("v8-diesel", "rays = 24", "rays = 13", "bearings.rays", "write 12 or 24"),
     "third-order shafts": ("two-stroke", "shafts = [1]", "shafts = [3]", "balance.shafts[1]", "write 1 or 2"),
@@ -56,7 +56,13 @@ MISTAKES = {
     "no heat": ("two-stroke", 'cycle_heat = "560 J"\n', "", "cycle", 'cycle_heat = "1500 J"'),
     "exponent of one": ("petrol-four", "1.377", "1.0", "cycle", "1.0001"),
     "temperature without a scale": ("petrol-four", '"293 K"', "293", "cycle.ambient_temperature", "has no unit"),
-    "pressure of nothing": ("petrol-four", '"0.085 MPa"', '"0 MPa"', "cycle.intake_pressure", "write more than"),
+    "pressure of nothing": ("petrol-four", '"0.085 MPa"', '"0 MPa"', "cycle.intake_pressure",
+                            'write at least "0.0001 MPa"'),
+    "counterweights twice": ("petrol-four", "[balance]", 'counterweight = "0.02 kg*m"\n[balance]',
+                             "bearings.counterweight", "counterweights of balance.rotating_share; keep one"),
+    "metric or not": ("petrol-four", 'kind = "petrol"', 'kind = "petrol"\npower = "80 hp"', "cycle.power",
+                      '745.7 W in others; write "100 PS" for the first, or the power in kW'),
+    "heat of a dozen cylinders": ("two-stroke", "560 J", "56 kJ", "cycle", "more than any fuel gives; write less"),
     "intake below the residual gas": ("petrol-four", '"0.085 MPa"', '"0.005 MPa"', "cycle", "no fresh charge"),
 }  # fmt: skip
 
@@ -72,6 +78,20 @@ def test_a_mistake_is_told_with_its_fix(crankwork, name, old, new, key, advice):
     told = [line for line in answer.mistakes if f": {key}: " in line]
     assert told, answer.err
     assert advice in told[0]
+
+
+def test_gas_hotter_than_the_laws_of_heat_reach_is_refused(crankwork):
+    hot = ("--set", "cylinder.compression_ratio=100", "--set", "cycle.compression_exponent=3")
+    answer = crankwork("check", str(EXAMPLES / "radial-five.toml"), *hot)
+    assert answer.code == 2
+    assert "K, for which no heat capacities are known; lower compression_ratio" in answer.err
+
+
+def test_a_cylinder_that_its_walls_cool_at_once_is_refused_in_seconds(crankwork):
+    answer = crankwork("check", str(EXAMPLES / "two-stroke.toml"), "--set", "crank.speed=0.001 rpm")
+    assert answer.code == 2
+    assert "cycle: the pressure cannot be followed from 344 to 392 deg: at" in answer.err
+    assert "changes too fast; correct speed, bore" in answer.err
 
 
 def test_several_mistakes_at_once(crankwork):

@@ -44,7 +44,7 @@ def test_a_template_is_written_checked_and_computed(crankwork, name, language) -
     assert bool(re.search(r"\d,\d", answer.out)) == (language != "en")
     assert answer.err == ""
     assert answer.out.rstrip().endswith(" out")
-    assert {one.name for one in Path("out").iterdir()} == {"tables", "tables.xlsx", "machine.svg"}
+    assert {one.name for one in Path("out").iterdir()} == {".crankwork.json", "tables", "tables.xlsx", "machine.svg"}
     tables = {"kinematics.csv", "forces.csv"} if name in ENGINES else {"dynamics.csv", "points.csv", "links.csv"}
     assert tables <= {one.name for one in Path("out/tables").iterdir()}
     ET.parse("out/machine.svg")  # noqa: S314 - our own drawing

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import pytest
 
@@ -65,6 +66,20 @@ def test_mistakes_of_options_and_of_the_file_are_told_together(crankwork, machin
     assert [line.partition(": ")[0] for line in answer.mistakes] == ["--set rod.x", "--step", "--method", "my.toml:21"]
 
 
+@pytest.mark.parametrize(
+    ("speed", "rotational", "angular"), [("30 rad/s", 300.0, 30.0), ("30 рад/с", 300.0, 30.0), ("30 rpm", 30.0, 3.0)]
+)
+@pytest.mark.parametrize("name", ["slider-crank", "four-bar"])
+def test_a_speed_in_radians_is_that_speed_whatever_pi_a_document_has(
+    crankwork, name, speed, rotational, angular
+) -> None:
+    Path("my.toml").write_text(template(name), "utf-8")
+    answer = crankwork("run", "my.toml", "--json", "--set", "method.pi=3.0", "--set", f"crank.speed={speed}")
+    summary = json.loads(answer.out)["summary"]
+    assert summary["rotational_speed"]["value"] == pytest.approx(rotational)
+    assert summary["speed"]["value"] == pytest.approx(angular)
+
+
 def test_forces_per_area_need_the_bore(crankwork, machine_file, check_mistakes) -> None:
     text = '[crank]\nradius = "45 mm"\nspeed = "3000 rpm"\n[rod]\nratio = 0.3\n'
     answer = crankwork("run", machine_file(text=text), "--per-area")
@@ -79,7 +94,7 @@ def test_forces_per_area_need_the_bore(crankwork, machine_file, check_mistakes) 
         (("new", "../../engine"), "there is no template"),
         (("new", "a\x1b[31m"), '"a\\x1b[31m"'),
         (("check",), "FILE: is missing; write it after the command"),
-        (("draw", "my.toml"), '"draw": there is no such command; write new, check, run, report, schema'),
+        (("draw", "my.toml"), '"draw": there is no such command; write new, check, run, report, explain, schema'),
         (("schema", "x"), "unexpected extra argument"),
     ],
 )

@@ -189,6 +189,15 @@ def test_a_missing_part_is_named_with_how_to_install_it(
     assert not list(Path().iterdir())
 
 
+def test_all_missing_parts_are_named_at_once(crankwork, check_mistakes, monkeypatch) -> None:
+    for missing in ("typst", "docx", "ezdxf", "matplotlib"):
+        monkeypatch.setitem(sys.modules, missing, None)
+    answer = crankwork("report", PRESS, "-o", "a.docx", "--sheets")
+    check_mistakes(answer)
+    wanted = "install them with: pip install 'crankwork[report,figures]'\n"
+    assert answer.err == f"this note needs optional parts; {wanted}"
+
+
 def test_sheets_stand_beside_the_note(crankwork) -> None:
     pytest.importorskip("typst")
     pytest.importorskip("ezdxf")

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import errno
+import hashlib
+import json
 import os
+import random
 import shutil
 import signal
 import subprocess
@@ -21,7 +24,8 @@ RESULTS = {"tables/kinematics.csv": b"1", "tables/forces.csv": b"2", "machine.sv
 
 def _contents(folder: str | Path) -> dict[str, bytes]:
     folder = Path(folder)
-    return {one.relative_to(folder).as_posix(): one.read_bytes() for one in folder.rglob("*") if one.is_file()}
+    found = {one.relative_to(folder).as_posix(): one.read_bytes() for one in folder.rglob("*") if one.is_file()}
+    return {name: data for name, data in found.items() if Path(name).name != files.MANIFEST}
 
 
 def test_results_go_into_a_new_folder_with_its_parents() -> None:
@@ -56,9 +60,159 @@ def test_a_folder_that_holds_results_is_left_alone(crankwork, machine_file, chec
 
 
 def test_overwriting_replaces_results_and_keeps_other_files() -> None:
-    files.write_folder("out", {"mine.txt": b"mine", "machine.svg": b"old"})
+    files.write_folder("out", {"machine.svg": b"old"})
+    Path("out/mine.txt").write_bytes(b"mine")
     files.write_folder("out", RESULTS, overwrite=True)
     assert _contents("out") == RESULTS | {"mine.txt": b"mine"}
+
+
+OTHERS = {"tables/mine.csv": b"mine", "figures/mine.svg": b"mine", "tables.xlsx": b"mine"}
+
+
+def _put(contents: dict[str, bytes], folder: str = "out") -> None:
+    for name, data in contents.items():
+        Path(folder, name).parent.mkdir(parents=True, exist_ok=True)
+        Path(folder, name).write_bytes(data)
+
+
+def test_overwriting_deletes_what_an_earlier_run_wrote_and_nothing_else() -> None:
+    files.write_folder("out", RESULTS | {"tables/gone.csv": b"4", "tables/edited.csv": b"5", "figures/gone.svg": b"6"})
+    _put(OTHERS | {"tables/edited.csv": b"mine"})
+    files.write_folder("out", RESULTS, overwrite=True)
+    assert _contents("out") == RESULTS | OTHERS | {"tables/edited.csv": b"mine"}
+
+
+def test_overwriting_deletes_nothing_where_no_manifest_says_who_wrote_it() -> None:
+    _put(OTHERS)
+    files.write_folder("out", RESULTS, overwrite=True)
+    assert _contents("out") == RESULTS | OTHERS
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="links need a right there")
+def test_a_folder_that_is_a_link_is_written_as_what_it_leads_to() -> None:
+    _put(OTHERS, "elsewhere")
+    Path("out").symlink_to("elsewhere")
+    files.write_folder("out", RESULTS | {"gone.svg": b"6"}, overwrite=True)
+    files.write_folder("out", RESULTS, overwrite=True)
+    assert _contents("elsewhere") == RESULTS | OTHERS
+    assert Path("out").is_symlink()
+
+
+@pytest.mark.parametrize("name", ["../mine.txt", "/mine.txt", "a/../../mine.txt", ".", "tables"])
+@pytest.mark.parametrize("data", [b"mine", b"{}", b""])
+def test_a_manifest_leads_to_no_file_outside_its_folder(tmp_path, name, data) -> None:
+    files.write_folder("out", RESULTS)
+    Path("mine.txt").write_bytes(data)
+    digest = hashlib.sha256(data).hexdigest()
+    named = str(tmp_path / "mine.txt") if name.startswith("/") else name
+    Path("out", files.MANIFEST).write_text(json.dumps({"files": {named: [digest]}}), encoding="utf-8")
+    files.write_folder("out", RESULTS, overwrite=True)
+    assert Path("mine.txt").read_bytes() == data
+    assert _contents("out") == RESULTS
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", '{"files": []}', '{"files": {"a": 1}}', "\ud800", "[" * 100_000])
+def test_a_manifest_that_cannot_be_read_names_nothing(text) -> None:
+    _put(OTHERS | {files.MANIFEST: text.encode("utf-8", "surrogatepass")})
+    files.write_folder("out", RESULTS, overwrite=True)
+    assert _contents("out") == RESULTS | OTHERS
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="links need a right there")
+def test_nothing_is_deleted_or_replaced_through_a_link() -> None:
+    files.write_folder("out", RESULTS | {"figures/gone.svg": b"6"})
+    Path("elsewhere").mkdir()
+    for kept in ("tables/kinematics.csv", "figures/gone.svg"):
+        Path("out", kept).replace(Path("elsewhere", Path(kept).name))
+    shutil.rmtree("out/figures")
+    Path("out/figures").symlink_to(Path("elsewhere").absolute())
+    files.write_folder("out", RESULTS, overwrite=True)
+    assert _contents("elsewhere") == {"kinematics.csv": b"1", "gone.svg": b"6"}
+    shutil.rmtree("out/tables")
+    Path("out/tables").symlink_to(Path("elsewhere").absolute())
+    with pytest.raises(CrankworkError, match="tables: is a link to another folder; move it away or choose another"):
+        files.write_folder("out", RESULTS | {"machine.svg": b"new"}, overwrite=True)
+    assert _contents("elsewhere") == {"kinematics.csv": b"1", "gone.svg": b"6"}
+    assert Path("out/machine.svg").read_bytes() == b"3"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="links need a right there")
+def test_a_link_in_the_place_of_a_file_is_replaced_and_what_it_leads_to_stays() -> None:
+    files.write_folder("out", RESULTS | {"gone.svg": b"6"})
+    Path("mine.svg").write_bytes(b"6")
+    for name in ("machine.svg", "gone.svg"):
+        Path("out", name).unlink()
+        Path("out", name).symlink_to(Path("mine.svg").absolute())
+    files.write_folder("out", RESULTS, overwrite=True)
+    assert Path("mine.svg").read_bytes() == b"6"
+    assert not Path("out/machine.svg").is_symlink()
+    assert Path("out/gone.svg").is_symlink()
+
+
+MEASURED = """
+crank.radius = "40 mm"
+crank.speed = "3000 rpm"
+rod.ratio = 0.3
+cylinder = { bore = "80 mm", compression_ratio = 9 }
+gas = { cycle = "720 deg", measured = { file = "out/tables/NAME.csv", pressure_unit = "bar" } }
+"""
+
+
+@pytest.mark.parametrize("name", ["forces", "measured"])
+def test_a_run_keeps_the_pressure_it_reads_wherever_it_lies(crankwork, machine_file, name) -> None:
+    rows = "".join(f"{angle},{1 + 30 * max(0, 1 - abs(angle - 370) / 90)}\n" for angle in range(0, 720, 5))
+    _put({f"tables/{name}.csv": f"angle,pressure\n{rows}".encode()})
+    before = _contents("out")
+    file = machine_file(text=MEASURED.replace("NAME", name))
+    for _ in range(2):
+        answer = crankwork("run", file, "-o", "out", "--overwrite", "--no-figures")
+        refused = "out/tables/forces.csv: is what this run reads; move it away or choose another folder\n"
+        assert (answer.code, answer.err) == ((2, refused) if name == "forces" else (0, ""))
+        assert before.items() <= _contents("out").items()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there is no umask")
+@pytest.mark.parametrize("mask", [0o077, 0o022, 0o002])
+def test_files_and_folders_are_as_open_as_the_mask_lets_them_be(mask) -> None:
+    before = os.umask(mask)
+    try:
+        files.write_folder("new", RESULTS)
+        _put({"mine.txt": b"mine"})
+        files.write_folder("out", RESULTS, overwrite=True)
+        files.write_new("a/my.toml", "one")
+        files.write_files({"note.html": b"one"})
+    finally:
+        os.umask(before)
+    folders = [Path(name) for name in ("new", "out", "a")]
+    written = [Path("note.html"), *folders, *(one for folder in folders for one in folder.rglob("*"))]
+    modes = {one: one.stat().st_mode & 0o777 for one in written}
+    assert modes == {one: (0o777 if one.is_dir() else 0o666) & ~mask for one in written}
+
+
+@pytest.mark.parametrize(
+    ("missing", "sentence"),
+    [
+        (
+            ["xlsxwriter"],
+            "writing tables.xlsx needs an optional part; install it with: pip install 'crankwork[tables]'",
+        ),
+        (["matplotlib"], "writing figures needs an optional part; install it with: pip install 'crankwork[figures]'"),
+        (
+            ["xlsxwriter", "matplotlib"],
+            "writing tables.xlsx and figures needs optional parts; install them with: pip install 'crankwork[BOTH]'",
+        ),
+    ],
+)
+def test_a_base_installation_writes_what_it_can(crankwork, machine_file, monkeypatch, missing, sentence) -> None:
+    file = machine_file()
+    assert crankwork("run", file, "-o", "whole").code == 0
+    for name in missing:
+        monkeypatch.setitem(sys.modules, name, None)
+    answer = crankwork("run", file, "-o", "out")
+    assert (answer.code, answer.err) == (0, f"note: {sentence.replace('BOTH', 'tables,figures')}\n")
+    without = {"xlsxwriter": "tables.xlsx", "matplotlib": "figures/"}
+    left_out = tuple(without[name] for name in missing)
+    assert set(_contents("out")) == {name for name in _contents("whole") if not name.startswith(left_out)}
 
 
 def test_a_folder_in_the_place_of_a_result_stops_before_anything_is_replaced() -> None:
@@ -69,7 +223,7 @@ def test_a_folder_in_the_place_of_a_result_stops_before_anything_is_replaced() -
 
 
 def test_what_a_killed_run_left_behind_does_not_count_as_results() -> None:
-    Path("out/.crankwork-abc/results").mkdir(parents=True)
+    Path("out/.crankwork-abc01def/results").mkdir(parents=True)
     files.write_folder("out", RESULTS)
     assert _contents("out") == RESULTS
 
@@ -168,7 +322,7 @@ def test_a_run_killed_while_writing_leaves_no_results_and_the_next_one_works(exi
     assert all(part.parts[0].startswith(".crankwork-") or part.parts[0] == "out" for part in Path().rglob("*"))
     assert not list(Path("out").glob("[!.]*"))
     files.write_folder("out", RESULTS)
-    assert {name: data for name, data in _contents("out").items() if not name.startswith(".")} == RESULTS
+    assert _contents("out") == RESULTS
 
 
 def test_a_program_killed_at_any_time_leaves_all_results_or_none(machine_file, spawn) -> None:
@@ -184,6 +338,88 @@ def test_a_program_killed_at_any_time_leaves_all_results_or_none(machine_file, s
         assert set(_contents(f"out{number}")) in (set(), whole)
 
 
+REPLACING = """
+from crankwork import files
+old = {f"tables/{number}.csv": b"old" for number in range(40)}
+new = {f"tables/{number}.csv": b"new" for number in range(20, 60)}
+print("started", flush=True)
+while True:
+    files.write_folder("out", old, overwrite=True)
+    files.write_folder("out", new, overwrite=True)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="litter of the dead is known by locks")
+def test_a_run_killed_while_replacing_leaves_one_result_or_says_that_there_are_two() -> None:
+    source = str(Path(files.__file__).parents[1])
+    old = {f"tables/{number}.csv": b"old" for number in range(40)}
+    new = {f"tables/{number}.csv": b"new" for number in range(20, 60)}
+    delays = random.Random(1)  # noqa: S311 - no secret
+    for _ in range(12):
+        files.write_folder("out", old, overwrite=True)
+        command = [sys.executable, "-c", REPLACING]
+        environment = os.environ | {"PYTHONPATH": source}
+        with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE) as running:
+            assert running.stdout is not None
+            running.stdout.readline()
+            time.sleep(delays.uniform(0, 0.4))
+            running.kill()
+        found = _contents("out")
+        results = {name: data for name, data in found.items() if not name.startswith(".")}
+        assert files.MARK in results or results in (old, new)
+        files.write_folder("out", RESULTS, overwrite=True)
+        assert _contents("out") == RESULTS
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no such signals")
+@pytest.mark.parametrize("at", range(1, 8))
+def test_a_run_killed_between_two_files_says_so(at) -> None:
+    files.write_folder("out", {"a.csv": b"old", "b.csv": b"old", "c.csv": b"old", "d.csv": b"old"})
+    source = str(Path(files.__file__).parents[1])
+    killed = subprocess.run(
+        [sys.executable, "-c", KILLED_REPLACING, str(at)], env=os.environ | {"PYTHONPATH": source}, check=False
+    )
+    assert killed.returncode == -signal.SIGKILL
+    found = {name: data for name, data in _contents("out").items() if not name.startswith(".")}
+    marked = found.pop(files.MARK, None)
+    # manifest and mark come first, then three files, then the manifest of the new results
+    assert (marked is not None) is (2 < at < 7)
+    assert (set(found.values()) == {b"old"}) is (at < 4)
+    files.write_folder("out", RESULTS, overwrite=True)
+    assert _contents("out") == RESULTS
+
+
+KILLED_REPLACING = """
+import os, signal, sys
+from pathlib import Path
+from crankwork import files
+calls = []
+replace = Path.replace
+def counted(path, target):
+    calls.append(path)
+    if len(calls) == int(sys.argv[1]):
+        os.kill(os.getpid(), signal.SIGKILL)
+    replace(path, target)
+Path.replace = counted
+files.write_folder("out", {"a.csv": b"new", "b.csv": b"new", "c.csv": b"new"}, overwrite=True)
+os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+def test_what_lives_is_not_swept_and_what_is_not_ours_neither() -> None:
+    for name in (".crankwork-notes", ".crankwork-abc01def.txt"):
+        Path("out", name).mkdir(parents=True)
+    Path("elsewhere/results").mkdir(parents=True)
+    if sys.platform != "win32":
+        Path("out/.crankwork-abc01xyz").symlink_to(Path("elsewhere").absolute())
+    with files._staging(Path("out")) as alive:
+        files.write_folder("out", RESULTS, overwrite=True)
+        assert alive.is_dir()
+    assert Path("elsewhere/results").is_dir()
+    assert Path("out/.crankwork-notes").is_dir()
+    assert not alive.exists()
+
+
 @pytest.mark.parametrize("overwrite", [True, False])
 def test_two_runs_at_once_never_mix_their_results(machine_file, spawn, overwrite) -> None:
     name = machine_file(name="slider-crank")
@@ -195,7 +431,7 @@ def test_two_runs_at_once_never_mix_their_results(machine_file, spawn, overwrite
     assert all(
         error in ("", "out: holds files already; choose another folder or add --overwrite\n") for error in errors
     )
-    assert not list(Path("out").glob(".*"))
+    assert [one.name for one in Path("out").glob(".*")] == [files.MANIFEST]
     alone = []
     for speed in (1000, 2000, 3000):
         spawn("run", name, "--set", f"crank.speed={speed} rpm", "-o", f"out{speed}", "--no-figures").communicate()

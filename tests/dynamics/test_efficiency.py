@@ -5,6 +5,8 @@ import pytest
 
 from crankwork.dynamics.efficiency import Parallel, Series, driving_torque, efficiency
 
+pytestmark = pytest.mark.elsewhere
+
 
 def test_series_and_parallel():
     assert efficiency(0.9) == 0.9

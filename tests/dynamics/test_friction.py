@@ -19,6 +19,8 @@ from crankwork.mechanism.dyads import RPP, RRP, Guide
 from crankwork.mechanism.joints import Pin, joints
 from crankwork.mechanism.mechanism import Crank, Mechanism, slider_crank
 
+pytestmark = pytest.mark.elsewhere
+
 GRID = CrankGrid.from_degrees(np.arange(2.5, 360, 5))
 
 

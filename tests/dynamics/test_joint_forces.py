@@ -15,6 +15,8 @@ from crankwork.mechanism.catalog import crank_shaper, four_bar, scotch_yoke
 from crankwork.mechanism.dyads import PRP, RRP, Guide
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, body_at, slider_crank
 
+pytestmark = pytest.mark.elsewhere
+
 GRID = CrankGrid.from_degrees(np.arange(7.0, 360, 10))
 
 

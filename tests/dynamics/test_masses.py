@@ -19,6 +19,8 @@ from crankwork.dynamics.masses import (
     three_masses,
 )
 
+pytestmark = pytest.mark.elsewhere
+
 masses = st.floats(0.01, 1e3)
 lengths = st.floats(0.01, 5.0)
 shares = st.floats(0.02, 0.98)

@@ -12,14 +12,15 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.lengths import mean_piston_speed
 from crankwork.kinematics.slider_crank import SliderCrank, rod_swing
 
+pytestmark = pytest.mark.elsewhere
+
 SIDE, ALONG = 0.6, 0.8  # the rod leans by the angle of a 3-4-5 triangle
 
 
 def test_velocity_and_acceleration_follow_from_the_transfer_functions() -> None:
     assert forces.piston_velocity(0.05, 200.0) == 10.0
-    assert forces.piston_acceleration(0.05, 200.0) == 2000.0
-    assert forces.piston_acceleration_unsteady(0.05, 200.0, 0.02, -50.0) == 1999.0
-    assert forces.piston_acceleration_unsteady(0.05, 200.0, 0.02, 0.0) == 2000.0
+    assert forces.piston_acceleration(0.05, 200.0, 0.02, -50.0) == 1999.0
+    assert forces.piston_acceleration(0.05, 200.0, 0.02, 0.0) == 2000.0
 
 
 def test_speeds_from_revolutions_per_minute() -> None:
@@ -30,8 +31,8 @@ def test_speeds_from_revolutions_per_minute() -> None:
 
 def test_inertia_resists_acceleration_and_adds_to_the_other_forces() -> None:
     assert forces.inertia_force(2.0, 300.0) == -600.0
-    assert forces.piston_force(1000.0, -600.0) == 400.0
-    assert forces.piston_force_with_weight(1000.0, -600.0, 20.0) == 420.0
+    assert forces.piston_force(1000.0, -600.0, 0.0) == 400.0
+    assert forces.piston_force(1000.0, -600.0, 20.0) == 420.0
 
 
 def test_a_weight_pushes_towards_the_crankshaft_of_an_upright_engine_and_away_in_a_hanging_one() -> None:
@@ -41,14 +42,20 @@ def test_a_weight_pushes_towards_the_crankshaft_of_an_upright_engine_and_away_in
 
 
 def test_a_leaning_rod_splits_the_piston_force_as_a_triangle_does() -> None:
-    assert forces.side_force(400.0, SIDE, ALONG) == pytest.approx(300.0, rel=1e-15)
-    assert forces.rod_force(400.0, ALONG) == pytest.approx(500.0, rel=1e-15)
+    assert forces.side_force(400.0, SIDE, ALONG, 0.0, 0.0) == pytest.approx(300.0, rel=1e-15)
+    assert forces.rod_force(400.0, ALONG, 0.0, SIDE) == pytest.approx(500.0, rel=1e-15)
+
+
+def test_the_wall_carries_what_holds_the_couple_and_less_of_a_weight_on_its_other_side() -> None:
+    assert forces.side_force(400.0, SIDE, ALONG, 20.0, 5.0) == pytest.approx(315.0, rel=1e-15)
+    assert forces.transverse_weight(2.0, 9.81, 0.5) == pytest.approx(9.81, rel=1e-15)
 
 
 def test_radial_and_tangential_force_are_the_rod_force_in_the_frame_of_the_crank() -> None:
-    assert forces.radial_force(400.0, 0.28, ALONG) == pytest.approx(500 * 0.28, rel=1e-15)
-    assert forces.tangential_force(400.0, 0.96, ALONG) == pytest.approx(500 * 0.96, rel=1e-15)
-    assert forces.crank_torque(480.0, 0.05) == pytest.approx(24.0, rel=1e-15)
+    assert forces.radial_force(400.0, 0.28, ALONG, 0.0, 1.0) == pytest.approx(500 * 0.28, rel=1e-15)
+    assert forces.tangential_force(400.0, 0.96, ALONG, 0.0, 1.0) == pytest.approx(500 * 0.96, rel=1e-15)
+    assert forces.crank_torque(480.0, 0.05, 0.0) == pytest.approx(24.0, rel=1e-15)
+    assert forces.crank_torque(480.0, 0.05, -4.0) == pytest.approx(20.0, rel=1e-15)
 
 
 def test_a_rotating_mass_pulls_outwards() -> None:
@@ -91,7 +98,7 @@ class TestRod:
         """Whatever the crank carries, piston force and side force give it, turned by the crank angle."""
         swing = rod_swing(SliderCrank(0.05, 0.18, offset), self.GRID)
         P = 1000 * np.cos(self.GRID.angle + 0.3)
-        rod = forces.rod_forces(P, swing)
+        rod = forces.rod_forces(P, self.GRID, swing)
         assert rod.along * swing.cos == pytest.approx(P, rel=1e-14, abs=1e-11)
         assert rod.along * swing.sin == pytest.approx(rod.side, rel=1e-14, abs=1e-11)
         assert rod.radial**2 + rod.tangential**2 == pytest.approx(rod.along**2, rel=1e-13, abs=1e-8)
@@ -101,7 +108,8 @@ class TestRod:
         lengths = SliderCrank(0.05, 0.18, offset)
         swing = rod_swing(lengths, self.GRID)
         P, couple = np.zeros(len(self.GRID)), 5 * np.sin(self.GRID.angle - 0.2)
-        rod = forces.add_couple(forces.rod_forces(P, swing), couple, lengths.rod_length, self.GRID, swing)
+        held = forces.side_force_of_couple(couple, lengths.rod_length, swing.cos)
+        rod = forces.rod_forces(P, self.GRID, swing, dN=held)
         # moments about the crankpin: the side force acts at l cos(beta) from it
         assert rod.side * lengths.rod_length * swing.cos == pytest.approx(couple, rel=1e-14, abs=1e-14)
         assert rod.along == pytest.approx(rod.side * swing.sin, rel=1e-14, abs=1e-13)
@@ -109,6 +117,14 @@ class TestRod:
         assert across == pytest.approx(rod.side * swing.cos, rel=1e-14, abs=1e-13)
         assert rod.radial**2 + rod.tangential**2 == pytest.approx(rod.along**2 + across**2, rel=1e-13, abs=1e-12)
         self._check_crankpin(P, rod)
+
+    def test_weight_across_the_axis_is_carried_by_the_wall_beside_the_rod(self, offset: float) -> None:
+        swing = rod_swing(SliderCrank(0.05, 0.18, offset), self.GRID)
+        P = 1000 * np.cos(self.GRID.angle + 0.3)
+        bare, weighed = (forces.rod_forces(P, self.GRID, swing, F_wn=weight) for weight in (0.0, 40.0))
+        assert weighed.side == pytest.approx(bare.side - 40.0, abs=1e-11)
+        for one, other in zip(weighed[1:], bare[1:], strict=True):
+            assert np.array_equal(one, other)
 
     def _check_crankpin(self, P: Array, rod: forces.RodForces) -> None:
         """The crankpin gets what the piston pin gets: P towards the crankshaft and the wall's answer to N."""

@@ -15,6 +15,8 @@ from crankwork.loads.load import ForceOnPoint, TorqueOnLink, Weight, applied_loa
 from crankwork.mechanism.catalog import four_bar, scotch_yoke, slotted_press, watt_six_bar
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, body_at
 
+pytestmark = pytest.mark.elsewhere
+
 GRID = CrankGrid.from_degrees(np.arange(0.0, 360, 1))
 
 

@@ -10,6 +10,8 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.mechanism.catalog import slotted_press
 
+pytestmark = pytest.mark.elsewhere
+
 ANGLE = np.radians(np.arange(0, 360, 10))
 
 

@@ -12,6 +12,8 @@ from crankwork.mechanism.catalog import scotch_yoke
 from crankwork.mechanism.dyads import RRP, RRR, Guide
 from crankwork.mechanism.mechanism import Crank
 
+pytestmark = pytest.mark.elsewhere
+
 GRID = CrankGrid.from_degrees(np.arange(0.0, 360, 7))
 
 

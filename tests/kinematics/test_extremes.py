@@ -1,4 +1,4 @@
-"""Dead centres and extremes of velocity and acceleration against closed forms and against forty digits."""
+"""Dead centres, and the largest and least velocity and acceleration, against closed forms and against forty digits."""
 
 from __future__ import annotations
 
@@ -10,13 +10,26 @@ import mpmath
 import numpy as np
 import pytest
 
+from crankwork.formula.known import KnownAngle, given
+from crankwork.formula.over_cycle import Extreme, OverCycle
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.extremes import acceleration_extremes, dead_centres, roots, velocity_extremes
+from crankwork.kinematics.extremes import dead_centres, roots
 from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank
-from crankwork.method import EXACT, TEXTBOOK
+from crankwork.method import EXACT, TEXTBOOK, Method
+
+pytestmark = pytest.mark.elsewhere
 
 RATIOS = [0.05, 0.2, 0.25, 0.28, 0.34, 0.5, 0.8, 0.99]
+
+
+def _largest_and_least(machine: SliderCrank, order: int, method: Method = EXACT) -> tuple[Extreme, Extreme]:
+    """Return the extremes of dx/dphi (order 1) or d2x/dphi2 (order 2) over a turn."""
+    lengths = SliderCrank(*(given(key, value) for key, value in zip(SliderCrank._fields, machine, strict=True)))
+    angle: Any = KnownAngle()
+    moving = piston_motion(lengths, angle, method).piston
+    over = OverCycle({"": moving[order]}, CrankGrid.from_degrees, 360.0)
+    return over.largest(""), over.least("")
 
 
 def _displacement(machine: SliderCrank) -> Callable[[Any], Any]:
@@ -48,100 +61,97 @@ def _extremes_by_search(machine: SliderCrank, order: int) -> list[tuple[float, f
 
 @pytest.mark.parametrize("offset", [0.0, 0.2, -0.2])
 @pytest.mark.parametrize("ratio", [0.1, 0.34, 0.7])
-@pytest.mark.parametrize(("order", "extremes"), [(1, velocity_extremes), (2, acceleration_extremes)])
-def test_exact_extremes_are_those_of_forty_digits(
-    ratio: float, offset: float, order: int, extremes: Callable[[SliderCrank], Any]
-) -> None:
+@pytest.mark.parametrize("order", [1, 2])
+def test_exact_extremes_are_those_of_forty_digits(ratio: float, offset: float, order: int) -> None:
     machine = SliderCrank(1.0, 1 / ratio, offset)
-    angles, values = extremes(machine)
     expected = _extremes_by_search(machine, order)
-    # the top dead centre may come out as 0 or as 360 less a rounding
-    assert [angle % 360 for angle, _ in expected] == pytest.approx(angles.tolist(), abs=1e-10)
-    assert [value for _, value in expected] == pytest.approx(values.tolist(), rel=1e-13)
+    for found, sign in zip(_largest_and_least(machine, order), (1, -1), strict=True):
+        value = max(sign * one for _, one in expected) * sign
+        assert found.value == pytest.approx(value, rel=1e-13)
+        # of equal ones the first counts; the top dead centre may come out as 0 or as 360 less a rounding
+        angle = min(angle if angle < 359.999999 else 0.0 for angle, one in expected if abs(one - value) < 1e-13)
+        assert found.at % 360 == pytest.approx(angle, abs=1e-9)
 
 
 @pytest.mark.parametrize("ratio", RATIOS)
-def test_exact_velocity_is_extreme_once_each_way_and_antisymmetric(ratio: float) -> None:
-    angles, values = velocity_extremes(SliderCrank(1.0, 1 / ratio))
-    assert angles.size == 2
-    assert angles[0] + angles[1] == pytest.approx(360, abs=1e-10)
-    assert values[0] == pytest.approx(-values[1], rel=1e-14)
+def test_exact_velocity_of_a_central_machine_is_antisymmetric(ratio: float) -> None:
+    largest, least = _largest_and_least(SliderCrank(1.0, 1 / ratio), 1)
+    assert largest.at + least.at == pytest.approx(360, abs=1e-9)
+    assert largest.value == pytest.approx(-least.value, rel=1e-14)
 
 
 @pytest.mark.parametrize("ratio", [0.05, 0.1, 0.2])
 def test_the_fastest_point_is_near_crank_and_rod_at_right_angles(ratio: float) -> None:
-    (angle, _), (value, _) = velocity_extremes(SliderCrank(1.0, 1 / ratio))
-    assert math.tan(math.radians(angle)) == pytest.approx(1 / ratio, rel=2 * ratio**2)
-    assert value == pytest.approx(math.sqrt(1 + ratio**2), rel=ratio**4)
+    largest, _ = _largest_and_least(SliderCrank(1.0, 1 / ratio), 1)
+    assert math.tan(math.radians(largest.at)) == pytest.approx(1 / ratio, rel=2 * ratio**2)
+    assert largest.value == pytest.approx(math.sqrt(1 + ratio**2), rel=ratio**4)
 
 
 @pytest.mark.parametrize("ratio", RATIOS)
 def test_textbook_velocity_is_extreme_where_the_quadratic_says(ratio: float) -> None:
-    angles, values = velocity_extremes(SliderCrank(0.05, 0.05 / ratio), TEXTBOOK)
+    found = _largest_and_least(SliderCrank(0.05, 0.05 / ratio), 1, TEXTBOOK)
     cosine = (-1 + math.sqrt(1 + 8 * ratio**2)) / (4 * ratio)
     angle = math.acos(cosine)
-    assert np.cos(np.radians(angles)) == pytest.approx([cosine, cosine], abs=1e-14)
+    assert [one.at for one in found] == pytest.approx([math.degrees(angle), 360 - math.degrees(angle)], abs=1e-9)
     fastest = 0.05 * (math.sin(angle) + ratio / 2 * math.sin(2 * angle))
-    assert values == pytest.approx([fastest, -fastest], rel=1e-14)
+    assert [one.value for one in found] == pytest.approx([fastest, -fastest], rel=1e-14)
 
 
 @pytest.mark.parametrize("ratio", [0.05, 0.2, 0.25])
-def test_textbook_acceleration_of_a_long_rod_is_extreme_at_the_dead_centres_only(ratio: float) -> None:
-    angles, values = acceleration_extremes(SliderCrank(0.05, 0.05 / ratio), TEXTBOOK)
-    assert angles.tolist() == [0, 180]
-    assert values == pytest.approx([0.05 * (1 + ratio), -0.05 * (1 - ratio)], rel=1e-14)
+def test_textbook_acceleration_of_a_long_rod_is_extreme_at_the_dead_centres(ratio: float) -> None:
+    largest, least = _largest_and_least(SliderCrank(0.05, 0.05 / ratio), 2, TEXTBOOK)
+    assert (largest.at, least.at) == (0, 180)
+    assert (largest.value, least.value) == pytest.approx((0.05 * (1 + ratio), -0.05 * (1 - ratio)), rel=1e-14)
 
 
-@pytest.mark.parametrize("ratio", [0.2501, 0.28, 0.34, 0.5, 0.8, 0.99])
-def test_textbook_acceleration_of_a_short_rod_has_two_minima_beside_the_bottom(ratio: float) -> None:
-    angles, values = acceleration_extremes(SliderCrank(0.05, 0.05 / ratio), TEXTBOOK)
+@pytest.mark.parametrize("ratio", [0.250005, 0.2501, 0.28, 0.34, 0.5, 0.8, 0.99])
+def test_textbook_acceleration_of_a_short_rod_is_least_beside_the_bottom(ratio: float) -> None:
+    """The minima come out of the bottom dead centre as the ratio passes a quarter; the first of the two counts."""
+    largest, least = _largest_and_least(SliderCrank(0.05, 0.05 / ratio), 2, TEXTBOOK)
     beside = math.degrees(math.acos(-1 / (4 * ratio)))
-    assert angles == pytest.approx([0, beside, 180, 360 - beside], abs=1e-8)
-    lowest = -0.05 * (ratio + 1 / (8 * ratio))
-    assert values == pytest.approx([0.05 * (1 + ratio), lowest, -0.05 * (1 - ratio), lowest], rel=1e-14)
+    assert largest == pytest.approx((0.05 * (1 + ratio), 0), rel=1e-14)
+    assert least.value == pytest.approx(-0.05 * (ratio + 1 / (8 * ratio)), rel=1e-14)
+    # the closer the two minima are, the flatter is the curve between them
+    assert least.at == pytest.approx(beside, abs=1e-9 + 1e-6 / (180 - beside) ** 2)
+
+
+def test_minima_closer_to_the_bottom_than_rounding_can_tell_have_its_value() -> None:
+    _, least = _largest_and_least(SliderCrank(1.0, 1 / 0.2500001), 2, TEXTBOOK)
+    assert least.value == pytest.approx(-(0.2500001 + 1 / (8 * 0.2500001)), rel=1e-14)
+    assert least.at == pytest.approx(180, abs=0.1)
 
 
 def test_the_minimum_at_a_ratio_of_028_is_at_153_23_degrees() -> None:
     """A printed course work gives 26.77, the supplement."""
-    angles, _ = acceleration_extremes(SliderCrank(0.28, 1.0), TEXTBOOK)
-    assert round(float(angles[1]), 2) == 153.23
+    _, least = _largest_and_least(SliderCrank(0.28, 1.0), 2, TEXTBOOK)
+    assert round(least.at, 2) == 153.23
 
 
-@pytest.mark.parametrize("ratio", [0.2500001, 0.250005])
-def test_minima_close_to_the_bottom_are_found(ratio: float) -> None:
-    """They come out of the bottom dead centre as the ratio passes a quarter, closer than the step of any scan."""
-    angles, _ = acceleration_extremes(SliderCrank(1.0, 1 / ratio), TEXTBOOK)
-    assert angles.size == 4
-
-
-@pytest.mark.parametrize("ratio", RATIOS)
+@pytest.mark.parametrize("ratio", [one for one in RATIOS if one < 0.6])
 @pytest.mark.parametrize("method", [EXACT, TEXTBOOK, EXACT.named("series:8")], ids=lambda method: method.name)
-def test_the_largest_acceleration_of_a_central_machine_is_at_the_top(ratio: float, method: Any) -> None:
-    angles, values = acceleration_extremes(SliderCrank(1.0, 1 / ratio), method)
-    assert 0 in angles
-    assert 180 in angles
-    if method is not EXACT and ratio > 0.5:  # a truncated series of a short rod overshoots elsewhere
+def test_the_largest_acceleration_of_a_central_machine_is_at_the_top(ratio: float, method: Method) -> None:
+    machine = SliderCrank(1.0, 1 / ratio)
+    largest, _ = _largest_and_least(machine, 2, method)
+    assert largest.at == 0
+    if method is not EXACT:
         return
-    top = values[angles == 0]
-    assert np.max(values) == top or ratio > 0.6
-    if method is EXACT:
-        assert top == pytest.approx(1 + ratio, rel=1e-15)
-        assert values[angles == 180] == pytest.approx(-(1 - ratio), rel=1e-13)
+    assert largest.value == pytest.approx(1 + ratio, rel=1e-15)
+    bottom = piston_motion(machine, CrankGrid.from_degrees([180.0])).piston.position_2
+    assert bottom == pytest.approx([-(1 - ratio)], rel=1e-13)
 
 
 @pytest.mark.parametrize("order", [1, 2, 4, 9])
 @pytest.mark.parametrize("offset", [0.0, 0.3])
 def test_series_extremes_are_extremes_of_the_series(order: int, offset: float) -> None:
     machine, method = SliderCrank(1.0, 3.0, offset), EXACT.named(f"series:{order}")
-    for extremes, which in ((velocity_extremes, 1), (acceleration_extremes, 2)):
-        angles, values = extremes(machine, method)
-        assert angles.size >= 2
-        for side in (-0.01, 0.01):
-            beside = piston_motion(machine, CrankGrid.from_degrees(angles + side), method).piston[which]
-            assert np.max(np.abs(beside - values)) < 1e-6
-        dense = piston_motion(machine, CrankGrid.steps(0.1, 360.0), method).piston[which]
-        assert np.max(dense) <= np.max(values) + 1e-14
-        assert np.min(dense) >= np.min(values) - 1e-14
+    dense = piston_motion(machine, CrankGrid.steps(0.1, 360.0), method).piston
+    for which in (1, 2):
+        largest, least = _largest_and_least(machine, which, method)
+        at = CrankGrid.from_degrees([largest.at, least.at])
+        there = piston_motion(machine, at, method).piston[which]
+        assert there == pytest.approx([largest.value, least.value], rel=1e-14)
+        assert np.max(dense[which]) <= largest.value + 1e-14
+        assert np.min(dense[which]) >= least.value - 1e-14
 
 
 @pytest.mark.parametrize(("ratio", "offset"), [(0.99, 0.0), (0.999999, 0.0), (0.5, 0.999998), (0.5, -0.999998)])
@@ -149,10 +159,10 @@ def test_no_point_of_a_dense_scan_near_the_limit_exceeds_the_extremes(ratio: flo
     machine = SliderCrank(1.0, 1 / ratio, offset)
     fine = np.linspace(-0.3, 0.3, 6001)
     dense = piston_motion(machine, CrankGrid.from_degrees(np.concatenate([90 + fine, 270 + fine]))).piston
-    for extremes, curve in ((velocity_extremes, dense.position_1), (acceleration_extremes, dense.position_2)):
-        _, values = extremes(machine)
-        assert np.max(curve) <= np.max(values) * (1 + 1e-12)
-        assert np.min(curve) >= np.min(values) * (1 + 1e-12)
+    for order in (1, 2):
+        largest, least = _largest_and_least(machine, order)
+        assert np.max(dense[order]) <= largest.value * (1 + 1e-12)
+        assert np.min(dense[order]) >= least.value * (1 + 1e-12)
 
 
 @pytest.mark.parametrize("offset", [0.0, 0.03, -0.03])
@@ -165,8 +175,8 @@ def test_dead_centres_in_degrees_are_those_of_the_triangle(offset: float) -> Non
 def test_velocity_vanishes_between_its_extremes_only_at_the_dead_centres() -> None:
     machine = SliderCrank(0.05, 0.2, 0.03)
     top, bottom = dead_centres(machine)
-    fastest, backwards = velocity_extremes(machine)[0]
-    assert top < fastest < bottom < backwards < top + 360
+    fastest, backwards = _largest_and_least(machine, 1)
+    assert top < fastest.at < bottom < backwards.at < top + 360
 
 
 def test_roots_are_found_at_scan_points_and_between_them() -> None:

@@ -15,6 +15,8 @@ from crankwork.mechanism.dyads import RRP
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, slider_crank
 from crankwork.method import TEXTBOOK
 
+pytestmark = pytest.mark.elsewhere
+
 TURN = CrankGrid.from_degrees(np.arange(0.0, 360, 1.5))
 length = st.floats(0.2, 3.0)
 

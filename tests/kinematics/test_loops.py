@@ -12,6 +12,8 @@ from crankwork.kinematics.motion import linkage_motion
 from crankwork.mechanism.chain import Chain, ChainLink
 from crankwork.mechanism.description import mechanism_from
 
+pytestmark = pytest.mark.elsewhere
+
 GRID = CrankGrid.from_degrees(np.arange(0.0, 360, 10))
 
 TRIAD = {

@@ -7,18 +7,23 @@ import pytest
 
 from crankwork.errors import GeometryError
 from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.quality import (
     coupler_curve,
     crank_ranges,
     grashof,
     limits,
+    limits_of_all,
     pressure_angle,
     time_ratio,
     transmission_angle,
     transmission_extremes,
 )
 from crankwork.mechanism.catalog import crank_shaper, four_bar, scotch_yoke, toggle_press, whitworth
+from crankwork.mechanism.joints import group_links
 from crankwork.mechanism.mechanism import slider_crank
+
+pytestmark = pytest.mark.elsewhere
 
 
 @pytest.mark.parametrize(
@@ -67,8 +72,21 @@ def test_a_toggle_press_straightens_twice():
         time_ratio(toggle_press(0.05, 0.3, 0.2, 0.2, (0.28, 0.25)), "ram")
 
 
+def test_limits_of_several_outputs_are_those_of_each():
+    machine = toggle_press(0.05, 0.3, 0.2, 0.2, (0.28, 0.25))
+    outputs = [*(name for dyad in machine.dyads for name in group_links(dyad))]
+    for name, together in zip(outputs, limits_of_all(machine, outputs), strict=True):
+        alone = limits(machine, name)
+        assert together.degrees == pytest.approx(alone.degrees, abs=1e-9)
+        assert together.position == pytest.approx(alone.position, abs=1e-12)
+        assert together.travel == pytest.approx(alone.travel, abs=1e-12)
+        rate = linkage_motion(machine, CrankGrid.from_degrees(together.degrees))
+        found = rate.sliders.get(name) or rate.links[name]
+        assert found.position_1 == pytest.approx(0, abs=1e-12)
+
+
 def test_transmission_angle_extremes_of_a_crank_rocker():
-    found = transmission_extremes(four_bar(2.5, 7, 4.5, 8), 0)
+    found = transmission_extremes(four_bar(2.5, 7, 4.5, 8), [0])[0]
     least, greatest = (
         math.degrees(math.acos((7**2 + 4.5**2 - distance**2) / (2 * 7 * 4.5))) for distance in (8 - 2.5, 8 + 2.5)
     )

@@ -15,6 +15,8 @@ from crankwork.kinematics.series import acceleration_harmonic, acceleration_harm
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.method import EXACT
 
+pytestmark = pytest.mark.elsewhere
+
 SAMPLES = 2048
 TURN = CrankGrid.from_degrees(np.arange(SAMPLES) * (360 / SAMPLES))
 

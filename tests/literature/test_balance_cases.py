@@ -25,10 +25,10 @@ from crankwork.cylinders.counterweights import (
     two_plane_counterweights,
 )
 from crankwork.cylinders.ellipse import balance_sum
+from crankwork.cylinders.journal_loads import unbalance_force
 from crankwork.cylinders.layout import Layout, Place
 from crankwork.cylinders.locomotive_balance import (
     LocomotiveMasses,
-    hammer_blow,
     locomotive_balance,
     swaying_couple,
     tractive_effort_variation,
@@ -209,12 +209,12 @@ class TestSarkar:
         assert pull == pytest.approx(29018.117, abs=5.1e-4)
         assert sway == pytest.approx(10156.341, abs=5.1e-4)
         part = share * 210 / (130 + share * 210) * 100.44 * 0.64
-        assert hammer_blow(part, speed) == pytest.approx(32975.566, abs=5.1e-4)
+        assert unbalance_force(part, speed) == pytest.approx(32975.566, abs=5.1e-4)
 
     def test_illustration_7_share_that_keeps_the_hammer_blow(self) -> None:
         """90 km/h, wheel 1.7 m, 300 kg, cranks 0.3 m, 0.7 m apart; hammer blow 40 kN, a wheel's part 69.625 c kg m."""
         speed = 25 / 0.85
-        share = 40e3 / hammer_blow(69.625, speed)
+        share = 40e3 / unbalance_force(69.625, speed)
         layout = _layout((0, 90), pitch=0.7)
         found = locomotive_balance(layout, LocomotiveMasses(300, 0, 0.3, share), speed, (-0.8, 0.8))
         assert share == pytest.approx(0.664, abs=5.1e-4)

@@ -11,7 +11,8 @@ from __future__ import annotations
 
 import pytest
 
-from crankwork.steps import Worked
+from crankwork.formula.known import given
+from crankwork.formula.worked import Worked
 from crankwork.working_cycle.charge import compression_pressure, compression_temperature
 from crankwork.working_cycle.cycle_data import GrinevetskyData
 from crankwork.working_cycle.grinevetsky import grinevetsky
@@ -27,7 +28,7 @@ def test_end_of_compression_of_a_course_work() -> None:
     temperature = compression_temperature(340.6, 8.2, 1.37)
     assert round(pressure / 1e6, 3) == 1.595
     assert temperature == pytest.approx(741.918, abs=5.001e-4)
-    assert round(fresh_heat(Worked(), "linear", temperature), 2) == 21.45
+    assert round(fresh_heat(Worked(), "linear", given("compression_temperature", temperature)).value, 2) == 21.45
 
 
 KD = GrinevetskyData(

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from crankwork.dynamics.efficiency import Parallel, Series, driving_torque, efficiency
-from crankwork.dynamics.reduction import dynamic_torque_steady
+from crankwork.dynamics.reduction import dynamic_torque
 from crankwork.dynamics.tabulated import TabulatedBody, difference_derivative, tabulated_inertia
 
 HALF_SQUARE_OF_SPEED = 107.3113
@@ -63,7 +63,7 @@ def test_the_printed_terms_add_up():
 def test_dynamic_torque():
     speed = 14.65
     assert speed**2 / 2 == pytest.approx(HALF_SQUARE_OF_SPEED, abs=0.0001)
-    assert dynamic_torque_steady(speed, np.array(INERTIA_1)) == pytest.approx(DYNAMIC, abs=0.001)
+    assert dynamic_torque(speed, np.array(INERTIA_1), 0.0, 0.0) == pytest.approx(DYNAMIC, abs=0.001)
 
 
 def test_the_speed_is_cut():

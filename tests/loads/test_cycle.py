@@ -10,6 +10,8 @@ import pytest
 
 from crankwork.loads.cycle import quadrature
 
+pytestmark = pytest.mark.elsewhere
+
 BREAKS = np.array([0.0, 7.0, 180.0, 350.5, 720.0])
 
 

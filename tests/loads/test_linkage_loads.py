@@ -26,6 +26,8 @@ from crankwork.loads.table import Table
 from crankwork.mechanism.catalog import crank_shaper, four_bar, slotted_press
 from crankwork.mechanism.mechanism import Crank, Mechanism, body_at
 
+pytestmark = pytest.mark.elsewhere
+
 GRID = CrankGrid.from_degrees(np.arange(0.0, 360, 5))
 CRANK = Mechanism(Crank(0.1), (), ground={"Q": (0.5, 0.0)})
 

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import datetime as dt
-import importlib
 import math
-import pkgutil
 
 import pytest
 
-import crankwork
 from crankwork.dynamics import piston_forces as forces
-from crankwork.expressions import FORMULAS, Formula, record
+from crankwork.formula.expression import FORMULAS, record
+from crankwork.formula.steps import Given, Step, sum_step, worked_step
 from crankwork.kinematics.lengths import mean_piston_speed
 from crankwork.loads import gas
 from crankwork.note.document import (
@@ -33,7 +31,6 @@ from crankwork.note.document import (
 )
 from crankwork.note.legends import legend
 from crankwork.quantities import Language
-from crankwork.steps import Given, Step, sum_step, worked_step
 
 HOSTILE = "# $x$ *a* _b_ @c <d> & \\e `f` ~g \"h\" 'i' #{panic()} ]] $ // /* ${k} </p> --"
 SVG = (
@@ -41,15 +38,6 @@ SVG = (
     b'width="200pt" height="100pt" viewBox="0 0 200 100"><defs><path id="p" d="M0 0L200 100" stroke="black"/></defs>'
     b'<use xlink:href="#p"/></svg>'
 )
-
-
-@pytest.fixture(scope="session")
-def formulas() -> dict[str, Formula]:
-    """Every registered formula by name."""
-    for module in pkgutil.walk_packages(crankwork.__path__, "crankwork."):
-        if not module.name.endswith("__main__"):
-            importlib.import_module(module.name)
-    return FORMULAS
 
 
 @pytest.fixture

@@ -14,8 +14,8 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from crankwork.dynamics import piston_forces
-from crankwork.expressions import Number, Operation, Symbol, record, symbol
+from crankwork.formula.expression import Number, Operation, Symbol, record, symbol
+from crankwork.kinematics import slider_crank
 from crankwork.loads.gas import clearance_volume
 from crankwork.note.layout import (
     CLOSE,
@@ -228,6 +228,8 @@ def test_how_a_number_prints(value, language, box):
         ("J′_пр", Script(Letter("J"), Upright("пр"), Upright("′"))),
         ("x_S″", Script(Letter("x"), Upright("S"), Upright("″"))),
         ("p_г₁", Script(Letter("p"), Upright("г1"))),
+        ("M_CO₂", Script(Letter("M"), Row((Script(Upright("CO"), Upright("2")),)))),
+        ("M_H₂O", Script(Letter("M"), Row((Script(Upright("H"), Upright("2")), Upright("O"))))),
         ("ΔJ", Row((Upright("Δ"), Letter("J")))),
         ("sin 2φ", Apply(Upright("sin"), Row((Digits("2"), Letter("φ"))))),
         ("cos(φ+β)", Apply(Upright("cos"), Fence(Row((Letter("φ"), Sign("+"), Letter("β")))))),
@@ -328,7 +330,7 @@ def test_the_formats_of_one_formula():
     assert [one.tag.partition("}")[2] for one in shown.iter()] == [
         "math", "mfrac", "msub", "mi", "mi", "mrow", "msub", "mi", "mi", "mo", "mn",
     ]  # fmt: skip
-    word = ET.fromstring(omml(record(piston_forces.side_force)))  # noqa: S314 - our own text
+    word = ET.fromstring(omml(record(slider_crank.rod_transfer_1)))  # noqa: S314 - our own text
     assert [one.tag for one in word] == [f"{{{MATH}}}f"]
     assert len(word.findall(f".//{{{MATH}}}func")) == 2
 

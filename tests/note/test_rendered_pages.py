@@ -17,6 +17,7 @@ import pytest
 
 import crankwork
 from crankwork.note.contents import note_of
+from crankwork.note.document import Heading, Table
 from crankwork.note.formats import written_note
 from crankwork.note.options import NoteOptions
 
@@ -78,8 +79,8 @@ def printed(request, tmp_path_factory):
          f"--user-data-dir={folder}/browser", f"--print-to-pdf={folder}/web.pdf", str(folder / "note.html")],
         capture_output=True, check=True, timeout=180,
     )  # fmt: skip
-    return {"pdf": _printed(folder / "note.pdf"), "word": _printed(folder / "word" / "note.pdf"),
-            "web": _printed(folder / "web.pdf")}  # fmt: skip
+    shown = {"pdf": folder / "note.pdf", "word": folder / "word" / "note.pdf", "web": folder / "web.pdf"}
+    return note, {kind: _printed(path) for kind, path in shown.items()}
 
 
 # a page in a frame as wide as the screen of a telephone, and after it how wide its parts are
@@ -123,7 +124,7 @@ def test_a_narrow_screen_shows_or_scrolls_every_formula(narrow):
 
 @pytest.mark.parametrize("kind", ["pdf", "word", "web"])
 def test_every_word_lies_on_its_page(printed, kind):
-    shown = printed[kind]
+    shown = printed[1][kind]
     assert len(shown.pages) >= 5
     outside = [
         (page + 1, word)
@@ -136,12 +137,36 @@ def test_every_word_lies_on_its_page(printed, kind):
 @pytest.mark.parametrize("kind", ["pdf", "word", "web"])
 def test_no_letter_is_replaced(printed, kind):
     # LibreOffice prints an inverted question mark where a formula lacks something, and drops what follows
-    assert [mark for mark in "\ufffd\u25a1\u00bf" if mark in printed[kind].text] == []
+    assert [mark for mark in "\ufffd\u25a1\u00bf" if mark in printed[1][kind].text] == []
 
 
 def test_the_three_hold_the_same_numbers(printed):
-    numbers = [set(re.findall(r"\d+,\d{2,}", shown.text)) for shown in printed.values()]
+    numbers = [set(re.findall(r"\d+,\d{2,}", shown.text)) for shown in printed[1].values()]
     common = set.intersection(*numbers)
     assert len(common) > 100
     # what breaks over a line in one of them may be missing there
     assert len(common) > 0.97 * max(map(len, numbers))
+
+
+@pytest.mark.parametrize("kind", ["pdf", "word"])
+def test_no_word_of_a_table_is_divided(printed, kind):
+    note, shown = printed
+    said = [
+        run for block in note.blocks if isinstance(block, Table)
+        for some in (*block.headings, *block.rows) for run in some if isinstance(run, str)
+    ]  # fmt: skip
+    # commas and brackets may stand beside a word, and a formula is words of its own
+    known = {word.strip("(),;:") for _, _, word in shown[kind].words}
+    words = {word.strip("(),;:") for one in said for word in one.split()}
+    assert len(words) > 100
+    assert sorted(word for word in words - known if re.fullmatch(r"[\w.,−]+", word)) == []
+
+
+def test_the_contents_of_word_have_pages(printed):
+    note, shown = printed
+    titles = [block.text for block in note.blocks if isinstance(block, Heading) and block.level <= 2]
+    contents = [word for page, _, word in shown["word"].words if page == 1]
+    pages = [int(found[1]) for word in contents if (found := re.search(r"\.{2,}(\d+)$", word))]
+    assert len(pages) == len(titles)
+    assert pages == sorted(pages)
+    assert pages[-1] <= len(shown["word"].pages)

@@ -14,13 +14,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from crankwork.analysis import analyse
+from crankwork.analysis.diagrams import brix_points
+from crankwork.analysis.one_cylinder import as_engine
+from crankwork.analysis.plans import Plan, Vector
 from crankwork.description.machine_file import read, read_machine, template
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.kinematics.textbook import textbook_displacement
-from crankwork.note.engine_material import whole
 from crankwork.note.sheets import Paper, TitleBlock, engine_sheets, linkage_sheets
-from crankwork.note.sheets.engine_gas import brix_point
 from crankwork.note.sheets.engine_motion import tolle_corners
 from crankwork.note.sheets.engine_whole import whole_engine_extra
 from crankwork.note.sheets.linkage_polygons import Numbered, vector_plans
@@ -30,7 +32,6 @@ from crankwork.note.sheets.sheet import SIZES
 from crankwork.note.sheets.words import Words
 from crankwork.quantities import LANGUAGES
 from crankwork.report.figure_data import drawn_from
-from crankwork.report.linkage_plans import Plan, Vector
 from crankwork.units import from_si
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -110,14 +111,13 @@ def test_brix_and_tolle_stand_under_the_stroke():
 @given(st.floats(0.05, 0.4), st.floats(0, 180))
 def test_a_ray_of_brix_cuts_off_the_displacement(ratio, degrees):
     """The projection is the textbook displacement and lambda^2/8 r cos phi sin^2 phi, to the fourth power of lambda."""
-    radius = 100.0
-    place = brix_point(radius, radius * ratio / 2, degrees)
-    assert np.hypot(*place) == pytest.approx(radius, rel=1e-12)
+    found = brix_points(SliderCrank(1.0, 1 / ratio), np.array([degrees]))
+    assert np.hypot(found.across, found.up) == pytest.approx(1.0, rel=1e-12)
     sin, cos = math.sin(math.radians(degrees)), math.cos(math.radians(degrees))
-    textbook = float(textbook_displacement(radius, ratio, cos, math.cos(2 * math.radians(degrees))))
-    expected = textbook + radius * ratio**2 / 8 * cos * sin**2
-    assert radius + place[0] == pytest.approx(expected, abs=radius * ratio**4 / 100)
-    assert place[1] <= 1e-9
+    textbook = float(textbook_displacement(1.0, cos, ratio, math.cos(2 * math.radians(degrees)), 0.0, sin))
+    expected = textbook + ratio**2 / 8 * cos * sin**2
+    assert 1 - found.up == pytest.approx(expected, abs=ratio**4 / 100)
+    assert found.across >= -1e-11
 
 
 def test_tolle_starts_from_the_accelerations_at_the_dead_centres():
@@ -200,7 +200,7 @@ def known_of(name, step=None):
     found = results(name)
     if step is not None:
         found = analyse(found.machine, CrankGrid.steps(step, found.machine.cycle))
-    found = whole(found, "ru")
+    found = as_engine(found)
     return found, whole_engine_extra(found)
 
 
@@ -209,16 +209,30 @@ def texts_of(graph):
 
 
 def test_the_sheet_of_the_example_prints_the_mean_load_of_its_note_and_has_its_wear():
-    """Table of the note: mean 8827.61 N; the sums of its wear diagram are those of the listing."""
+    """Mean by midpoints between the corners 8840.27 N; the sums of the wear diagram are those of the listing."""
     found, known = known_of("spark-engine")
     sheet = engine_sheets(found, "ru", paper=SIGNED, extra=known)[1]
-    assert any(one.endswith("8827,61 Н") for one in texts_of(sheet.graph("unrolled")))
+    assert any(one.endswith("8840,27 Н") for one in texts_of(sheet.graph("unrolled")))
     wear = sheet.graph("wear")
     circle = max((one for one in wear.items if isinstance(one, Circle)), key=lambda one: one.radius)
     depth = circle.radius - np.hypot(*(wear.curve("wear_sums") - circle.centre).T)
     largest = found.listings["crankpin_wear"].columns["wear_sum.1"].max()
     assert depth.max() * written_scale(wear, "ΣR") == pytest.approx(largest, rel=1e-9)
     assert "total_torque" not in known
+
+
+@pytest.mark.parametrize(("name", "rays"), [("radial-five", 3), ("petrol-four", 2)])
+def test_the_oil_hole_is_in_the_middle_of_the_rays_that_are_loaded_least(name, rays):
+    found, known = known_of(name)
+    wear = engine_sheets(found, "en", paper=SIGNED, extra=known)[1].graph("wear")
+    circles = [one for one in wear.items if isinstance(one, Circle)]
+    journal, (hole,) = max(circles, key=lambda one: one.radius), [one for one in circles if one.radius == 2.0]
+    columns = found.listings["crankpin_wear"].columns
+    sums = columns["wear_sum.1"]
+    least = columns["wear_ray_angle"][sums <= (1 + 1e-9) * sums.min()]
+    assert least.size == rays
+    across, up = np.subtract(hole.centre, journal.centre)
+    assert math.atan2(across, up) == pytest.approx(least.mean(), abs=1e-9)
 
 
 @pytest.mark.parametrize(("name", "rods", "pins"), [("v8-diesel", 2, 2), ("radial-five", 5, 1), ("petrol-four", 1, 1)])

@@ -8,7 +8,7 @@ import subprocess
 import pytest
 
 from crankwork.errors import CrankworkError
-from crankwork.note.document import Equation, Figure, Heading, Note, Paragraph, Table, TitlePage
+from crankwork.note.document import Equation, Figure, Heading, Math, Note, Paragraph, Table, TitlePage
 from crankwork.note.pdf import pdf, png
 from crankwork.quantities import LANGUAGES, QUANTITIES
 
@@ -66,6 +66,15 @@ def test_a_character_that_the_fonts_lack_is_named(text, code):
 
 def test_characters_that_no_pdf_may_hold_are_left_out():
     assert pdf(Note("a\ufeff\x07\x00\ud800\ufffeb", "en", (TitlePage(),)))
+
+
+def test_a_symbol_in_a_cell_has_its_subscript_below():
+    # the letters of a subscript are a run of their own, and the underscore is not printed
+    assert _text(pdf(Note("t", "en", (Table("c", (("a",),), [[Math("V_h")]]),)))).split()[-3:] == [
+        "a",
+        "\N{MATHEMATICAL ITALIC CAPITAL V}h",
+        "1",
+    ]
 
 
 def test_a_long_table_has_its_header_on_every_page():

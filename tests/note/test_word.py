@@ -8,7 +8,8 @@ import zipfile
 
 import pytest
 
-from crankwork.note.document import Equation, Heading, Note, PageBreak, Table
+from crankwork.note.document import Equation, Heading, Math, Note, PageBreak, Table
+from crankwork.note.equations import printed_equation
 from crankwork.note.word import word
 
 docx = pytest.importorskip("docx")
@@ -58,6 +59,12 @@ def test_a_table_repeats_its_header_and_stands_on_a_page_of_its_own_shape(note):
     assert shapes == [False, True, False]
 
 
+def test_a_symbol_in_a_cell_is_an_equation():
+    body = _opened(Note("t", "en", (Table("c", (("a",),), [[Math("V_h")]]),))).element.body
+    (cell,) = body.iter(f"{MATH}oMath")
+    assert (_words(cell), len(list(cell.iter(f"{MATH}sSub")))) == ("Vh", 1)
+
+
 def test_a_figure_is_a_picture_with_a_drawing_beside_it_and_a_description(note, hostile, svg):
     data = word(note)
     opened = docx.Document(io.BytesIO(data))
@@ -71,23 +78,28 @@ def test_a_figure_is_a_picture_with_a_drawing_beside_it_and_a_description(note, 
         assert {entry.date_time for entry in members.infolist()} == {(1980, 1, 1, 0, 0, 0)}
 
 
-def test_the_contents_are_a_field_that_shows_the_sections_already(note, hostile):
+def test_the_contents_show_the_sections_and_ask_for_their_pages(note):
     body = _opened(note).element.body
-    assert any("TOC" in (one.text or "") for one in body.iter(f"{WORD}instrText"))
     links = [one.get(f"{WORD}anchor") for one in body.iter(f"{WORD}hyperlink")]
     marks = [one.get(f"{WORD}name") for one in body.iter(f"{WORD}bookmarkStart")]
     assert links == marks
     assert len(marks) == 3
-    begins, ends = (
-        sum(one.get(f"{WORD}fldCharType") == kind for one in body.iter(f"{WORD}fldChar")) for kind in ("begin", "end")
-    )
-    assert begins == ends == 4
+    asked = [one.text.split()[1] for one in body.iter(f"{WORD}instrText") if "PAGEREF" in one.text]
+    assert asked == marks
+    kinds = [one.get(f"{WORD}fldCharType") for one in body.iter(f"{WORD}fldChar")]
+    assert kinds == ["begin", "separate", "end"] * 3
 
 
 def test_every_formula_is_an_equation_of_word(steps):
     body = _opened(Note("t", "ru", tuple(map(Equation, steps)))).element.body
     assert len(body.findall(f"{WORD}tbl")) == len(steps)
-    assert all("0,123457" in _words(one) for one in body.findall(f"{WORD}tbl"))
+    assert all("0,1234" in _words(one) for one in body.findall(f"{WORD}tbl"))
+
+
+def test_lines_of_equations_are_divided_sooner_than_in_the_pdf(steps):
+    body = _opened(Note("t", "ru", tuple(map(Equation, steps)))).element.body
+    pdf = sum(len(printed_equation(Equation(one), "ru").lines) for one in steps)
+    assert len(list(body.iter(f"{MATH}oMathPara"))) > 1.1 * pdf
 
 
 @pytest.mark.parametrize("place", [0, 1, 2])

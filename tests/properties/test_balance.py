@@ -33,6 +33,8 @@ from crankwork.cylinders.layout import Layout, Place
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank
 
+pytestmark = pytest.mark.elsewhere
+
 COUNT = 512
 DEGREES = np.arange(COUNT) * (360 / COUNT)
 GRID = CrankGrid.from_degrees(DEGREES)

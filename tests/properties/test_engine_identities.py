@@ -17,7 +17,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 import crankwork
-from crankwork.analysis import columns, harmonic_columns, solve
+from crankwork.analysis import columns, solve
+from crankwork.analysis.forces import COLUMNS
+from crankwork.analysis.motion import HARMONICS
 from crankwork.dynamics.masses import CrankGearMasses, rod_inertia_excess, rod_small_end_mass, three_masses
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.loads.indicator import DiagramPoint, Piece
@@ -412,7 +414,7 @@ def test_a_faster_engine_has_forces_larger_by_the_square(drawn: Drawn, k: float,
 def test_a_cycle_ends_as_it_began_bit_for_bit(drawn: Drawn, method: Method) -> None:
     solved = solve(drawn.machine, method)
     ends = CrankGrid.from_degrees([0.0, 720.0])
-    for key, (first, last) in (columns(solved, ends) | harmonic_columns(solved, ends)).items():
+    for key, (first, last) in columns(solved, ends, (*COLUMNS, *HARMONICS)).items():
         assert first == last or key == "crank_angle", key
 
 
@@ -425,9 +427,9 @@ def test_the_two_orders_of_the_books_add_up_to_their_motion(drawn: Drawn, noun: 
     r, l, _ = drawn.lengths  # noqa: E741
     machine = replace(drawn.machine, mechanism=slider_crank(r, l), angular_acceleration=0.0)
     solved = solve(machine, TEXTBOOK)
-    parts, whole = harmonic_columns(solved, GRID), columns(solved, GRID)
-    both = parts[f"piston_{noun}_first_order"] + parts[f"piston_{noun}_second_order"]
-    _assert_equal(both, whole[f"piston_{noun}"], 1e-15)
+    first, second, whole = (f"piston_{noun}{part}" for part in ("_first_order", "_second_order", ""))
+    found = columns(solved, GRID, (first, second, whole))
+    _assert_equal(found[first] + found[second], found[whole], 1e-15)
 
 
 @pytest.mark.parametrize(
@@ -438,7 +440,7 @@ def test_the_summary_says_by_how_much_the_two_terms_err(ratio: float, errors: tu
     """In units of radius, of radius and speed, and of radius and speed squared."""
     r, w = 0.07, 130.0
     summary = crankwork.analyse(Machine(slider_crank(r, r / ratio), w), method=TEXTBOOK).summary
-    phi = np.linspace(0, 2 * np.pi, 144_001)
+    phi = np.linspace(0, 2 * np.pi, 1_440_001)
     sin_beta = ratio * np.sin(phi)
     cos_beta = np.sqrt(1 - sin_beta**2)
     rod_1 = ratio * np.cos(phi) / cos_beta

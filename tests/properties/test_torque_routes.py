@@ -46,6 +46,8 @@ from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide
 from crankwork.mechanism.joints import SlidingJoint, group_links, joints
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, body_at, slider_crank
 
+pytestmark = pytest.mark.elsewhere
+
 GRID = CrankGrid.from_degrees(np.arange(0.0, 360, 5))
 FOUR_BAR = RRR("A", "B", "C", "rod", "rocker", 0.2, 0.12)
 YOKE = RPP("A", "yoke", "yoke_block", Guide((0.0, 0.0), 1.2), Guide((0.1, 0.02), 0.3))

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import json
+import os
 import re
+import subprocess
 import sys
 import warnings
 from importlib.util import find_spec
@@ -11,6 +14,11 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 
+from crankwork import analyse, figures, read_machine, template
+from crankwork.analysis.diagrams import Fluctuation, tangents
+from crankwork.analysis.moving import moving
+from crankwork.analysis.plans import accelerations, velocities
+from crankwork.analysis.skeleton import skeleton
 from crankwork.errors import CrankworkError, MissingExtraError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import motion
@@ -28,15 +36,15 @@ from crankwork.mechanism.catalog import (
 from crankwork.mechanism.description import linkage_from, mechanism_from
 from crankwork.mechanism.mechanism import slider_crank
 from crankwork.mechanism.structure import structure
-from crankwork.quantities import LANGUAGES, Quantity
+from crankwork.quantities import LANGUAGES, QUANTITIES
+from crankwork.report import linkage_plan_figures, linkage_positions
 from crankwork.report.drawing import moving_drawing
+from crankwork.report.figure_look import math_symbol, plain, svg
 from crankwork.report.linkage_curves import curves
-from crankwork.report.linkage_energy import Fluctuation, speed_curve, tangents, wittenbauer
-from crankwork.report.linkage_look import Style, linkage_title
+from crankwork.report.linkage_energy import speed_curve, wittenbauer
+from crankwork.report.linkage_look import Style, axis_title, linkage_title
 from crankwork.report.linkage_plan_figures import acceleration_plan, velocity_plan
-from crankwork.report.linkage_plans import accelerations, velocities
 from crankwork.report.linkage_positions import position_plans
-from crankwork.report.linkage_skeleton import skeleton
 
 SVG = "{http://www.w3.org/2000/svg}"
 FRAMES = 24
@@ -200,9 +208,9 @@ def test_points_keep_the_names_of_the_owner_and_catalog_points_get_letters():
 
 @pytest.mark.parametrize("degrees", [20.0, 100.0, 215.0, 340.0])
 def test_plans_close(linkage, degrees):
-    moving = motion(linkage, CrankGrid.from_degrees([degrees]))
+    moved = moving(linkage, [degrees])
     speed, second = 12.0, -35.0
-    plans = velocities(linkage, moving, 0, speed), accelerations(linkage, moving, 0, speed, second)
+    plans = velocities(linkage, moved, 0, speed), accelerations(linkage, moved, 0, speed, second)
     for plan in plans:
         nodes = [np.zeros(2), *plan.nodes.values()]
         size = max(np.hypot(*one) for one in nodes)
@@ -214,13 +222,13 @@ def test_plans_close(linkage, degrees):
                 np.testing.assert_allclose(vector.start, ends[vector.of], atol=1e-9 * size)
             if vector.kind not in {"normal", "coriolis"}:
                 assert min(np.hypot(*(vector.end - one)) for one in nodes) < 1e-9 * size
-    _check_directions(linkage, moving, *plans)
+    _check_directions(linkage, moved, *plans)
 
 
-def _check_directions(linkage, moving, velocity, acceleration):
+def _check_directions(linkage, moved, velocity, acceleration):
     """Relative velocities stand across their links, normal parts lie along them, tangential parts across."""
     shape = skeleton(linkage)
-    at = {letter: _place(moving, shape, name) for name, letter in shape.letters.items()}
+    at = {letter: _place(moved, shape, name) for name, letter in shape.letters.items()}
     for plan in (velocity, acceleration):
         for one in plan.vectors:
             pair = next(((b, a) for a in at for b in at if a != b and one.of == b + a), None)
@@ -236,29 +244,28 @@ def _check_directions(linkage, moving, velocity, acceleration):
                 assert abs(along) < 1e-9 * size
 
 
-def _place(moving, shape, name):
+def _place(moved, shape, name):
     if name in shape.pivots:
         return np.array(shape.pivots[name])
-    return np.array([float(np.ravel(one.position)[0]) for one in moving.points[name]])
+    return moved.points[name].place[0]
 
 
 def test_sliding_goes_along_the_slot_and_coriolis_across():
     linkage = LINKAGES["shaper"]
-    moving = motion(linkage, CrankGrid.from_degrees([60.0]))
-    lever = moving.frames["lever"]
-    along = np.array([lever.cos[0], lever.sin[0]])
-    plan = accelerations(linkage, moving, 0, 10.0, 5.0)
+    moved = moving(linkage, [60.0])
+    lever = moved.frames["lever"]
+    along = lever.along[0]
+    plan = accelerations(linkage, moved, 0, 10.0, 5.0)
     by_kind = {one.kind: one.end - one.start for one in plan.vectors if one.of == "AA2"}
     assert by_kind["coriolis"] @ along == pytest.approx(0, abs=1e-12)
     assert by_kind["sliding"] @ [-along[1], along[0]] == pytest.approx(0, abs=1e-12)
-    (slip,) = (one for one in velocities(linkage, moving, 0, 10.0).vectors if one.of == "AA2")
+    (slip,) = (one for one in velocities(linkage, moved, 0, 10.0).vectors if one.of == "AA2")
     turning = float(lever.angle_1[0]) * 10
     assert np.hypot(*by_kind["coriolis"]) == pytest.approx(2 * abs(turning) * slip.length)
 
 
 def test_crank_pin_moves_with_the_rotation():
-    moving = motion(FIRST, CrankGrid.from_degrees([30.0]))
-    plan = velocities(FIRST, moving, 0, 10.0)
+    plan = velocities(FIRST, moving(FIRST, [30.0]), 0, 10.0)
     np.testing.assert_allclose(plan.nodes["A"], 0.5 * np.array([-0.5, np.sqrt(0.75)]), atol=1e-12)
 
 
@@ -268,14 +275,13 @@ GRID = CrankGrid.from_degrees(DEGREES)
 INERTIA = 2 + 0.6 * np.cos(2 * GRID.angle) + 0.2 * GRID.sin
 ENERGY = 120 * GRID.sin + 60 * np.cos(2 * GRID.angle) - 60
 WANTED = Fluctuation(10.0, 0.05)
-ROWS = {"joint_force": Quantity("joint_force", "N", ("F", "R", "R"), ("joint force", "реакция", "phản lực"), "")}
 
 
 def _figures(linkage, style):
-    moving = motion(linkage, CrankGrid.from_degrees([60.0]))
+    moved = moving(linkage, [60.0])
     yield position_plans(linkage, style=style)
-    yield velocity_plan(linkage, moving, 0, 20.0, style)
-    yield acceleration_plan(linkage, moving, 0, 20.0, 30.0, style)
+    yield velocity_plan(linkage, moved, 0, 20.0, style)
+    yield acceleration_plan(linkage, moved, 0, 20.0, 30.0, style)
 
 
 @needs_matplotlib
@@ -310,7 +316,7 @@ def test_tangents_leave_the_curve_on_one_side_and_give_the_flywheel():
 @needs_matplotlib
 def test_energy_and_speed_figures_differ_by_language():
     made = [wittenbauer(INERTIA, ENERGY, WANTED, DEGREES, Style(language)) for language in LANGUAGES]
-    made += [speed_curve(GRID, 20 + 0.5 * GRID.sin, Style(language)) for language in LANGUAGES]
+    made += [speed_curve(DEGREES, 20 + 0.5 * GRID.sin, Style(language)) for language in LANGUAGES]
     assert len(set(made)) == 6
     assert all(ET.fromstring(one).tag == f"{SVG}svg" for one in made)  # noqa: S314 - our own bytes
 
@@ -319,19 +325,23 @@ def test_energy_and_speed_figures_differ_by_language():
 def test_curves_take_any_keys():
     columns = {"joint_force.A": 900 * INERTIA, "joint_force.crank_pin": 800 * INERTIA, "crank_torque": ENERGY}
     panels = ["crank_torque", ("joint_force.A", "joint_force.crank_pin")]
-    made = {curves(GRID, columns, panels, "t", Style(language), rows=ROWS) for language in LANGUAGES}
+    made = {curves(DEGREES, columns, panels, "t", Style(language)) for language in LANGUAGES}
     assert len(made) == 3
     for wrong in (["nothing"], [("crank_torque", "joint_force.A")], []):
         with pytest.raises(CrankworkError):
-            curves(GRID, columns, wrong, "t", rows=ROWS)
+            curves(DEGREES, columns, wrong, "t")
     with pytest.raises(CrankworkError, match="not_a_row"):
-        curves(GRID, {"not_a_row.A": INERTIA}, ["not_a_row.A"], "t")
+        curves(DEGREES, {"not_a_row.A": INERTIA}, ["not_a_row.A"], "t")
 
 
 @needs_matplotlib
 @pytest.mark.parametrize(
     ("language", "title"),
-    [("en", "crank angle $φ$, °"), ("ru", "угол поворота кривошипа $φ$, °"), ("vi", "góc quay của tay quay $α$, °")],
+    [
+        ("en", "angle of the crank $φ$, °"),
+        ("ru", "угол поворота кривошипа $φ$, °"),
+        ("vi", "góc quay của tay quay $α$, °"),
+    ],
 )
 def test_the_axis_of_a_linkage_names_its_crank_and_no_crankshaft(language, title, monkeypatch):
     from matplotlib.axes import Axes
@@ -339,8 +349,8 @@ def test_the_axis_of_a_linkage_names_its_crank_and_no_crankshaft(language, title
     shown = []
     monkeypatch.setattr(Axes, "set_xlabel", lambda _, text, **__: shown.append(text))
     grid = CrankGrid.steps(30, 360)
-    curves(grid, {"driving_torque": np.sin(grid.angle)}, ["driving_torque"], "torque", Style(language))
-    speed_curve(grid, 10 + np.sin(grid.angle), Style(language))
+    curves(grid.degrees, {"driving_torque": np.sin(grid.angle)}, ["driving_torque"], "torque", Style(language))
+    speed_curve(grid.degrees, 10 + np.sin(grid.angle), Style(language))
     assert len(shown) == 4
     assert shown[1::2] == [title, title]
 
@@ -362,3 +372,76 @@ def test_without_matplotlib_the_fix_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     with pytest.raises(MissingExtraError, match=r"crankwork\[figures\]"):
         position_plans(FIRST)
+
+
+@pytest.mark.parametrize("name", ["$x^$", r"$\frac{$", "%#{&~^\\$"])
+def test_names_with_signs_of_formulas_are_drawn_as_they_stand(name):
+    text = template("four-bar").replace('"A"', json.dumps(name))
+    drawn = figures(analyse(read_machine(text)))
+    assert len(drawn) == 6
+
+
+def test_a_name_with_dollars_keeps_its_letters_in_legends_and_titles():
+    assert plain("$x^$") == r"\$x^\$"
+    assert math_symbol("F_$x^$") == r"F \$x^\$"
+    row = QUANTITIES["joint_force"]._replace(key="joint_force.$x^$")
+    assert axis_title(row, "en").startswith(r"joint force, \$x^\$ R \$x^\$")
+
+
+@pytest.mark.parametrize(
+    ("machine", "asked", "kept"),
+    [("four-bar", "not-installed", False), ("engine", "not-installed", False), ("engine", "svg", True)],
+)
+def test_figures_do_not_depend_on_how_a_notebook_shows_its_own(machine, asked, kept):
+    code = (
+        "import os, crankwork as c; "
+        f"drawn = c.figures(c.analyse(c.read_machine(c.template({machine!r})))); "
+        "import matplotlib; print(len(drawn), os.environ['MPLBACKEND'], matplotlib.get_backend(auto_select=False))"
+    )
+    # matplotlib knows the names of notebooks' ways of showing, and refuses those that are not installed
+    environment = os.environ | {"MPLBACKEND": asked, "PYTHONPATH": os.pathsep.join(sys.path)}
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False)
+    assert done.stderr == ""
+    count, left, used = done.stdout.split()
+    assert int(count) > 3
+    assert left == asked
+    assert (used == asked) is kept
+
+
+def _labelled(monkeypatch, module):
+    """Return where the points that a figure names are collected: a list for each call."""
+    seen: list[list[str]] = []
+    monkeypatch.setattr(module, "label_points", lambda _, points, *__: seen.append([name for name, *_ in points]))
+    return seen
+
+
+def test_a_pole_has_a_letter_of_its_own(monkeypatch):
+    seen = _labelled(monkeypatch, linkage_plan_figures)
+    known = {**SHAPER, "links": {**SHAPER["links"], "link": {**SHAPER["links"]["link"], "points": {"P": [0.1, 0.02]}}}}
+    mechanism = mechanism_from(known)[0]
+    velocity_plan(mechanism, moving(mechanism, np.arange(0.0, 361.0, 30.0)), 1, 10.0)
+    (names,) = seen
+    assert names[0] == "o"
+    assert "p" in names
+    assert len(set(names)) == len(names)
+
+
+def test_numbers_of_plans_do_not_grow_with_the_points_of_a_link(monkeypatch):
+    seen = _labelled(monkeypatch, linkage_positions)
+    points = {f"Q{k}": [0.01 * k, 0.001 * k * k] for k in range(12)}
+    known = {**SHAPER, "links": {**SHAPER["links"], "link": {**SHAPER["links"]["link"], "points": points}}}
+    position_plans(mechanism_from(known)[0])
+    assert len(seen[0]) == 6 * 12
+
+
+def test_the_foot_of_a_position_plan_stands_over_the_method(monkeypatch):
+    def checked(figure, title, method, remark=""):
+        (axes,) = figure.axes
+        feet = [one.get_window_extent().y0 for one in axes.texts if "=" in one.get_text()]
+        data = svg(figure, title, method, remark)
+        assert len(feet) == 2
+        assert min(feet) > max(one.get_window_extent().y1 for one in figure.texts if one.get_text())
+        return data
+
+    monkeypatch.setattr(linkage_positions, "svg", checked)
+    position_plans(mechanism_from(SHAPER)[0], style=Style(method="exact"))

@@ -10,6 +10,8 @@ import pytest
 from crankwork.errors import MethodError
 from crankwork.shaft.curve import Curve
 
+pytestmark = pytest.mark.elsewhere
+
 TRIANGLES = Curve.linear(np.radians([0, 80, 180, 270, 360]), [0.0, 2000.0, 0.0, 1500.0, 0.0])
 
 

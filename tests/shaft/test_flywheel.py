@@ -20,6 +20,8 @@ from crankwork.shaft.flywheel_body import (
     rim_of_inertia,
 )
 
+pytestmark = pytest.mark.elsewhere
+
 ANGLE = np.linspace(0, 2 * math.pi, 361)
 INERTIA = Curve.hermite(
     ANGLE,

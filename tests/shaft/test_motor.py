@@ -28,6 +28,8 @@ from crankwork.shaft.motor_choice import (
     motor_need,
 )
 
+pytestmark = pytest.mark.elsewhere
+
 RPM = math.pi / 30
 
 

@@ -16,6 +16,8 @@ from crankwork.shaft.motor_flywheel import flywheel_by_simulation
 from crankwork.shaft.speed import ReducedMachine, steady_speed
 from crankwork.shaft.transient import run
 
+pytestmark = pytest.mark.elsewhere
+
 ANGLE = np.linspace(0, 2 * math.pi, 361)
 INERTIA = Curve.hermite(
     ANGLE,

@@ -12,6 +12,8 @@ from hypothesis import strategies as st
 from crankwork.working_cycle.fuels import CycleError
 from crankwork.working_cycle.ideal import IdealData, ideal_cycle
 
+pytestmark = pytest.mark.elsewhere
+
 RATIOS = st.floats(4.0, 24.0)
 GAMMAS = st.floats(1.2, 1.6)
 HEATS = st.floats(1e5, 3e6)
@@ -73,10 +75,10 @@ def test_the_dual_cycle_in_30_digits():
 @pytest.mark.parametrize(
     ("data", "words"),
     [
-        (replace(OTTO, heat=None), "needs heat"),
-        (replace(DIESEL, heat=None), "needs heat"),
-        (replace(DUAL, heat=None), "besides pressure_ratio"),
-        (replace(DUAL, pressure_ratio=None), "needs pressure_ratio"),
+        (replace(OTTO, heat=None), "write heat"),
+        (replace(DIESEL, heat=None), "write heat"),
+        (replace(DUAL, heat=None), "write heat, peak_temperature or cut_off as well"),
+        (replace(DUAL, pressure_ratio=None), "write pressure_ratio"),
         (replace(OTTO, peak_temperature=2000.0), "say once"),
         (replace(OTTO, heat=None, cut_off=2.0), "no cut_off"),
         (replace(DIESEL, heat=None, pressure_ratio=2.0), "no pressure_ratio"),

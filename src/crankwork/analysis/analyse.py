@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import importlib
 from dataclasses import replace
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from crankwork.analysis.engine import analyse_engine
 from crankwork.analysis.results import Results
@@ -45,9 +44,10 @@ def analyse(machine: AnyMachine, grid: CrankGrid | None = None, *, method: Metho
         return analyse_engine(machine, grid, method=method)
     if method is not None and not method.is_exact:
         raise MethodError(f"method {method.name} exists for a slider-crank only; use exact")
-    # loaded when needed: an engine would wait longer for these rooms than for its results
-    linkages = importlib.import_module("crankwork.analysis.linkage")
-    return cast("Results", linkages.analyse_any_linkage(machine, grid))
+    # an engine would wait longer for these rooms than for its results
+    from crankwork.analysis.linkage import analyse_any_linkage  # noqa: PLC0415 - loaded where it is needed
+
+    return analyse_any_linkage(machine, grid)
 
 
 def with_method(machine: Machine, name: str) -> Machine:

@@ -1,33 +1,79 @@
-"""All cylinders of an engine on one grid: each is the one-cylinder engine at its own crank angle."""
+"""All cylinders of an engine: each is the one-cylinder engine at its own crank angle, remembered once per kind."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
-from typing import NamedTuple
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from crankwork.analysis.solved import Solved, solve_slave
-from crankwork.analysis.state import columns
 from crankwork.cylinders.articulated import ArticulatedRod
 from crankwork.cylinders.layout import Layout, Place
-from crankwork.cylinders.torque import cylinder_angles
 from crankwork.dynamics.masses import CrankGearMasses
+from crankwork.formula.known import Known, delayed
+from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.machine import Engine, Machine
-from crankwork.shaft.curve import Curve
-
-# Corners of diagrams that only rounding has set apart are one. [deg]
-_SAME_ANGLE = 1e-7
 
 
-class WholeEngine(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class WholeEngine:
     """An engine made ready: the solved crank gear of every cylinder by number; alike ones are the same object."""
 
     machine: Machine
     engine: Engine
     cylinders: tuple[Solved, ...]
+
+    def of(self, number: int, key: str) -> Known:
+        """Return a column of a cylinder at the crank angle of cylinder 1, under its key and the number.
+
+        Parameters
+        ----------
+        number : int
+            Of the cylinder.
+        key : str
+            The column, one that the cylinder has.
+        """
+        if (number, key) not in self._delayed:
+            by = self.layout.places[number - 1].firing_angle
+            name = f"{key}.{number}" if len(self.cylinders) > 1 else key
+            known = self.cylinders[number - 1].memory[key]
+            self._delayed[number, key] = delayed(known, by, self.layout.cycle, name)
+        return self._delayed[number, key]
+
+    @cached_property
+    def _delayed(self) -> dict[tuple[int, str], Known]:
+        return {}
+
+    def has(self, key: str) -> tuple[int, ...]:
+        """Return the numbers of the cylinders that have a column."""
+        return tuple(number for number, one in enumerate(self.cylinders, start=1) if key in one.memory)
+
+    def each(self, key: str, degrees: ArrayLike) -> Array:
+        """Return a column of every cylinder at crank angles of cylinder 1.
+
+        Parameters
+        ----------
+        key : str
+            The column.
+        degrees : array, shape (n,)
+            Crank angles of cylinder 1, within one cycle. [deg]
+
+        Returns
+        -------
+        array, shape (cylinders, n)
+            A row for each cylinder. [SI]
+        """
+        numbers = range(1, len(self.cylinders) + 1)
+        found = Program({str(one): self.of(one, key) for one in numbers})(CrankGrid.from_degrees(degrees))
+        return np.stack([found[str(one)] for one in numbers])
+
+    @property
+    def is_uniform(self) -> bool:
+        """Whether every cylinder does what the first does."""
+        return len(set(map(id, self.cylinders))) == 1
 
     @property
     def layout(self) -> Layout:
@@ -102,83 +148,3 @@ def _own_machine(machine: Machine, lean: float, *, is_first: bool) -> Machine:
     if not is_first and machine.masses is not None:
         machine = replace(machine, masses=replace(machine.masses, crank=0.0))
     return machine
-
-
-def cylinder_columns(whole: WholeEngine, degrees: Array) -> dict[str, Array]:
-    """Return the columns of every cylinder at crank angles of cylinder 1.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-    degrees : array, shape (n,)
-        Crank angles of cylinder 1, within one cycle. [deg]
-
-    Returns
-    -------
-    dict of str to array, shape (cylinders, n)
-        Columns that all cylinders have, by key; `crank_angle` is that of each cylinder. [SI]
-    """
-    local = cylinder_angles(degrees, whole.layout)
-    rows: list[dict[str, Array]] = [{} for _ in whole.cylinders]
-    for kind in dict.fromkeys(map(id, whole.cylinders)):
-        members = [at for at, one in enumerate(whole.cylinders) if id(one) == kind]
-        angles, place = np.unique(local[members], return_inverse=True)
-        found = columns(whole.cylinders[members[0]], CrankGrid.from_degrees(angles))
-        for at, index in zip(members, place.reshape(len(members), -1), strict=True):
-            rows[at] = {key: values[index] for key, values in found.items()}
-    shared = [key for key in rows[0] if all(key in row for row in rows)]
-    slaves = {key for row in rows for key in row if key.startswith("knuckle_")}
-    none = np.zeros_like(degrees)
-    return {key: np.stack([row[key] for row in rows]) for key in shared} | {
-        key: np.stack([row.get(key, none) for row in rows]) for key in slaves
-    }
-
-
-def breaks(whole: WholeEngine) -> Array:
-    """Return the crank angles of cylinder 1 where the pressure of any cylinder has a corner.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-
-    Returns
-    -------
-    array, shape (m,)
-        From 0 to the end of the cycle. [deg]
-    """
-    cycle = whole.layout.cycle
-    found = [np.array([0.0, cycle])]
-    for one, place in zip(whole.cylinders, whole.layout.places, strict=True):
-        own = one.space.diagram.breaks if one.space is not None else np.array([0.0])
-        found.append((own + place.firing_angle) % cycle)
-    angles = np.unique(np.concatenate(found))
-    kept = angles[np.append(True, np.diff(angles) > _SAME_ANGLE)]
-    kept[-1] = cycle
-    return np.asarray(kept)
-
-
-def torque_curves(whole: WholeEngine) -> tuple[Curve, Curve]:
-    """Return the torque of cylinder 1 and that of all over the cycle, exact across the corners of every diagram.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-
-    Returns
-    -------
-    tuple of Curve
-        Torque on the crankshaft. [N m]
-    """
-    edges = np.radians(breaks(whole))
-
-    def torque(which: Sequence[int]) -> Curve:
-        def total(angle: Array) -> Array:
-            return np.asarray(cylinder_columns(whole, np.degrees(angle))["crank_torque"][list(which)].sum(axis=0))
-
-        return Curve.fitted(total, edges)
-
-    every = torque(range(len(whole.cylinders)))
-    return (every if len(whole.cylinders) == 1 else torque([0])), every

@@ -2,29 +2,41 @@
 
 from __future__ import annotations
 
-import importlib
 import math
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 
+from crankwork.analysis.forces import COLUMNS, FORCES, columns
+from crankwork.analysis.motion import HARMONICS, KINEMATICS
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import Solved, solve
-from crankwork.analysis.state import FORCES, HARMONICS, KINEMATICS, columns, harmonic_columns
+from crankwork.formula.known import Found, Known, given
+from crankwork.formula.over_cycle import OverCycle
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.extremes import acceleration_extremes, dead_centres, velocity_extremes
-from crankwork.kinematics.lengths import mean_piston_speed
-from crankwork.kinematics.piston import largest_error
+from crankwork.kinematics.lengths import (
+    bottom_dead_centre_angle,
+    mean_piston_speed,
+    relative_offset,
+    stroke_central,
+    stroke_offset,
+    top_dead_centre_angle,
+    top_dead_centre_angle_before,
+)
+from crankwork.kinematics.slider_crank import rod_ratio
 from crankwork.loads import gas as gas_formulas
-from crankwork.loads.cycle import quadrature
 from crankwork.machine import Machine
 from crankwork.method import Method
 
-_DENSE_STEP, _ERROR_STEP = 0.1, 1.0
+_Value = TypeVar("_Value")
+_CHECK_STEP = 1.0
 # what a cycle is calculated with or checked by, and the rest of a summary says in its own way
 _NOT_SHOWN = ("first_law_residual", "rotational_speed")
-_ROUNDING = 1e-13
+_MOVING = ("piston_velocity", "piston_acceleration")
+_PUSHING = ("gas_pressure", "inertia_force", "piston_force", "side_force", "tangential_force", "crank_torque")
+_WRONG_FORCES = ("inertia_force", "piston_force", "side_force", "tangential_force", "radial_force", "crank_torque")
 GROUPS = {"kinematics": KINEMATICS, "harmonics": HARMONICS, "forces": FORCES}
 
 
@@ -53,148 +65,105 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
     solved = solve(machine, method or machine.method)
     if grid is None:
         grid = CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
-    dense = columns(solved, CrankGrid.steps(_DENSE_STEP, machine.cycle))
-    table = columns(solved, grid) | harmonic_columns(solved, grid)
-    summary = {
-        **_geometry_summary(solved), **_motion_summary(solved), **_force_errors(solved), **_force_summary(solved, dense)
-    }  # fmt: skip
+    over = _over_cycle(solved)
+    found = {**_geometry(solved), **_motion(solved, over), **_forces(solved, over)}
     calculated = solved.space.calculated if solved.space is not None else None
-    steps = calculated.steps if calculated is not None else ()
+    summary = {key: known.value for key, known in found.items()}
+    if calculated is not None:
+        summary |= _cycle_values(calculated.values)
     results = Results(
-        solved, grid, table, summary, _checks(solved, dense, summary), solved.notices, GROUPS, steps=steps
+        solved,
+        grid,
+        columns(solved, grid, (*COLUMNS, *HARMONICS)),
+        summary,
+        _checks(solved, summary),
+        solved.notices,
+        GROUPS,
+        allowed=_allowed(solved, summary),
+        memory={**({} if calculated is None else _cycle_values(calculated.memory)), **solved.memory, **found},
     )
     if machine.engine is None:
         return results
-    # loaded when needed, as linkages are
-    whole: Results = importlib.import_module("crankwork.analysis.whole_engine").with_whole_engine(results)
-    return whole
+    from crankwork.analysis.whole_engine import with_whole_engine  # noqa: PLC0415 - loaded where it is needed
+
+    return with_whole_engine(results)
 
 
-def _geometry_summary(solved: Solved) -> dict[str, float]:
-    lengths, machine, space = solved.lengths, solved.machine, solved.space
-    top, bottom = dead_centres(lengths)
-    result = {
-        "crank_radius": lengths.crank_radius,
-        "rod_length": lengths.rod_length,
-        "rod_ratio": lengths.rod_ratio,
-        "stroke": lengths.stroke,
+def _over_cycle(solved: Solved) -> OverCycle:
+    """Return what the summary is about, over the whole cycle; of an approximate method with its errors."""
+    memory, wrong = solved.memory, dict[str, str]()
+    found = {key: memory[key] for key in (*_MOVING, *_PUSHING) if key in memory}
+    if not solved.method.is_exact:
+        exact = solve(solved.machine, replace(solved.method.named("exact"), inertia_rod_ratio=None)).memory
+        wrong = {f"{key}_error": key for key in ("piston_displacement", *_MOVING, *_WRONG_FORCES) if key in memory}
+        found |= {key: memory[key] for key in wrong.values()}
+        found |= {error: memory[key] - exact[key] for error, key in wrong.items()}
+    return OverCycle(found, CrankGrid.from_degrees, solved.machine.cycle, size_of=wrong)
+
+
+def _geometry(solved: Solved) -> dict[str, Known]:
+    memory, lengths = solved.memory, solved.lengths
+    found = {key: memory[key] for key in ("crank_radius", "rod_length")}
+    r, l, e = found["crank_radius"], found["rod_length"], memory["offset"]  # noqa: E741
+    found |= {"rod_ratio": rod_ratio(r, l), "stroke": stroke_central(r) if e.is_absent else stroke_offset(l, r, e)}
+    if not e.is_absent:
+        found |= {"offset": e, "relative_offset": relative_offset(e, r)}
+        top = top_dead_centre_angle if lengths.offset > 0 else top_dead_centre_angle_before
+        found["top_dead_centre_angle"] = top(*((e, l, r) if lengths.offset > 0 else (math.pi, e, l, r)))
+        found["bottom_dead_centre_angle"] = bottom_dead_centre_angle(math.pi, e, l, r)
+    of_cylinder = ("bore", "piston_area", "swept_volume", "clearance_volume", "compression_ratio")
+    return found | {key: memory[key] for key in (*of_cylinder, "reciprocating_mass", "rotating_mass") if key in memory}
+
+
+def _motion(solved: Solved, over: OverCycle) -> dict[str, Known]:
+    memory = solved.memory
+    n = given("", solved.revolutions, "crank.speed")
+    stroke = stroke_central(memory["crank_radius"]) if memory["offset"].is_absent else memory.get("stroke")
+    if stroke is None:
+        stroke = stroke_offset(memory["rod_length"], memory["crank_radius"], memory["offset"])
+    found = {
+        "rotational_speed": given("rotational_speed", solved.machine.speed, "crank.speed"),
+        "speed": memory["speed"],
+        "mean_piston_speed": mean_piston_speed(stroke, n),
     }
-    if lengths.offset:
-        result |= {
-            "offset": lengths.offset,
-            "top_dead_centre_angle": math.radians(top % 360),
-            "bottom_dead_centre_angle": math.radians(bottom),
-        }
-    if machine.cylinder is not None:
-        result["bore"] = machine.cylinder.bore
-        result["piston_area"] = gas_formulas.piston_area(solved.method.pi, machine.cylinder.bore)
-    if space is not None:
-        result |= {
-            "swept_volume": space.swept,
-            "clearance_volume": space.clearance,
-            "compression_ratio": gas_formulas.compression_ratio(space.swept, space.clearance),
-        }
-    if machine.masses is not None:
-        result |= {
-            "reciprocating_mass": machine.masses.reciprocating,
-            "rotating_mass": machine.masses.rotating,
-        }
-    return {key: float(value) for key, value in result.items()}
-
-
-def _motion_summary(solved: Solved) -> dict[str, float]:
-    lengths, method, w = solved.lengths, solved.method, solved.speed
-    n = solved.machine.speed * 30 / math.pi
-    velocity_at, x_1 = velocity_extremes(lengths, method)
-    unsteadiness = solved.machine.angular_acceleration / w**2
-    acceleration_at, x_2 = acceleration_extremes(lengths, method, unsteadiness=unsteadiness)
-    result = {
-        "rotational_speed": solved.machine.speed,
-        "speed": w,
-        "mean_piston_speed": mean_piston_speed(lengths.stroke, n),
-        **_extremes("piston_velocity", velocity_at, x_1 * w),
-        **_extremes("piston_acceleration", acceleration_at, x_2 * w**2),
-    }
+    found |= over.extremes(*_MOVING)
     if solved.machine.angular_acceleration:
-        result["angular_acceleration"] = solved.machine.angular_acceleration
-    if not method.is_exact:
-        error = largest_error(lengths, method, unsteadiness=unsteadiness)
-        result |= {
-            "piston_displacement_error": error[0],
-            "piston_velocity_error": error[1] * w,
-            "piston_acceleration_error": error[2] * w**2,
-        }
-    return {key: float(value) for key, value in result.items()}
+        rate = solved.machine.angular_acceleration
+        found["angular_acceleration"] = given("angular_acceleration", rate, "crank.angular_acceleration")
+    if not solved.method.is_exact:
+        found |= over.errors(*(f"{key}_error" for key in ("piston_displacement", *_MOVING)))
+    return found
 
 
-def _extremes(key: str, degrees: Array, values: Array) -> dict[str, float]:
-    """Return the largest and smallest value of a quantity and the crank angles where they stand."""
-    # of a plateau the first angle counts, whatever rounding says
-    spare = _ROUNDING * (float(np.ptp(values)) + float(np.max(np.abs(values))))
-    high, low = int(np.argmax(values >= np.max(values) - spare)), int(np.argmax(values <= np.min(values) + spare))
-    return {
-        f"{key}_max": float(values[high]),
-        f"{key}_max_angle": math.radians(degrees[high]),
-        f"{key}_min": float(values[low]),
-        f"{key}_min_angle": math.radians(degrees[low]),
-    }
-
-
-def _force_errors(solved: Solved) -> dict[str, float]:
-    """Return how far the forces of an approximate method are from those of the exact one at most."""
-    if solved.method.is_exact or (solved.machine.masses is None and solved.space is None):
+def _forces(solved: Solved, over: OverCycle) -> dict[str, Known]:
+    memory, cycle = solved.memory, given("cycle_angle", math.radians(solved.machine.cycle))
+    if "piston_force" not in memory:
         return {}
-    exact = solve(solved.machine, replace(solved.method.named("exact"), inertia_rod_ratio=None))
-    grid = CrankGrid.steps(_ERROR_STEP, solved.machine.cycle)
-    one, other = columns(solved, grid), columns(exact, grid)
-    keys = ("inertia_force", "piston_force", "side_force", "tangential_force", "radial_force", "crank_torque")
-    return {f"{key}_error": float(np.max(np.abs(one[key] - other[key]))) for key in keys if key in one}
-
-
-def _force_summary(solved: Solved, dense: Mapping[str, Array]) -> dict[str, float]:
-    if "piston_force" not in dense:
-        return {}
-    degrees = np.degrees(dense["crank_angle"])
-    result: dict[str, float] = {}
-    for key in ("gas_pressure", "inertia_force", "piston_force", "side_force", "tangential_force", "crank_torque"):
-        if key in dense:
-            result |= _extremes(key, degrees, dense[key])
-    if solved.machine.masses is not None:
-        result["rotating_inertia_force"] = float(dense["rotating_inertia_force"][0])
-    cycle = math.radians(solved.machine.cycle)
-    nodes, weights = quadrature(_breaks(solved))
-    torque = columns(solved, CrankGrid.from_degrees(nodes))["crank_torque"]
-    mean = float(weights @ torque) / cycle
-    # a torque that does no work leaves rounding only
-    result["mean_torque"] = mean if abs(mean) > _ROUNDING * float(np.max(np.abs(torque))) else 0.0
+    found = over.errors(*(key for key in (f"{one}_error" for one in _WRONG_FORCES) if key in over.knowns))
+    found |= over.extremes(*(key for key in _PUSHING if key in memory))
+    if "rotating_inertia_force" in memory:
+        found["rotating_inertia_force"] = memory["rotating_inertia_force"]
+    found["mean_torque"] = over.mean("crank_torque", "mean_torque")
     if solved.space is not None:
-        work = solved.space.work
-        if solved.space.calculated is not None:
-            result |= _cycle_values(solved.space.calculated.values)
-        result |= {
-            "indicated_work": work,
-            "indicated_mean_pressure": float(gas_formulas.indicated_mean_pressure(work, solved.space.swept)),
-            "indicated_power": float(gas_formulas.indicated_power(work, solved.speed, cycle)),
-        }
-    return result
+        of = (memory["diagram_pressure"], memory["cylinder_volume"])
+        work = found["indicated_work"] = Known(Found(solved.space.work, "work", of), "indicated_work")
+        found["indicated_mean_pressure"] = gas_formulas.indicated_mean_pressure(work, memory["swept_volume"])
+        found["indicated_power"] = gas_formulas.indicated_power(work, memory["speed"], cycle)
+    return found
 
 
-def _cycle_values(values: Mapping[str, float]) -> dict[str, float]:
+def _cycle_values(values: Mapping[str, _Value]) -> dict[str, _Value]:
     """Return what a calculation of the cycle has to say in a summary: what the rest does not say as well."""
     own = {"indicated_work", "indicated_mean_pressure", "piston_area", "swept_volume", "bore", "stroke"}
     shown = {key: value for key, value in values.items() if key not in _NOT_SHOWN}
     return {f"{key}.cycle" if key in own else key: value for key, value in shown.items()}
 
 
-def _breaks(solved: Solved) -> Array:
-    ends = [0.0, solved.machine.cycle]
-    return np.array(sorted({*ends, *solved.space.diagram.breaks.tolist()} if solved.space is not None else ends))
-
-
-def _checks(solved: Solved, dense: Mapping[str, Array], summary: Mapping[str, float]) -> dict[str, float]:
+def _checks(solved: Solved, summary: Mapping[str, float]) -> dict[str, float]:
     """Return the residuals of identities between the results, relative to the largest term."""
-    if "piston_force" not in dense:
+    if "piston_force" not in solved.memory:
         return {}
+    dense = columns(solved, CrankGrid.steps(_CHECK_STEP, solved.machine.cycle))
     T, K, S, N = (dense[key] for key in ("tangential_force", "radial_force", "rod_force", "side_force"))
     P, r, l = dense["piston_force"], solved.lengths.crank_radius, solved.lengths.rod_length  # noqa: E741
     across = dense.get("rod_transverse_force", np.zeros_like(S))
@@ -209,12 +178,25 @@ def _checks(solved: Solved, dense: Mapping[str, Array], summary: Mapping[str, fl
     }
     if solved.space is not None and not solved.machine.angular_acceleration:
         work = summary["mean_torque"] * math.radians(solved.machine.cycle)
-        result["work"] = abs(work - summary["indicated_work"]) / max(abs(work), 1e-300)
+        result["work"] = abs(work - summary["indicated_work"]) / _moved_work(solved, summary)
     calculated = solved.space.calculated if solved.space is not None else None
     if calculated is not None and "first_law_residual" in calculated.values:
         residual, heat = calculated.values["first_law_residual"], calculated.values["fuel_heat"]
-        result["first_law"] = abs(residual) / max(heat, 1e-300)
+        result["first_law"] = abs(residual) / max(heat, _moved_work(solved, summary))
     return result
+
+
+def _allowed(solved: Solved, summary: Mapping[str, float]) -> dict[str, float]:
+    """Return how far the work of the torque may be from that of the gas by the error of the torque that is stated."""
+    if "crank_torque_error" not in summary or solved.space is None:
+        return {}
+    return {"work": summary["crank_torque_error"] * math.radians(solved.machine.cycle) / _moved_work(solved, summary)}
+
+
+def _moved_work(solved: Solved, summary: Mapping[str, float]) -> float:
+    """Return the most work that the torque could do over a cycle; what it does in the end may be nothing."""
+    largest = max(abs(summary["crank_torque_max"]), abs(summary["crank_torque_min"]))
+    return largest * math.radians(solved.machine.cycle) or 1.0
 
 
 def _residual(one: Array, other: Array) -> float:

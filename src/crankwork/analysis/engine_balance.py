@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.analysis.cylinders import WholeEngine, cylinder_columns
+from crankwork.analysis.cylinders import WholeEngine
 from crankwork.analysis.engine_bearings import counterweights, rotating_masses
 from crankwork.analysis.results import Listing
 from crankwork.cylinders.balance import (
@@ -145,11 +145,11 @@ def balance_checks(whole: WholeEngine, balance: EngineBalance) -> dict[str, floa
     if whole.machine.masses is None or whole.machine.angular_acceleration:
         return {}
     degrees = np.arange(_SAMPLES) * 360 / _SAMPLES
-    force = cylinder_columns(whole, degrees)["inertia_force"]
+    force = whole.each("inertia_force", degrees)
     # the inertia force is positive towards the crankshaft, the axis points to the head
     vectors = -force.T @ unit_vectors([one.axis for one in whole.layout.places])
     spectrum = np.fft.fft(vectors) / _SAMPLES
-    scale = max(float(np.max(np.abs(force))), 1e-300)
+    scale = float(np.max(np.abs(force))) or 1.0
     # crank angles count from the axis of cylinder 1, which is where the phasors begin as well
     apart = [
         max(abs(spectrum[one.order] - one.force.forward), abs(spectrum[-one.order] - one.force.backward))

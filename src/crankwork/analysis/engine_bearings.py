@@ -2,31 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from crankwork.analysis.cylinders import WholeEngine, cylinder_columns
+from crankwork.analysis.cylinders import WholeEngine
 from crankwork.analysis.results import Listing
-from crankwork.cylinders.bearings import (
-    big_end_bearing_load,
-    big_end_inertia_force,
-    crank_frame_load,
-    piston_pin_force,
-    small_end_bearing_load,
-)
-from crankwork.cylinders.counterweights import Unbalance, throw_counterweights
+from crankwork.cylinders import bearings as formulas
+from crankwork.cylinders.counterweights import Unbalance, counterweight_moment, throw_counterweights
 from crankwork.cylinders.journal_loads import main_journal_loads
-from crankwork.cylinders.layout import Layout
-from crankwork.cylinders.load_statistics import LoadStatistics, load_reversal, load_statistics, specific_loads
-from crankwork.cylinders.load_vectors import BearingLoad
+from crankwork.cylinders.layout import Layout, Place
+from crankwork.cylinders.load_statistics import reversal
+from crankwork.cylinders.load_vectors import BearingLoad, bearing_load
 from crankwork.cylinders.wear import oil_hole, ray_angles, wear_sums
+from crankwork.dynamics.piston_forces import transverse_weight, weight_force
+from crankwork.formula.known import Found, Known, Table, absent, given, in_order, total
+from crankwork.formula.over_cycle import OverCycle
+from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.slider_crank import RodSwing
+from crankwork.machine import Bearings
 
-_DENSE_STEP, _WEAR_STEP = 1.0, 10.0
+# between the loads that wear diagrams add up [deg]
+_WEAR_STEP = 10.0
+_X, _Y = "bearing_force_x", "bearing_force_y"
+_ON_SHAFT = ("shaft_unbalance", "counterweight_moment", "unbalance_force", "journal_share", "bearing_force_")
+_SWING = ("rod_sine", "rod_cosine", "crank_rod_sine", "crank_rod_cosine")
 
 
 class BearingLoads(NamedTuple):
@@ -48,45 +54,116 @@ class BearingLoads(NamedTuple):
     mains: tuple[BearingLoad, ...]
 
 
-def bearing_loads(whole: WholeEngine, degrees: Array) -> BearingLoads:
+def bearing_memory(whole: WholeEngine) -> dict[str, Known]:
+    """Return the loads of the bearings by key: sizes, and components in the frame of each.
+
+    Parameters
+    ----------
+    whole : WholeEngine
+        The engine.
+
+    References
+    ----------
+    kolchin_demidov_2008, ch. 9.
+    """
+    master = whole.master.memory
+    inertia = absent("big_end_inertia_force")
+    if whole.machine.masses is not None:
+        mass, r, w = master["rod_big_end_mass"], master["crank_radius"], master["speed"]
+        inertia = formulas.big_end_inertia_force(mass, r, w)
+    radial = {one.number: _radial(whole, one, inertia) for one in whole.layout.places}
+    rods = [BearingLoad(-radial[at], whole.of(at, "tangential_force")) for at in radial]
+    found = {one.key: one for one in (inertia, *_crankpins(whole, radial, inertia))}
+    load, size = rods[0], _of_one_rod(whole, 1, inertia)
+    if any(whole.engine.slaves):
+        # the master rod carries the others: its bearing is loaded as the crankpin is
+        pin = whole.layout.places[0].crankpin + 1
+        load = BearingLoad(-found[f"crankpin_radial_force.{pin}"], found[f"crankpin_tangential_force.{pin}"])
+        size = found[f"crankpin_load.{pin}"]
+    on_rod = formulas.big_end_bearing_load(load, RodSwing(*(master[key] for key in _SWING))).called("big_end")
+    found |= {one.key: one for one in (*on_rod, size.named("big_end_load"), *_small_end(whole))}
+    layout = _spaced(whole.layout)
+    mains = main_journal_loads(layout, rods, shaft_unbalances(whole, layout), master["speed"])
+    for at, load in enumerate(mains, start=1):
+        found |= {one.key: one for one in (*load, load.resultant.named(f"main_journal_load.{at}"))}
+    ends = [part for load in mains for part in load]
+    return {one.key: one for one in in_order(ends) if one.key.startswith(_ON_SHAFT)} | found
+
+
+def _radial(whole: WholeEngine, place: Place, inertia: Known) -> Known:
+    """Return the load of a rod along the crank arm, under the name of its crankpin."""
+    name = f"crankpin_radial_force.{place.crankpin + 1}"
+    if len(whole.on_pin[place.crankpin]) > 1:
+        name = f"{name}.{place.number}"
+    along: Known = formulas.crankpin_radial_force(whole.of(place.number, "radial_force"), inertia)
+    return along.named(name)
+
+
+def _crankpins(whole: WholeEngine, radial: Mapping[int, Known], inertia: Known) -> Iterator[Known]:
+    """Yield radial and tangential force on every unlike crankpin and their resultant; of several rods, the sums."""
+    for pin in unlike_pins(whole):
+        some = [one.number for one in whole.on_pin[pin - 1]]
+        along = total(f"crankpin_radial_force.{pin}", [radial[at] for at in some])
+        across = total(f"crankpin_tangential_force.{pin}", [whole.of(at, "tangential_force") for at in some])
+        size = bearing_load(-along, across) if len(some) > 1 else _of_one_rod(whole, some[0], inertia)
+        yield from (along, across, size.named(f"crankpin_load.{pin}"))
+
+
+def _of_one_rod(whole: WholeEngine, number: int, inertia: Known) -> Known:
+    T, K = whole.of(number, "tangential_force"), whole.of(number, "radial_force")
+    load: Known = formulas.crankpin_load(T, K, inertia)
+    return load
+
+
+def _small_end(whole: WholeEngine) -> Iterator[Known]:
+    """Yield the force of piston 1 on its pin, its side force with what articulated rods add, and the load."""
+    memory, machine = whole.master.memory, whole.machine
+    # that of the inertia force, where a document has its own
+    acceleration = memory.get("inertia_acceleration", memory["piston_acceleration"])
+    mass, along, across = absent("piston_mass"), absent("weight_force.piston"), [memory["side_force"]]
+    across += [whole.of(number, "knuckle_side_force") for number in whole.has("knuckle_side_force")]
+    if machine.masses is not None:
+        mass = memory["piston_mass"]
+        if machine.has_gravity:
+            g = given("", whole.master.method.gravity, "method.gravity")
+            lean = machine.cylinder.inclination if machine.cylinder is not None else 0.0
+            along = weight_force(mass, g, math.cos(lean)).named("weight_force.piston")
+            beside = transverse_weight(mass, g, math.sin(lean)).named("transverse_weight.piston")
+            across += [beside] if beside.value else []
+    force = formulas.piston_pin_force(memory.get("gas_force", absent("gas_force")), mass, acceleration, along)
+    yield force
+    side = total("side_force.small_end", across) if len(across) > 1 else across[0]
+    swing = RodSwing(*(memory[key] for key in _SWING))
+    yield from formulas.small_end_bearing_load(force, side, swing).called("small_end")
+    size: Known = formulas.small_end_load(force, side)
+    yield size
+
+
+def bearing_loads(whole: WholeEngine, memory: Mapping[str, Known], degrees: ArrayLike) -> BearingLoads:
     """Return the loads of the bearings at crank angles of cylinder 1.
 
     Parameters
     ----------
     whole : WholeEngine
         The engine.
+    memory : mapping of str to Known
+        That of `bearing_memory`.
     degrees : array, shape (n,)
         Crank angles of cylinder 1. [deg]
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 9.
     """
-    found, masses = cylinder_columns(whole, degrees), whole.masses
-    r, w = whole.master.lengths.crank_radius, whole.master.speed
-    inertia = float(big_end_inertia_force(masses.rod_big_end, r, w))
-    rods = [
-        crank_frame_load(K, T, inertia) for K, T in zip(found["radial_force"], found["tangential_force"], strict=True)
-    ]
-    crankpins = {}
-    for pin, places in whole.on_pin.items():
-        loads = [rods[place.number - 1] for place in places]
-        crankpins[pin + 1] = BearingLoad(sum(one.x for one in loads), sum(one.y for one in loads))  # type: ignore[arg-type]
-    layout = _spaced(whole.layout)
-    mains = main_journal_loads(layout, rods, shaft_unbalances(whole, layout), w)
-    swing = whole.master.motion(CrankGrid.from_degrees(found["crank_angle"][0] * 180 / np.pi)).swing
-    of_master = crankpins[whole.layout.places[0].crankpin + 1] if any(whole.engine.slaves) else rods[0]
-    side = found["side_force"][0]
-    if "knuckle_side_force" in found:
-        side = side + found["knuckle_side_force"].sum(axis=0)
-    gas = found["gas_force"][0] if "gas_force" in found else np.zeros_like(degrees)
-    # that of the inertia force, where a document has its own
-    acceleration = found.get("inertia_acceleration", found["piston_acceleration"])[0]
-    on_pin = piston_pin_force(gas, masses.piston, acceleration)
-    kept = {pin: crankpins[pin] for pin in unlike_pins(whole)}
-    return BearingLoads(
-        kept, big_end_bearing_load(of_master, swing), small_end_bearing_load(on_pin, side, swing), mains
-    )
+    pins = unlike_pins(whole)
+    along = [f"crankpin_radial_force.{pin}" for pin in pins]
+    mains = [f"main_journal.{at}" for at in range(1, 1 + sum(key.startswith("main_journal_load.") for key in memory))]
+    framed = ["big_end", "small_end", *mains]
+    keys = [*along, *(f"crankpin_tangential_force.{pin}" for pin in pins)]
+    keys += [f"{kind}.{name}" for name in framed for kind in (_X, _Y)]
+    found = Program({key: memory[key] for key in keys})(CrankGrid.from_degrees(degrees))
+    crankpins = {
+        pin: BearingLoad(-found[key], found[f"crankpin_tangential_force.{pin}"])
+        for pin, key in zip(pins, along, strict=True)
+    }
+    big, small, *others = (BearingLoad(found[f"{_X}.{name}"], found[f"{_Y}.{name}"]) for name in framed)
+    return BearingLoads(crankpins, big, small, tuple(others))
 
 
 def unlike_pins(whole: WholeEngine) -> tuple[int, ...]:
@@ -137,15 +214,19 @@ def shaft_unbalances(whole: WholeEngine, layout: Layout) -> tuple[Unbalance, ...
     layout : Layout
         Its cylinders, along the shaft as they are to be taken. [m]
     """
-    r, found = whole.master.lengths.crank_radius, []
+    if whole.machine.masses is None:
+        return counterweights(whole, layout)
+    memory, found = whole.master.memory, []
+    mass, r = given("crank_mass", whole.masses.crank, "crank.mass"), memory["crank_radius"]
     pins = {place.crankpin: place.throw for place in layout.places}
-    for members in whole.on_pin.values():
+    for pin, members in whole.on_pin.items():
         place = layout.places[members[0].number - 1]
         middle = float(np.mean([layout.places[one.number - 1].position for one in members]))
         # split pins share the mass of their throw
         share = list(pins.values()).count(place.throw)
-        found.append(Unbalance(whole.masses.crank / share * r, place.pin_angle, middle))
-    return (*found, *counterweights(whole, layout))
+        moment = (mass / share * r if share > 1 else mass * r).named("shaft_unbalance.throw")
+        found.append(Unbalance(moment, place.pin_angle, middle, f"throw.{pin + 1}"))
+    return (*(one for one in found if one.mass_moment.value), *counterweights(whole, layout))
 
 
 def counterweights(whole: WholeEngine, layout: Layout) -> tuple[Unbalance, ...]:
@@ -163,8 +244,46 @@ def counterweights(whole: WholeEngine, layout: Layout) -> tuple[Unbalance, ...]:
     rotating = rotating_masses(whole) * engine.rotating_share
     share = engine.reciprocating_share
     weights = throw_counterweights(layout, masses.reciprocating, rotating, r, share)
-    added = (one._replace(mass_moment=one.mass_moment + engine.counterweight) for one in weights)
-    return tuple(one for one in added if one.mass_moment)
+    found = [
+        one._replace(mass_moment=_counterweight(whole, pin), name=f"counterweights.{pin + 1}")
+        for one, pin in zip(weights, whole.on_pin, strict=True)
+        if one.mass_moment + engine.counterweight
+    ]
+    return tuple(found)
+
+
+def _counterweight(whole: WholeEngine, pin: int) -> Known:
+    """Return the mass moment of a counterweight: of the masses of each cylinder on its pin, and what is given."""
+    engine, memory, terms = whole.engine, whole.master.memory, []
+    key = f"counterweight_moment.{pin + 1}"
+    if whole.machine.masses is not None and (engine.rotating_share or engine.reciprocating_share):
+        for place in whole.on_pin[pin]:
+            turning = rotating_mass_of(whole, place) * engine.rotating_share
+            moment = counterweight_moment(
+                turning.named("rotating_mass.of_cylinder"),
+                given("balanced_share", engine.reciprocating_share, "balance.reciprocating_share"),
+                memory["reciprocating_mass"],
+                memory["crank_radius"],
+            )
+            terms.append(moment.named(f"{key}.{place.number}"))
+    if engine.counterweight:
+        terms.append(given(f"{key}.given", engine.counterweight))
+    return total(key, terms)
+
+
+def rotating_mass_of(whole: WholeEngine, place: Place) -> Known:
+    """Return the rotating mass of a cylinder, that of a shared throw divided among its cylinders.
+
+    Parameters
+    ----------
+    whole : WholeEngine
+        The engine, with masses.
+    place : Place
+        Of the cylinder.
+    """
+    on_throw = [one.throw for one in whole.layout.places].count(place.throw)
+    big = given("rod_big_end_mass", whole.masses.rod_big_end, "rod")
+    return big + given("crank_mass", whole.masses.crank, "crank.mass") / on_throw
 
 
 def rotating_masses(whole: WholeEngine) -> Array:
@@ -184,116 +303,180 @@ def rotating_masses(whole: WholeEngine) -> Array:
     return np.array([masses.rod_big_end + masses.crank / throws.count(throw) for throw in throws])
 
 
-def bearing_columns(loads: BearingLoads) -> dict[str, Array]:
-    """Return the sizes of the loads, and those of the crankpins by component.
+def bearing_columns(memory: Mapping[str, Known]) -> tuple[str, ...]:
+    """Return which loads stand in the tables: sizes, and those of the crankpins by component.
 
     Parameters
     ----------
-    loads : BearingLoads
-        The loads.
-
-    Returns
-    -------
-    dict of str to array, shape (n,)
-        Columns by key. [N]
+    memory : mapping of str to Known
+        That of `bearing_memory`.
     """
-    result = {}
-    for pin, load in loads.crankpins.items():
-        result[f"crankpin_radial_force.{pin}"] = -load.x
-        result[f"crankpin_tangential_force.{pin}"] = load.y
-        result[f"crankpin_load.{pin}"] = load.resultant
-    result["big_end_load"] = loads.big_end.resultant
-    result["small_end_load"] = loads.small_end.resultant
-    return result | {f"main_journal_load.{at}": one.resultant for at, one in enumerate(loads.mains, start=1)}
+    return tuple(key for key in memory if key.startswith(_COLUMNS) and key.count(".") < 2)
 
 
-def dense_loads(whole: WholeEngine) -> tuple[Array, BearingLoads]:
-    """Return crank angles one degree apart, without the end of the cycle, and the loads there.
+_COLUMNS = (
+    "crankpin_radial_force.", "crankpin_tangential_force.", "crankpin_load.", "big_end_load", "small_end_load",
+    "main_journal_load.",
+)  # fmt: skip
+
+
+def load_columns(memory: Mapping[str, Known]) -> dict[str, str]:
+    """Return the column of the load of each bearing by its name: `crankpin.1`, `big_end`, `main_journal.3`.
+
+    Parameters
+    ----------
+    memory : mapping of str to Known
+        That of `bearing_memory`.
+    """
+    sizes = [key for key in memory if key.partition(".")[0].endswith("_load")]
+    return {key.replace("_load", "", 1): key for key in sizes}
+
+
+def load_values(
+    whole: WholeEngine, memory: Mapping[str, Known], over: OverCycle, extremes: Mapping[str, Known]
+) -> dict[str, Known]:
+    """Return what the loads come to over the cycle: mean, extremes, their ratio, pressures, and how they reverse.
 
     Parameters
     ----------
     whole : WholeEngine
         The engine.
+    memory : mapping of str to Known
+        That of `bearing_memory`.
+    over : OverCycle
+        Its columns over the cycle.
+    extremes : mapping of str to Known
+        Theirs.
     """
-    degrees = np.arange(0.0, whole.layout.cycle, _DENSE_STEP)
-    return degrees, bearing_loads(whole, degrees)
+    names, found = load_columns(memory), dict[str, Known]()
+    for name, key in names.items():
+        kind, _, owner = key.partition(".")
+        mean = over.mean(key, f"mean_bearing_load.{name}")
+        found[mean.key] = mean
+        for word in ("max", "max_angle", "min", "min_angle"):
+            one = extremes[f"{kind}_{word}" + (f".{owner}" if owner else "")]
+            found[f"bearing_load_{word}.{name}"] = one.named(f"bearing_load_{word}.{name}")
+        largest = found[f"bearing_load_max.{name}"]
+        none = Known(Found(1.0, "none", (mean,)))
+        ratio = formulas.bearing_load_ratio(largest, mean) if mean.value else none
+        found[f"bearing_load_ratio.{name}"] = ratio.named(f"bearing_load_ratio.{name}")
+        diameter, length = _size(whole.engine.bearings, name)
+        if diameter is not None and length is not None:
+            area = given("bearing_diameter", diameter), given("bearing_length", length)
+            for word, load in (("", mean), ("_max", largest)):
+                pressure = formulas.bearing_pressure(load, *area)
+                found[f"bearing_pressure{word}.{name}"] = pressure.named(f"bearing_pressure{word}.{name}")
+    return found | _reversal(over, extremes)
 
 
-def bearing_listings(whole: WholeEngine, degrees: Array, loads: BearingLoads) -> dict[str, Listing]:
+def _reversal(over: OverCycle, extremes: Mapping[str, Known]) -> dict[str, Known]:
+    key = "bearing_force_x.small_end"
+    peaks = extremes["bearing_force_x_max.small_end"].value, extremes["bearing_force_x_min.small_end"].value
+    turned, of = reversal(*over.stretches(key), peaks), (over.knowns[key],)
+    duration = Known(Found(math.radians(turned.duration), "reversal", of), "reversal_duration")
+    return {duration.key: duration, "reversal_ratio": Known(Found(turned.ratio, "reversal", of), "reversal_ratio")}
+
+
+def _size(sizes: Bearings, name: str) -> tuple[float | None, float | None]:
+    match name.partition(".")[0]:
+        case "small_end":
+            return sizes.pin_diameter, sizes.pin_length
+        case "main_journal":
+            return sizes.main_diameter, sizes.main_length
+        case _:
+            return sizes.crankpin_diameter, sizes.crankpin_length
+
+
+@dataclass(frozen=True)
+class OnRays:
+    """Sums of loads by the direction of a ray. [deg] -> [N]"""
+
+    sums: Array
+
+    def __call__(self, degrees: Array) -> Array:
+        """Return the sum on the ray at each direction."""
+        return np.asarray(self.sums[np.rint(degrees * self.sums.size / 360).astype(int) % self.sums.size])
+
+
+def wear_memory(whole: WholeEngine, memory: Mapping[str, Known]) -> dict[str, Known]:
+    """Return the wear of crankpins and main journals, over the directions of their rays, and the oil holes.
+
+    Parameters
+    ----------
+    whole : WholeEngine
+        The engine.
+    memory : mapping of str to Known
+        That of `bearing_memory`.
+    """
+    rays, found = whole.engine.bearings.rays, dict[str, Known]()
+    loads = bearing_loads(whole, memory, np.arange(0.0, whole.layout.cycle, _WEAR_STEP))
+    for pin, load in loads.crankpins.items():
+        of = memory[f"crankpin_radial_force.{pin}"], memory[f"crankpin_tangential_force.{pin}"]
+        sums = wear_sums(load, rays=rays)
+        table = Known(Table(OnRays(sums), "wear", of=of), f"wear_sum.crankpin.{pin}")
+        name = f"oil_hole_angle.{pin}" if len(loads.crankpins) > 1 else "oil_hole_angle"
+        angle = math.radians(oil_hole(sums).angle)
+        found |= {table.key: table, name: Known(Found(angle, "oil_hole", (table,)), name)}
+    for at, load in enumerate(loads.mains, start=1):
+        of = memory[f"{_X}.main_journal.{at}"], memory[f"{_Y}.main_journal.{at}"]
+        key = f"wear_sum.main_journal.{at}"
+        found[key] = Known(Table(OnRays(wear_sums(load, rays=rays)), "wear", of=of), key)
+    return found
+
+
+def bearing_listings(whole: WholeEngine, found: Mapping[str, Known]) -> dict[str, Listing]:
     """Return what the loads come to over the cycle, and the wear of crankpins and main journals.
 
     Parameters
     ----------
     whole : WholeEngine
         The engine.
-    degrees : array, shape (n,)
-        Evenly spaced crank angles over one cycle, without its end. [deg]
-    loads : BearingLoads, shape (n,)
-        The loads there. [N]
+    found : mapping of str to Known
+        What `load_values` and `wear_memory` have found.
     """
-    sizes, cycle = whole.engine.bearings, whole.layout.cycle
-    pin = sizes.crankpin_diameter, sizes.crankpin_length
-    main = sizes.main_diameter, sizes.main_length
-    rows = [(f"crankpin.{number}", load, pin) for number, load in loads.crankpins.items()]
-    rows += [("big_end", loads.big_end, pin), ("small_end", loads.small_end, (sizes.pin_diameter, sizes.pin_length))]
-    rows += [(f"main_journal.{at}", load, main) for at, load in enumerate(loads.mains, start=1)]
-    statistics = [load_statistics(load, degrees, cycle) for _, load, _ in rows]
+    names = tuple(key.partition(".")[2] for key in found if key.startswith("mean_bearing_load."))
     columns = {
-        "mean_bearing_load": [one.mean for one in statistics],
-        "bearing_load_max": [one.max for one in statistics],
-        "bearing_load_max_angle": [np.radians(one.max_angle) for one in statistics],
-        "bearing_load_min": [one.min for one in statistics],
-        "bearing_load_min_angle": [np.radians(one.min_angle) for one in statistics],
-        "bearing_load_ratio": [one.ratio for one in statistics],
+        key: np.array([found[f"{key}.{name}"].value if f"{key}.{name}" in found else np.nan for name in names])
+        for key in _LOAD_LISTED
     }
-    pressures = [_pressures(one, size) for one, (_, _, size) in zip(statistics, rows, strict=True)]
-    if any(np.isfinite(one[1]) for one in pressures):
-        columns |= {
-            "bearing_pressure": [one[0] for one in pressures],
-            "bearing_pressure_max": [one[1] for one in pressures],
-        }
-    result = {"bearing_loads": Listing({key: np.array(one) for key, one in columns.items()}, tuple(r[0] for r in rows))}
-    rays = np.radians(ray_angles(sizes.rays))
-    coarse = slice(None, None, round(_WEAR_STEP / _DENSE_STEP))
-    for name, some in (("crankpin_wear", dict(loads.crankpins)), ("main_wear", dict(enumerate(loads.mains, start=1)))):
+    kept = {key: one for key, one in columns.items() if not np.all(np.isnan(one))}
+    result = {"bearing_loads": Listing(kept, names)}
+    degrees = ray_angles(whole.engine.bearings.rays)
+    for listing, owner in (("crankpin_wear", "crankpin"), ("main_wear", "main_journal")):
+        tables = {key: one.node for key, one in found.items() if key.startswith(f"wear_sum.{owner}.")}
         sums = {
-            f"wear_sum.{at}": wear_sums(BearingLoad(load.x[coarse], load.y[coarse]), rays=sizes.rays)
-            for at, load in some.items()
+            f"wear_sum.{key.rpartition('.')[2]}": node.function(degrees)
+            for key, node in tables.items()
+            if isinstance(node, Table)
         }
-        result[name] = Listing({"wear_ray_angle": rays, **sums})
+        result[listing] = Listing({"wear_ray_angle": np.radians(degrees), **sums})
     return result
 
 
-def _pressures(statistics: LoadStatistics, size: tuple[float | None, float | None]) -> tuple[float, float]:
-    diameter, length = size
-    if diameter is None or length is None:
-        return float("nan"), float("nan")
-    return specific_loads(statistics, diameter, length)
+_LOAD_LISTED = (
+    "mean_bearing_load", "bearing_load_max", "bearing_load_max_angle", "bearing_load_min", "bearing_load_min_angle",
+    "bearing_load_ratio", "bearing_pressure", "bearing_pressure_max",
+)  # fmt: skip
 
 
-def bearing_summary(whole: WholeEngine, degrees: Array, loads: BearingLoads) -> dict[str, float]:
+def bearing_summary(whole: WholeEngine, found: Mapping[str, Known]) -> dict[str, Known]:
     """Return mean and largest crankpin load, where the oil hole should be, and the reversal of the small-end load.
 
     Parameters
     ----------
     whole : WholeEngine
         The engine.
-    degrees : array, shape (n,)
-        Evenly spaced crank angles over one cycle, without its end. [deg]
-    loads : BearingLoads, shape (n,)
-        The loads there. [N]
+    found : mapping of str to Known
+        What `load_values` and `wear_memory` have found.
     """
-    result: dict[str, float] = {}
-    cycle, coarse = whole.layout.cycle, slice(None, None, round(_WEAR_STEP / _DENSE_STEP))
-    for pin, load in loads.crankpins.items():
-        found = load_statistics(load, degrees, cycle)
-        name = f".{pin}" if len(loads.crankpins) > 1 else ""
-        hole = oil_hole(wear_sums(BearingLoad(load.x[coarse], load.y[coarse]), rays=whole.engine.bearings.rays))
-        result |= {
-            f"mean_crankpin_load{name}": found.mean,
-            f"crankpin_load_max{name}": found.max,
-            f"crankpin_load_max_angle{name}": float(np.radians(found.max_angle)),
-            f"oil_hole_angle{name}": float(np.radians(hole.angle)),
-        }
-    reversal = load_reversal(loads.small_end, degrees, cycle)
-    return result | {"reversal_duration": float(np.radians(reversal.duration)), "reversal_ratio": reversal.ratio}
+    pins, result = unlike_pins(whole), dict[str, Known]()
+    for pin in pins:
+        name = f".{pin}" if len(pins) > 1 else ""
+        for key, of in (
+            ("mean_crankpin_load", "mean_bearing_load"),
+            ("crankpin_load_max", "bearing_load_max"),
+            ("crankpin_load_max_angle", "bearing_load_max_angle"),
+        ):
+            result[f"{key}{name}"] = found[f"{of}.crankpin.{pin}"].named(f"{key}{name}")
+        result[f"oil_hole_angle{name}"] = found[f"oil_hole_angle{name}"]
+    return result | {key: found[key] for key in ("reversal_duration", "reversal_ratio")}

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.analysis.cylinders import WholeEngine, cylinder_columns
+from crankwork.analysis.cylinders import WholeEngine
 from crankwork.analysis.results import Listing
 from crankwork.analysis.solved import Notice
 from crankwork.cylinders.layout import Layout
@@ -18,111 +20,132 @@ from crankwork.cylinders.torque_harmonics import (
     total_harmonics,
 )
 from crankwork.errors import MethodError
+from crankwork.formula.known import Found, Known, Table, absent, given, total
+from crankwork.formula.over_cycle import OverCycle
 from crankwork.kinematics.crank_grid import Array
-from crankwork.shaft.curve import Curve
-from crankwork.shaft.fluctuation import ExcessWork, TrueSpeed, excess_work, true_speed
-from crankwork.shaft.flywheel import flywheel
+from crankwork.shaft.curve import AtDegrees, Curve
+from crankwork.shaft.fluctuation import (
+    ExcessWork,
+    TrueSpeed,
+    excess_work,
+    fluctuation_of_energy,
+    fluctuation_of_inertia,
+    speed_of_energy,
+    true_speed,
+)
+from crankwork.shaft.flywheel import check_fluctuation, inertia_for_fluctuation
+from crankwork.shaft.flywheel_parts import flywheel_beside_machine, work_of_mean_torque
 
 _ORDERS = 12
 _SAMPLES = 1440
 
 
 class EngineTorque(NamedTuple):
-    """Torque of cylinder 1 and of all over the cycle, the excess work of the sum, and the speed with the flywheel."""
+    """Torque of cylinder 1 and of all over the cycle, the excess work of the sum, the speed, and their memory.
+
+    Parameters
+    ----------
+    one, total : Curve
+        Torques. [N m]
+    excess : ExcessWork
+        What the total torque does beyond its mean.
+    speed : TrueSpeed or None
+        With the flywheel, where anything has an inertia.
+    columns, summary : mapping of str to Known
+        Energy and speed over the crank angle; single values.
+    notices : tuple of Notice
+        Why there is no flywheel, or no steady speed.
+    """
 
     one: Curve
     total: Curve
     excess: ExcessWork
-    flywheel: float | None
     speed: TrueSpeed | None
+    columns: Mapping[str, Known]
+    summary: Mapping[str, Known]
+    notices: tuple[Notice, ...]
 
 
-def engine_torque(whole: WholeEngine, one: Curve, total: Curve) -> tuple[EngineTorque, tuple[Notice, ...]]:
+def torque_memory(whole: WholeEngine) -> dict[str, Known]:
+    """Return the torques of all cylinders, their sum and those along the shaft.
+
+    Parameters
+    ----------
+    whole : WholeEngine
+        The engine.
+    """
+    each = [whole.of(place.number, "crank_torque") for place in whole.layout.places]
+    along = torques_along_shaft(each, whole.layout)
+    found = list(each) if len(each) > 1 else []
+    if len(along.throws) > 1:
+        found += [*along.throws, *along.journals[1:], *along.crankpins]
+    found.append(total("total_torque", along.throws))
+    return {one.key: one for one in found}
+
+
+def engine_torque(
+    whole: WholeEngine, memory: Mapping[str, Known], over: OverCycle, extremes: Mapping[str, Known]
+) -> EngineTorque:
     """Return the torque of the engine with the flywheel it needs, and why there is none.
 
     Parameters
     ----------
     whole : WholeEngine
         The engine.
-    one, total : Curve
-        Torque of cylinder 1 and of all. [N m]
+    memory : mapping of str to Known
+        That of `torque_memory`.
+    over : OverCycle
+        Its columns over the cycle.
+    extremes : mapping of str to Known
+        Theirs.
     """
-    excess = excess_work(total)
-    wanted, inertia, w = whole.engine.fluctuation, whole.engine.inertia, whole.master.speed
-    added, notices = None, []
-    if wanted is not None:
+    edges, of = np.radians(over.edges), (memory["total_torque"],)
+    first = whole.of(1, "crank_torque").key
+    one, all_ = (Curve.legendre(edges, over.polynomials(key)) for key in (first, "total_torque"))
+    found, w, engine = excess_work(all_), whole.master.memory["speed"], whole.engine
+    summary = {"mean_total_torque": over.mean("total_torque", "mean_total_torque")}
+    summary |= {key: one for key, one in extremes.items() if key.startswith("total_torque_")}
+    excess = summary["excess_work"] = Known(Found(found.work, "range", of), "excess_work")
+    mean = summary["mean_total_torque"]
+    if mean.value:
+        work = work_of_mean_torque(mean, math.radians(whole.layout.cycle))
+        summary["energy_fluctuation"] = fluctuation_of_energy(excess, work if mean.value > 0 else -work)
+    own = given("reduced_inertia", engine.inertia, "flywheel.inertia") if engine.inertia else absent("reduced_inertia")
+    notices, wheel = [], absent("flywheel_inertia")
+    if engine.fluctuation is not None:
+        wanted = given("speed_fluctuation", engine.fluctuation, "flywheel.fluctuation")
         try:
-            added = max(flywheel(Curve.constant(inertia, total.cycle), total, w, wanted, "energy").inertia, 0.0)
+            check_fluctuation(engine.fluctuation, w.value)
+            wheel = summary["flywheel_inertia"] = _flywheel(excess, wanted, w, own)
         except MethodError as error:
             notices.append(Notice("no_flywheel", {"message": str(error)}))
-    speed = None
-    if inertia + (added or 0.0) > 0:
+    whole_inertia = wheel if own.is_absent else (own if not wheel.value else (own + wheel).named("whole_inertia"))
+    speed, columns = None, dict[str, Known]()
+    change = Table(AtDegrees(found.curve), "integral", np.degrees(found.curve.angle), of)
+    columns["kinetic_energy_change"] = Known(change, "kinetic_energy_change")
+    if whole_inertia.value > 0:
         try:
-            speed = true_speed(Curve.constant(inertia + (added or 0.0), total.cycle), total, w)
+            speed = true_speed(Curve.constant(whole_inertia.value, all_.cycle), all_, w.value)
         except MethodError as error:
             notices.append(Notice("no_steady_speed", {"message": str(error)}))
-    return EngineTorque(one, total, excess, added, speed), tuple(notices)
+    if speed is not None:
+        energy = Known(Found(speed.energy, "energy", of), "kinetic_energy.start")
+        turning = speed_of_energy(energy + columns["kinetic_energy_change"], whole_inertia).named("crank_speed")
+        columns["crank_speed"] = turning
+        summary["speed_fluctuation"] = fluctuation_of_inertia(excess, whole_inertia, w)
+        ends = speed.extremes
+        for word, value, at in (("max", ends.largest, ends.at_largest), ("min", ends.least, ends.at_least)):
+            summary[f"crank_speed_{word}"] = Known(Found(value, word, (turning,), math.degrees(at)))
+    named = {key: known.named(key) for key, known in summary.items()}
+    return EngineTorque(one, all_, found, speed, columns, named, tuple(notices))
 
 
-def torque_columns(whole: WholeEngine, torque: EngineTorque, degrees: Array) -> dict[str, Array]:
-    """Return the torques of all cylinders, their sum and those along the shaft; energy and speed where they are known.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-    torque : EngineTorque
-        What `engine_torque` has found.
-    degrees : array, shape (n,)
-        Crank angles of cylinder 1. [deg]
-
-    Returns
-    -------
-    dict of str to array, shape (n,)
-        Columns by key. [SI]
-    """
-    each = cylinder_columns(whole, degrees)["crank_torque"]
-    along = torques_along_shaft(each, whole.layout)
-    result = {f"crank_torque.{number}": row for number, row in enumerate(each, start=1)} if len(each) > 1 else {}
-    result["total_torque"] = along.journals[-1]
-    if len(along.throws) > 1:
-        result |= {f"journal_torque.{at}": row for at, row in enumerate(along.journals[1:], start=2)}
-        result |= {f"crankpin_torque.{at}": row for at, row in enumerate(along.crankpins, start=1)}
-    angle = np.radians(degrees)
-    result["kinetic_energy_change"] = torque.excess.curve(angle)
-    if torque.speed is not None:
-        result["crank_speed"] = torque.speed.speed(angle)
-    return result
-
-
-def torque_summary(torque: EngineTorque) -> dict[str, float]:
-    """Return mean and extremes of the total torque, excess work and flywheel.
-
-    Parameters
-    ----------
-    torque : EngineTorque
-        What `engine_torque` has found.
-    """
-    extremes = torque.total.extremes()
-    rounding = 1e-13 * max(abs(extremes.largest), abs(extremes.least))
-    mean = torque.excess.mean_torque
-    result = {
-        "mean_total_torque": mean if abs(mean) > rounding else 0.0,
-        "total_torque_max": extremes.largest,
-        "total_torque_max_angle": extremes.at_largest,
-        "total_torque_min": extremes.least,
-        "total_torque_min_angle": extremes.at_least,
-        "excess_work": torque.excess.work,
-    }
-    if result["mean_total_torque"]:
-        result["energy_fluctuation"] = torque.excess.coefficient
-    if torque.flywheel is not None:
-        result["flywheel_inertia"] = torque.flywheel
-    if torque.speed is not None:
-        result["speed_fluctuation"] = torque.speed.fluctuation
-        result["crank_speed_max"] = torque.speed.extremes.largest
-        result["crank_speed_min"] = torque.speed.extremes.least
-    return result
+def _flywheel(excess: Known, wanted: Known, w: Known, own: Known) -> Known:
+    """Return the flywheel that an engine needs beside what turns already; zero where that is enough."""
+    needed: Known = inertia_for_fluctuation(excess, wanted, w)
+    if not own.is_absent:
+        needed = flywheel_beside_machine(needed.named("whole_inertia"), own)
+    return needed if needed.value > 0 else Known(Found(0.0, "none", (needed,)))
 
 
 def torque_listings(whole: WholeEngine, torque: EngineTorque) -> dict[str, Listing]:
@@ -157,7 +180,7 @@ def torque_listings(whole: WholeEngine, torque: EngineTorque) -> dict[str, Listi
             firing["swept_volume"] = np.array([space.swept for space in spaces if space is not None])
     numbers = np.array([float(one.number) for one in places])
     count = round(_ORDERS * layout.cycle / 360)
-    one, total = curve_harmonics(torque.one, count), curve_harmonics(torque.total, count)
+    one, all_ = (curve_harmonics(curve, count) for curve in (torque.one, torque.total))
     stars = np.array([abs(phase_star(layout, order).sum) for order in one.orders])
     harmonics = {
         "harmonic_order": one.orders,
@@ -166,7 +189,7 @@ def torque_listings(whole: WholeEngine, torque: EngineTorque) -> dict[str, Listi
         "harmonic_amplitude": one.amplitude,
         "harmonic_phase": one.phase,
         "phase_sum": stars,
-        "total_harmonic_amplitude": total.amplitude,
+        "total_harmonic_amplitude": all_.amplitude,
     }
     return {"firing": Listing({"cylinder_number": numbers, **firing}), "torque_harmonics": Listing(harmonics)}
 
@@ -185,11 +208,14 @@ def torque_checks(whole: WholeEngine, torque: EngineTorque) -> dict[str, float]:
     result = {}
     if len(works) == len(whole.cylinders) and not whole.machine.angular_acceleration:
         work = torque.excess.work_per_cycle
-        result["engine_work"] = abs(work - sum(works)) / max(abs(work), 1e-300)
+        # what one cylinder does to and fro, and they all
+        angle = np.linspace(0.0, torque.one.cycle, _SAMPLES)
+        moved = len(works) * torque.one.cycle * float(np.mean(np.abs(torque.one(angle)))) or 1.0
+        result["engine_work"] = abs(work - sum(works)) / moved
     samples = _common_samples(whole.layout)
-    if len(set(map(id, whole.cylinders))) == 1 and len(whole.cylinders) > 1 and samples:
+    if whole.is_uniform and len(whole.cylinders) > 1 and samples:
         degrees: Array = np.arange(float(samples)) * (whole.layout.cycle / samples)
-        each = cylinder_columns(whole, degrees)["crank_torque"]
+        each = whole.each("crank_torque", degrees)
         count = round(_ORDERS * whole.layout.cycle / 360)
         one = torque_harmonics(each[0], whole.layout.cycle, count)
         stars, direct = (
@@ -197,7 +223,7 @@ def torque_checks(whole: WholeEngine, torque: EngineTorque) -> dict[str, float]:
             torque_harmonics(each.sum(axis=0), whole.layout.cycle, count),
         )
         apart = np.hypot(stars.cosine - direct.cosine, stars.sine - direct.sine)
-        result["phase_stars"] = float(np.max(apart)) / max(float(np.max(one.amplitude)), 1e-300)
+        result["phase_stars"] = float(np.max(apart)) / (float(np.max(one.amplitude)) or 1.0)
     return result
 
 

@@ -3,26 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Literal, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from crankwork.analysis.linkage_speed import flywheel_residual, speed_columns, speed_summary, transient_summary
+from crankwork.analysis.linkage_memory import linkage_memory, speed_of
+from crankwork.analysis.linkage_speed import transient_summary, turn_of
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import Notice
 from crankwork.analysis.tabulated import analyse_tabulated
-from crankwork.dynamics.efficiency import driving_torque
-from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.dynamics.joint_forces import joint_forces
-from crankwork.dynamics.reaction import JointForces
-from crankwork.dynamics.reduction import crank_torque, reduced_inertia
+from crankwork.dynamics.routes import ROUTES, by_groups
 from crankwork.dynamics.running import Running
-from crankwork.dynamics.zhukovsky import virtual_work_torque, zhukovsky_torque
 from crankwork.errors import CrankworkError, GeometryError
+from crankwork.formula.known import Found, Known, given
+from crankwork.formula.over_cycle import OverCycle
+from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import Motion, linkage_motion
-from crankwork.kinematics.quality import limits, time_ratio, transmission_extremes
+from crankwork.kinematics.quality import FourBarType, grashof, limits_of_all, stroke_ratio, transmission_extremes
 from crankwork.linkage_machine import LinkageMachine, TabulatedMachine
 from crankwork.loads.load import applied_loads
 from crankwork.mechanism.dyads import RRP, RRR
@@ -30,6 +32,7 @@ from crankwork.method import Method
 
 _DENSE_STEP = 1.0
 _ROUNDING = 1e-12
+_MOST_COEFFICIENTS = 10_000_000
 DYNAMICS = (
     "reduced_inertia", "reduced_inertia_1", "static_torque", "dynamic_torque", "balancing_torque", "driving_torque",
 )  # fmt: skip
@@ -84,43 +87,22 @@ def reachable(machine: LinkageMachine, grid: CrankGrid) -> tuple[CrankGrid, tupl
     return grid, ()
 
 
-def linkage_columns(solved: SolvedLinkage, grid: CrankGrid) -> dict[str, Array]:
-    """Return all columns of a linkage at ascending crank angles that it can reach.
+def four_bar_type(machine: LinkageMachine) -> FourBarType | Literal[""]:
+    """Return the type of a four-bar linkage by Grashof, empty for any other linkage.
 
     Parameters
     ----------
-    solved : SolvedLinkage
+    machine : LinkageMachine
         The linkage.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-
-    Returns
-    -------
-    dict of str to array, shape (n,)
-        Columns by key; those of points, links, sliders and joints are `key.NAME`. [SI]
-
-    References
-    ----------
-    artobolevsky_1988, ch. 13-16.
     """
-    machine = solved.machine
-    motion = linkage_motion(machine.mechanism, grid)
-    columns = {"crank_angle": grid.angle, **dict(_motion_columns(machine, motion, solved.speed))}
-    if machine.mechanism.bodies or machine.loads or machine.drive.inertia:
-        running = running_at(solved, motion)
-        torque = crank_torque(running)
-        inertia = reduced_inertia(machine.mechanism, motion)
-        dynamic = torque.dynamic + machine.drive.inertia * machine.angular_acceleration
-        columns |= {
-            "reduced_inertia": inertia.inertia + machine.drive.inertia,
-            "reduced_inertia_1": inertia.inertia_1,
-            "static_torque": torque.static,
-            "dynamic_torque": dynamic,
-            "balancing_torque": torque.static + dynamic,
-            "driving_torque": driving_torque(torque.static, dynamic, machine.drive.efficiency),
-            **dict(_force_columns(machine, joint_forces(running))),
-        }
-    return columns
+    crank, ground = machine.mechanism.crank, machine.mechanism.ground
+    match machine.mechanism.dyads:
+        case (RRR() as dyad,) if {dyad.joint_a, dyad.joint_b} & set(ground):
+            coupler, rocker, fixed = dyad.length_a, dyad.length_b, dyad.joint_b
+            if dyad.joint_a in ground:
+                coupler, rocker, fixed = rocker, coupler, dyad.joint_a
+            return grashof(crank.radius, coupler, rocker, math.dist(ground[fixed], crank.pivot)).type
+    return ""
 
 
 def running_at(solved: SolvedLinkage, motion: Motion) -> Running:
@@ -136,42 +118,6 @@ def running_at(solved: SolvedLinkage, motion: Motion) -> Running:
     machine = solved.machine
     loads = applied_loads(machine.mechanism, motion, machine.loads)
     return Running(machine.mechanism, motion, solved.speed, loads, machine.angular_acceleration)
-
-
-def _motion_columns(machine: LinkageMachine, motion: Motion, w: float) -> Iterator[tuple[str, Array]]:
-    """Yield positions, velocities and accelerations of everything that moves."""
-    eps = machine.angular_acceleration
-    for name, (x, y) in motion.points.items():
-        if name in machine.mechanism.ground:
-            continue
-        yield f"point_x.{name}", x.position
-        yield f"point_y.{name}", y.position
-        yield f"point_velocity.{name}", np.hypot(x.position_1, y.position_1) * w
-        yield f"point_acceleration.{name}", np.hypot(*(one.position_2 * w**2 + one.position_1 * eps for one in (x, y)))
-    for kind, coordinates in (("link", motion.links), ("slider", motion.sliders)):
-        first = "link_angle" if kind == "link" else "slider_displacement"
-        second = "link_angular_velocity" if kind == "link" else "slider_velocity"
-        third = "link_angular_acceleration" if kind == "link" else "slider_acceleration"
-        for name, one in coordinates.items():
-            if name == machine.mechanism.crank.link:
-                continue
-            yield f"{first}.{name}", one.position
-            yield f"{second}.{name}", one.position_1 * w
-            yield f"{third}.{name}", one.position_2 * w**2 + one.position_1 * eps
-
-
-def _force_columns(machine: LinkageMachine, found: JointForces) -> Iterator[tuple[str, Array]]:
-    """Yield the forces in joints and guides; the joint of crank and ground has the name of its fixed point."""
-    crank = machine.mechanism.crank
-    pivot = next((name for name, place in machine.mechanism.ground.items() if place == crank.pivot), "")
-    for joint, pin in found.pins.items():
-        name = pivot if pivot and joint == f"{crank.link}_pivot" else joint
-        yield f"joint_force_x.{name}", pin.x
-        yield f"joint_force_y.{name}", pin.y
-        yield f"joint_force.{name}", pin.resultant
-    for name, guide in found.guides.items():
-        yield f"normal_force.{name}", guide.normal
-        yield f"normal_moment.{name}", guide.moment
 
 
 def analyse_linkage(machine: LinkageMachine, grid: CrankGrid | None = None) -> Results:
@@ -206,19 +152,20 @@ def analyse_linkage(machine: LinkageMachine, grid: CrankGrid | None = None) -> R
     if inside.size == 0:
         raise CrankworkError(f"no angle of the table can be reached; the linkage moves from {low:g} to {high:g} deg")
     grid = grid[slice(int(inside[0]), int(inside[-1]) + 1)]
-    known = linkage_columns(solved, dense)
-    summary = _summary(solved, dense, known)
-    columns = linkage_columns(solved, grid)
+    memory = linkage_memory(machine, linkage_motion(machine.mechanism, dense))
+    over = OverCycle({key: memory[key] for key in _followed(memory)}, CrankGrid.from_degrees, high - low, low)
+    summary = _summary(solved, over, memory, is_whole=not notices)
     checks = _checks(solved, dense)
-    whole = not notices
-    if whole and "reduced_inertia" in known:
-        columns |= speed_columns(machine, solved.speed, known, grid.angle) if machine.drive.fluctuation else {}
-        checks |= flywheel_residual(machine, solved.speed, known)
-        found, told = speed_summary(machine, solved.speed, known)
-        summary |= found
-        notices += told
+    if not notices and "reduced_inertia" in memory:
+        turn = turn_of(machine, over, {**memory, **summary})
+        memory |= turn.columns
+        checks |= turn.checks
+        summary |= turn.summary
+        notices += turn.notices
     summary |= transient_summary(machine)
-    return Results(solved, grid, columns, summary, checks, notices, _groups(columns))
+    columns = Program(memory)(grid)
+    values = {key: one.value for key, one in summary.items()}
+    return Results(solved, grid, columns, values, checks, notices, _groups(columns), memory={**memory, **summary})
 
 
 def analyse_any_linkage(machine: LinkageMachine | TabulatedMachine, grid: CrankGrid | None = None) -> Results:
@@ -234,68 +181,124 @@ def analyse_any_linkage(machine: LinkageMachine | TabulatedMachine, grid: CrankG
     return analyse_linkage(machine, grid) if isinstance(machine, LinkageMachine) else analyse_tabulated(machine)
 
 
-def _summary(solved: SolvedLinkage, dense: CrankGrid, known: Mapping[str, Array]) -> dict[str, float]:
+def _followed(memory: Mapping[str, Known]) -> list[str]:
+    """Return the columns that single values are taken from."""
+    kinds = ("slider_displacement", "link_angle", "joint_force", "slider_velocity")
+    return [key for key in memory if key in DYNAMICS or key.partition(".")[0] in kinds]
+
+
+def _summary(
+    solved: SolvedLinkage, over: OverCycle, memory: Mapping[str, Known], *, is_whole: bool
+) -> dict[str, Known]:
     machine = solved.machine
-    result = {"rotational_speed": machine.speed, "speed": solved.speed}
+    result = {"rotational_speed": given("rotational_speed", machine.speed, "crank.speed"), "speed": speed_of(machine)}
     if machine.angular_acceleration:
-        result["angular_acceleration"] = machine.angular_acceleration
+        eps = given("angular_acceleration", machine.angular_acceleration, "crank.angular_acceleration")
+        result["angular_acceleration"] = eps
     if machine.drive.efficiency != 1:
-        result["efficiency"] = machine.drive.efficiency
-    if len(dense) == len(CrankGrid.steps(_DENSE_STEP, 360.0)):
-        result |= _quality(machine)
-    for key, values in known.items():
-        kind, _, name = key.partition(".")
+        result["efficiency"] = given("efficiency", machine.drive.efficiency, "efficiency")
+    if is_whole:
+        result |= _quality(machine, memory)
+    keys = [key for key in over.knowns if not over.is_nothing(key)]
+    extremes = over.extremes(*keys)
+    for key in keys:
+        kind, dot, name = key.partition(".")
+        largest, least = (extremes[f"{kind}_{word}{dot}{name}"] for word in ("max", "min"))
         if kind == "slider_displacement":
-            result[f"slider_stroke.{name}"] = float(np.ptp(values))
-        elif kind == "link_angle" and np.ptp(values) < math.pi:
-            result[f"link_swing.{name}"] = float(np.ptp(values))
-        elif (kind in ("joint_force", "slider_velocity") or key in DYNAMICS) and np.any(values):
-            result |= _extremes(key, dense, values, both=key in DYNAMICS)
-    if machine.loads and len(dense) == len(CrankGrid.steps(_DENSE_STEP, 360.0)):
-        mean = float(np.mean(known["static_torque"][:-1]))
-        result["mean_torque"] = mean if abs(mean) > _ROUNDING * np.max(np.abs(known["static_torque"])) else 0.0
-    return result
+            result[f"slider_stroke.{name}"] = largest - least
+        elif kind == "link_angle":
+            if (swing := largest - least).value < math.pi:
+                result[f"link_swing.{name}"] = swing
+        else:
+            words = ("max", "min") if key in DYNAMICS else ("max",)
+            found = (f"{kind}_{word}{angle}{dot}{name}" for word in words for angle in ("", "_angle"))
+            result |= {one: extremes[one] for one in found}
+    if machine.loads and is_whole:
+        result["mean_torque"] = over.mean("static_torque", "mean_torque")
+    return {key: one.named(key) for key, one in result.items()}
 
 
-def _quality(machine: LinkageMachine) -> dict[str, float]:
+def _quality(machine: LinkageMachine, memory: Mapping[str, Known]) -> dict[str, Known]:
     """Return time ratios and the least transmission angles of a linkage that turns fully."""
     mechanism, result = machine.mechanism, {}
+    groups = [index for index, dyad in enumerate(mechanism.dyads) if isinstance(dyad, RRR | RRP)]
+    pieces = [dyad.piece for dyad in mechanism.dyads if isinstance(dyad, RRP)]
+    found = dict(zip(pieces, limits_of_all(mechanism, pieces), strict=True)) if pieces else {}
+    extremes = dict(zip(groups, transmission_extremes(mechanism, groups), strict=True)) if groups else {}
     for index, dyad in enumerate(mechanism.dyads):
         if isinstance(dyad, RRR | RRP):
             name = dyad.point if isinstance(dyad, RRR) else dyad.slider
-            result[f"transmission_angle_min.{name}"] = math.radians(transmission_extremes(mechanism, index).least)
-        for output in (dyad.piece,) if isinstance(dyad, RRP) else ():
-            if limits(mechanism, output).degrees.size == 2:
-                result[f"time_ratio.{output}"] = time_ratio(mechanism, output)
-    return result
-
-
-def _extremes(key: str, grid: CrankGrid, values: Array, *, both: bool) -> dict[str, float]:
-    """Return extreme values and their crank angles; of a named key, `joint_force_max.A`."""
-    kind, dot, name = key.partition(".")
-    found = {"max": int(np.argmax(values))} | ({"min": int(np.argmin(values))} if both else {})
-    result = {}
-    for word, at in found.items():
-        result[f"{kind}_{word}{dot}{name}"] = float(values[at])
-        result[f"{kind}_{word}_angle{dot}{name}"] = float(grid.angle[at])
+            key, least = f"transmission_angle_min.{name}", extremes[index]
+            place = (memory[f"point_x.{name}"], memory[f"point_y.{name}"])
+            result[key] = Known(Found(math.radians(least.least), "min", place, least.least_at), key)
+        if isinstance(dyad, RRP) and found[dyad.piece].degrees.size == 2:
+            of = (memory[f"slider_velocity.{dyad.piece}"],)
+            result[f"time_ratio.{dyad.piece}"] = Known(Found(stroke_ratio(found[dyad.piece]), "time_ratio", of))
     return result
 
 
 def _checks(solved: SolvedLinkage, grid: CrankGrid) -> dict[str, float]:
-    """Return how far four independent routes to the balancing torque differ, relative to its largest value."""
+    """Return how far four independent routes to the balancing torque differ, relative to the forces."""
     if not (solved.machine.mechanism.bodies or solved.machine.loads):
         return {}
     running = running_at(solved, linkage_motion(solved.machine.mechanism, grid))
-    reference = joint_forces(running).balancing_torque
-    torque = crank_torque(running)
-    routes = {
-        "whole_system": system_joint_forces(running).balancing_torque,
-        "zhukovsky": zhukovsky_torque(running),
-        "virtual_work": virtual_work_torque(running),
-        "energy": torque.static + torque.dynamic,
+    found = joint_forces(running)
+    reference = found.balancing_torque
+    some = _every(grid, len(solved.machine.linkage.members))
+    part = running_at(solved, linkage_motion(solved.machine.mechanism, grid[some]))
+    # forces that do no work balance each other to their own rounding, so a torque of zero is measured by them
+    turning = solved.machine.mechanism.crank.radius * max(float(np.max(pin.resultant)) for pin in found.pins.values())
+    scale = max(float(np.max(np.abs(reference))), turning) or 1.0
+    apart = {
+        name: route(part) - reference[some] if name == "whole_system" else route(running) - reference
+        for name, route in ROUTES.items()
     }
-    scale = float(np.max(np.abs(reference))) or 1.0
-    return {name: float(np.max(np.abs(one - reference))) / scale for name, one in routes.items()}
+    return {name: float(np.max(np.abs(one))) / scale for name, one in apart.items()}
+
+
+class TorqueByRoutes(NamedTuple):
+    """The balancing torque by every route, arrays of shape (n,) [N m], and how far they are apart. [-]"""
+
+    torques: Mapping[str, Array]
+    differences: Array
+
+
+def torque_by_routes(results: Results, degrees: ArrayLike) -> TorqueByRoutes:
+    """Return the balancing torque by five routes.
+
+    Parameters
+    ----------
+    results : Results
+        Of a linkage.
+    degrees : array, shape (n,)
+        Crank angles. [deg]
+    """
+    solved: SolvedLinkage = results.solved
+    running = running_at(solved, linkage_motion(solved.machine.mechanism, CrankGrid.from_degrees(degrees)))
+    torques = {"by_groups": by_groups(running), **{name: route(running) for name, route in ROUTES.items()}}
+    return TorqueByRoutes(torques, differences(list(torques.values())))
+
+
+def differences(routes: list[Array]) -> Array:
+    """Return how far routes are apart at each position, relative to the largest torque of the turn.
+
+    Parameters
+    ----------
+    routes : list of array, shape (n,)
+        The same torque, computed in different ways. [N m]
+
+    Returns
+    -------
+    array, shape (n,)
+        Largest less least. [-]
+    """
+    every = np.array(routes)
+    return np.asarray(np.ptp(every, axis=0) / (float(np.max(np.abs(every))) or 1.0))
+
+
+def _every(grid: CrankGrid, links: int) -> slice:
+    """Return which angles the system of all links is solved at: all, or of many links as many as memory is good for."""
+    return slice(None, None, math.ceil(len(grid) * (3 * links) ** 2 / _MOST_COEFFICIENTS))
 
 
 def _groups(columns: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:

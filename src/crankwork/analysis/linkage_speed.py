@@ -3,124 +3,157 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import NamedTuple
 
 import numpy as np
 
+from crankwork.analysis.linkage_memory import speed_of
 from crankwork.analysis.solved import Notice
 from crankwork.errors import MethodError
-from crankwork.kinematics.crank_grid import Array
+from crankwork.formula.known import Found, Known, Table, absent, given
+from crankwork.formula.over_cycle import OverCycle
+from crankwork.formula.replay import Program
+from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.linkage_machine import LinkageMachine
 from crankwork.loads.spring import Spring
-from crankwork.shaft.curve import Curve
+from crankwork.shaft.curve import AtDegrees, Curve
 from crankwork.shaft.energy_machine import energy_machine
 from crankwork.shaft.energy_motion import moment_after
-from crankwork.shaft.fluctuation import excess_work, true_speed
-from crankwork.shaft.flywheel import flywheel, flywheels
+from crankwork.shaft.fluctuation import excess_work, speed_of_energy, true_speed
+from crankwork.shaft.flywheel import (
+    Flywheel,
+    flywheels,
+    inertia_for_fluctuation,
+    slope_largest,
+    slope_least,
+    wittenbauer_slope_largest,
+    wittenbauer_slope_least,
+)
+from crankwork.shaft.flywheel_parts import flywheel_beside_machine
 from crankwork.shaft.motor import GearedMotor
-from crankwork.shaft.motor_choice import first_angle_beyond, motor_need
+from crankwork.shaft.motor_choice import first_angle_beyond, motor_need, needed_power
 from crankwork.shaft.speed import ReducedMachine, steady_speed
 
+_SLOPES = {
+    "wittenbauer": (wittenbauer_slope_largest, wittenbauer_slope_least),
+    "exact": (slope_largest, slope_least),
+}
 
-def speed_summary(
-    machine: LinkageMachine, speed: float, known: Mapping[str, Array]
-) -> tuple[dict[str, float], tuple[Notice, ...]]:
-    """Return single values about flywheel, motor and speed, and what the reader should know of them.
+
+class Turn(NamedTuple):
+    """How evenly a linkage runs: columns, single values, residuals and what the reader should know."""
+
+    columns: dict[str, Known]
+    summary: dict[str, Known]
+    checks: dict[str, float]
+    notices: tuple[Notice, ...]
+
+
+def turn_of(machine: LinkageMachine, over: OverCycle, memory: Mapping[str, Known]) -> Turn:
+    """Return flywheel, motor and true speed of a linkage, as far as they are asked for.
 
     Parameters
     ----------
     machine : LinkageMachine
         Its drive says what is wanted.
-    speed : float
-        Angular speed of the crank. [rad/s]
-    known : mapping of str to array, shape (n,)
-        Columns over one revolution from 0 to 360 degrees. [SI]
-
-    Returns
-    -------
-    tuple of dict and tuple of Notice
-        Values by key, and notices.
+    over : OverCycle
+        Reduced inertia and static torque over one revolution.
+    memory : mapping of str to Known
+        The columns.
     """
-    drive = machine.drive
-    angle = known["crank_angle"]
-    inertia, load = _curves(known)
-    result: dict[str, float] = {}
-    notices: tuple[Notice, ...] = ()
+    drive, w = machine.drive, speed_of(machine)
+    turn = Turn({}, {}, {}, ())
+    if drive.fluctuation is None and drive.motor is None:
+        return turn
+    inertia, load = _curves(over, memory)
     added = 0.0
     if drive.fluctuation is not None:
         try:
-            found = flywheels(inertia, load, speed, drive.fluctuation)
+            turn, added = _even(memory, inertia, load, w, drive.fluctuation)
         except MethodError as error:
-            return result, (Notice("no_flywheel", {"message": str(error)}),)
-        result |= {"excess_work": found[0].excess, "speed_fluctuation": drive.fluctuation}
-        # a way that finds a negative inertia says that it needs none
-        result |= {f"flywheel_inertia.{one.way}": max(one.inertia, 0.0) for one in found}
-        added = max(found[-1].inertia, 0.0)
-    if drive.motor is not None and not np.any(known["reduced_inertia"]) and not added + drive.motor.reduced_inertia:
-        notices += (Notice("no_steady_speed", {"message": "nothing has a mass; give masses, or motor.inertia"}),)
-    elif drive.motor is not None:
-        need = motor_need(Curve.linear(angle, known["static_torque"]), speed, efficiency=drive.efficiency)
-        result["motor_power"] = need.mean_power
-        if need.mean_power > drive.rated_power:
-            powers: dict[str, float | str] = {"needed": need.mean_power / 1e3, "rated": drive.rated_power / 1e3}
-            notices += (Notice("overloaded", powers),)
-        more, told = _steady(drive.motor, speed, inertia, load, added)
-        result, notices = result | more, notices + told
-    return result, notices
+            return turn._replace(notices=(Notice("no_flywheel", {"message": str(error)}),))
+    if drive.motor is not None and over.is_nothing("reduced_inertia") and not added + drive.motor.reduced_inertia:
+        told = Notice("no_steady_speed", {"message": "nothing has a mass; give masses, or motor.inertia"})
+        return turn._replace(notices=(*turn.notices, told))
+    if drive.motor is not None:
+        summary, told_too = _driven(machine, memory, drive.motor, (inertia, load), added)
+        return turn._replace(summary={**turn.summary, **summary}, notices=turn.notices + told_too)
+    return turn
 
 
-def flywheel_residual(machine: LinkageMachine, speed: float, known: Mapping[str, Array]) -> dict[str, float]:
-    """Return how far the simulated fluctuation is from the wanted one, with the exact flywheel.
-
-    Parameters
-    ----------
-    machine : LinkageMachine
-        Its drive says what is wanted.
-    speed : float
-        Mean angular speed of the crank. [rad/s]
-    known : mapping of str to array, shape (n,)
-        Columns over one revolution from 0 to 360 degrees. [SI]
-    """
-    if machine.drive.fluctuation is None:
-        return {}
-    try:
-        return {"flywheel": abs(flywheel(*_curves(known), speed, machine.drive.fluctuation).residual)}
-    except MethodError:
-        return {}
-
-
-def speed_columns(machine: LinkageMachine, speed: float, known: Mapping[str, Array], angle: Array) -> dict[str, Array]:
-    """Return the change of kinetic energy and the true speed of the crank with the flywheel that is wanted.
-
-    Parameters
-    ----------
-    machine : LinkageMachine
-        Its drive says what is wanted.
-    speed : float
-        Mean angular speed of the crank. [rad/s]
-    known : mapping of str to array, shape (n,)
-        Columns over one revolution from 0 to 360 degrees. [SI]
-    angle : array, shape (m,)
-        Crank angles. [rad]
-
-    Returns
-    -------
-    dict of str to array, shape (m,)
-        `kinetic_energy_change` [J] and `crank_speed` [rad/s]; nothing where there is no such flywheel.
-    """
-    inertia, load = _curves(known)
-    try:
-        wheel = flywheel(inertia, load, speed, machine.drive.fluctuation or 0.0)
-        turning = true_speed(inertia + wheel.inertia, load, speed)
-    except MethodError:
-        return {}
-    return {"kinetic_energy_change": excess_work(load).curve(angle), "crank_speed": turning.speed(angle)}
-
-
-def _curves(known: Mapping[str, Array]) -> tuple[Curve, Curve]:
+def _curves(over: OverCycle, memory: Mapping[str, Known]) -> tuple[Curve, Curve]:
     """Return reduced inertia and the torque of the loads, negative where they brake, over one revolution."""
-    angle = known["crank_angle"]
-    inertia = Curve.hermite(angle, known["reduced_inertia"], known["reduced_inertia_1"])
-    return inertia, Curve.linear(angle, -known["static_torque"])
+
+    def followed(key: str) -> Curve:
+        program = Program({key: memory[key]})
+        return Curve.fitted(lambda angle: program(CrankGrid.from_radians(angle))[key], np.radians(over.edges))
+
+    return followed("reduced_inertia"), -followed("static_torque")
+
+
+def _even(memory: Mapping[str, Known], inertia: Curve, load: Curve, w: Known, fluctuation: float) -> tuple[Turn, float]:
+    """Return the flywheel in four ways, and with the exact one the true speed and how well it keeps the fluctuation."""
+    found, speed = flywheels(inertia, load, w.value, fluctuation), w.value
+    of, wanted = (memory["static_torque"], memory["reduced_inertia"]), given("speed_fluctuation", fluctuation)
+    # a way that finds a negative inertia says that it needs none
+    added = max(found[-1].inertia, 0.0)
+    turning = true_speed(inertia + added, load, speed)
+    wheels = {f"flywheel_inertia.{one.way}": _wheel(one, inertia, w, wanted, of) for one in found}
+    had = wanted if added else Known(Found(turning.fluctuation, "fluctuation", of), "speed_fluctuation")
+    summary = {"excess_work": _excess(found[0], (), of), "speed_fluctuation": had, **wheels}
+    change = Known(
+        Table(AtDegrees(excess_work(load).curve), "integral", np.degrees(load.angle), of[:1]), "kinetic_energy_change"
+    )
+    energy = Known(Found(turning.energy, "energy", of), "kinetic_energy.start")
+    crank_speed = speed_of_energy(energy + change, memory["reduced_inertia"] + _beside(added))
+    columns = {"kinetic_energy_change": change, "crank_speed": crank_speed.named("crank_speed")}
+    residual = abs(turning.fluctuation - fluctuation) if added else max(turning.fluctuation - fluctuation, 0.0)
+    return Turn(columns, summary, {"flywheel": residual}, ()), added
+
+
+def _beside(inertia: float) -> Known:
+    return given("flywheel_inertia.exact", inertia) if inertia else absent("flywheel_inertia")
+
+
+def _excess(one: Flywheel, slopes: tuple[Known, ...], of: tuple[Known, ...]) -> Known:
+    """Return the excess work in the sense of one way, by the slopes of its tangents if it has any."""
+    key = "excess_work" if one.way == "energy" else f"excess_work.{one.way}"
+    return Known(Found(one.excess, "range", (*of, *slopes)), key)
+
+
+def _wheel(one: Flywheel, inertia: Curve, w: Known, wanted: Known, of: tuple[Known, ...]) -> Known:
+    """Return the flywheel of one way; zero where the machine needs none."""
+    key, way = f"flywheel_inertia.{one.way}", one.way
+    slopes = tuple(
+        slope(w, wanted).named(f"wittenbauer_slope.{way}.{word}")
+        for word, slope in zip(("largest", "least"), _SLOPES.get(way, ()), strict=False)
+    )
+    whole: Known = inertia_for_fluctuation(_excess(one, slopes, of), wanted, w)
+    parts = {"energy": ("mean", inertia.mean), "mertsalov": ("min", inertia.extremes().least)}
+    if way in parts:
+        word, value = parts[way]
+        less = Known(Found(value, word, of[1:]), f"reduced_inertia.{word}")
+        whole = flywheel_beside_machine(whole.named(f"whole_inertia.{way}"), less)
+    return Known(Found(0.0, "none", (whole,)), key) if one.inertia <= 0 else whole.named(key)
+
+
+def _driven(
+    machine: LinkageMachine, memory: Mapping[str, Known], motor: GearedMotor, curves: tuple[Curve, Curve], added: float
+) -> tuple[dict[str, Known], tuple[Notice, ...]]:
+    """Return the power that the motor needs and the speed that it settles at."""
+    drive, w, (inertia, load) = machine.drive, speed_of(machine), curves
+    notices: tuple[Notice, ...] = ()
+    need = motor_need(-load, w.value, efficiency=drive.efficiency)
+    eta = given("efficiency", drive.efficiency, "efficiency") if drive.efficiency != 1 else absent("efficiency", 1.0)
+    power = Known(Found(need.mean_power, "need", (w, eta)), "motor_power")
+    if need.mean_torque > 0 and "mean_torque" in memory:
+        power = needed_power(absent("power_reserve", 1.0), memory["mean_torque"], w, eta)
+    result = {"motor_power": power}
+    if need.mean_power > drive.rated_power:
+        powers: dict[str, float | str] = {"needed": need.mean_power / 1e3, "rated": drive.rated_power / 1e3}
+        notices = (Notice("overloaded", powers),)
+    more, told = _steady(motor, w.value, inertia, load, added)
+    return result | {key: Known(Found(value, "steady"), key) for key, value in more.items()}, notices + told
 
 
 def _steady(
@@ -139,7 +172,7 @@ def _steady(
     return {}, (Notice("stalls", {"torque": greatest, "angle": float(np.degrees(stalls))}),)
 
 
-def transient_summary(machine: LinkageMachine) -> dict[str, float]:
+def transient_summary(machine: LinkageMachine) -> dict[str, Known]:
     """Return crank angle and speed after the time of a transient.
 
     Parameters
@@ -149,7 +182,7 @@ def transient_summary(machine: LinkageMachine) -> dict[str, float]:
 
     Returns
     -------
-    dict of str to float
+    dict of str to Known
         Values by key; none without a transient.
 
     Raises
@@ -163,4 +196,8 @@ def transient_summary(machine: LinkageMachine) -> dict[str, float]:
     springs = tuple(load for load in machine.loads if isinstance(load, Spring))
     moving = energy_machine(machine.mechanism, wanted.torque, springs, inertia=machine.drive.inertia)
     found = moment_after(moving, wanted.time, speed=wanted.speed)
-    return {"transient_time": wanted.time, "final_turn": found.angle, "final_speed": found.speed}
+    return {
+        "transient_time": given("transient_time", wanted.time, "transient.time"),
+        "final_turn": Known(Found(found.angle, "followed"), "final_turn"),
+        "final_speed": Known(Found(found.speed, "followed"), "final_speed"),
+    }

@@ -2,17 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import difflib
+import math
+from collections.abc import Iterable, KeysView, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from crankwork.analysis.solved import Notice
+from crankwork.errors import CrankworkError, UnknownKeyError
+from crankwork.formula.known import Known
+from crankwork.formula.replay import Program
+from crankwork.formula.steps import AnyStep
 from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.locale import Language, Refusal
 from crankwork.method import Method
-from crankwork.steps import Step
 
 if TYPE_CHECKING:
     from crankwork.linkage_machine import AnyMachine
+
+
+# a residual above this is more than rounding
+_ROUNDING = 1e-7
+# rows of a table are no further from where they are said to stand, in degrees
+_SAME_ANGLE = 1e-9
 
 
 class Listing(NamedTuple):
@@ -41,7 +56,7 @@ class Results:
     grid : CrankGrid, shape (n,)
         Crank angles of the columns. [rad]
     columns : mapping of str to array, shape (n,)
-        Results by key of `quantities.QUANTITIES`. [SI]
+        Results by key of `quantities.QUANTITIES`, in the `si_unit` of its row; tables show its `unit`. [SI]
     summary : mapping of str to float
         Single values by key. [SI]
     checks : mapping of str to float
@@ -52,8 +67,11 @@ class Results:
         Keys of each table; those without a column are left out.
     listings : mapping of str to Listing
         Tables over something else than the crank angle, by name.
-    steps : tuple of Step
-        How calculated values of the working cycle came about, in order.
+    allowed : mapping of str to float
+        What a residual may be by the error that an approximate method states, by its key in `checks`; the others
+        may be rounding. [-]
+    memory : mapping of str to Known
+        How every column, every single value and what lies between them came about.
     """
 
     solved: Any
@@ -64,7 +82,8 @@ class Results:
     notices: tuple[Notice, ...]
     groups: Mapping[str, tuple[str, ...]]
     listings: Mapping[str, Listing] = field(default_factory=dict)
-    steps: tuple[Step, ...] = ()
+    allowed: Mapping[str, float] = field(default_factory=dict)
+    memory: Mapping[str, Known] = field(default_factory=dict)
 
     @property
     def machine(self) -> AnyMachine:
@@ -79,6 +98,19 @@ class Results:
         return method
 
     @property
+    def steps(self) -> tuple[AnyStep, ...]:
+        """How calculated values of the working cycle came about, in order."""
+        space = getattr(self.solved, "space", None)
+        steps: tuple[AnyStep, ...] = () if space is None or space.calculated is None else space.calculated.steps
+        return steps
+
+    @property
+    def unmet(self) -> tuple[str, ...]:
+        """The keys of the checks that are not met."""
+        met = {key: value <= max(_ROUNDING, self.allowed.get(key, 0.0)) for key, value in self.checks.items()}
+        return tuple(key for key, one in met.items() if not one)
+
+    @property
     def tables(self) -> Mapping[str, tuple[str, ...]]:
         """The keys of each table, crank angle first."""
         present = {
@@ -86,6 +118,136 @@ class Results:
         }
         return {name: keys for name, keys in present.items() if len(keys) > 1}
 
+    def columns_at(self, angles: CrankGrid | ArrayLike, keys: Iterable[str] | None = None) -> dict[str, Array]:
+        """Return columns that are remembered, at other crank angles.
+
+        Parameters
+        ----------
+        angles : array, shape (m,), or CrankGrid
+            Crank angles. [deg]
+        keys : iterable of str, optional
+            Which, those that nobody has named as a column among them; all columns otherwise.
+
+        Returns
+        -------
+        dict of str to array, shape (m,)
+            Columns by key. [SI]
+        """
+        grid = angles if isinstance(angles, CrankGrid) else CrankGrid.from_degrees(angles)
+        wanted = self.columns if keys is None else keys
+        return Program({key: self.memory[key] for key in wanted if key in self.memory})(grid)
+
     def __getitem__(self, key: str) -> Array | float:
         """Return a column, or a single value of the summary, in SI."""
-        return self.columns[key] if key in self.columns else self.summary[key]
+        if key in self.columns:
+            return self.columns[key]
+        if key in self.summary:
+            return self.summary[key]
+        raise self._unknown(key, [*self.columns, *self.summary])
+
+    def keys(self) -> KeysView[str]:
+        """Return the keys of everything that `value` gives: columns, single values, and what lies between them."""
+        return {**self.columns, **self.summary, **self.memory}.keys()
+
+    def value(self, key: str, at: float | None = None) -> float:
+        """Return one value.
+
+        Parameters
+        ----------
+        key : str
+            Key of a column, of a single value, or of what lies between them.
+        at : float, optional
+            Crank angle, any within the cycle: columns are played again there, not interpolated. [deg]
+
+        Returns
+        -------
+        float
+            The value. [SI]
+
+        Raises
+        ------
+        UnknownKeyError
+            If there is no such key.
+        CrankworkError
+            If the value varies with the crank angle and none is named, or there is no value at that angle.
+
+        Examples
+        --------
+        >>> import crankwork
+        >>> results = crankwork.analyse(crankwork.read_machine(crankwork.template("engine")))
+        >>> results.value("stroke"), round(results.value("crank_torque", at=390.5), 3)
+        (0.09, 376.47)
+        """
+        known = self.memory.get(key)
+        if key in self.summary or (known is not None and not known.varies):
+            return float(self.summary[key]) if known is None else known.value
+        if known is None and key not in self.columns:
+            raise self._unknown(key, self.keys())
+        return self._column_at(key, known, self._within(key, at))
+
+    def explain(self, key: str, at: float | None = None, language: Language = "en") -> str:
+        """Return how a value came about, line by line down to what is given.
+
+        Parameters
+        ----------
+        key : str
+            As in `value`.
+        at : float, optional
+            Crank angle of what varies. [deg]
+        language : str
+            `en`, `ru` or `vi`.
+
+        Returns
+        -------
+        str
+            The value, every step in the order of calculation, and the given values.
+
+        Raises
+        ------
+        CrankworkError
+            As `value` does.
+        """
+        # words stand above the analysis, and this is a door to them
+        from crankwork.note.explain import explanation  # noqa: PLC0415
+
+        return explanation(self, key, at, language)
+
+    def _column_at(self, key: str, known: Known | None, at: float) -> float:
+        row = int(np.argmin(np.abs(self.grid.degrees - at)))
+        if known is None or self.has_positions:
+            if abs(float(self.grid.degrees[row]) - at) > _SAME_ANGLE:
+                nearest = f"{self.grid.degrees[row]:g}"
+                raise CrankworkError(Refusal("angle_between_rows", key=key, angle=f"{at:g}", nearest=nearest))
+            if known is None:
+                return float(self.columns[key][row])
+        with np.errstate(all="ignore"):
+            value = float(Program({key: known})(CrankGrid.from_degrees([at]))[key][0])
+        if not math.isfinite(value):
+            raise CrankworkError(Refusal("angle_unreached", key=key, angle=f"{at:g}"))
+        return value
+
+    @property
+    def has_positions(self) -> bool:
+        """Whether columns stand at the positions of a document's table, with nothing between them."""
+        return hasattr(self.machine, "angles")
+
+    def _within(self, key: str, at: float | None) -> float:
+        """Return a crank angle for what varies."""
+        if at is None:
+            middle = float(self.grid.degrees[len(self.grid) // 2])
+            raise CrankworkError(Refusal("angle_missing", key=key, example=f"{middle:g}"))
+        if not 0 <= at <= self.machine.cycle:
+            raise CrankworkError(Refusal("angle_outside", angle=f"{at:g}", cycle=f"{self.machine.cycle:g}"))
+        return float(at)
+
+    def _unknown(self, key: str, known: Iterable[str]) -> UnknownKeyError:
+        """Return the refusal of a key, with the nearest that there are."""
+        known = list(known)
+        near = difflib.get_close_matches(key, known, n=3, cutoff=0.7) or [one for one in known if key in one][:3]
+        if near:
+            return UnknownKeyError(Refusal("result_unknown_near", key=_printable(key), nearest=tuple(near)))
+        return UnknownKeyError(Refusal("result_unknown", key=_printable(key)))
+
+
+def _printable(key: str) -> str:
+    return ascii(key[:60])[1:-1]

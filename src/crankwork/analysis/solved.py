@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-import importlib
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from types import ModuleType
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from crankwork.dynamics.piston_forces import angular_speed
 from crankwork.errors import CrankworkError
+from crankwork.formula.known import Found, Known
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.extremes import dead_centres
-from crankwork.kinematics.piston import PistonMotion, as_slider_crank, piston_motion
+from crankwork.kinematics.lengths import stroke_central, stroke_offset
+from crankwork.kinematics.piston import PistonMotion, as_slider_crank, piston_motion, piston_transfer
 from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank
 from crankwork.kinematics.transfer import Transfer
 from crankwork.loads import gas as gas_formulas
@@ -75,15 +76,45 @@ class Solved:
         """Return the motion of piston and rod at crank angles of this cylinder."""
         if self.slave is None:
             return piston_motion(self.lengths, grid, self.method)
-        moving = _articulated().articulated_motion(self.lengths, self.slave, grid)
+        from crankwork.cylinders.articulated import articulated_motion  # noqa: PLC0415 - few engines have such rods
+
+        moving = articulated_motion(self.lengths, self.slave, grid)
         return PistonMotion(moving.piston, moving.rod, moving.swing)
+
+    def piston(self, grid: CrankGrid) -> Transfer:
+        """Return the motion of the piston alone at crank angles of this cylinder."""
+        if self.slave is None:
+            return piston_transfer(self.lengths, grid, self.method)
+        return self.motion(grid).piston
+
+    @property
+    def revolutions(self) -> float:
+        """Speed of the crank as the description states it. [rpm]"""
+        return self.machine.speed * 30 / math.pi
+
+    @cached_property
+    def memory(self) -> dict[str, Known]:
+        """Everything about the cylinder by key, remembered."""
+        from crankwork.analysis.forces import cylinder_memory  # noqa: PLC0415 - it is made of what is solved here
+
+        return cylinder_memory(self)
+
+    def remembered_stroke(self, lengths: SliderCrank) -> Known:
+        """Return the stroke as a known, of lengths that are knowns."""
+        r, l, e = lengths  # noqa: E741
+        if self.slave is not None:
+            return Known(Found(self.stroke[0], "dead_centre", lengths), "stroke")
+        found: Known = stroke_central(r) if e.is_absent else stroke_offset(l, r, e)
+        return found
 
     @property
     def stroke(self) -> tuple[float, float, float]:
         """Stroke [m], and the crank angles of top and bottom dead centre [deg]."""
         if self.slave is None:
             return (self.lengths.stroke, *dead_centres(self.lengths))
-        found = _articulated().slave_stroke(self.lengths, self.slave)
+        from crankwork.cylinders.articulated import slave_stroke  # noqa: PLC0415 - few engines have such rods
+
+        found = slave_stroke(self.lengths, self.slave)
         return found.stroke, found.top_angle, found.bottom_angle
 
 
@@ -148,11 +179,6 @@ def solve_slave(solved: Solved, slave: ArticulatedRod) -> Solved:
     return _with_space(replace(solved, slave=slave, space=None, notices=()), [])
 
 
-def _articulated() -> ModuleType:
-    """Return the room of articulated rods, loaded when an engine has some."""
-    return importlib.import_module("crankwork.cylinders.articulated")
-
-
 def _with_space(solved: Solved, notices: list[Notice]) -> Solved:
     """Return a cylinder with its working space, if it has one."""
     machine, method = solved.machine, solved.method
@@ -170,7 +196,7 @@ def _with_space(solved: Solved, notices: list[Notice]) -> Solved:
     def piston_at(degrees: Array) -> Transfer:
         # volume and its derivative are asked for at the same angles, one after the other
         if not last or last[0][0] is not degrees:
-            last[:] = [(degrees, solved.motion(CrankGrid.from_degrees(degrees)).piston)]
+            last[:] = [(degrees, solved.piston(CrankGrid.from_degrees(degrees)))]
         return last[0][1]
 
     def volume_at(degrees: Array) -> Array:

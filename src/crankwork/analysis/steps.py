@@ -8,16 +8,14 @@ which it is, `quantities.base_key(step.key)`, and not the quantity of the formul
 
 from __future__ import annotations
 
-import importlib
 import math
-from typing import cast
 
 import numpy as np
 
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import Solved
 from crankwork.errors import CrankworkError
-from crankwork.steps import StepGroup
+from crankwork.formula.steps import StepGroup
 
 DEFAULT_ANGLE = 30.0
 
@@ -53,14 +51,14 @@ def worked_steps(
     if isinstance(solved, Solved):
         if force_angle is None:
             force_angle = cycle - 360.0 + crank_angle
-        steps = importlib.import_module("crankwork.analysis.steps_engine").engine_steps
-        found = steps(results, _checked(crank_angle, cycle), _checked(force_angle, cycle))
-    else:
-        # loaded when needed, as the analysis of linkages is
-        steps = importlib.import_module("crankwork.analysis.steps_linkage").linkage_steps
-        angles = (crank_angle, crank_angle if force_angle is None else force_angle)
-        found = steps(results, *(_nearest(results, _checked(angle, cycle)) for angle in angles))
-    return cast("tuple[StepGroup, ...]", found)
+        from crankwork.analysis.steps_engine import engine_steps  # noqa: PLC0415 - loaded where it is needed
+
+        return engine_steps(results, _checked(crank_angle, cycle), _checked(force_angle, cycle))
+    from crankwork.analysis.steps_linkage import linkage_steps  # noqa: PLC0415 - loaded where it is needed
+
+    angles = (crank_angle, crank_angle if force_angle is None else force_angle)
+    at_motion, at_forces = (_nearest(results, _checked(angle, cycle)) for angle in angles)
+    return linkage_steps(results, at_motion, at_forces)
 
 
 def _checked(angle: float, cycle: float) -> float:

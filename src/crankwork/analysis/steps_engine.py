@@ -1,24 +1,42 @@
-"""Worked steps of an engine: lengths, speed, motion, masses, gas, forces and power."""
+"""What the memory of an engine has to show, by subject: which values, and at which crank angle."""
 
 from __future__ import annotations
 
-import importlib
-import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import Solved
-from crankwork.analysis.steps_extremes import extreme_steps, force_extreme_steps
-from crankwork.analysis.steps_forces import force_steps
-from crankwork.analysis.steps_motion import EngineMoment, harmonic_steps, motion_steps
-from crankwork.dynamics import masses as mass_formulas
-from crankwork.dynamics import piston_forces as forces
-from crankwork.kinematics import lengths as length_formulas
-from crankwork.kinematics.lengths import mean_piston_speed
-from crankwork.loads import gas as gas_formulas
-from crankwork.loads.indicator import Piece, Segment
-from crankwork.machine import Machine
-from crankwork.steps import AnyStep, Given, Step, StepGroup, named_step, renamed, worked_step
+from crankwork.formula.known import Given as GivenNode
+from crankwork.formula.known import Known
+from crankwork.formula.lines import Moment
+from crankwork.formula.steps import AnyStep, Given, StepGroup
+from crankwork.kinematics.crank_grid import CrankGrid
+
+_GEOMETRY = ("rod_ratio", "relative_offset", "stroke", "top_dead_centre_angle", "bottom_dead_centre_angle")
+_SPEED = ("speed", "mean_piston_speed")
+_SWING = ("rod_sine", "rod_cosine", "crank_rod_sine", "crank_rod_cosine")
+_MOTION = (
+    *_SWING, "rod_angle", "piston_displacement", "piston_transfer_1", "piston_transfer_2", "piston_velocity",
+    "piston_acceleration", "rod_transfer_1", "rod_transfer_2", "rod_angular_velocity", "rod_angular_acceleration",
+)  # fmt: skip
+_EXTREMES = tuple(f"piston_{noun}_{end}" for noun in ("velocity", "acceleration") for end in ("max", "min"))
+_MASSES = ("reciprocating_mass", "rotating_mass")
+_SPACE = ("piston_area", "swept_volume", "clearance_volume", "compression_ratio")
+_POINTS = ("cylinder_volume.", "diagram_pressure.")
+_FORCES = (
+    *_SWING, "cylinder_volume", "diagram_pressure", "gas_pressure", "gas_force", "inertia_acceleration",
+    "inertia_force", "weight_force", "transverse_weight", "piston_force",
+    "side_factor", "rod_factor", "radial_factor", "tangential_factor",
+    "correction_couple", "rod_transverse_force", "side_force.couple", "side_force", "rod_force", "radial_force",
+    "tangential_force", "rotating_inertia_force", "rotating_torque", "crank_torque", "pin_distance",
+    "overturning_moment",
+)  # fmt: skip
+_FORCE_EXTREMES = tuple(
+    f"{key}_{end}"
+    for key in ("inertia_force", "piston_force", "side_force", "tangential_force", "crank_torque")
+    for end in ("max", "min")
+)
+_POWER = ("indicated_work", "indicated_mean_pressure", "indicated_power", "mean_torque")
 
 
 def engine_steps(results: Results, crank_angle: float, force_angle: float) -> tuple[StepGroup, ...]:
@@ -38,27 +56,47 @@ def engine_steps(results: Results, crank_angle: float, force_angle: float) -> tu
         `extremes`, `masses`, `gas`, `forces`, `force_extremes`, `power`, and those of `steps_whole` for an engine of
         several; those without a step are left out.
     """
-    solved: Solved = results.solved
-    moving, loaded = EngineMoment.at(solved, crank_angle), EngineMoment.at(solved, force_angle)
-    at, there = float(moving.grid.angle[0]), float(loaded.grid.angle[0])
-    groups = (
+    solved, memory = results.solved, results.memory
+    moving, loaded = Moment(CrankGrid.from_degrees, crank_angle), Moment(CrankGrid.from_degrees, force_angle)
+    order = ("displacement", "transfer_1", "velocity", "transfer_2", "acceleration")
+    harmonics = [f"piston_{noun}_{which}_order" for which in ("first", "second") for noun in order]
+    points = [key for key in memory if key.startswith(_POINTS)]
+    at, there = (float(CrankGrid.from_degrees([one]).angle[0]) for one in (crank_angle, force_angle))
+    groups: tuple[StepGroup, ...] = (
         StepGroup("cycle", tuple(_cycle(results, solved))),
-        StepGroup("geometry", tuple(_geometry(solved))),
-        StepGroup("speed", tuple(_speed(solved))),
-        StepGroup("motion", tuple(motion_steps(moving)), at),
-        StepGroup("harmonics", tuple(harmonic_steps(moving)), at),
-        StepGroup("extremes", tuple(extreme_steps(solved, results.summary))),
-        StepGroup("masses", tuple(_masses(solved.machine))),
-        StepGroup("gas", tuple(_gas(solved))),
-        StepGroup("forces", tuple(force_steps(loaded)), there),
-        StepGroup("force_extremes", tuple(force_extreme_steps(solved, results.summary))),
-        StepGroup("power", tuple(_power(solved, results.summary))),
+        StepGroup("geometry", tuple(_own(moving, memory, _GEOMETRY))),
+        StepGroup("speed", tuple(_own(moving, memory, _SPEED))),
+        StepGroup("motion", tuple(_followed(moving, memory, _MOTION)), at),
+        StepGroup("harmonics", tuple(_own(moving, memory, harmonics)), at),
+        StepGroup("extremes", tuple(_own(moving, memory, _EXTREMES))),
+        StepGroup("masses", tuple(_own(moving, memory, _MASSES))),
+        StepGroup("gas", tuple(_own(loaded, memory, (*_SPACE, *points)))),
+        StepGroup("forces", tuple(_followed(loaded, memory, _FORCES if "piston_force" in memory else ())), there),
+        StepGroup("force_extremes", tuple(_own(loaded, memory, _FORCE_EXTREMES))),
+        StepGroup("power", tuple(_own(loaded, memory, _POWER if solved.space is not None else ()))),
     )
     if solved.machine.engine is not None:
         # loaded when needed, as the analysis of whole engines is
-        whole = importlib.import_module("crankwork.analysis.steps_whole")
-        groups = (*groups, *whole.whole_engine_steps(results, force_angle))
+        from crankwork.analysis.steps_whole import whole_engine_steps  # noqa: PLC0415
+
+        groups = (*groups, *whole_engine_steps(results, force_angle))
     return tuple(group for group in groups if group.steps)
+
+
+def _own(moment: Moment, memory: Mapping[str, Known], keys: Iterable[str]) -> Iterator[AnyStep]:
+    """Yield the lines of keys themselves: what they are made of is shown elsewhere."""
+    for key in keys:
+        if key in memory and not _is_stated(memory[key]):
+            yield moment.step(memory[key])
+
+
+def _followed(moment: Moment, memory: Mapping[str, Known], keys: Iterable[str]) -> Iterator[AnyStep]:
+    """Yield the lines of keys after those of everything they are made of."""
+    yield from moment.steps(memory[key] for key in keys if key in memory)
+
+
+def _is_stated(known: Known) -> bool:
+    return isinstance(known.node, GivenNode)
 
 
 def _cycle(results: Results, solved: Solved) -> Iterator[AnyStep]:
@@ -85,100 +123,3 @@ def _cycle(results: Results, solved: Solved) -> Iterator[AnyStep]:
     for at, step in enumerate(results.steps):
         yield step._replace(key=key_of(step.key) if at == last[step.key] else f"{step.key}.before_rounding")
     yield from (one for at, one in known if at > end)
-
-
-def _geometry(solved: Solved) -> Iterator[Step]:
-    r, l, e = (float(one) for one in solved.lengths)  # noqa: E741
-    known = {"r": r, "l": l, "e": e, "pi": math.pi}
-    yield named_step(length_formulas.rod_ratio, known)
-    if not e:
-        yield named_step(length_formulas.stroke_central, known)
-        return
-    yield named_step(length_formulas.relative_offset, known)
-    yield named_step(length_formulas.stroke_offset, known)
-    top = length_formulas.top_dead_centre_angle if e > 0 else length_formulas.top_dead_centre_angle_before
-    yield named_step(top, known)
-    yield named_step(length_formulas.bottom_dead_centre_angle, known)
-
-
-def _speed(solved: Solved) -> Iterator[Step]:
-    n = solved.machine.speed * 30 / math.pi
-    yield worked_step(forces.angular_speed, solved.method.pi, n)
-    yield worked_step(mean_piston_speed, float(solved.lengths.stroke), n)
-
-
-def _masses(machine: Machine) -> Iterator[Step]:
-    masses = machine.masses
-    if masses is not None:
-        yield worked_step(mass_formulas.reciprocating_mass, masses.piston, masses.rod_small_end)
-        yield worked_step(mass_formulas.rotating_mass, masses.crank, masses.rod_big_end)
-
-
-def _gas(solved: Solved) -> Iterator[AnyStep]:
-    """Yield areas and volumes of the cylinder, and both ends of each polytrope of the indicator diagram."""
-    cylinder, space = solved.machine.cylinder, solved.space
-    if cylinder is None:
-        return
-    yield worked_step(gas_formulas.piston_area, solved.method.pi, cylinder.bore)
-    if space is None:
-        return
-    yield worked_step(gas_formulas.swept_volume, space.area, float(solved.lengths.stroke))
-    if cylinder.clearance_volume is None and cylinder.compression_ratio is not None:
-        yield worked_step(gas_formulas.clearance_volume, space.swept, cylinder.compression_ratio)
-    yield worked_step(gas_formulas.compression_ratio, space.swept, space.clearance)
-    for piece in _pieces(solved):
-        for name in (piece.points[0], piece.points[-1]):
-            if name != (piece.reference or piece.points[0]):
-                yield from _polytrope_end(solved, name, piece.points[-1])
-
-
-def _polytrope_end(solved: Solved, name: str, end: str) -> Iterator[AnyStep]:
-    """Yield volume and pressure of the polytrope that ends at `end`, at one of its points."""
-    if solved.space is None:
-        return
-    named = solved.space.diagram.named
-    segment = next((one for one in _polytropes(solved) if abs(one.end - named[end][0]) < 1e-9), None)
-    if segment is None:
-        return
-    start = next((one for one in _pieces(solved) if one.points[-1] == end), None)
-    origin = (start.reference or start.points[0]) if start else ""
-    x = EngineMoment.at(solved, named[name][0]).known["piston_displacement"]
-    volume = worked_step(
-        gas_formulas.cylinder_volume, solved.space.clearance, solved.space.area, x, key=f"cylinder_volume.{name}"
-    )
-    yield volume
-    pressure, reference, exponent = segment.state
-    found = worked_step(
-        gas_formulas.polytropic_pressure, pressure, reference, volume.value, exponent, key=f"diagram_pressure.{name}"
-    )
-    yield renamed(found, p_1=f"diagram_pressure.{origin}", V_1=f"cylinder_volume.{origin}", V=volume.key)
-
-
-def _pieces(solved: Solved) -> list[Piece]:
-    """Return the polytropes of a diagram that was given by its points."""
-    gas = solved.machine.gas
-    return [one for one in gas.pieces if one.law == "polytropic"] if gas and gas.measured is None else []
-
-
-def _polytropes(solved: Solved) -> tuple[Segment, ...]:
-    segments = solved.space.diagram.segments if solved.space else ()
-    return tuple(one for one in segments if one.law == "polytropic")
-
-
-def _power(solved: Solved, summary: Mapping[str, float]) -> Iterator[AnyStep]:
-    """Yield mean pressure, power and mean torque of the indicated work.
-
-    The mean of the crank torque does the indicated work exactly where the motion is exact and steady. Else that mean
-    is an integral of the results, and `mean_torque.indicated` is the torque that would do the work, for comparison.
-    """
-    if solved.space is None:
-        return
-    work, cycle = summary["indicated_work"], math.radians(solved.machine.cycle)
-    yield Given("indicated_work", work)
-    yield worked_step(gas_formulas.indicated_mean_pressure, work, solved.space.swept)
-    yield worked_step(gas_formulas.indicated_power, work, solved.speed, cycle)
-    if solved.method.is_exact and not solved.machine.angular_acceleration and summary["mean_torque"]:
-        yield worked_step(gas_formulas.mean_torque, work, cycle)
-    else:
-        yield Given("mean_torque", summary["mean_torque"])
-        yield worked_step(gas_formulas.mean_torque, work, cycle, key="mean_torque.indicated")

@@ -1,62 +1,10 @@
-"""Worked steps of the torques on the crank of a linkage, and of the efficiency of a chain of joints."""
+"""Worked steps of the efficiency of a chain of joints."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from crankwork.analysis.linkage import SolvedLinkage
-from crankwork.analysis.results import Results
-from crankwork.dynamics import reduction
-from crankwork.dynamics.efficiency import (
-    Chain,
-    Parallel,
-    Series,
-    driving_torque_as_brake,
-    driving_torque_as_motor,
-)
-from crankwork.dynamics.force_parts import balancing_torque_of_parts, efficiency_share
-from crankwork.steps import AnyStep, Given, Step, product_step, sum_step, worked_step
-
-
-def torque_steps(results: Results, row: int) -> Iterator[Step]:
-    """Yield static, dynamic, balancing and driving torque of a linkage.
-
-    Parameters
-    ----------
-    results : Results
-        Of a linkage with bodies, loads or a drive that has inertia.
-    row : int
-        Row of the columns.
-    """
-    solved: SolvedLinkage = results.solved
-    machine, speed = solved.machine, solved.speed
-    at = {key: float(column[row]) for key, column in results.columns.items()}
-    if machine.loads:
-        yield worked_step(reduction.static_torque, -at["static_torque"])
-    if machine.angular_acceleration:
-        yield worked_step(
-            reduction.dynamic_torque, speed, at["reduced_inertia_1"], at["reduced_inertia"],
-            machine.angular_acceleration,
-        )  # fmt: skip
-    else:
-        yield worked_step(reduction.dynamic_torque_steady, speed, at["reduced_inertia_1"])
-    yield from sum_and_drive(at["static_torque"], at["dynamic_torque"], machine.drive.efficiency)
-
-
-def sum_and_drive(static: float, dynamic: float, chain_efficiency: float) -> Iterator[Step]:
-    """Yield the sum of two torques and the torque of the motor, which drives or brakes.
-
-    Parameters
-    ----------
-    static, dynamic : float
-        Static and dynamic torque. [N m]
-    chain_efficiency : float
-        From motor to crank. [-]
-    """
-    whole = worked_step(balancing_torque_of_parts, static, dynamic)
-    yield whole
-    drive = driving_torque_as_motor if whole.value > 0 else driving_torque_as_brake
-    yield worked_step(drive, static, dynamic, chain_efficiency)
+from crankwork.dynamics.efficiency import Chain, Parallel, Series
+from crankwork.dynamics.force_parts import efficiency_share
+from crankwork.formula.steps import AnyStep, Given, product_step, sum_step, worked_step
 
 
 def efficiency_steps(chain: Chain, key: str = "efficiency") -> AnyStep:

@@ -11,15 +11,15 @@ from crankwork.analysis.cylinders import WholeEngine, whole_engine
 from crankwork.analysis.results import Results
 from crankwork.analysis.steps_whole_balance import balance_steps
 from crankwork.analysis.steps_whole_bearings import bearing_steps, load_steps
-from crankwork.analysis.steps_whole_torque import WholeMoment, articulated_steps, torque_steps
+from crankwork.analysis.steps_whole_torque import articulated_steps, torque_steps
 from crankwork.cylinders.firing import is_even
 from crankwork.cylinders.torque import even_firing_interval, firing_intervals, mean_torque_of_work
 from crankwork.cylinders.torque_harmonics import amplitude_of_harmonic, amplitude_of_total
+from crankwork.formula.steps import AnyStep, Given, StepGroup, renamed, sum_step, worked_step
 from crankwork.loads import gas as gas_formulas
 from crankwork.shaft.fluctuation import fluctuation_of_energy, fluctuation_of_inertia
 from crankwork.shaft.flywheel import inertia_for_fluctuation
 from crankwork.shaft.flywheel_parts import flywheel_beside_machine, work_of_mean_torque
-from crankwork.steps import AnyStep, Given, StepGroup, renamed, sum_step, worked_step
 from crankwork.working_cycle.engine_size import displacement
 
 _SHOWN_ORDERS = 3
@@ -45,12 +45,12 @@ def whole_engine_steps(results: Results, crank_angle: float) -> tuple[StepGroup,
     firing = StepGroup("firing", tuple(_firing(whole)))
     if "crank_torque" not in results.columns:
         return (firing,)
-    moment, at = WholeMoment.at(whole, crank_angle), math.radians(crank_angle)
+    at = math.radians(crank_angle)
     return (
         firing,
-        StepGroup("engine_torque", tuple(torque_steps(moment)), at),
-        StepGroup("articulated", tuple(articulated_steps(moment)), at),
-        StepGroup("bearings", tuple(bearing_steps(moment)), at),
+        StepGroup("engine_torque", tuple(torque_steps(results, whole, crank_angle)), at),
+        StepGroup("articulated", tuple(articulated_steps(whole, crank_angle)), at),
+        StepGroup("bearings", tuple(bearing_steps(results, crank_angle)), at),
         StepGroup("bearing_loads", tuple(load_steps(results))),
         StepGroup("torque_harmonics", tuple(_harmonics(results, whole))),
         StepGroup("uniformity", tuple(_uniformity(results, whole))),

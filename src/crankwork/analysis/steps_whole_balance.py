@@ -22,8 +22,8 @@ from crankwork.cylinders.balance import (
 )
 from crankwork.cylinders.counterweights import counterweight_moment, rotating_unbalances, turning_forces
 from crankwork.cylinders.journal_loads import unbalance_force
+from crankwork.formula.steps import AnyStep, Given, Step, product_step, renamed, sum_step, worked_step
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.steps import AnyStep, Given, Step, product_step, renamed, sum_step, worked_step
 
 _SAMPLES = 720
 

@@ -3,15 +3,25 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
+from crankwork.analysis.linkage_memory import speed_of
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import Notice
-from crankwork.dynamics.efficiency import driving_torque
-from crankwork.dynamics.reduction import dynamic_torque_steady
-from crankwork.dynamics.tabulated import difference_derivative, tabulated_inertia
+from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor
+from crankwork.dynamics.force_parts import (
+    balancing_torque_of_parts,
+    central_difference,
+    forward_difference,
+    static_torque_of_balancing,
+)
+from crankwork.dynamics.reduction import dynamic_torque, kinetic_energy
+from crankwork.dynamics.tabulated import TabulatedBody, difference_derivative, reduced_inertia_of_ratios
+from crankwork.formula.known import Found, Known, OfAngle, Pieces, Table, absent, given, total
+from crankwork.formula.replay import Program, replay
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.linkage_machine import TabulatedMachine
 from crankwork.method import Method
@@ -52,52 +62,102 @@ def analyse_tabulated(machine: TabulatedMachine) -> Results:
     """
     solved = SolvedTable(machine, machine.method, machine.speed * machine.method.pi / math.pi)
     grid = CrankGrid.from_degrees([round(math.degrees(one), 9) for one in machine.angles])
-    inertia = tabulated_inertia(machine.bodies)
-    if machine.reduced_inertia_1 is None:
-        inertia_1 = difference_derivative(grid.angle, inertia, machine.differences)
-    else:
-        inertia_1 = np.array(machine.reduced_inertia_1)
-    dynamic = np.asarray(dynamic_torque_steady(solved.speed, inertia_1))
-    columns = {
-        "crank_angle": grid.angle,
-        "reduced_inertia": inertia,
-        "reduced_inertia_1": inertia_1,
-        "dynamic_torque": dynamic,
-    }
-    static = _static(machine, dynamic)
-    if static is not None:
-        columns |= {
-            "static_torque": static,
-            "balancing_torque": static + dynamic,
-            "driving_torque": driving_torque(static, dynamic, machine.drive.efficiency),
-        }
-    return Results(solved, grid, columns, _summary(solved, columns), {}, _notices(machine), GROUPS)
+    memory = _memory(machine, grid)
+    columns = Program(memory)(grid)
+    summary = _summary(machine, columns, memory)
+    values = {key: one.value for key, one in summary.items()}
+    return Results(solved, grid, columns, values, {}, _notices(machine), GROUPS, memory={**memory, **summary})
 
 
-def _static(machine: TabulatedMachine, dynamic: Array) -> Array | None:
+@dataclass(frozen=True)
+class Rows:
+    """Numbers that stand at the positions of a table only. [deg]"""
+
+    degrees: tuple[float, ...]
+    values: tuple[float, ...]
+
+    def __call__(self, degrees: Array) -> Array:
+        """Return the numbers of the nearest positions."""
+        nearest = np.argmin(np.abs(np.subtract.outer(degrees, self.degrees)), axis=-1)
+        return np.asarray(np.array(self.values)[nearest])
+
+
+def _memory(machine: TabulatedMachine, grid: CrankGrid) -> dict[str, Known]:
+    """Return the columns of a table."""
+
+    def row(key: str, values: Iterable[float], of: tuple[Known, ...] = ()) -> Known:
+        values = tuple(float(one) for one in values)
+        if len(values) == 1:
+            return given(key, values[0], "transfer") if values[0] else absent(key)
+        return Known(Table(Rows(tuple(grid.degrees.tolist()), values), "given", of=of), key)
+
+    def part(body: TabulatedBody) -> Known:
+        velocity = row(f"velocity_ratio.{body.name}", body.velocity_ratio)
+        rotation = row(f"rotation_ratio.{body.name}", body.rotation_ratio)
+        mass, inertia = (
+            given(f"{key}.{body.name}", value, "transfer") if value else absent(key)
+            for key, value in (("body_mass", body.mass), ("body_inertia", body.inertia))
+        )
+        found: Known = reduced_inertia_of_ratios(mass, velocity, inertia, rotation)
+        return found.named(f"reduced_inertia.{body.name}")
+
+    w, inertia = speed_of(machine), total("reduced_inertia", [part(one) for one in machine.bodies])
+    memory = {"crank_angle": Known(OfAngle("angle"), "crank_angle"), "reduced_inertia": inertia}
+    memory["reduced_inertia_1"] = change = _change(machine, grid, inertia, row).named("reduced_inertia_1")
+    dynamic: Known = dynamic_torque(w, change, absent("reduced_inertia"), absent("angular_acceleration"))
+    memory |= {"kinetic_energy": kinetic_energy(inertia, w), "dynamic_torque": dynamic.named("dynamic_torque")}
+    static = _static(machine, dynamic.named("dynamic_torque"), row)
+    if static is None:
+        return memory
+    balancing: Known = balancing_torque_of_parts(static, memory["dynamic_torque"])
+    eta = machine.drive.efficiency
+    torques = static, memory["dynamic_torque"], absent("efficiency", 1.0) if eta == 1 else given("efficiency", eta)
+    drives = replay(balancing, grid) > 0
+    # each position has its own law: positions have nothing between them
+    laws = tuple((driving_torque_as_motor if one else driving_torque_as_brake)(*torques) for one in drives)
+    driving = Known(Pieces(grid.degrees.tolist(), laws), "driving_torque")
+    return memory | {"static_torque": static, "balancing_torque": balancing, "driving_torque": driving}
+
+
+def _change(machine: TabulatedMachine, grid: CrankGrid, inertia: Known, row: Callable[..., Known]) -> Known:
+    """Return the derivative of the reduced inertia: of the document, by differences, or of all positions at once."""
+    key = "reduced_inertia_1"
+    if machine.reduced_inertia_1 is not None:
+        return row(key, machine.reduced_inertia_1)
+    column, of = replay(inertia, grid), (inertia,)
+    if machine.differences == "spectral":
+        return row(key, difference_derivative(grid.angle, column, "spectral"), of)
+    ahead = row("reduced_inertia.next", np.roll(column, -1), of)
+    step = np.append(np.diff(grid.angle), grid.angle[0] + 2 * np.pi - grid.angle[-1])
+    if machine.differences == "forward":
+        forward: Known = forward_difference(ahead, inertia, row("crank_angle.step", step))
+        return forward
+    behind = row("reduced_inertia.previous", np.roll(column, 1), of)
+    central: Known = central_difference(ahead, behind, row("crank_angle.step", step + np.roll(step, 1)))
+    return central
+
+
+def _static(machine: TabulatedMachine, dynamic: Known, row: Callable[..., Known]) -> Known | None:
     """Return the static torque, given or left of the balancing torque."""
     if machine.static_torque is not None:
-        return np.array(machine.static_torque)
+        return row("static_torque", machine.static_torque)
     if machine.balancing_torque is not None:
-        return np.array(machine.balancing_torque) - dynamic
+        left: Known = static_torque_of_balancing(row("balancing_torque", machine.balancing_torque), dynamic)
+        return left.named("static_torque")
     return None
 
 
-def _summary(solved: SolvedTable, columns: dict[str, Array]) -> dict[str, float]:
-    machine = solved.machine
-    result = {"rotational_speed": machine.speed, "speed": solved.speed}
+def _summary(machine: TabulatedMachine, columns: Mapping[str, Array], memory: Mapping[str, Known]) -> dict[str, Known]:
+    result = {"rotational_speed": given("rotational_speed", machine.speed, "speed"), "speed": speed_of(machine)}
     if machine.drive.efficiency != 1:
-        result["efficiency"] = machine.drive.efficiency
+        result["efficiency"] = given("efficiency", machine.drive.efficiency, "efficiency")
     for key in ("reduced_inertia", "dynamic_torque", "driving_torque"):
-        if key in columns:
-            high, low = int(np.argmax(columns[key])), int(np.argmin(columns[key]))
-            result |= {
-                f"{key}_max": float(columns[key][high]),
-                f"{key}_max_angle": float(columns["crank_angle"][high]),
-                f"{key}_min": float(columns[key][low]),
-                f"{key}_min_angle": float(columns["crank_angle"][low]),
-            }
-    return result
+        for word, find in (("max", np.argmax), ("min", np.argmin)) if key in columns else ():
+            row, of = int(find(columns[key])), (memory[key],)
+            at = float(np.degrees(columns["crank_angle"][row]))
+            result[f"{key}_{word}"] = Known(Found(float(columns[key][row]), word, of, at))
+            result[f"{key}_{word}_angle"] = Known(Found(float(columns["crank_angle"][row]), f"{word}_angle", of, at))
+    return {key: one.named(key) for key, one in result.items()}
 
 
 def _notices(machine: TabulatedMachine) -> tuple[Notice, ...]:

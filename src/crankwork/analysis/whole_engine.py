@@ -2,28 +2,32 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 
-from crankwork.analysis.cylinders import WholeEngine, torque_curves, whole_engine
+from crankwork.analysis.cylinders import WholeEngine, whole_engine
 from crankwork.analysis.engine_balance import balance_checks, balance_listing, engine_balance
 from crankwork.analysis.engine_bearings import (
     bearing_columns,
     bearing_listings,
-    bearing_loads,
+    bearing_memory,
     bearing_summary,
-    dense_loads,
+    load_columns,
+    load_values,
+    wear_memory,
 )
-from crankwork.analysis.engine_torque import (
-    engine_torque,
-    torque_checks,
-    torque_columns,
-    torque_listings,
-    torque_summary,
-)
+from crankwork.analysis.engine_torque import engine_torque, torque_checks, torque_listings, torque_memory
 from crankwork.analysis.results import Listing, Results
 from crankwork.analysis.solved import Notice
+from crankwork.formula.known import Found, Known, given, total
+from crankwork.formula.over_cycle import OverCycle
+from crankwork.formula.replay import Program
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.loads.gas import indicated_power
+from crankwork.working_cycle.engine_size import displacement
 
+_TORQUES = ("crank_torque.", "total_torque", "journal_torque.", "crankpin_torque.")
 _TABLES = {
     "engine_torque": ("crank_torque.", "total_torque"),
     "accumulated_torque": ("journal_torque.", "crankpin_torque."),
@@ -62,29 +66,46 @@ def with_whole_engine(results: Results) -> Results:
     if "crank_torque" not in results.columns:
         notices.append(Notice("motion_only", {}))
         return replace(results, notices=(*results.notices, *notices))
-    torque, told = engine_torque(whole, *torque_curves(whole))
-    degrees, loads = dense_loads(whole)
+    memory, over, extremes = whole_memory(whole)
+    torque = engine_torque(whole, memory, over, extremes)
+    loads = load_values(whole, memory, over, extremes) | wear_memory(whole, memory)
     balance = engine_balance(whole)
-    found = torque_columns(whole, torque, results.grid.degrees)
-    found |= bearing_columns(bearing_loads(whole, results.grid.degrees))
+    torques = [key for key in memory if key.startswith(_TORQUES)]
+    keys = [*torques, *torque.columns, *bearing_columns(memory)]
+    memory |= torque.columns
+    found = Program({key: memory[key] for key in keys})(results.grid)
     groups = {
         name: tuple(key for key in found if key.startswith(starts) and _belongs(name, key))
         for name, starts in _TABLES.items()
     }
-    listings: dict[str, Listing] = torque_listings(whole, torque) | bearing_listings(whole, degrees, loads)
+    listings: dict[str, Listing] = torque_listings(whole, torque) | bearing_listings(whole, loads)
     if whole.machine.masses is not None:
         listings["balance"] = balance_listing(whole, balance)
-    summary = _engine_summary(whole) | torque_summary(torque) | bearing_summary(whole, degrees, loads)
-    told = (*told, *_torque_against_cycle(results.summary, summary))
+    single = {**_engine_values(whole), **torque.summary, **bearing_summary(whole, loads)}
+    summary = {key: one.value for key, one in single.items()}
+    told = (*torque.notices, *_torque_against_cycle(results.summary, summary))
     return replace(
         results,
         columns={**results.columns, **found},
         summary={**results.summary, **summary},
         checks={**results.checks, **torque_checks(whole, torque), **balance_checks(whole, balance)},
+        allowed=_allowed(results),
         notices=(*results.notices, *notices, *told),
         groups={**results.groups, **groups},
         listings={**results.listings, **listings},
+        memory={**results.memory, **memory, **loads, **single},
     )
+
+
+def _allowed(results: Results) -> dict[str, float]:
+    """Return what an approximate method allows: of the work of every cylinder the same share, of forces its error."""
+    allowed = dict(results.allowed)
+    if "work" in allowed:
+        allowed["engine_work"] = allowed["work"]
+    if "inertia_force_error" in results.summary:
+        largest = max(abs(results.summary[f"inertia_force_{one}"]) for one in ("max", "min")) or 1.0
+        allowed["free_forces"] = results.summary["inertia_force_error"] / largest
+    return allowed
 
 
 def _belongs(table: str, key: str) -> bool:
@@ -100,10 +121,42 @@ def _torque_against_cycle(one: Mapping[str, float], whole: Mapping[str, float]) 
     return (Notice("torque_of_cycle", {"torque": mean, "cycle": cycle, "percent": 100 * (mean / cycle - 1)}),)
 
 
-def _engine_summary(whole: WholeEngine) -> dict[str, float]:
-    spaces = [one.space for one in whole.cylinders]
-    result = {"cylinder_count": float(len(whole.cylinders))}
-    known = [space for space in spaces if space is not None]
-    if len(known) == len(spaces):
-        result["displacement"] = sum(space.swept for space in known)
+def whole_memory(whole: WholeEngine) -> tuple[dict[str, Known], OverCycle, dict[str, Known]]:
+    """Return torques and bearing loads of an engine by key, what they are over the cycle, and their extremes.
+
+    Parameters
+    ----------
+    whole : WholeEngine
+        The engine, with forces.
+    """
+    memory = torque_memory(whole) | bearing_memory(whole)
+    first = whole.of(1, "crank_torque")
+    followed = {
+        key: memory[key] for key in ("total_torque", *load_columns(memory).values(), "bearing_force_x.small_end")
+    }
+    over = OverCycle({first.key: first, **followed}, CrankGrid.from_degrees, whole.layout.cycle)
+    return memory, over, over.extremes(*followed)
+
+
+def _engine_values(whole: WholeEngine) -> dict[str, Known]:
+    """Return number, volume and power of the cylinders."""
+    count = given("cylinder_count", float(len(whole.cylinders)))
+    result, memories = {"cylinder_count": count}, [one.memory for one in whole.cylinders]
+    if any(one.space is None for one in whole.cylinders):
+        return result
+    if whole.is_uniform:
+        result["displacement"] = displacement(memories[0]["swept_volume"], count)
+    else:
+        volumes = (one["swept_volume"].named(f"swept_volume.{at}") for at, one in enumerate(memories, start=1))
+        result["displacement"] = total("displacement", volumes)
+    if len(memories) > 1:
+        works = [
+            Known(Found(one.space.work, "work", (one.memory["diagram_pressure"], one.memory["cylinder_volume"])), key)
+            for number, one in enumerate(whole.cylinders, start=1)
+            for key in (f"indicated_work.{number}",)
+            if one.space is not None
+        ]
+        cycle = given("cycle_angle", math.radians(whole.layout.cycle))
+        power = indicated_power(total("indicated_work.all", works), whole.master.memory["speed"], cycle)
+        result["engine_indicated_power"] = power.named("engine_indicated_power")
     return result

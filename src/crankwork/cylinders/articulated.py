@@ -14,12 +14,14 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.errors import GeometryError
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import Found, Known, called, is_known, plain
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.slider_crank import (
     RodSwing,
     SliderCrank,
     check_slider_crank,
+    rod_angle,
     rod_swing,
     rod_transfer_1,
     rod_transfer_2,
@@ -37,122 +39,55 @@ _SAME_ROOT = 1e-11
 
 @formula("knuckle_x", "taylor_1985, ch. 8")
 def knuckle_along(r: Value, cos_phi: Value, r_a: Value, cos_delta_a: Value) -> Value:
-    """Distance of the knuckle pin from the crankshaft along the cylinder axis.
-
-    Parameters
-    ----------
-    r, cos_phi, r_a, cos_delta_a : array
-        Crank radius, cosine of the crank angle, knuckle radius, cosine of its direction. [m], [-], [m], [-]
-
-    Returns
-    -------
-    array
-        x. [m]
-    """
+    """Distance of the knuckle pin from the crankshaft along the cylinder axis."""
     return r * cos_phi + r_a * cos_delta_a
 
 
 @formula("knuckle_y", "taylor_1985, ch. 8")
 def knuckle_across(r: Value, sin_phi: Value, r_a: Value, sin_delta_a: Value) -> Value:
-    """Distance of the knuckle pin from the crankshaft across the cylinder axis.
-
-    Parameters
-    ----------
-    r, sin_phi, r_a, sin_delta_a : array
-        Crank radius, sine of the crank angle, knuckle radius, sine of its direction. [m], [-], [m], [-]
-
-    Returns
-    -------
-    array
-        y. [m]
-    """
+    """Distance of the knuckle pin from the crankshaft across the cylinder axis."""
     return r * sin_phi + r_a * sin_delta_a
 
 
-@formula("articulated_rod_angle", "taylor_1985, ch. 8")
+@formula("rod_sine", "taylor_1985, ch. 8")
 def articulated_rod_sine(y_A: Value, e: Value, l_a: Value) -> Value:
-    """Sine of the angle of the articulated rod.
-
-    Parameters
-    ----------
-    y_A, e, l_a : array
-        Knuckle pin across the axis, offset of the cylinder, rod length. [m], [m], [m]
-
-    Returns
-    -------
-    array
-        sin(beta). [-]
-    """
+    """Sine of the angle of the articulated rod."""
     return (y_A - e) / l_a
 
 
-@formula("piston_velocity", "artobolevsky_1988, ch. 4")
+@formula("piston_transfer_1", "artobolevsky_1988, ch. 4")
 def articulated_transfer_1(x_A1: Value, y_A1: Value, sin_beta_a: Value, cos_beta_a: Value) -> Value:
-    """First transfer function of the piston of an articulated rod, dx/dphi.
-
-    Parameters
-    ----------
-    x_A1, y_A1, sin_beta_a, cos_beta_a : array
-        Derivatives of the knuckle pin, functions of the rod angle. [m], [m], [-], [-]
-
-    Returns
-    -------
-    array
-        dx/dphi, positive towards the crankshaft. [m]
-    """
+    """First transfer function of the piston of an articulated rod, dx/dphi."""
     return y_A1 * sin_beta_a / cos_beta_a - x_A1
 
 
-@formula("piston_acceleration", "artobolevsky_1988, ch. 4")
+@formula("piston_transfer_2", "artobolevsky_1988, ch. 4")
 def articulated_transfer_2(
     x_A2: Value, y_A2: Value, y_A1: Value, beta_a1: Value, sin_beta_a: Value, cos_beta_a: Value
 ) -> Value:
-    """Second transfer function of the piston of an articulated rod, d2x/dphi2.
-
-    Parameters
-    ----------
-    x_A2, y_A2, y_A1, beta_a1, sin_beta_a, cos_beta_a : array
-        Derivatives of the knuckle pin, derivative and functions of the rod angle. [m], [m], [m], [-], [-], [-]
-
-    Returns
-    -------
-    array
-        d2x/dphi2, positive towards the crankshaft. [m]
-    """
+    """Second transfer function of the piston of an articulated rod, d2x/dphi2."""
     return y_A2 * sin_beta_a / cos_beta_a + y_A1 * beta_a1 / cos_beta_a**2 - x_A2
 
 
-@formula("articulated_rod_angle", "artobolevsky_1988, ch. 4")
+def _printed_cosine(sin_beta_a: Value) -> Value:
+    return np.sqrt(1 - sin_beta_a**2)
+
+
+@formula("rod_cosine", "artobolevsky_1988, ch. 4", printed=_printed_cosine)
+def articulated_rod_cosine(sin_beta_a: Value, y_A: Value, e: Value, l_a: Value) -> Value:  # noqa: ARG001 - the sine is what books print it from
+    """Cosine of the angle of the articulated rod, without cancellation."""
+    return np.sqrt((l_a - (y_A - e)) * (l_a + (y_A - e))) / l_a
+
+
+@formula("rod_transfer_1", "artobolevsky_1988, ch. 4")
 def articulated_rod_transfer_1(y_A1: Value, l_a: Value, cos_beta_a: Value) -> Value:
-    """First derivative of the angle of the articulated rod by the crank angle.
-
-    Parameters
-    ----------
-    y_A1, l_a, cos_beta_a : array
-        Derivative of the knuckle pin, rod length, cosine of the rod angle. [m], [m], [-]
-
-    Returns
-    -------
-    array
-        dbeta/dphi. [-]
-    """
+    """First derivative of the angle of the articulated rod by the crank angle."""
     return y_A1 / (l_a * cos_beta_a)
 
 
-@formula("articulated_rod_angle", "artobolevsky_1988, ch. 4")
+@formula("rod_transfer_2", "artobolevsky_1988, ch. 4")
 def articulated_rod_transfer_2(y_A2: Value, l_a: Value, beta_a1: Value, sin_beta_a: Value, cos_beta_a: Value) -> Value:
-    """Second derivative of the angle of the articulated rod by the crank angle.
-
-    Parameters
-    ----------
-    y_A2, l_a, beta_a1, sin_beta_a, cos_beta_a : array
-        Derivative of the knuckle pin, rod length, derivative and functions of the rod angle. [m], [m], [-], [-], [-]
-
-    Returns
-    -------
-    array
-        d2beta/dphi2. [-]
-    """
+    """Second derivative of the angle of the articulated rod by the crank angle."""
     return (y_A2 / l_a + beta_a1**2 * sin_beta_a) / cos_beta_a
 
 
@@ -204,8 +139,8 @@ class ArticulatedMotion(NamedTuple):
     rod: Transfer
     swing: RodSwing
     knuckle: PointMotion
-    sin: Array
-    cos: Array
+    sin: Value
+    cos: Value
     master: RodSwing
 
 
@@ -249,7 +184,9 @@ def articulated_motion(lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGri
     ----------
     taylor_1985, ch. 8; artobolevsky_1988, ch. 4.
     """
-    top = slave_stroke(lengths, rod).top
+    top: Value = slave_stroke(SliderCrank(*map(plain, lengths)), rod).top
+    if is_known(*lengths):
+        top = Known(Found(top, "dead_centre", lengths), "pin_distance.top")
     motion = _motion(lengths, rod, grid)
     x = top - motion.piston.position
     return motion._replace(piston=Transfer(x, *motion.piston[1:]))
@@ -262,11 +199,11 @@ def _motion(lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGrid) -> Artic
     x = knuckle_along(r, grid.cos, r_a, cos)
     y = knuckle_across(r, grid.sin, r_a, sin)
     x_1, y_1 = (-r * grid.sin - r_a * turn[0] * sin, r * grid.cos + r_a * turn[0] * cos)
-    x_2 = -r * grid.cos - r_a * (turn[1] * sin + turn[0] ** 2 * cos)
-    y_2 = -r * grid.sin + r_a * (turn[1] * cos - turn[0] ** 2 * sin)
+    x_2 = -r * grid.cos - r_a * (turn[1] * sin + turn[0] * turn[0] * cos)
+    y_2 = -r * grid.sin + r_a * (turn[1] * cos - turn[0] * turn[0] * sin)
     sin_rod = articulated_rod_sine(y, rod.offset, l_a)
     with np.errstate(invalid="ignore", divide="ignore"):
-        cos_rod = np.sqrt((l_a - (y - rod.offset)) * (l_a + (y - rod.offset))) / l_a
+        cos_rod = articulated_rod_cosine(sin_rod, y, rod.offset, l_a)
         beta_1 = articulated_rod_transfer_1(y_1, l_a, cos_rod)
         beta_2 = articulated_rod_transfer_2(y_2, l_a, beta_1, sin_rod, cos_rod)
         piston = Transfer(
@@ -276,7 +213,7 @@ def _motion(lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGrid) -> Artic
         )
     swing = RodSwing(sin_rod, cos_rod, grid.sin * cos_rod + grid.cos * sin_rod, grid.cos * cos_rod - grid.sin * sin_rod)
     knuckle = PointMotion(Transfer(x, x_1, x_2), Transfer(y, y_1, y_2))
-    angle = Transfer(np.arctan2(sin_rod, cos_rod), beta_1, beta_2)
+    angle = Transfer(rod_angle(sin_rod, cos_rod), beta_1, beta_2)
     return ArticulatedMotion(piston, angle, swing, knuckle, sin, cos, master)
 
 
@@ -284,13 +221,16 @@ def _knuckle_direction(
     lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGrid
 ) -> tuple[Array, Array, tuple[Array, Array], RodSwing]:
     """Return sine and cosine of delta, its two derivatives, and the swing of the master rod."""
-    of_master = CrankGrid.from_degrees(grid.degrees + rod.axis) if rod.axis else grid
-    master = rod_swing(lengths, of_master)
-    beta_1 = rod_transfer_1(lengths.rod_ratio, of_master.cos, master.cos)
-    beta_2 = rod_transfer_2(beta_1, lengths.rod_ratio, of_master.sin, master.sin, master.cos)
+    of_master = grid.shifted(rod.axis)
+    lam = called(lengths.rod_ratio, "rod_ratio.master")
+    master = rod_swing(lengths, of_master, lam, part=".master")
+    beta_1 = called(rod_transfer_1(lam, of_master.cos, master.cos), "rod_transfer_1.master")
+    beta_2 = rod_transfer_2(beta_1, lam, of_master.sin, master.sin, master.cos)
+    beta_2 = called(beta_2, "rod_transfer_2.master")
     fixed = CrankGrid.from_degrees(rod.knuckle_angle - rod.axis)
-    sin = fixed.sin * master.cos - fixed.cos * master.sin
-    cos = fixed.cos * master.cos + fixed.sin * master.sin
+    fixed_sin, fixed_cos = float(fixed.sin), float(fixed.cos)
+    sin = fixed_sin * master.cos - fixed_cos * master.sin
+    cos = fixed_cos * master.cos + fixed_sin * master.sin
     return sin, cos, (-beta_1, -beta_2), master
 
 

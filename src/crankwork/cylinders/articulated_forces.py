@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from crankwork.cylinders.articulated import ArticulatedMotion, ArticulatedRod
-from crankwork.expressions import Value, formula
-from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.dynamics.piston_forces import rod_force, side_force
+from crankwork.formula.expression import Value, formula
+from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank
 
 
@@ -14,36 +15,13 @@ from crankwork.kinematics.slider_crank import SliderCrank
 def couple_of_knuckle(
     P: Value, r_a: Value, sin_delta_a: Value, cos_delta_a: Value, sin_beta_a: Value, cos_beta_a: Value
 ) -> Value:
-    """Moment of the force on the knuckle pin about the crankpin, which bends the master rod.
-
-    Parameters
-    ----------
-    P, r_a, sin_delta_a, cos_delta_a, sin_beta_a, cos_beta_a : array
-        Force on the piston pin, knuckle radius, functions of its direction and of the rod angle. [N], [m], [-],
-        [-], [-], [-]
-
-    Returns
-    -------
-    array
-        Moment, positive with the rotation. [N m]
-    """
+    """Moment of the force on the knuckle pin about the crankpin, which bends the master rod."""
     return P * r_a * (sin_delta_a + cos_delta_a * sin_beta_a / cos_beta_a)
 
 
 @formula("knuckle_side_force", "taylor_1985, ch. 8")
 def side_force_on_master(M_a: Value, l: Value, cos_beta: Value) -> Value:  # noqa: E741 - l is the rod length of the subject
-    """Side force of the master piston that holds the moment of the force on a knuckle pin.
-
-    Parameters
-    ----------
-    M_a, l, cos_beta : array
-        Moment about the crankpin, length and cosine of the angle of the master rod. [N m], [m], [-]
-
-    Returns
-    -------
-    array
-        Addition to the side force of the master piston, positive as that. [N]
-    """
+    """Side force of the master piston that holds the moment of the force on a knuckle pin."""
     return -M_a / (l * cos_beta)
 
 
@@ -55,18 +33,18 @@ class SlaveForces(NamedTuple):
     `tangential` on the crankpin by the crank, the same for every cylinder. [N], [N m]
     """
 
-    side: Array
-    along: Array
-    couple: Array
-    master_side: Array
-    x: Array
-    y: Array
-    radial: Array
-    tangential: Array
+    side: Value
+    along: Value
+    couple: Value
+    master_side: Value
+    x: Value
+    y: Value
+    radial: Value
+    tangential: Value
 
 
 def slave_forces(
-    P: Array, lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGrid, motion: ArticulatedMotion
+    P: Value, lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGrid, motion: ArticulatedMotion
 ) -> SlaveForces:
     """Return the forces that an articulated rod passes to the master rod and with it to the crankpin.
 
@@ -93,15 +71,15 @@ def slave_forces(
     taylor_1985, ch. 8; moments on the master rod about the crankpin, then its forces.
     """
     sin_rod, cos_rod = motion.swing.sin, motion.swing.cos
-    side = P * sin_rod / cos_rod
+    side = side_force(P, sin_rod, cos_rod, 0.0, 0.0)
     couple = couple_of_knuckle(P, rod.knuckle_radius, motion.sin, motion.cos, sin_rod, cos_rod)
     held = side_force_on_master(couple, lengths.rod_length, motion.master.cos)
     # the wall of the master cylinder answers across the master's axis, which stands at -axis here
     axis = CrankGrid.from_degrees(rod.axis)
-    x, y = -P + held * axis.sin, side + held * axis.cos
+    x, y = held * float(axis.sin) - P, side + held * float(axis.cos)
     return SlaveForces(
         side,
-        P / cos_rod,
+        rod_force(P, cos_rod, 0.0, sin_rod),
         couple,
         held,
         x,

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from crankwork.cylinders.ellipse import ComplexArray, Ellipse, OrderBalance, unit_vectors, vector_sum
 from crankwork.cylinders.layout import Layout
 from crankwork.errors import CrankworkError
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
 from crankwork.kinematics.series import acceleration_harmonics
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.method import EXACT, Method
@@ -27,88 +27,21 @@ from crankwork.method import EXACT, Method
 ORDERS = (1, 2, 4, 6)
 
 
-@formula("primary_inertia_force", "kolchin_demidov_2008, ch. 8")
-def primary_inertia_force(m_rec: Value, r: Value, w: Value) -> Value:
-    """Amplitude of the primary inertia force of one cylinder.
-
-    Parameters
-    ----------
-    m_rec, r, w : float
-        Reciprocating mass, crank radius, angular speed. [kg], [m], [rad/s]
-
-    Returns
-    -------
-    float
-        Force. [N]
-    """
-    return m_rec * r * w**2
-
-
-@formula("secondary_inertia_force", "kolchin_demidov_2008, ch. 8")
-def secondary_inertia_force(m_rec: Value, r: Value, w: Value, lam: Value) -> Value:
-    """Amplitude of the secondary inertia force of one cylinder, in two terms.
-
-    Parameters
-    ----------
-    m_rec, r, w, lam : float
-        Reciprocating mass, crank radius, angular speed, crank-to-rod ratio. [kg], [m], [rad/s], [-]
-
-    Returns
-    -------
-    float
-        Force. [N]
-    """
-    return m_rec * r * w**2 * lam
-
-
 @formula("order_inertia_force", "taylor_1985, vol. 2, ch. 8")
 def order_inertia_force(m_rec: Value, r: Value, w: Value, A_q: Value) -> Value:
-    """Amplitude of one order of the inertia force of one cylinder.
-
-    Parameters
-    ----------
-    m_rec, r, w, A_q : float
-        Reciprocating mass, crank radius, angular speed, coefficient of the order. [kg], [m], [rad/s], [-]
-
-    Returns
-    -------
-    float
-        Force. [N]
-    """
+    """Amplitude of one order of the inertia force of one cylinder."""
     return m_rec * r * w**2 * A_q
 
 
 @formula("free_force", "den_hartog_1956, ch. 5")
 def free_force(K_F: Value, F_jq: Value) -> Value:
-    """Largest free force of one order.
-
-    Parameters
-    ----------
-    K_F, F_jq : float
-        Force factor of the layout, force of one cylinder. [-], [N]
-
-    Returns
-    -------
-    float
-        Force. [N]
-    """
+    """Largest free force of one order."""
     return K_F * F_jq
 
 
 @formula("free_moment", "den_hartog_1956, ch. 5")
 def free_moment(K_M: Value, a_z: Value, F_jq: Value) -> Value:
-    """Largest free moment of one order.
-
-    Parameters
-    ----------
-    K_M, a_z, F_jq : float
-        Moment factor of the layout, distance between cylinders, force of one cylinder. [-], [m], [N]
-
-    Returns
-    -------
-    float
-        Moment. [N m]
-    """
+    """Largest free moment of one order."""
     return K_M * a_z * F_jq
 
 

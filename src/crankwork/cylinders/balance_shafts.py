@@ -13,24 +13,13 @@ import numpy as np
 
 from crankwork.cylinders.counterweights import in_two_planes
 from crankwork.cylinders.ellipse import Ellipse, OrderBalance, balance_sum, unit_vectors
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 
 
 @formula("balance_shaft_moment", "taylor_1985, vol. 2, ch. 8")
 def lanchester_moment(K_F: Value, m_rec: Value, r: Value, A_q: Value) -> Value:
     """Mass moment of each of the two shafts that balance the second order of cylinders in one plane.
-
-    Parameters
-    ----------
-    K_F, m_rec, r, A_q : float
-        Force factor of the layout in the second order, reciprocating mass, crank radius, coefficient of the second
-        order. [-], [kg], [m], [-]
-
-    Returns
-    -------
-    float
-        Mass times eccentricity. [kg m]
 
     Notes
     -----
@@ -41,36 +30,13 @@ def lanchester_moment(K_F: Value, m_rec: Value, r: Value, A_q: Value) -> Value:
 
 @formula("balance_shaft_moment", "den_hartog_1956, ch. 5")
 def first_order_shaft_moment(m_rec: Value, r: Value) -> Value:
-    """Mass moment of each of the two shafts that balance the first order of one cylinder.
-
-    Parameters
-    ----------
-    m_rec, r : float
-        Reciprocating mass, crank radius. [kg], [m]
-
-    Returns
-    -------
-    float
-        Mass times eccentricity. [kg m]
-    """
+    """Mass moment of each of the two shafts that balance the first order of one cylinder."""
     return m_rec * r / 2
 
 
 @formula("balance_shaft_torque", "taylor_1985, vol. 2, ch. 8")
 def second_order_shaft_torque(Q_s: Value, w: Value, h: Value) -> Value:
-    """Amplitude of the torque on the frame from a pair of second-order shafts at different heights.
-
-    Parameters
-    ----------
-    Q_s, w, h : float
-        Mass moment of each shaft, angular speed of the crank, height of the forward shaft above the other. [kg m],
-        [rad/s], [m]
-
-    Returns
-    -------
-    float
-        Torque; with the rotation it goes as minus sin(2 phi) for cylinders along the reference direction. [N m]
-    """
+    """Amplitude of the torque on the frame from a pair of second-order shafts at different heights."""
     return Q_s * (2 * w) ** 2 * h
 
 

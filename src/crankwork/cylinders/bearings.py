@@ -9,174 +9,76 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from crankwork.cylinders.layout import Layout
 from crankwork.cylinders.load_vectors import BearingLoad, turned
 from crankwork.errors import CrankworkError
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
 from crankwork.kinematics.slider_crank import RodSwing
 
 
 @formula("big_end_inertia_force", "kolchin_demidov_2008, ch. 7")
 def big_end_inertia_force(m_2: Value, r: Value, w: Value) -> Value:
-    """Inertia force of the rod mass at the crankpin.
-
-    Parameters
-    ----------
-    m_2, r, w : array
-        Rod mass at the crankpin, crank radius, angular speed. [kg], [m], [rad/s]
-
-    Returns
-    -------
-    array
-        Force along the crank arm, positive towards the crankshaft, so never positive. [N]
-    """
+    """Inertia force of the rod mass at the crankpin."""
     return -m_2 * r * w**2
 
 
 @formula("crankpin_radial_force", "kolchin_demidov_2008, ch. 7")
 def crankpin_radial_force(K: Value, K_Rb: Value) -> Value:
-    """Load on the crankpin along the crank arm.
-
-    Parameters
-    ----------
-    K, K_Rb : array
-        Radial force of the rod, inertia force of its mass at the crankpin. [N], [N]
-
-    Returns
-    -------
-    array
-        Force, positive towards the crankshaft. [N]
-    """
+    """Load on the crankpin along the crank arm."""
     return K + K_Rb
 
 
 @formula("crankpin_load", "kolchin_demidov_2008, ch. 7")
 def crankpin_load(T: Value, K: Value, K_Rb: Value) -> Value:
-    """Size of the load on the crankpin.
-
-    Parameters
-    ----------
-    T, K, K_Rb : array
-        Tangential force, radial force, inertia force of the rod mass at the crankpin. [N], [N], [N]
-
-    Returns
-    -------
-    array
-        Force. [N]
-    """
+    """Size of the load on the crankpin."""
     return np.sqrt(T**2 + (K + K_Rb) ** 2)
 
 
 @formula("piston_pin_force", "lukanin_shatrov_2007, ch. 1")
-def piston_pin_force(F_g: Value, m_p: Value, a: Value) -> Value:
-    """Force of the piston on its pin along the cylinder axis, without the rod mass at the pin.
-
-    Parameters
-    ----------
-    F_g, m_p, a : array
-        Gas force, mass of the piston group, piston acceleration. [N], [kg], [m/s2]
-
-    Returns
-    -------
-    array
-        Force, positive towards the crankshaft. [N]
-    """
-    return F_g - m_p * a
-
-
-@formula("piston_pin_force", "lukanin_shatrov_2007, ch. 1")
-def piston_pin_force_with_weight(F_g: Value, m_p: Value, a: Value, F_wp: Value) -> Value:
-    """Force of the piston on its pin along the cylinder axis, weight included.
-
-    Parameters
-    ----------
-    F_g, m_p, a, F_wp : array
-        Gas force, mass of the piston group, piston acceleration, weight of the piston group along the
-        axis. [N], [kg], [m/s2], [N]
-
-    Returns
-    -------
-    array
-        Force, positive towards the crankshaft. [N]
-    """
+def piston_pin_force(F_g: Value, m_p: Value, a: Value, F_wp: Value) -> Value:
+    """Force of the piston on its pin along the cylinder axis, without the rod mass at the pin."""
     return F_g - m_p * a + F_wp
 
 
 @formula("small_end_load", "lukanin_shatrov_2007, ch. 1")
 def small_end_load(P_p: Value, N: Value) -> Value:
-    """Size of the load on the small end of the rod.
-
-    Parameters
-    ----------
-    P_p, N : array
-        Axial force of the piston on its pin, side force. [N], [N]
-
-    Returns
-    -------
-    array
-        Force. [N]
-    """
+    """Size of the load on the small end of the rod."""
     return np.sqrt(P_p**2 + N**2)
 
 
 @formula("bearing_pressure", "kolchin_demidov_2008, ch. 7")
 def bearing_pressure(R_b: Value, d_b: Value, l_b: Value) -> Value:
-    """Load per projected area of the bearing.
-
-    Parameters
-    ----------
-    R_b, d_b, l_b : array
-        Bearing load, diameter, length. [N], [m], [m]
-
-    Returns
-    -------
-    array
-        Pressure. [Pa]
-    """
+    """Load per projected area of the bearing."""
     return R_b / (d_b * l_b)
 
 
 @formula("bearing_load_ratio", "kolchin_demidov_2008, ch. 9")
 def bearing_load_ratio(R_max: Value, R_mean: Value) -> Value:
-    """Largest load over the mean load.
-
-    Parameters
-    ----------
-    R_max, R_mean : float
-        Largest and mean bearing load. [N], [N]
-
-    Returns
-    -------
-    float
-        Ratio, 1 for a load of constant size. [-]
-    """
+    """Largest load over the mean load."""
     return R_max / R_mean
 
 
-def crank_frame_load(radial: ArrayLike, tangential: ArrayLike, inertia: ArrayLike) -> BearingLoad:
-    """Return the load on a crankpin from one rod, or from several side by side, in the crank frame.
+def crank_frame_load(radial: Value, tangential: Value, inertia: Value) -> BearingLoad:
+    """Return the load on a crankpin from one rod in the crank frame; `crankpin_loads` add up those of several.
 
     Parameters
     ----------
-    radial, tangential : array, shape (n,) or (rods, n)
-        Forces of each rod on the crankpin at the same instants, towards the crankshaft and with the rotation. [N]
-    inertia : float or array, shape (rods,)
-        Inertia force of the rod mass at the crankpin, of every rod or of each; never positive. [N]
+    radial, tangential : array, shape (n,)
+        Forces of the rod on the crankpin, towards the crankshaft and with the rotation. [N]
+    inertia : float
+        Inertia force of the rod mass at the crankpin; never positive. [N]
 
     Returns
     -------
     BearingLoad of array, shape (n,)
-        Force of the rods on the crankpin. [N]
+        Force of the rod on the crankpin. [N]
 
     References
     ----------
     kolchin_demidov_2008, ch. 7.
     """
-    radial, tangential = np.atleast_2d(radial), np.atleast_2d(tangential)
-    each = np.broadcast_to(inertia, radial.shape[:1])[:, np.newaxis]
-    return BearingLoad(-np.sum(crankpin_radial_force(radial, each), axis=0), np.sum(tangential, axis=0))
+    return BearingLoad(-crankpin_radial_force(radial, inertia), tangential)
 
 
 def crankpin_loads(layout: Layout, loads: Sequence[BearingLoad]) -> tuple[BearingLoad, ...]:
@@ -251,7 +153,7 @@ def big_end_bearing_load(load: BearingLoad, swing: RodSwing) -> BearingLoad:
     return turned(load.opposite, swing.sin_sum, swing.cos_sum)
 
 
-def small_end_bearing_load(pin_force: ArrayLike, side: ArrayLike, swing: RodSwing) -> BearingLoad:
+def small_end_bearing_load(pin_force: Value, side: Value, swing: RodSwing) -> BearingLoad:
     """Return the load on the small-end bearing: the force of the piston pin on it, in the rod frame.
 
     Parameters
@@ -277,4 +179,4 @@ def small_end_bearing_load(pin_force: ArrayLike, side: ArrayLike, swing: RodSwin
     The piston hands on axially what acts on it and sideways what the wall gives back, so the force on the rod
     needs no rod mass. It is the force along the rod plus the inertia force that moves the rod's small-end mass.
     """
-    return turned(BearingLoad(-np.asarray(pin_force), np.asarray(side)), swing.sin, swing.cos)
+    return turned(BearingLoad(-pin_force, side), swing.sin, swing.cos)

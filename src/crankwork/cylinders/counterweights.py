@@ -16,58 +16,25 @@ from numpy.typing import ArrayLike
 from crankwork.cylinders.ellipse import Ellipse, OrderBalance, unit_vectors, vector_sum
 from crankwork.cylinders.layout import Layout
 from crankwork.errors import CrankworkError
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import plain
 
 
 @formula("counterweight_moment", "bevan_1956, ch. 14")
 def counterweight_moment(m_rot: Value, k_b: Value, m_rec: Value, r: Value) -> Value:
-    """Mass moment that balances the rotating mass and a share of the reciprocating mass of one throw.
-
-    Parameters
-    ----------
-    m_rot, k_b, m_rec, r : float
-        Rotating mass, balanced share, reciprocating mass, crank radius. [kg], [-], [kg], [m]
-
-    Returns
-    -------
-    float
-        Mass times radius. [kg m]
-    """
+    """Mass moment that balances the rotating mass and a share of the reciprocating mass of one throw."""
     return (m_rot + k_b * m_rec) * r
 
 
 @formula("counterweight_mass", "bevan_1956, ch. 14")
 def counterweight_mass(Q_b: Value, r_b: Value) -> Value:
-    """Mass of a counterweight whose centre of mass lies at a given radius.
-
-    Parameters
-    ----------
-    Q_b, r_b : float
-        Mass moment, radius of the centre of mass. [kg m], [m]
-
-    Returns
-    -------
-    float
-        Mass. [kg]
-    """
+    """Mass of a counterweight whose centre of mass lies at a given radius."""
     return Q_b / r_b
 
 
 @formula("residual_force", "bevan_1956, ch. 14")
 def partial_balance_residual(m_rec: Value, r: Value, w: Value, k_b: Value, cos_phi: Value, sin_phi: Value) -> Value:
-    """Primary force of one cylinder that is left where a share of its reciprocating mass is balanced.
-
-    Parameters
-    ----------
-    m_rec, r, w, k_b, cos_phi, sin_phi : array
-        Reciprocating mass, crank radius, angular speed, balanced share, functions of the crank angle. [kg], [m],
-        [rad/s], [-], [-], [-]
-
-    Returns
-    -------
-    array
-        Resultant of what is left along the axis and what was brought across it. [N]
-    """
+    """Primary force of one cylinder that is left where a share of its reciprocating mass is balanced."""
     return m_rec * r * w**2 * np.sqrt(((1 - k_b) * cos_phi) ** 2 + (k_b * sin_phi) ** 2)
 
 
@@ -82,11 +49,14 @@ class Unbalance(NamedTuple):
         Its direction, ahead of the crankpin of cylinder 1. [deg]
     position : float
         Its place along the shaft, as those of the cylinders. [m]
+    name : str
+        What it is: `throw.2`, `counterweights.3`.
     """
 
-    mass_moment: float
+    mass_moment: Value
     angle: float
     position: float
+    name: str = ""
 
 
 def rotating_unbalances(layout: Layout, mass: ArrayLike, crank_radius: float) -> tuple[Unbalance, ...]:
@@ -139,7 +109,7 @@ def turning_forces(
     den_hartog_1956, ch. 5.
     """
     at_zero = layout.places[0].axis + np.array([one.angle for one in unbalances])
-    size = np.array([one.mass_moment for one in unbalances]) * speed**2
+    size = np.array([plain(one.mass_moment) for one in unbalances]) * speed**2
     forces = size * unit_vectors(at_zero)
     arms = np.array([one.position for one in unbalances]) - about
     return OrderBalance(1, Ellipse(vector_sum(forces), 0j), Ellipse(vector_sum(arms * forces), 0j))

@@ -7,55 +7,34 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from crankwork.cylinders.bearings import check_one_load_per_cylinder
 from crankwork.cylinders.counterweights import Unbalance
 from crankwork.cylinders.layout import Layout
 from crankwork.cylinders.load_vectors import BearingLoad, turned_by
 from crankwork.errors import CrankworkError
-from crankwork.expressions import Value, formula
-from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import added, called, given, is_known
+from crankwork.kinematics.crank_grid import CrankGrid
 
 
 @formula("unbalance_force", "kolchin_demidov_2008, ch. 7")
 def unbalance_force(Q_u: Value, w: Value) -> Value:
-    """Centrifugal force of a mass on the crankshaft.
-
-    Parameters
-    ----------
-    Q_u, w : array
-        Mass times distance of its centre from the axis of rotation, angular speed. [kg m], [rad/s]
-
-    Returns
-    -------
-    array
-        Force away from the axis. [N]
-    """
+    """Centrifugal force of a mass on the crankshaft."""
     return Q_u * w**2
 
 
 @formula("journal_share", "kolchin_demidov_2008, ch. 7")
 def journal_share(z_b: Value, z_left: Value, z_right: Value) -> Value:
-    """Share of a force on a throw that its further journal carries; the nearer one carries the rest.
-
-    Parameters
-    ----------
-    z_b, z_left, z_right : array
-        Positions of the force and of the two journals along the shaft. [m], [m], [m]
-
-    Returns
-    -------
-    array
-        Share, one half in the middle. [-]
-    """
+    """Share of a force on a throw that its further journal carries; the nearer one carries the rest."""
     return (z_b - z_left) / (z_right - z_left)
 
 
 def main_journal_loads(
-    layout: Layout, loads: Sequence[BearingLoad], unbalances: Sequence[Unbalance], speed: float
+    layout: Layout, loads: Sequence[BearingLoad], unbalances: Sequence[Unbalance], speed: Value
 ) -> tuple[BearingLoad, ...]:
     """Return the force of every main bearing on its journal, in the shaft frame.
 
@@ -91,42 +70,44 @@ def main_journal_loads(
     the middle of its throw it is minus one half of the vector sum of the two throws.
     """
     check_one_load_per_cylinder(layout, loads)
-    _check_journals(layout)
+    check_journals(layout)
     journals, places = layout.journal_positions, layout.places
-    along = np.array([place.position for place in places] + [one.position for one in unbalances])
-    spans = np.array(
-        [place.throw for place in places] + [_span(one.position, journals) for one in unbalances], dtype=int
-    )
-    forces = [turned_by(load, place.pin_angle) for place, load in zip(places, loads, strict=True)]
-    forces += [_centrifugal(one, speed) for one in unbalances]
-    shares = -journal_shares(along, spans, journals)
-    x, y = (np.stack(np.broadcast_arrays(*parts)) for parts in zip(*forces, strict=True))
-    return tuple(map(BearingLoad, shares @ x, shares @ y))
+    acting = [
+        _Acting(turned_by(load, one.pin_angle).called(str(one.number)), one.position, one.throw, str(one.number))
+        for one, load in zip(places, loads, strict=True)
+    ]
+    acting += [
+        _Acting(_centrifugal(one, speed), one.position, _span(one.position, journals), one.name) for one in unbalances
+    ]
+    held: list[list[BearingLoad]] = [[] for _ in journals]
+    for one in acting:
+        far = _far_share(one, journals[one.throw : one.throw + 2])
+        for journal, share in ((one.throw, 1 - far), (one.throw + 1, far)):
+            part = BearingLoad(-share * one.load.x, -share * one.load.y)
+            held[journal].append(part.called(f"main_journal.{journal + 1}.{one.name}"))
+    return tuple(_sum(some, f"main_journal.{at}") for at, some in enumerate(held, start=1))
 
 
-def journal_shares(along: ArrayLike, spans: ArrayLike, journals: Sequence[float]) -> Array:
-    """Return which share of each force each main journal carries.
+class _Acting(NamedTuple):
+    """A force on the shaft in its frame, where it acts along it, on which throw, and what it is called."""
 
-    Parameters
-    ----------
-    along : array, shape (forces,)
-        Where the forces act along the shaft. [m]
-    spans : array of int, shape (forces,)
-        On which throw each acts, from 0. [-]
-    journals : sequence of float, shape (journals,)
-        Main journals along the shaft, ascending. [m]
+    load: BearingLoad
+    position: float
+    throw: int
+    name: str
 
-    Returns
-    -------
-    array, shape (journals, forces)
-        Shares; those of one force add up to 1. [-]
-    """
-    along, spans, position = np.asarray(along), np.asarray(spans), np.asarray(journals)
-    far = journal_share(along, position[spans], position[spans + 1])
-    shares, every = np.zeros((position.size, along.size)), np.arange(along.size)
-    shares[spans, every] = 1 - far
-    shares[spans + 1, every] = far
-    return shares
+
+def _far_share(one: _Acting, ends: Sequence[float]) -> Value:
+    """Return the share of the further journal of a throw, remembered if the force is."""
+    if not is_known(*one.load):
+        return journal_share(one.position, *ends)
+    stated = (given("shaft_position", at) for at in (one.position, *ends))
+    return called(journal_share(*stated), f"journal_share.{one.name}")
+
+
+def _sum(loads: Sequence[BearingLoad], owner: str) -> BearingLoad:
+    x = added(f"bearing_force_x.{owner}", [one.x for one in loads])
+    return BearingLoad(x, added(f"bearing_force_y.{owner}", [one.y for one in loads]))
 
 
 def _span(position: float, journals: Sequence[float]) -> int:
@@ -134,13 +115,25 @@ def _span(position: float, journals: Sequence[float]) -> int:
     return int(np.clip(np.searchsorted(journals, position, side="right") - 1, 0, len(journals) - 2))
 
 
-def _centrifugal(one: Unbalance, speed: float) -> BearingLoad:
-    force, grid = unbalance_force(one.mass_moment, speed), CrankGrid.from_degrees(one.angle)
-    return BearingLoad(np.atleast_1d(force * grid.cos), np.atleast_1d(force * grid.sin))
+def _centrifugal(one: Unbalance, speed: Value) -> BearingLoad:
+    grid = CrankGrid.from_degrees(one.angle)
+    force = called(unbalance_force(one.mass_moment, speed), f"unbalance_force.{one.name}")
+    return BearingLoad(force * float(grid.cos), force * float(grid.sin)).called(one.name)
 
 
-def _check_journals(layout: Layout) -> None:
-    """Raise unless every throw lies between two main journals with its cylinders."""
+def check_journals(layout: Layout) -> None:
+    """Raise unless every throw lies between two main journals with its cylinders.
+
+    Parameters
+    ----------
+    layout : Layout
+        Cylinders and journals along the shaft.
+
+    Raises
+    ------
+    CrankworkError
+        Naming what lies elsewhere.
+    """
     journals, throws = layout.journal_positions, max(place.throw for place in layout.places) + 1
     if len(journals) != throws + 1:
         raise CrankworkError(
@@ -148,7 +141,9 @@ def _check_journals(layout: Layout) -> None:
             "give the position of one more journal than throws"
         )
     if any(left >= right for left, right in pairwise(journals)):
-        raise CrankworkError("main journals must be given one after the other, with ascending positions")
+        raise CrankworkError(
+            "main journals must be given one after the other; write ascending positions, or a larger spacing"
+        )
     for place in layout.places:
         left, right = journals[place.throw], journals[place.throw + 1]
         if not left <= place.position <= right:

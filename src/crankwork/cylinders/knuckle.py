@@ -9,7 +9,7 @@ import numpy as np
 
 from crankwork.cylinders.articulated import ArticulatedRod, slave_stroke
 from crankwork.errors import GeometryError, MethodError
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank, rod_swing
 
@@ -22,18 +22,7 @@ _BISECTIONS, _SECANTS = 60, 30
 
 @formula("compression_ratio", "lukanin_shatrov_2007, ch. 1")
 def compression_ratio_of_lengths(stroke: Value, h_c: Value) -> Value:
-    """Compression ratio from stroke and height of the clearance, both for the same piston area.
-
-    Parameters
-    ----------
-    stroke, h_c : float
-        Stroke, clearance volume over piston area. [m], [m]
-
-    Returns
-    -------
-    float
-        Compression ratio. [-]
-    """
+    """Compression ratio from stroke and height of the clearance, both for the same piston area."""
     return 1 + stroke / h_c
 
 

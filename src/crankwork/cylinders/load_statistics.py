@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -182,13 +183,42 @@ def load_reversal(load: BearingLoad, degrees: ArrayLike, cycle: float) -> LoadRe
     angle = np.append(degrees, np.asarray(degrees)[0] + cycle)
     before = np.flatnonzero((force[:-1] < 0) != (force[1:] < 0))
     crossings = angle[before] + np.diff(angle)[before] * force[before] / (force[before] - force[before + 1])
-    longest = dict.fromkeys((False, True), 0.0)
-    if not before.size:
-        longest[bool(force[0] < 0)] = cycle
-    for index, stretch in zip(before, np.diff(crossings, append=crossings[:1] + cycle), strict=True):
-        pulls = bool(force[index + 1] < 0)
-        longest[pulls] = max(longest[pulls], float(stretch))
-    return LoadReversal(longest[False], longest[True], max(float(np.max(force)), 0.0), max(float(-np.min(force)), 0.0))
+    start = float(angle[0])
+    # negative x is compression
+    is_compression = [not one < 0 for one in (force[0], *force[before + 1])]
+    peaks = float(np.max(load.x)), float(np.min(load.x))
+    return reversal([*crossings.tolist(), start + cycle], is_compression, peaks, start=start)
+
+
+def reversal(
+    ends: Sequence[float], is_compression: Sequence[bool], peaks: tuple[float, float], *, start: float = 0.0
+) -> LoadReversal:
+    """Return how a load along the rod changes its direction, from the stretches in which it does not.
+
+    Parameters
+    ----------
+    ends : sequence of float
+        Where stretches of one direction end, the last at the end of the cycle. [deg]
+    is_compression : sequence of bool
+        Whether each is one of compression, negative x.
+    peaks : tuple of float
+        Largest and least x. [N]
+    start : float
+        Where the cycle begins. [deg]
+
+    Returns
+    -------
+    LoadReversal
+        Stretches and peaks in both directions. [deg], [N]
+    """
+    lengths = np.diff(ends, prepend=start).tolist()
+    if len(ends) > 1 and is_compression[0] == is_compression[-1]:
+        # one stretch across the end of the cycle
+        lengths[0] += lengths.pop()
+    longest = {True: 0.0, False: 0.0}
+    for one, length in zip(is_compression, lengths, strict=False):
+        longest[one] = max(longest[one], length)
+    return LoadReversal(longest[True], longest[False], max(-peaks[1], 0.0), max(peaks[0], 0.0))
 
 
 class PolarDiagram(NamedTuple):

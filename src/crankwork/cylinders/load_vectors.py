@@ -18,37 +18,39 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import called
 from crankwork.kinematics.crank_grid import Array, CrankGrid
+
+
+@formula("bearing_force_x", "kolchin_demidov_2008, ch. 7")
+def turned_along(F_x: Value, F_y: Value, sin_psi: Value, cos_psi: Value) -> Value:
+    """Component of a load along the reference direction of a frame that its own frame is ahead of."""
+    return F_x * cos_psi - F_y * sin_psi
+
+
+@formula("bearing_force_y", "kolchin_demidov_2008, ch. 7")
+def turned_across(F_x: Value, F_y: Value, sin_psi: Value, cos_psi: Value) -> Value:
+    """Component of a load across the reference direction of a frame that its own frame is ahead of."""
+    return F_x * sin_psi + F_y * cos_psi
 
 
 @formula("bearing_load", "kolchin_demidov_2008, ch. 7")
 def bearing_load(F_x: Value, F_y: Value) -> Value:
-    """Size of a load from its components.
-
-    Parameters
-    ----------
-    F_x, F_y : array
-        Components in one frame. [N], [N]
-
-    Returns
-    -------
-    array
-        Force. [N]
-    """
+    """Size of a load from its components."""
     return np.sqrt(F_x**2 + F_y**2)
 
 
 class BearingLoad(NamedTuple):
     """A load in one frame: x along its reference direction, y a quarter turn further, shape (n,). [N]"""
 
-    x: Array
-    y: Array
+    x: Value
+    y: Value
 
     @property
-    def resultant(self) -> Array:
+    def resultant(self) -> Value:
         """Size of the load. [N]"""
-        return np.asarray(bearing_load(self.x, self.y))
+        return bearing_load(self.x, self.y)
 
     @property
     def direction(self) -> Array:
@@ -56,13 +58,17 @@ class BearingLoad(NamedTuple):
         turned = np.degrees(np.arctan2(self.y, self.x)) % 360
         return np.asarray(np.where(turned == 360, 0.0, turned))
 
+    def called(self, owner: str) -> BearingLoad:
+        """Return the load under the name of what it acts on, if it is remembered."""
+        return BearingLoad(called(self.x, f"bearing_force_x.{owner}"), called(self.y, f"bearing_force_y.{owner}"))
+
     @property
     def opposite(self) -> BearingLoad:
         """The force with which what is loaded presses back."""
         return BearingLoad(-self.x, -self.y)
 
 
-def turned(load: BearingLoad, sin: ArrayLike, cos: ArrayLike) -> BearingLoad:
+def turned(load: BearingLoad, sin: Value, cos: Value) -> BearingLoad:
     """Return a load in a frame that its own frame is ahead of.
 
     Parameters
@@ -77,8 +83,7 @@ def turned(load: BearingLoad, sin: ArrayLike, cos: ArrayLike) -> BearingLoad:
     BearingLoad of array, shape (n,)
         The same vector in the other frame. [N]
     """
-    sin, cos = np.asarray(sin), np.asarray(cos)
-    return BearingLoad(load.x * cos - load.y * sin, load.x * sin + load.y * cos)
+    return BearingLoad(turned_along(load.x, load.y, sin, cos), turned_across(load.x, load.y, sin, cos))
 
 
 def turned_by(load: BearingLoad, angle: ArrayLike) -> BearingLoad:
@@ -97,4 +102,5 @@ def turned_by(load: BearingLoad, angle: ArrayLike) -> BearingLoad:
         The same vector in the other frame. [N]
     """
     grid = CrankGrid.from_degrees(angle)
-    return turned(load, grid.sin, grid.cos)
+    sin, cos = (float(one) if one.ndim == 0 else one for one in (grid.sin, grid.cos))
+    return turned(load, sin, cos)

@@ -11,42 +11,14 @@ import numpy as np
 
 from crankwork.cylinders.balance import InertiaHarmonics, free_forces
 from crankwork.cylinders.counterweights import Unbalance, rotating_unbalances, two_plane_counterweights
+from crankwork.cylinders.journal_loads import unbalance_force
 from crankwork.cylinders.layout import Layout
-from crankwork.expressions import Value, formula
-
-
-@formula("hammer_blow", "bevan_1956, ch. 14")
-def hammer_blow(Q_b: Value, w: Value) -> Value:
-    """Largest vertical force of the part of a wheel's counterweight that balances reciprocating mass.
-
-    Parameters
-    ----------
-    Q_b, w : float
-        Mass moment of that part, angular speed. [kg m], [rad/s]
-
-    Returns
-    -------
-    float
-        Force on the rail above and below the load of the wheel. [N]
-    """
-    return Q_b * w**2
+from crankwork.formula.expression import Value, formula
 
 
 @formula("tractive_effort_variation", "khurmi_gupta_2005, ch. 22")
 def tractive_effort_variation(k_b: Value, m_rec: Value, r: Value, w: Value, cos_phi: Value, sin_phi: Value) -> Value:
-    """Primary force that two cylinders with cranks at right angles leave along the line of stroke.
-
-    Parameters
-    ----------
-    k_b, m_rec, r, w, cos_phi, sin_phi : array
-        Balanced share, reciprocating mass of one cylinder, crank radius, angular speed, functions of the angle of the
-        first crank, the second being 90 degrees ahead. [-], [kg], [m], [rad/s], [-], [-]
-
-    Returns
-    -------
-    array
-        Force; largest at 135 and 315 degrees. [N]
-    """
+    """Primary force that two cylinders with cranks at right angles leave along the line of stroke."""
     return (1 - k_b) * m_rec * r * w**2 * (cos_phi - sin_phi)
 
 
@@ -54,20 +26,7 @@ def tractive_effort_variation(k_b: Value, m_rec: Value, r: Value, w: Value, cos_
 def swaying_couple(  # noqa: PLR0913 - one argument per symbol
     k_b: Value, m_rec: Value, r: Value, w: Value, a_z: Value, cos_phi: Value, sin_phi: Value
 ) -> Value:
-    """Couple of the primary forces that two cylinders with cranks at right angles leave.
-
-    Parameters
-    ----------
-    k_b, m_rec, r, w, a_z, cos_phi, sin_phi : array
-        Balanced share, reciprocating mass of one cylinder, crank radius, angular speed, distance between the
-        cylinders, functions of the angle of the first crank, the second being 90 degrees ahead. [-], [kg], [m],
-        [rad/s], [m], [-], [-]
-
-    Returns
-    -------
-    array
-        Couple about the vertical midway between the cylinders; largest at 45 and 225 degrees. [N m]
-    """
+    """Couple of the primary forces that two cylinders with cranks at right angles leave."""
     return (1 - k_b) * m_rec * r * w**2 * a_z / 2 * (cos_phi + sin_phi)
 
 
@@ -127,7 +86,7 @@ def locomotive_balance(
     reciprocating, rotating, radius, share = masses
     whole = rotating_unbalances(layout, rotating + share * reciprocating, radius)
     part = rotating_unbalances(layout, share * reciprocating, radius)
-    first, second = (float(hammer_blow(one.mass_moment, speed)) for one in two_plane_counterweights(part, wheels))
+    first, second = (float(unbalance_force(one.mass_moment, speed)) for one in two_plane_counterweights(part, wheels))
     primary = InertiaHarmonics((1,), np.ones(1, dtype=complex))
     (left,) = free_forces(layout, (1 - share) * reciprocating, radius, speed, primary)
     axis = layout.places[0].axis

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -11,7 +12,8 @@ from numpy.typing import ArrayLike
 from crankwork.cylinders.firing import SAME_ANGLE, intervals, is_even
 from crankwork.cylinders.layout import Layout, Place
 from crankwork.errors import MethodError
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import absent, added, called, is_known
 from crankwork.kinematics.crank_grid import Array
 from crankwork.shaft.curve import Curve
 
@@ -20,69 +22,25 @@ _DECIMALS = 9
 
 @formula("journal_torque", "kolchin_demidov_2008, ch. 9")
 def torque_behind_throw(M_j: Value, M_t: Value) -> Value:
-    """Torque that a main journal passes on, behind a throw.
-
-    Parameters
-    ----------
-    M_j, M_t : array, shape (n,)
-        Torque of the journal before the throw, torque of the throw. [N m], [N m]
-
-    Returns
-    -------
-    array, shape (n,)
-        Torque on the journal, positive with the rotation. [N m]
-    """
+    """Torque that a main journal passes on, behind a throw."""
     return M_j + M_t
 
 
 @formula("crankpin_torque", "kolchin_demidov_2008, ch. 9")
 def torque_of_crankpin(M_j: Value, M_t: Value) -> Value:
-    """Torque that a crankpin passes on: all that comes before it and half of its own.
-
-    Parameters
-    ----------
-    M_j, M_t : array, shape (n,)
-        Torque of the journal before the throw, torque of the throw. [N m], [N m]
-
-    Returns
-    -------
-    array, shape (n,)
-        Torque on the crankpin, positive with the rotation. [N m]
-    """
+    """Torque that a crankpin passes on: all that comes before it and half of its own."""
     return M_j + M_t / 2
 
 
 @formula("mean_total_torque", "kolchin_demidov_2008, ch. 7")
 def mean_torque_of_work(i_cyl: Value, W: Value, phi_c: Value) -> Value:
-    """Mean torque of all cylinders, from their indicated work.
-
-    Parameters
-    ----------
-    i_cyl, W, phi_c : float
-        Number of cylinders, indicated work of one in a cycle, angle of the cycle. [-], [J], [rad]
-
-    Returns
-    -------
-    float
-        Mean torque. [N m]
-    """
+    """Mean torque of all cylinders, from their indicated work."""
     return i_cyl * W / phi_c
 
 
 @formula("firing_interval", "kolchin_demidov_2008, ch. 7")
 def even_firing_interval(phi_c: Value, i_cyl: Value) -> Value:
-    """Angle between firings that follow each other evenly, the period of the total torque.
-
-    Parameters
-    ----------
-    phi_c, i_cyl : float
-        Angle of the cycle, number of cylinders. [rad], [-]
-
-    Returns
-    -------
-    float
-        Interval. [rad]
-    """
+    """Angle between firings that follow each other evenly, the period of the total torque."""
     return phi_c / i_cyl
 
 
@@ -150,23 +108,22 @@ def total_torque(torques: ArrayLike) -> Array:
 
 
 class TorquesAlongShaft(NamedTuple):
-    """What each part of the shaft passes on towards the output end behind the last throw. [N m]
+    """What each part of the shaft passes on towards the output end behind the last throw, shape (n,) each. [N m]
 
-    `throws` and `crankpins` have the shape (throws, n), `journals` (throws + 1, n): the first journal passes nothing
-    on, the last one the total.
+    There is one journal more than throws: the first passes nothing on, the last one the total.
     """
 
-    throws: Array
-    journals: Array
-    crankpins: Array
+    throws: tuple[Value, ...]
+    journals: tuple[Value, ...]
+    crankpins: tuple[Value, ...]
 
 
-def torques_along_shaft(torques: ArrayLike, layout: Layout) -> TorquesAlongShaft:
+def torques_along_shaft(torques: Sequence[Value], layout: Layout) -> TorquesAlongShaft:
     """Return the torque on every main journal and crankpin: the accumulated torques of a shaft with a free front end.
 
     Parameters
     ----------
-    torques : array, shape (cylinders, n)
+    torques : sequence of array, shape (n,)
         Torque of each cylinder by number, at the same crank angles of cylinder 1. [N m]
     layout : Layout
         The cylinders; those of one throw act together, on a common pin or on split ones.
@@ -180,17 +137,19 @@ def torques_along_shaft(torques: ArrayLike, layout: Layout) -> TorquesAlongShaft
     ----------
     kolchin_demidov_2008, ch. 9.
     """
-    torques = np.asarray(torques, dtype=float)
-    if torques.ndim != 2 or len(torques) != len(layout.places):
-        raise MethodError(f"torques must be one row per cylinder, {len(layout.places)} rows, not shape {torques.shape}")
+    if len(torques) != len(layout.places):
+        raise MethodError(f"torques must be one row per cylinder, {len(layout.places)} rows, not {len(torques)}")
     count = max(place.throw for place in layout.places) + 1
-    throws = np.zeros((count, torques.shape[1]))
-    for place in layout.places:
-        throws[place.throw] += torques[place.number - 1]
-    journals = np.zeros((count + 1, torques.shape[1]))
-    for at in range(count):
-        journals[at + 1] = torque_behind_throw(journals[at], throws[at])
-    return TorquesAlongShaft(throws, journals, np.asarray(torque_of_crankpin(journals[:-1], throws)))
+    members = [[torques[one.number - 1] for one in layout.places if one.throw == at] for at in range(count)]
+    throws = tuple(
+        some[0] if len(some) == 1 else added(f"throw_torque.{at}", some) for at, some in enumerate(members, start=1)
+    )
+    journals = [absent("journal_torque.1") if is_known(*torques) else np.zeros_like(throws[0])]
+    crankpins = []
+    for at, throw in enumerate(throws, start=1):
+        crankpins.append(called(torque_of_crankpin(journals[-1], throw), f"crankpin_torque.{at}"))
+        journals.append(called(torque_behind_throw(journals[-1], throw), f"journal_torque.{at + 1}"))
+    return TorquesAlongShaft(throws, tuple(journals), tuple(crankpins))
 
 
 def firing_intervals(layout: Layout) -> tuple[float, ...]:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from crankwork.cylinders.firing import wrapped
 from crankwork.cylinders.layout import Layout
 from crankwork.errors import MethodError
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.shaft.curve import Curve
 
@@ -23,35 +23,13 @@ _GAUSS_POINTS = 12
 
 @formula("harmonic_amplitude", "den_hartog_1956, ch. 5")
 def amplitude_of_harmonic(a_nu: Value, b_nu: Value) -> Value:
-    """Amplitude of one harmonic of the torque.
-
-    Parameters
-    ----------
-    a_nu, b_nu : array
-        Its cosine and sine coefficients. [N m], [N m]
-
-    Returns
-    -------
-    array
-        Amplitude. [N m]
-    """
+    """Amplitude of one harmonic of the torque."""
     return np.sqrt(a_nu**2 + b_nu**2)
 
 
 @formula("total_harmonic_amplitude", "den_hartog_1956, ch. 5")
 def amplitude_of_total(M_nu: Value, s_nu: Value) -> Value:
-    """Amplitude of one harmonic of the torque of all cylinders.
-
-    Parameters
-    ----------
-    M_nu, s_nu : array
-        Amplitude of one cylinder, length of the sum of the phase star. [N m], [-]
-
-    Returns
-    -------
-    array
-        Amplitude. [N m]
-    """
+    """Amplitude of one harmonic of the torque of all cylinders."""
     return M_nu * s_nu
 
 
@@ -134,9 +112,13 @@ def curve_harmonics(curve: Curve, count: int) -> TorqueHarmonics:
     half = np.diff(edges) / 2
     angle = (edges[:-1] + half)[:, None] + half[:, None] * points
     weighted = curve(angle) * half[:, None] * weights * (2 / cycle)
-    turned = angle[..., None] * orders
-    cosine = np.einsum("ij,ijk->k", weighted, np.cos(turned))
-    sine = np.einsum("ij,ijk->k", weighted, np.sin(turned))
+    first, turned = np.exp(1j * orders[0] * angle), np.ones_like(angle, dtype=complex)
+    sums = np.empty(count, dtype=complex)
+    for at in range(count):
+        # the next order is turned once more by the first
+        turned = turned * first
+        sums[at] = np.vdot(turned, weighted)
+    cosine, sine = sums.real, -sums.imag
     return _harmonics(curve.mean, orders, cosine, sine)
 
 

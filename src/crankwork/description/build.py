@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import math
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -14,36 +13,32 @@ from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
 from crankwork.loads.gas import piston_area
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.loads.measured import MeasuredPressure
+from crankwork.locale import Refusal
 from crankwork.machine import Cylinder, Gas, Machine
 from crankwork.mechanism.mechanism import slider_crank
 from crankwork.method import EXACT, STANDARD_GRAVITY, Method
+from crankwork.units import UNITS
 
+_LEAST_RISE = 1e-3
+_RADIANS = [name for name, unit in UNITS.items() if unit.dimension == "speed" and unit.factor == 1.0]
 _ENGINE_TABLES = {"engine", "bearings", "balance", "flywheel"}
 
 ReadMeasured = Callable[[Mapping[str, Any], Reader], MeasuredPressure | None]
 
 
 def build_machine(values: Mapping[str, Any], reader: Reader, read_measured: ReadMeasured) -> Machine | None:
-    """Return the machine, or None after complaints.
-
-    Parameters
-    ----------
-    values : mapping
-        What `keys.MACHINE_FILE` has read.
-    reader : Reader
-        Collects the complaints.
-    read_measured : callable
-        Reads the measured pressure that `gas.measured` names.
-    """
+    """Return the machine, or None after complaints."""
     method = build_method(values.get("method", {}), reader)
     calculated = None
     if "cycle" in values:
-        cycle_room = importlib.import_module("crankwork.description.cycle_build")
-        calculated = cycle_room.build_cycle(values, reader, method.pi)
+        from crankwork.description.cycle_build import build_cycle  # noqa: PLC0415 - few files calculate a cycle
+
+        calculated = build_cycle(values, reader, method.pi)
         values = calculated.values if calculated else values
     crank, rod = values.get("crank", {}), values.get("rod", {})
     lengths = _lengths(crank, rod, values.get("cylinder", {}), reader)
     cylinder = _cylinder(values.get("cylinder"))
+    _check_clearance(cylinder, lengths, reader)
     masses = _masses(values, lengths, cylinder, method, reader)
     gas = calculated.gas if calculated else _gas(values.get("gas"), cylinder, reader, read_measured)
     table = values.get("table", {})
@@ -54,18 +49,18 @@ def build_machine(values: Mapping[str, Any], reader: Reader, read_measured: Read
         if angle > cycle + 1e-9 and not reader.doubts("gas.cycle"):
             reader.complain(
                 f"table.special_angles[{number}]",
-                f"{angle:g} deg lies beyond the cycle; write an angle from 0 to {cycle:g} deg",
+                Refusal("angle_beyond", angle=f"{angle:g}", cycle=f"{cycle:g}"),
             )
     engine = None
     if is_whole:
-        # loaded when needed: most files describe one crank gear
-        room = importlib.import_module("crankwork.description.engine_build")
-        engine = room.build_engine(values, lengths, cycle, reader)
+        from crankwork.description.engine_build import build_engine  # noqa: PLC0415 - most files have one crank gear
+
+        engine = build_engine(values, lengths, cycle, reader)
     if reader.problems or lengths is None:
         return None
     return Machine(
         mechanism=slider_crank(*lengths),
-        speed=crank["speed"].value,
+        speed=crank_speed(crank["speed"], method),
         angular_acceleration=_value(crank, "angular_acceleration"),
         title=values.get("title", ""),
         cylinder=cylinder,
@@ -77,6 +72,12 @@ def build_machine(values: Mapping[str, Any], reader: Reader, read_measured: Read
         table_special=tuple(round(angle, 9) for angle in special),
         engine=engine,
     )
+
+
+def crank_speed(given: Measure, method: Method) -> float:
+    """Return the speed of a crank; one in radians stays as it is written, whatever pi a document has. [rad/s]"""
+    # what is calculated with is this speed times pi of the document over pi
+    return given.value * math.pi / method.pi if given.unit in _RADIANS else given.value
 
 
 def _value(table: Mapping[str, Any], key: str, default: float = 0.0) -> float:
@@ -107,11 +108,8 @@ def _lengths(
     ratio = rod.get("ratio")
     inverse = rod.get("ratio_definition", "r/l") == "l/r"
     if ratio is not None and not inverse and ratio >= 1:
-        reader.complain(
-            "rod.ratio",
-            f"{ratio:g} would make the rod no longer than the crank; r/l is below 1: "
-            + (f'write {1 / ratio:.6g}, or add ratio_definition = "l/r"' if ratio > 1 else "write 0.25, for example"),
-        )
+        key = "ratio_inverse" if ratio > 1 else "ratio_of_one"
+        reader.complain("rod.ratio", Refusal(key, ratio=f"{ratio:g}", inverse=f"{1 / ratio:.6g}"))
         return None
     if "radius" in crank:
         radius = crank["radius"].value
@@ -128,12 +126,9 @@ def _lengths(
     offset = _value(cylinder, "offset")
     if not turns_fully(SliderCrank(radius, length, offset)):
         key = "rod.ratio" if ratio is not None else "rod.length"
-        reader.complain(
-            key,
-            f"the rod ({length * 1e3:.6g} mm) must be longer than crank radius and offset together "
-            f"({radius * 1e3:.6g} + {abs(offset) * 1e3:.6g} mm); "
-            f"it misses {(radius + abs(offset) - length) * 1e3:.6g} mm; lengthen it or shorten the crank",
-        )
+        lengths = {"length": length, "radius": radius, "offset": abs(offset), "missing": radius + abs(offset) - length}
+        shown = {name: f"{one * 1e3:.6g}" for name, one in lengths.items()}
+        reader.complain(key, Refusal("rod_short", **shown))
         return None
     return radius, length, offset
 
@@ -149,6 +144,18 @@ def _cylinder(values: Mapping[str, Any] | None) -> Cylinder | None:
         piston_rod_diameter=_value(values, "piston_rod_diameter"),
         inclination=_value(values, "inclination"),
     )
+
+
+def _check_clearance(cylinder: Cylinder | None, lengths: tuple[float, float, float] | None, reader: Reader) -> None:
+    """Complain of a clearance volume beside which the stroke means nothing."""
+    if cylinder is None or cylinder.clearance_volume is None or lengths is None:
+        return
+    swept = 2 * lengths[0] * float(piston_area(math.pi, cylinder.bore))
+    if swept < _LEAST_RISE * cylinder.clearance_volume:
+        reader.complain(
+            "cylinder.clearance_volume",
+            Refusal("clearance_large", times=f"{cylinder.clearance_volume / swept:.3g}", swept=f"{swept * 1e6:.3g}"),
+        )
 
 
 def _masses(
@@ -170,7 +177,7 @@ def _masses(
     if ("rod", "mass") not in mass:
         for key in ("inertia", "radius_of_gyration", "centre_of_mass", "small_end_share"):
             if key in rod and not reader.doubts("rod.mass"):
-                reader.complain(f"rod.{key}", 'tells where the mass of the rod is, but not the mass; add mass = "1 kg"')
+                reader.complain(f"rod.{key}", Refusal("rod_mass_missing"))
         small, big = (mass.get(("rod", key), 0.0) for key in rod_keys[1:])
         return CrankGearMasses(piston, small, big, crank)
     centre = _centre_of_mass(rod, lengths[1], reader) if lengths else None
@@ -188,7 +195,7 @@ def _mass(measure: Measure, area: float | None, key: str, reader: Reader) -> flo
         return measure.value
     if area is None:
         if not reader.doubts("cylinder.bore"):
-            reader.complain(key, "is a mass per piston area; give cylinder.bore, or the mass in kg")
+            reader.complain(key, Refusal("mass_per_area"))
         return 0.0
     return measure.value * area
 
@@ -199,17 +206,11 @@ def _centre_of_mass(rod: Mapping[str, Any], length: float, reader: Reader) -> fl
         return float(rod["small_end_share"] * length)
     if "centre_of_mass" not in rod:
         if not reader.doubts("rod.centre_of_mass", "rod.small_end_share"):
-            reader.complain(
-                "rod.mass",
-                'says nothing of where the mass is; add centre_of_mass = "50 mm" (from the crankpin) '
-                "or small_end_share = 0.275",
-            )
+            reader.complain("rod.mass", Refusal("rod_mass_where"))
         return None
     centre = float(rod["centre_of_mass"].value)
     if centre >= length:
-        reader.complain(
-            "rod.centre_of_mass", f"lies beyond the piston pin; write less than the {length * 1e3:.6g} mm of the rod"
-        )
+        reader.complain("rod.centre_of_mass", Refusal("rod_centre_beyond", length=f"{length * 1e3:.6g}"))
         return None
     return centre
 
@@ -230,6 +231,7 @@ def _gas(
     if values is None:
         return None
     _check_gas(values, cylinder, reader)
+    _check_rod(values, cylinder, reader)
     _check_points(values, reader)
     if "cycle" not in values:
         return None
@@ -240,14 +242,10 @@ def _gas(
         for name, point in values.get("points", {}).items():
             pressure = (point or {}).get("pressure")
             if pressure is not None and pressure.value < 0:
-                reader.complain(
-                    f"gas.points.{name}.pressure", 'is below vacuum; write it above zero, or pressures = "gauge"'
-                )
+                reader.complain(f"gas.points.{name}.pressure", Refusal("point_vacuum"))
         if measured is not None and float(measured.pressure.min()) < 0:
             row = measured.rows[int(measured.pressure.argmin())]
-            reader.complain(
-                "gas.measured.file", f'line {row}: the pressure is below vacuum; correct it, or pressures = "gauge"'
-            )
+            reader.complain("gas.measured.file", Refusal("measured_vacuum", line=row))
     return Gas(
         cycle=float(values["cycle"].split()[0]),
         points={name: _point(one) for name, one in values.get("points", {}).items() if one is not None},
@@ -266,22 +264,26 @@ def _check_gas(values: Mapping[str, Any], cylinder: Cylinder | None, reader: Rea
     """Complain of what the gas needs and has not."""
     if cylinder is None:
         if not reader.doubts("cylinder.bore"):
-            reader.complain("gas", 'needs the cylinder; write bore = "85 mm" below a line [cylinder]')
+            reader.complain("gas", Refusal("gas_cylinder"))
     elif {cylinder.clearance_volume, cylinder.compression_ratio} == {None} and not reader.doubts(
         "cylinder.clearance_volume", "cylinder.compression_ratio"
     ):
-        reader.complain(
-            "cylinder", 'gas needs its smallest volume; write compression_ratio = 9 or clearance_volume = "64 cm3"'
-        )
+        reader.complain("cylinder", Refusal("gas_volume"))
     if values.get("pressures") != "absolute" and "ambient" in values and not reader.doubts("gas.pressures"):
-        reader.complain(
-            "gas.ambient", 'is used with absolute pressures only; add pressures = "absolute", or leave it out'
-        )
+        reader.complain("gas.ambient", Refusal("ambient_unused"))
     if "measured" not in values:
         for key in ("points", "pieces"):
             if key not in values and not reader.doubts(f"gas.{key}", "gas.measured"):
-                example = "a line [gas.points]" if key == "points" else "a line [[gas.pieces]] for each law"
-                reader.complain(f"gas.{key}", f"is missing; add {example}, or [gas.measured] with a file")
+                reader.complain(f"gas.{key}", Refusal(f"gas_{key}"))
+
+
+def _check_rod(values: Mapping[str, Any], cylinder: Cylinder | None, reader: Reader) -> None:
+    """Complain of a piston rod without pressure beside it, and of a pressure without a rod."""
+    has_rod, has_pressure = cylinder is not None and cylinder.piston_rod_diameter > 0, "back_pressure" in values
+    if has_pressure and not has_rod and not reader.doubts("cylinder.piston_rod_diameter", "cylinder"):
+        reader.complain("gas.back_pressure", Refusal("back_pressure_alone"))
+    if has_rod and not has_pressure and not reader.doubts("gas.back_pressure"):
+        reader.complain("cylinder.piston_rod_diameter", Refusal("piston_rod_alone"))
 
 
 def _check_points(values: Mapping[str, Any], reader: Reader) -> None:
@@ -296,8 +298,10 @@ def _check_points(values: Mapping[str, Any], reader: Reader) -> None:
         for place, name in names:
             if name is not None and name not in known and not reader.doubts("gas.points"):
                 nearest = nearest_name(name, known)
-                advice = f"did you mean {nearest}?" if nearest else f"there are: {', '.join(known)[:120]}"
-                reader.complain(place, f'there is no point "{name}" in [gas.points]; {advice}')
+                near = Refusal("no_point_near", name=name, nearest=nearest)
+                reader.complain(
+                    place, near if nearest else Refusal("no_point", name=name, known=", ".join(known)[:120])
+                )
 
 
 def _point(values: Mapping[str, Any]) -> DiagramPoint:

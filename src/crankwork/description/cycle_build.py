@@ -18,7 +18,6 @@ from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
 from crankwork.machine import Gas
 from crankwork.working_cycle.calculated import CalculatedPressure
 from crankwork.working_cycle.calculated_cycle import CalculatedCycle
-from crankwork.working_cycle.charge import geometric_compression_ratio
 from crankwork.working_cycle.cycle_data import GrinevetskyData
 from crankwork.working_cycle.fuels import FUELS, Fuel
 from crankwork.working_cycle.grinevetsky import grinevetsky
@@ -71,11 +70,6 @@ def build_cycle(values: Mapping[str, Any], reader: Reader, pi: float) -> Cycle |
         Collects the complaints.
     pi : float
         The constant the calculation uses. [-]
-
-    Returns
-    -------
-    Cycle or None
-        With the size of the engine filled in where a power asks for it.
     """
     table = values.get("cycle", {})
     kind = table.get("kind")
@@ -117,8 +111,8 @@ def _built(values: Mapping[str, Any], table: Mapping[str, Any], ratio: float, pi
         else:
             cycle = grinevetsky(_data(values, table, ratio, angle, timing, pi))
             values = _sized(values, cycle) if "power" in table else values
-        if cycle.corners.psi:
-            values = _with_ratio(values, float(geometric_compression_ratio(ratio, cycle.corners.psi)))
+        if "geometric_compression_ratio" in cycle.memory:
+            values = _with_ratio(values, cycle.memory["geometric_compression_ratio"].value)
         rounds = table.get("corners", "rounded" if "timing" in table else "sharp") == "rounded"
         pressure = CornerPressure(cycle, timing if rounds else None, _rounding(table))
     gas = Gas(cycle=angle, is_absolute=True, ambient=ambient, names_ambient=True, calculated=pressure)
@@ -191,7 +185,7 @@ def _data(
         "heat_capacities": table.get("heat_capacities", "kolchin"),
         "strokes": 4 if angle == 720 else 2,
         "cylinders": int(values.get("engine", {}).get("cylinders", 1)),
-        "mechanical_loss": None if loss is None else (loss[0] * 1e6, loss[1] * 1e6),
+        "mechanical_loss": None if loss is None or None in loss else (loss[0] * 1e6, loss[1] * 1e6),
         "lost_stroke": lost,
         "pi": pi,
     }))  # fmt: skip

@@ -10,10 +10,11 @@ from crankwork.cylinders.arrangement import arranged
 from crankwork.cylinders.articulated import ArticulatedRod, check_articulated_rod
 from crankwork.cylinders.engines import boxer, inline, radial, vee
 from crankwork.cylinders.firing import LayoutError, LayoutNotice
+from crankwork.cylinders.journal_loads import check_journals
 from crankwork.cylinders.layout import Banks, Layout
 from crankwork.cylinders.standard_orders import StandardOrder, standard_orders
 from crankwork.description.schema import Reader
-from crankwork.errors import GeometryError
+from crankwork.errors import CrankworkError, GeometryError
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.machine import Bearings, Engine
 
@@ -63,8 +64,13 @@ def build_engine(
     except LayoutError as error:
         reader.complain(error.key, str(error))
         return None
+    _check_places(layout, table, reader)
     sizes = values.get("bearings", {})
     balance, flywheel = values.get("balance", {}), values.get("flywheel", {})
+    if sizes.get("counterweight") and sizes["counterweight"].value and balance.get("rotating_share"):
+        reader.complain(
+            "bearings.counterweight", "adds to the counterweights of balance.rotating_share; keep one of the two"
+        )
     return Engine(
         layout=layout,
         slaves=_slaves(table, layout, lengths, reader),
@@ -77,6 +83,15 @@ def build_engine(
         inertia=_value(flywheel, "inertia") or 0.0,
         notices=tuple((one.code, one.values) for one in notices),
     )
+
+
+def _check_places(layout: Layout, table: Mapping[str, Any], reader: Reader) -> None:
+    """Complain of cylinders that stand outside the main journals of their throw."""
+    if _value(table, "spacing"):
+        try:
+            check_journals(layout)
+        except CrankworkError as error:
+            reader.complain("engine.bank_stagger" if "bank_stagger" in table else "engine.spacing", str(error))
 
 
 def _value(table: Mapping[str, Any], key: str) -> float | None:

@@ -6,14 +6,14 @@ import math
 
 from crankwork.description.schema import Choice, Flag, Key, ListOf, NameOr, Number, Quantity, Table, Text
 
-_LENGTH = Quantity(("length",), 0.0, 100.0, above=True)
+_LENGTH = Quantity(("length",), 1e-4, 100.0)
 _SPACING = Quantity(("length",), 0.0, 100.0)
 _ANGLE = Quantity(("angle",), -4 * math.pi - 1e-9, 4 * math.pi + 1e-9)
 _EVENT = Quantity(("angle",), 0.0, 0.75 * math.pi)
-_BEFORE = Quantity(("angle",), 0.0, math.pi / 2, above=True)
-_PRESSURE = Quantity(("pressure",), 0.0, 1e9, above=True)
-_TEMPERATURE = Quantity(("temperature",), 0.0, 5000.0, above=True)
-_RISE = Quantity(("temperature",), -300.0, 1000.0)
+_BEFORE = Quantity(("angle",), math.radians(0.1), math.pi / 2)
+_PRESSURE = Quantity(("pressure",), 100.0, 1e9)
+_TEMPERATURE = Quantity(("temperature",), 100.0, 5000.0)
+_RISE = Quantity(("temperature",), -100.0, 1000.0)
 _EXPONENT = Number(0.5, 3.0)
 _SHARE = Number(0.0, 1.0)
 
@@ -62,7 +62,7 @@ BALANCE = Table({
 })  # fmt: skip
 
 FLYWHEEL = Table({
-    "fluctuation": Key(Number(0.0, 1.0, above=True), "wanted: largest less least speed over the mean"),
+    "fluctuation": Key(Number(1e-6, 1.0), "wanted: largest less least speed over the mean"),
     "inertia": Key(Quantity(("inertia",), 0.0, 1e9),
                    "of everything that turns with the crankshaft, without the flywheel to be found"),
 })  # fmt: skip
@@ -112,12 +112,12 @@ CYCLE = Table({
     "cut_off": Key(Number(1.0, 10.0), "rise of volume at constant pressure, of ideal cycles"),
     "heat": Key(Quantity(("specific_energy",), 0.0, 1e8), "added to 1 kg of gas, of ideal cycles"),
     "peak_temperature": Key(_TEMPERATURE, "of an ideal cycle"),
-    "adiabatic_exponent": Key(Number(1.0, 2.0, above=True), "of ideal cycles and Wiebe; by default 1.4 and 1.35"),
+    "adiabatic_exponent": Key(Number(1.01, 2.0), "of ideal cycles and Wiebe; by default 1.4 and 1.35"),
     "filling": Key(Number(0.5, 1.0), "of the rounded diagram: mean pressure over that of the sharp one"),
     "mechanical_loss": Key(ListOf(Number(0.0, 1.0), fewest=2, most=2),
                            "a and b of p_m = a + b v_p in MPa and MPa s/m; by default from the kind of engine"),
     "heat_capacities": Key(Choice(("kolchin", "vietnamese", "linear")), "law of the mean molar heats"),
-    "power": Key(Quantity(("power",), 0.0, 1e9, above=True), "wanted effective power; bore and stroke follow"),
+    "power": Key(Quantity(("power",), 1.0, 1e9), "wanted effective power; bore and stroke follow"),
     "stroke_bore_ratio": Key(Number(0.2, 5.0), "stroke over bore, where they follow from the power"),
     "lost_stroke": Key(Number(0.0, 0.6), "share of the stroke that the ports of a two-stroke engine take"),
     "corners": Key(Choice(("rounded", "sharp")), "of the diagram; by default rounded"),
@@ -126,8 +126,8 @@ CYCLE = Table({
     "timing": Key(_TIMING, "of valves or ports and ignition"),
     "combustion_start": Key(Quantity(("angle",), -math.pi / 2, math.pi / 2), "before the top dead centre, for Wiebe"),
     "combustion_duration": Key(Quantity(("angle",), math.radians(1), math.pi), "for Wiebe"),
-    "shape": Key(Number(-0.9, 10.0), "exponent m of Wiebe"),
-    "cycle_heat": Key(Quantity(("energy",), 0.0, 1e9, above=True), "of the fuel, per cycle and cylinder, for Wiebe"),
+    "shape": Key(Number(0.0, 10.0), "exponent m of Wiebe"),
+    "cycle_heat": Key(Quantity(("energy",), 1e-6, 1e9), "of the fuel, per cycle and cylinder, for Wiebe"),
     "wall_temperature": Key(_TEMPERATURE, "of the walls, for Woschni; without it there is no heat loss"),
     "source": Key(Text(), "where the data come from"),
 })  # fmt: skip

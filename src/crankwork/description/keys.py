@@ -43,9 +43,9 @@ _ROD = Table({
 _PISTON = Table({"mass": Key(_MASS, "mass of piston, rings and pin (and crosshead, if there is one)")})
 
 _CYLINDER = Table({
-    "bore": Key(_LENGTH, "diameter", required=True),
+    "bore": Key(Quantity(("length",), 1e-4, 100.0), "diameter", required=True),
     "clearance_volume": Key(_VOLUME, "volume at top dead centre", instead_of=("compression_ratio",)),
-    "compression_ratio": Key(Number(1.0, 100.0, above=True), "total over clearance volume",
+    "compression_ratio": Key(Number(1.001, 100.0), "total over clearance volume",
                              instead_of=("clearance_volume",)),
     "offset": Key(Quantity(("length",), -100.0, 100.0),
                   "distance of the cylinder axis from the crankshaft axis, towards the crankpin at 90 degrees"),
@@ -96,7 +96,7 @@ _GAS = Table(
         ),
         "back_pressure": Key(_PRESSURE, "gauge pressure on the crank side of a double-acting piston"),
         "points": Key(Named(_POINT), "named points of the indicator diagram"),
-        "pieces": Key(ListOf(_PIECE, fewest=1), "laws between the points, in the order of the crank angle"),
+        "pieces": Key(ListOf(_PIECE, fewest=1, most=500), "laws between the points, in the order of the crank angle"),
         "measured": Key(_MEASURED, "measured pressure instead of points and pieces", instead_of=("points", "pieces")),
     }
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -12,13 +12,13 @@ import numpy as np
 
 from crankwork.analysis.linkage import reachable
 from crankwork.analysis.linkage_speed import transient_summary
-from crankwork.description.build import build_method
+from crankwork.description.build import build_method, crank_speed
 from crankwork.description.schema import Measure, Reader
 from crankwork.dynamics.efficiency import Chain as EfficiencyChain
 from crankwork.dynamics.efficiency import Parallel, Series, efficiency
 from crankwork.dynamics.reduction import reduced_inertia
 from crankwork.dynamics.tabulated import TabulatedBody
-from crankwork.errors import CrankworkError, GeometryError, MethodError
+from crankwork.errors import CrankworkError, GeometryError, MethodError, Problem
 from crankwork.kinematics.assembly import unassembled
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import Motion, linkage_motion
@@ -32,14 +32,18 @@ from crankwork.loads.weight import Weight
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.decomposition import mechanism_of
 from crankwork.mechanism.description import linkage_from
+from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.linkage import Linkage
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.shaft.motor import AsynchronousMotor, GearedMotor
 
 _GEOMETRY = ("fixed_points", "crank", "links", "guides", "sliders", "branch", "positions")
 _STEP = 1.0
+_LEAST_EFFICIENCY = 1e-4
 _REVOLUTION = math.tau + 1e-9
 _MOST_TURNS = 10_000
+# share of the size of a linkage by which a stated position may be rough
+_ROUGHLY = 0.25
 _ELSEWHERE = ("speed", "angular_acceleration", "inertia")
 # what each kind of load needs, and what it may have besides
 _LOAD_KEYS = {
@@ -51,15 +55,7 @@ _LOAD_KEYS = {
 
 
 def build_linkage(values: Mapping[str, Any], reader: Reader) -> LinkageMachine | None:
-    """Return the linkage machine, or None after complaints.
-
-    Parameters
-    ----------
-    values : mapping
-        What `linkage_keys.LINKAGE_FILE` has read.
-    reader : Reader
-        Collects the complaints.
-    """
+    """Return the linkage machine, or None after complaints."""
     if reader.problems:
         return None
     tables = {name: _plain(values[name]) for name in _GEOMETRY if name in values}
@@ -67,7 +63,7 @@ def build_linkage(values: Mapping[str, Any], reader: Reader) -> LinkageMachine |
     linkage, problems = linkage_from(tables)
     mechanism = None
     if linkage is not None:
-        mechanism, problems = mechanism_of(linkage)
+        mechanism, problems = _decomposed(linkage)
     for problem in problems:
         reader.complain(problem.key or "links", problem.message)
     method = build_method(values.get("method", {}), reader)
@@ -85,7 +81,7 @@ def build_linkage(values: Mapping[str, Any], reader: Reader) -> LinkageMachine |
     machine = LinkageMachine(
         mechanism=mechanism,
         linkage=linkage,
-        speed=crank["speed"].value,
+        speed=crank_speed(crank["speed"], method),
         angular_acceleration=_value(crank, "angular_acceleration"),
         title=values.get("title", ""),
         loads=loads,
@@ -96,6 +92,59 @@ def build_linkage(values: Mapping[str, Any], reader: Reader) -> LinkageMachine |
         table_special=tuple(round(math.degrees(one.value), 9) for one in table.get("special_angles", []) if one),
     )
     return machine if _moves(machine, reader) else None
+
+
+def _decomposed(linkage: Linkage) -> tuple[Mechanism | None, list[Problem]]:
+    """Return the mechanism of a linkage, its branches from stated positions as seen from solved ones.
+
+    Where a link carries the points that the next group hangs on, these are known when its own group is solved: group
+    after group settles its branch.
+    """
+    mechanism, problems = mechanism_of(linkage)
+    for _ in mechanism.dyads if mechanism is not None and linkage.positions else ():
+        if mechanism is None:
+            break
+        try:
+            here = place(mechanism, CrankGrid.from_degrees([0.0])).points
+        except GeometryError:
+            break
+        places = {name: tuple(float(np.ravel(one.position)[0]) for one in point) for name, point in here.items()}
+        solved = {name: (x, y) for name, (x, y) in places.items() if math.isfinite(x) and math.isfinite(y)}
+        before = mechanism
+        mechanism, problems = mechanism_of(linkage, solved)
+        if mechanism == before:
+            problems = [*problems, *_without_effect(linkage, mechanism, solved)]
+            break
+    return (None if problems else mechanism), problems
+
+
+def _without_effect(
+    linkage: Linkage, mechanism: Mechanism, solved: Mapping[str, tuple[float, float]]
+) -> Iterator[Problem]:
+    """Yield positions that settle no branch and say something else than what the lengths and branches give."""
+    settle = _settling(linkage, mechanism)
+    size = max((math.dist(one, other) for one in solved.values() for other in solved.values()), default=0.0)
+    for name, stated in linkage.positions.items():
+        if name in solved and name not in settle and math.dist(stated, solved[name]) > _ROUGHLY * size:
+            x, y = (1e3 * one for one in solved[name])
+            yield Problem(f"positions.{name}", (
+                f"has no effect there: lengths and branches put {name} at {x:.4g} mm, {y:.4g} mm; write that, "
+                "or give the position of the joint or the branch that is meant"
+            ))  # fmt: skip
+
+
+def _settling(linkage: Linkage, mechanism: Mechanism) -> set[str]:
+    """Return the points whose stated positions settle a branch, or where a chain begins."""
+    found: set[str] = set()
+    for group in mechanism.dyads:
+        match group:
+            case RRR(point=name) | RRP(slider=name):
+                found |= {name} - set(linkage.branches)
+            case RPR(link=name):
+                found |= set() if name in linkage.branches else set(linkage.member(name).points)
+            case Chain(links=links):
+                found |= {name for link in links for name in link.points}
+    return found
 
 
 def _moves(machine: LinkageMachine, reader: Reader) -> bool:
@@ -164,15 +213,7 @@ def _unassembled_key(machine: LinkageMachine, grid: CrankGrid) -> str:
 
 
 def build_tabulated(values: Mapping[str, Any], reader: Reader) -> TabulatedMachine | None:
-    """Return the machine of a table of transfer functions, or None after complaints.
-
-    Parameters
-    ----------
-    values : mapping
-        What `linkage_keys.TRANSFER_FILE` has read.
-    reader : Reader
-        Collects the complaints.
-    """
+    """Return the machine of a table of transfer functions, or None after complaints."""
     method = build_method(values.get("method", {}), reader)
     if not method.is_exact:
         reader.complain("method.kinematics", "the motion is that of the table; write exact or leave it out")
@@ -183,7 +224,7 @@ def build_tabulated(values: Mapping[str, Any], reader: Reader) -> TabulatedMachi
     angles = _plain(transfer["angles"])
     count = len(angles)
     if any(after <= before for before, after in itertools.pairwise(angles)) or angles[-1] - angles[0] > _REVOLUTION:
-        reader.complain("transfer.angles", "must rise from position to position, within one revolution")
+        reader.complain("transfer.angles", "must rise within one revolution; sort the positions by their angles")
     if not transfer["bodies"]:
         reader.complain("transfer.bodies", "is empty; write a table [transfer.bodies.NAME] for each moving mass")
     bodies = [_body(name, body, count, reader) for name, body in transfer["bodies"].items()]
@@ -196,7 +237,7 @@ def build_tabulated(values: Mapping[str, Any], reader: Reader) -> TabulatedMachi
     if reader.problems:
         return None
     return TabulatedMachine(
-        speed=values["crank"]["speed"].value,
+        speed=crank_speed(values["crank"]["speed"], method),
         angles=tuple(angles),
         bodies=tuple(bodies),
         title=values.get("title", ""),
@@ -215,7 +256,10 @@ def _body(name: str, body: Mapping[str, Any], count: int, reader: Reader) -> Tab
     for key, column in columns.items():
         _check_count(f"transfer.bodies.{name}.{key}", column, count, reader)
     if not columns:
-        reader.complain(f"transfer.bodies.{name}", "needs velocity or rotation, a number for each position")
+        reader.complain(
+            f"transfer.bodies.{name}",
+            "says nothing of its motion; write velocity or rotation, a number for each position",
+        )
     still = (0.0,) * count
     return TabulatedBody(
         name, _value(body, "mass"), _value(body, "inertia"),
@@ -243,6 +287,9 @@ def _drive(values: Mapping[str, Any], reader: Reader) -> Drive:
         parts: list[EfficiencyChain] = [Parallel(tuple(one)) if isinstance(one, list) else one for one in chain]
         series = Series(tuple(parts))
         whole = efficiency(series)
+        if whole < _LEAST_EFFICIENCY:
+            reader.complain("efficiency.chain", f"comes to {whole:.2g} only; leave out what is counted twice")
+            return drive
         drive = replace(drive, efficiency=whole, chain=series)
         if "decimals" in table:
             used = round(whole, int(table["decimals"]))
@@ -309,7 +356,7 @@ def _check_names(key: str, load: Mapping[str, Any], linkage: Linkage, reader: Re
     """Complain of sliders, links and points that are not there, and of a point that is not on the link."""
     names = {"slider": {one.name for one in linkage.members if one.guide},
              "link": {one.name for one in linkage.members} | {linkage.crank.link},
-             "point": set(linkage.owners())}  # fmt: skip
+             "point": set(linkage.owners)}  # fmt: skip
     for name, known in names.items():
         if name in load and load[name] not in known:
             reader.complain(f"{key}.{name}", f'there is no {name} "{load[name]}"; there is {", ".join(sorted(known))}')
@@ -318,7 +365,7 @@ def _check_names(key: str, load: Mapping[str, Any], linkage: Linkage, reader: Re
             reader.complain(
                 f"{key}.between", f'there is no point "{point}"; there is {", ".join(sorted(names["point"]))}'
             )
-    owners = linkage.owners().get(load.get("point", ""), [])
+    owners = linkage.owners.get(load.get("point", ""), [])
     if load["kind"] == "force" and owners and load.get("link", owners[0]) not in owners:
         reader.complain(f"{key}.link", f"{load['point']} is no point of it; it is one of {', '.join(owners)}")
 

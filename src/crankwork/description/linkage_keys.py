@@ -7,18 +7,18 @@ import math
 from crankwork.description.keys import METHOD, TABLE
 from crankwork.description.schema import Choice, Key, ListOf, Named, NameOr, Nested, Number, Quantity, Table, Text
 
-_LENGTH = Quantity(("length",), 0.0, 100.0, above=True)
+_LENGTH = Quantity(("length",), 1e-6, 100.0)
 _COORDINATE = Quantity(("length",), -1e3, 1e3)
 _PLACE = ListOf(_COORDINATE, fewest=2, most=2)
 _ANGLE = Quantity(("angle",), -4 * math.pi - 1e-9, 4 * math.pi + 1e-9)
 _TURN = Quantity(("angle",), 0.0, 4 * math.pi + 1e-9)
-_SPEED = Quantity(("speed",), 0.0, 3e4, above=True)
+_SPEED = Quantity(("speed",), 1e-6, 3e4)
 _INERTIA = Quantity(("inertia",), 0.0, 1e9)
 _TORQUE = Quantity(("torque",), -1e9, 1e9)
 _FORCE = Quantity(("force",), -1e9, 1e9)
 _NAME = Text(60)
 _MASS = {
-    "mass": Key(Quantity(("mass",), 0.0, 1e6, above=True), "its mass"),
+    "mass": Key(Quantity(("mass",), 1e-9, 1e6), "its mass"),
     "inertia": Key(_INERTIA, "moment of inertia about the centre of mass"),
     "centre": Key(NameOr(_PLACE), "centre of mass: a point of the link, or [along, across]"),
 }
@@ -80,35 +80,33 @@ _LOAD = Table({
 })  # fmt: skip
 
 _EFFICIENCY = Table({
-    "chain": Key(Nested(Number(0.0, 1.0, above=True)), "efficiencies in series; a list within is in parallel",
+    "chain": Key(Nested(Number(0.001, 1.0)), "efficiencies in series; a list within is in parallel",
                  required=True),
     "decimals": Key(Number(1, 6, whole=True), "round the whole to so many decimals, as a document does"),
 })  # fmt: skip
 
 _MOTOR = Table(
     {
-        "rated_power": Key(Quantity(("power",), 0.0, 1e9, above=True), "power on its shaft", required=True),
+        "rated_power": Key(Quantity(("power",), 1e-3, 1e9), "power on its shaft", required=True),
         "rated_speed": Key(_SPEED, "speed at that power", required=True),
-        "overload": Key(Number(1.0, 10.0, above=True), "greatest torque over rated torque", required=True),
+        "overload": Key(Number(1.01, 10.0), "greatest torque over rated torque", required=True),
         "pole_pairs": Key(Number(1, 24, whole=True), "pairs of poles", required=True),
         "frequency": Key(_SPEED, "of the mains, by default 50 Hz"),
-        "ratio": Key(Number(0.0, 1e4, above=True), "speed of the motor over that of the crank"),
+        "ratio": Key(Number(1e-4, 1e4), "speed of the motor over that of the crank"),
         "inertia": Key(_INERTIA, "moment of inertia of its rotor"),
     }
 )
 
 _FLYWHEEL = Table(
     {
-        "fluctuation": Key(
-            Number(0.0, 1.0, above=True), "wanted: largest less least speed over the mean", required=True
-        ),
+        "fluctuation": Key(Number(1e-6, 1.0), "wanted: largest less least speed over the mean", required=True),
     }
 )
 
 _TRANSIENT = Table(
     {
         "torque": Key(_TORQUE, "constant torque on the crank", required=True),
-        "time": Key(Quantity(("time",), 0.0, 1e6, above=True), "how long", required=True),
+        "time": Key(Quantity(("time",), 1e-6, 1e6), "how long", required=True),
         "speed": Key(Quantity(("speed",), 0.0, 3e4), "speed of the crank at the start, at rest without"),
     }
 )
@@ -121,9 +119,9 @@ LINKAGE_FILE = Table(
         **_TITLE,
         "fixed_points": Key(Named(_PLACE), "pivots of the ground: [x, y]"),
         "crank": Key(_CRANK, "the driving link", required=True),
-        "links": Key(Named(_LINK), "links by name"),
+        "links": Key(Named(_LINK, most=500), "links by name"),
         "guides": Key(Named(_GUIDE), "straight guides by name"),
-        "sliders": Key(Named(_SLIDER), "sliding pieces by name"),
+        "sliders": Key(Named(_SLIDER, most=300), "sliding pieces by name"),
         "branch": Key(Named(Choice((1, -1))), "which way a group is assembled, 1 or -1, by the joint that it places"),
         "positions": Key(Named(_PLACE), "roughly where joints are at a crank angle of zero"),
         "loads": Key(ListOf(_LOAD), "what pushes the linkage"),

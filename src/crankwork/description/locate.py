@@ -34,11 +34,6 @@ class _Token(NamedTuple):
 def locate(source: str) -> dict[str, int]:
     """Return the line of every key and table of a valid TOML text.
 
-    Parameters
-    ----------
-    source : str
-        TOML that the standard parser accepts.
-
     Returns
     -------
     dict of str to int

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import importlib
 import json
 import re
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from types import ModuleType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from crankwork import files
@@ -18,9 +16,10 @@ from crankwork.description.keys import MACHINE_FILE, SIZED_FILE
 from crankwork.description.linkage_keys import LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.locate import locate
 from crankwork.description.measured_file import read_measured
-from crankwork.description.schema import Reader, Table, is_one_line
+from crankwork.description.schema import Key, Reader, Table, is_one_line
 from crankwork.errors import CrankworkError, InputError, Problem
 from crankwork.loads.indicator import DiagramError
+from crankwork.locale import Refusal
 
 if TYPE_CHECKING:
     from crankwork.linkage_machine import AnyMachine
@@ -42,19 +41,6 @@ class Setting(NamedTuple):
 def read(path: str | Path, overrides: Sequence[str | Setting] = ()) -> AnyMachine:
     """Return the machine that a file describes.
 
-    Parameters
-    ----------
-    path : path
-        A machine file.
-    overrides : sequence of str or Setting
-        `KEY=VALUE` settings laid over the file, `rod.ratio=0.34` or `crank.radius=75 mm`. A setting takes
-        the place of the keys that say the same: `rod.ratio` of `rod.length`.
-
-    Returns
-    -------
-    Machine
-        The machine, checked as far as it can be without computing its results.
-
     Raises
     ------
     InputError
@@ -71,22 +57,6 @@ def read_machine(
     source: str, name: str = "text", overrides: Sequence[str | Setting] = (), *, folder: Path | None = None
 ) -> AnyMachine:
     """Return the machine that a text describes.
-
-    Parameters
-    ----------
-    source : str
-        The text of a machine file.
-    name : str
-        What to call it in messages.
-    overrides : sequence of str or Setting
-        `KEY=VALUE` settings laid over it.
-    folder : path, optional
-        What the names of data files start from; the working folder otherwise.
-
-    Returns
-    -------
-    Machine
-        The machine.
 
     Raises
     ------
@@ -111,10 +81,14 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> AnyMachine |
     """Return the machine of the values, or None after complaints."""
     keys = _file_keys(values)
     read_values = keys.read(values, "", reader) or {}
-    if keys is LINKAGE_FILE:
-        return _linkage_room().build_linkage(read_values, reader)  # type: ignore[no-any-return]
-    if keys is TRANSFER_FILE:
-        return _linkage_room().build_tabulated(read_values, reader)  # type: ignore[no-any-return]
+    if keys is LINKAGE_FILE or keys is TRANSFER_FILE:
+        # an engine starts faster without this room
+        from crankwork.description.linkage_build import (  # noqa: PLC0415 - loaded where it is needed
+            build_linkage,
+            build_tabulated,
+        )
+
+        return (build_linkage if keys is LINKAGE_FILE else build_tabulated)(read_values, reader)
     machine = build_machine(read_values, reader, lambda table, one: read_measured(table, one, folder))
     if machine is not None:
         try:
@@ -127,11 +101,6 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> AnyMachine |
                 raise
             reader.complain("cycle", str(error))
     return machine
-
-
-def _linkage_room() -> ModuleType:
-    """Return the room that builds linkages, loaded when a file describes one: an engine starts faster without it."""
-    return importlib.import_module("crankwork.description.linkage_build")
 
 
 def _file_keys(values: Mapping[str, Any]) -> Table:
@@ -148,22 +117,18 @@ def _parse(source: str, name: str) -> dict[str, Any]:
     """Return the values of a TOML text, refusing what would keep the parser busy."""
     for number, line in enumerate(source.split("\n"), start=1):
         if len(line) > files.MAX_LINE:
-            raise CrankworkError(f"{name}:{number}: line longer than {files.MAX_LINE} characters; break it up")
+            raise CrankworkError(Refusal("line_long", place=f"{name}:{number}", most=files.MAX_LINE))
         if line.count(".") >= _MAX_PARTS and _most_parts(line) > _MAX_PARTS:
-            raise CrankworkError(
-                f"{name}:{number}: a key of more than {_MAX_PARTS} parts; write it like crank.radius, table and key"
-            )
+            raise CrankworkError(Refusal("key_parts", place=f"{name}:{number}", most=_MAX_PARTS))
     try:
         return tomllib.loads(source)
     except tomllib.TOMLDecodeError as error:
         raise CrankworkError(_syntax_message(source, name, str(error))) from None
     except RecursionError:
-        raise CrankworkError(
-            f"{name}:{_deepest(source)}: brackets are nested too deeply; a machine file needs three levels"
-        ) from None
+        raise CrankworkError(Refusal("nested", place=f"{name}:{_deepest(source)}")) from None
     except ValueError:
         # an integer of thousands of digits, or a date that no calendar has
-        raise CrankworkError(f"{name}:1: holds a number or a date that cannot be; write numbers like 0.25") from None
+        raise CrankworkError(Refusal("cannot_be", place=f"{name}:1")) from None
 
 
 def _most_parts(line: str) -> int:
@@ -183,18 +148,18 @@ def _deepest(source: str) -> int:
     return line
 
 
-def _syntax_message(source: str, name: str, text: str) -> str:
+def _syntax_message(source: str, name: str, text: str) -> Refusal:
     """Return a sentence for a syntax error, with the line and a likely fix."""
     found = re.search(r"\(at line (\d+), column (\d+)\)", text)
     lines = source.split("\n")
     number = int(found[1]) if found else len(lines)
+    place = f"{name}:{number}"
     line = _printable(lines[number - 1].strip()[:60]) if number <= len(lines) else ""
     if any(word in text for word in ("overwrite", "twice", "already", "mutate", "Duplicate", "immutable")):
-        return f"{name}:{number}: the key or table stands twice: {line}; keep one of them"
+        return Refusal("stands_twice", place=place, line=line)
     if re.match(r"[\w.\-]+\s*=\s*[+-]?[\d.,]+\s*[^\W\d_]", line):
-        return f'{name}:{number}: a value with a unit needs quotes: {line}; write it like key = "75 mm"'
-    line = line or "the file ends too early"
-    return f'{name}:{number}: is not valid TOML: {line}; write key = "75 mm", key = 0.25 or [table]'
+        return Refusal("needs_quotes", place=place, line=line)
+    return Refusal("not_toml", place=place, line=line or Refusal("ends_early"))
 
 
 def _setting(text: str) -> Setting:
@@ -202,9 +167,9 @@ def _setting(text: str) -> Setting:
     key, sign, value = (part.strip() for part in text.partition("="))
     names = key.split(".")
     if not sign or not all(names) or len(names) > 4:
-        raise CrankworkError(f"--set {_printable(text[:60])}: write --set KEY=VALUE, like --set rod.ratio=0.25")
+        raise CrankworkError(Refusal("setting_form", setting=_printable(text[:60])))
     if len(value) > files.MAX_LINE:
-        raise CrankworkError(f"--set {_printable(key[:60])}: the value is too long; write a number, a text or a list")
+        raise CrankworkError(Refusal("setting_long", setting=_printable(key[:60])))
     try:
         return Setting("--set", key, tomllib.loads(f"value = {value}")["value"] if "\n" not in value else value)
     except (ValueError, RecursionError):
@@ -214,7 +179,7 @@ def _setting(text: str) -> Setting:
 def _lay(values: dict[str, Any], setting: Setting) -> None:
     """Lay a setting over the values; what says the same gives way."""
     if setting.option == "--step" and "transfer" in values:
-        raise CrankworkError("--step: the positions are those of transfer.angles in the file; leave the option out")
+        raise CrankworkError(Refusal("step_of_table"))
     *path, last = setting.key.split(".")
     table: Any = values
     entry: Any = _file_keys(values)
@@ -223,10 +188,8 @@ def _lay(values: dict[str, Any], setting: Setting) -> None:
         entry = known.kind if known else None
         table = table.setdefault(name, {})
         if not isinstance(table, dict):
-            raise CrankworkError(
-                f"{setting.option} {_printable(setting.key[:60])}: "
-                f"{_printable(name[:40])} is not a table in this file; set a key of a table, like rod.ratio"
-            )
+            shown = f"{setting.option} {_printable(setting.key[:60])}"
+            raise CrankworkError(Refusal("setting_no_table", setting=shown, name=_printable(name[:40])))
     known = entry.keys.get(last) if isinstance(entry, Table) else None
     for other in known.instead_of if known else ():
         table.pop(other, None)
@@ -238,7 +201,8 @@ def _input_error(source: str, name: str, reader: Reader, settings: Sequence[Sett
     lines = locate(source)
     found = []
     for problem in reader.problems:
-        message = _printable(problem.message)
+        message = problem.message
+        message = message.cleaned(_printable) if isinstance(message, Refusal) else _printable(message)
         setting = next((one for one in settings if _concerns(problem.key, one.key, lines)), None)
         if setting is not None:
             key = f" {_printable(problem.key)}" if setting.option == "--set" else ""
@@ -251,7 +215,7 @@ def _input_error(source: str, name: str, reader: Reader, settings: Sequence[Sett
         found.append((line, f"{name}:{line}", Problem(_printable(problem.key), message)))
     found.sort(key=lambda one: one[0])
     if reader.more:
-        found.append((0, name, Problem("", f"{reader.more} more mistakes; correct these first")))
+        found.append((0, name, Problem("", Refusal("more_mistakes", count=reader.more))))
     return InputError([problem for _, _, problem in found], [place for _, place, _ in found])
 
 
@@ -267,8 +231,52 @@ def _concerns(blamed: str, key: str, lines: Mapping[str, int]) -> bool:
 
 def _printable(text: str) -> str:
     """Return a text of the user for a message: one line, no control characters, not too long."""
-    text = text if len(text) <= 400 else f"{text[:397]}..."
+    # what is to be written instead stands at the end
+    text = text if len(text) <= 400 else f"{text[:240]} ... {text[-155:]}"
     return text if is_one_line(text) else "".join(one if is_one_line(one) else ascii(one)[1:-1] for one in text)
+
+
+class Origin(NamedTuple):
+    """Where a value was stated: how (`line`, `in_table`, `option`, `default`), by which key, and line or option."""
+
+    kind: str
+    path: str
+    line: str = ""
+
+
+def origins(path: str | Path, overrides: Sequence[str | Setting] = ()) -> Callable[[str], Origin]:
+    """Return what says where a machine file, with settings laid over it, states a value."""
+    source = files.read_text(Path(path), advice="check the path")
+    settings = [one if isinstance(one, Setting) else _setting(one) for one in overrides]
+    keys, lines = _file_keys(_parse(source, str(path))), locate(source)
+
+    def origin(key: str) -> Origin:
+        table, known = _known_key(keys, key)
+        others = [f"{table}.{one}" if table else one for one in known.instead_of] if known else []
+        for name in (key, *others):
+            setting = next((one for one in settings if name == one.key or name.startswith(f"{one.key}.")), None)
+            if setting is not None:
+                return Origin("option", name, setting.option)
+            if name in lines:
+                return Origin("line", name, str(lines[name]))
+        if known is not None:
+            return Origin("default", key)
+        around = key
+        while around and around not in lines:
+            around = around[: max(around.rfind("."), around.rfind("["), 0)]
+        return Origin("in_table", key, str(lines[around])) if around else Origin("default", key)
+
+    return origin
+
+
+def _known_key(keys: Table, path: str) -> tuple[str, Key | None]:
+    """Return the table of a dotted key, and what the schema knows of it."""
+    *tables, last = path.split(".")
+    entry: Any = keys
+    for name in tables:
+        known = entry.keys.get(name) if isinstance(entry, Table) else None
+        entry = known.kind if known else None
+    return ".".join(tables), entry.keys.get(last) if isinstance(entry, Table) else None
 
 
 def json_schema() -> str:
@@ -295,7 +303,6 @@ def template(name: str) -> str:
         If there is none of that name.
     """
     if name not in template_names():
-        raise CrankworkError(
-            f'there is no template "{_printable(name[:40])}"; there are: {", ".join(template_names())}'
-        )
+        known = ", ".join(template_names())
+        raise CrankworkError(Refusal("no_template", name=_printable(name[:40]), known=known))
     return files.read_resource(*TEMPLATES.split("/"), f"{name}.toml")

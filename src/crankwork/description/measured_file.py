@@ -20,17 +20,7 @@ _LARGEST = 1e12
 
 
 def read_measured(values: Mapping[str, Any], reader: Reader, folder: Path) -> MeasuredPressure | None:
-    """Return the samples of a CSV file, or None after a complaint.
-
-    Parameters
-    ----------
-    values : mapping
-        The `gas.measured` table.
-    reader : Reader
-        Collects the complaints.
-    folder : path
-        What a relative file name starts from.
-    """
+    """Return the samples of a CSV file, or None after a complaint."""
     if "file" not in values or "pressure_unit" not in values:
         return None
     path = folder / values["file"]

@@ -10,17 +10,22 @@ from typing import Any, NamedTuple, Protocol
 
 from crankwork import units
 from crankwork.errors import Problem
+from crankwork.locale import Refusal
 
 _MAX_ENTRIES = 10_000
 _MAX_PROBLEMS = 50
 _LONGEST_NAME = 60
+# what is nearer to zero than this is zero, and nothing is divided by it
+_NOTHING = 1e-30
+_OF_NUMBERS = "+-0123456789.,eE \t"
 
 
 class Measure(NamedTuple):
-    """A quantity as read: SI value and dimension."""
+    """A quantity as read: SI value, dimension, and the unit in which it is written."""
 
     value: float
     dimension: str
+    unit: str = ""
 
 
 class Reader:
@@ -83,31 +88,31 @@ class Quantity(NamedTuple):
         """Return SI value and dimension."""
         example = units.EXAMPLES[self.dimensions[0]]
         if isinstance(value, bool) or not isinstance(value, str | int | float):
-            reader.complain(key, f'must be a number with a unit as text, for example "{example}"')
+            reader.complain(key, Refusal("quantity_as_text", example=example))
             return None
         if not isinstance(value, str):
             text = _shown(value)
             known = example.split()[1]
             shown = f'"{text} {known}"' if _is_moderate(value) else f'"{example}"'
-            reader.complain(key, f"{text} has no unit; write it as text with a unit, for example {shown}")
+            reader.complain(key, Refusal("no_unit", value=text, example=shown))
             return None
         try:
             number, dimension = units.parse(value, self.dimensions, decimal_comma=reader.decimal_comma)
         except ValueError as error:
-            reader.complain(key, str(error))
+            reader.complain(key, error.args[0])
             return None
         if not self._holds(number):
-            reader.complain(key, f'"{value.strip()}" is out of range; {self._range(dimension)}')
+            reader.complain(key, self._out_of_range(value.strip(), dimension))
             return None
-        return Measure(number, dimension)
+        return Measure(number if abs(number) > _NOTHING else 0.0, dimension, value.lstrip(_OF_NUMBERS).rstrip())
 
     def _holds(self, number: float) -> bool:
         return (self.low < number if self.above else self.low <= number) and number <= self.high
 
-    def _range(self, dimension: str) -> str:
+    def _out_of_range(self, value: str, dimension: str) -> Refusal:
         unit = units.EXAMPLES[dimension].split()[1]
         low, high = (f'"{units.from_si(one, unit):.6g} {unit}"' for one in (self.low, self.high))
-        return f"write {'more than' if self.above else 'at least'} {low} and at most {high}"
+        return Refusal(f"quantity_range{'_above' * self.above}", value=value, low=low, high=high)
 
     def schema(self) -> dict[str, Any]:
         """Return the schema of a text with a unit."""
@@ -134,19 +139,20 @@ class Number(NamedTuple):
         if isinstance(value, str) and reader.decimal_comma and value.count(",") == 1:
             value = _float(value.replace(",", "."))
         if isinstance(value, bool) or not isinstance(value, int | float):
-            reader.complain(key, f"{_shown(value)} must be a plain number without quotes, like {self.example()}")
+            reader.complain(key, Refusal("number_plain", value=_shown(value), example=self.example()))
             return None
         number = float(value) if _is_moderate(value) else math.nan
         if not (self.low < number if self.above else self.low <= number) or not number <= self.high:
-            reader.complain(key, f"{_shown(value)} is out of range; write a number {self._range()}")
+            reader.complain(key, self._out_of_range("number", value))
             return None
         if self.whole and not number.is_integer():
-            reader.complain(key, f"{_shown(value)} is not possible here; write a whole number {self._range()}")
+            reader.complain(key, self._out_of_range("whole", value))
             return None
-        return number
+        return number if abs(number) > _NOTHING else 0.0
 
-    def _range(self) -> str:
-        return f"{'above' if self.above else 'from'} {self.low:g} {'and up to' if self.above else 'to'} {self.high:g}"
+    def _out_of_range(self, kind: str, value: object) -> Refusal:
+        name = f"{kind}_range{'_above' * self.above}"
+        return Refusal(name, value=_shown(value), low=f"{self.low:g}", high=f"{self.high:g}")
 
     def example(self) -> str:
         """Return a number in range, for advice."""
@@ -168,8 +174,8 @@ class Choice(NamedTuple):
         """Return the word or number."""
         if not isinstance(value, bool) and value in self.options:
             return next(one for one in self.options if one == value)
-        options = " or ".join(_shown(one) for one in self.options)
-        reader.complain(key, f"{_shown(value)} is not possible here; write {options}")
+        options = tuple(_shown(one) for one in self.options)
+        reader.complain(key, Refusal("choice", value=_shown(value), options=options))
         return None
 
     def schema(self) -> dict[str, Any]:
@@ -185,13 +191,13 @@ class Text(NamedTuple):
     def read(self, value: object, key: str, reader: Reader) -> str | None:
         """Return the text."""
         if not isinstance(value, str):
-            reader.complain(key, f"{_shown(value)} must be text in quotes")
+            reader.complain(key, Refusal("text_in_quotes", value=_shown(value)))
             return None
         if len(value) > self.longest:
-            reader.complain(key, f"{_shown(value)} is too long, {len(value)} characters; write at most {self.longest}")
+            reader.complain(key, Refusal("text_long", value=_shown(value), count=len(value), most=self.longest))
             return None
         if not is_one_line(value):
-            reader.complain(key, f"{_shown(value)} holds a line break or a control character; write plain text")
+            reader.complain(key, Refusal("text_line", value=_shown(value)))
             return None
         return value
 
@@ -207,7 +213,7 @@ class Flag(NamedTuple):
         """Return the truth value."""
         if isinstance(value, bool):
             return value
-        reader.complain(key, f"{_shown(value)} must be true or false, without quotes")
+        reader.complain(key, Refusal("flag", value=_shown(value)))
         return None
 
     def schema(self) -> dict[str, Any]:
@@ -228,16 +234,18 @@ class ListOf(NamedTuple):
             reader.complain(key, self._advice(key))
             return None
         if not self.fewest <= len(value) <= self.most:
-            wanted = f"{self.fewest}" if self.fewest == self.most else f"at least {self.fewest} and at most {self.most}"
-            reader.complain(key, f"has {len(value)} entries; write {wanted} of them")
+            wanted: object = self.fewest
+            if self.fewest != self.most:
+                wanted = Refusal("entries_between", fewest=self.fewest, most=self.most)
+            reader.complain(key, Refusal("entries", count=len(value), wanted=wanted))
             return None
         return [self.entry.read(one, f"{key}[{i}]", reader) for i, one in enumerate(value, start=1)]
 
-    def _advice(self, key: str) -> str:
+    def _advice(self, key: str) -> Refusal:
         if isinstance(self.entry, Table):
-            return f"must be a list of tables; begin each with a line [[{key}]]"
+            return Refusal("list_of_tables", key=key)
         example = units.EXAMPLES[self.entry.dimensions[0]] if isinstance(self.entry, Quantity) else "a"
-        return f'must be a list in square brackets, like ["{example}"]'
+        return Refusal("list_like", example=f'["{example}"]')
 
     def schema(self) -> dict[str, Any]:
         """Return the schema of an array."""
@@ -252,7 +260,7 @@ class Nested(NamedTuple):
     def read(self, value: object, key: str, reader: Reader) -> list[Any] | None:
         """Return the entries, lists within as lists."""
         if not isinstance(value, list) or not 1 <= len(value) <= _MAX_ENTRIES:
-            reader.complain(key, "must be a list in square brackets, like [0.98, [0.95, 0.95], 0.99]")
+            reader.complain(key, Refusal("list_like", example="[0.98, [0.95, 0.95], 0.99]"))
             return None
         inner = ListOf(self.entry, fewest=1)
         return [
@@ -288,23 +296,26 @@ class Named(NamedTuple):
     """A table whose keys are names of the user's own, all values of one kind."""
 
     entry: Kind
+    most: int = _MAX_ENTRIES
 
     def read(self, value: object, key: str, reader: Reader) -> dict[str, Any] | None:
         """Return the values by name."""
         if not isinstance(value, dict):
-            reader.complain(key, f"must be a table; put its keys below a line [{key}]")
+            reader.complain(key, Refusal("table_below", key=key))
+            return None
+        if len(value) > self.most:
+            reader.complain(key, Refusal("entries_most", count=len(value), most=self.most))
             return None
         for name in value:
             if not name or len(name) > _LONGEST_NAME or not is_one_line(name):
-                reader.complain(
-                    f"{key}.{name}", f"is no name; write 1 to {_LONGEST_NAME} characters without line breaks"
-                )
+                reader.complain(f"{key}.{name}", Refusal("no_name", most=_LONGEST_NAME))
         return {name: self.entry.read(one, f"{key}.{name}", reader) for name, one in value.items()}
 
     def schema(self) -> dict[str, Any]:
         """Return the schema of a mapping."""
         names = {"minLength": 1, "maxLength": _LONGEST_NAME}
-        return {"type": "object", "additionalProperties": self.entry.schema(), "propertyNames": names}
+        return {"type": "object", "additionalProperties": self.entry.schema(), "propertyNames": names,
+                "maxProperties": self.most}  # fmt: skip
 
 
 class Key(NamedTuple):
@@ -324,11 +335,10 @@ class Table(NamedTuple):
     def read(self, value: object, key: str, reader: Reader) -> dict[str, Any] | None:
         """Return the values by key; keys not given are absent."""
         if isinstance(value, list) and all(isinstance(one, dict) for one in value):
-            reader.complain(key, f"is a list of {len(value)}; there is only one: put its keys below a line [{key}]")
+            reader.complain(key, Refusal("one_table", count=len(value), key=key))
             return None
         if not isinstance(value, dict):
-            header = f"put its keys below a line [{key}]" if "[" not in key else "write { key = value, ... }"
-            reader.complain(key, f"must be a table; {header}")
+            reader.complain(key, Refusal("table_below", key=key) if "[" not in key else Refusal("table_inline"))
             return None
         result = {}
         for name, one in value.items():
@@ -340,7 +350,7 @@ class Table(NamedTuple):
             clashes = [other for other in self.keys[name].instead_of if other in value]
             later = clashes and list(value).index(name) > min(list(value).index(other) for other in clashes)
             if later or any(name not in self.keys[other].instead_of for other in clashes):
-                reader.complain(path, f"says the same as {' and '.join(clashes)}; keep one of them")
+                reader.complain(path, Refusal("same", others=clashes))
         for name, entry in self.keys.items():
             if entry.required:
                 self._check_there(name, value, key, reader)
@@ -354,11 +364,11 @@ class Table(NamedTuple):
         nearest = nearest_name(name, tuple(self.keys))
         if nearest:
             meant = f"{path.removesuffix(name)}{nearest}"
-            reader.complain(path, f"unknown {what}; did you mean {nearest}?", meant=meant)
+            reader.complain(path, Refusal(f"unknown_{what}_near", nearest=nearest), meant=meant)
             # what stands in a misspelt table has mistakes of its own to tell
             self.keys[nearest].kind.read(value, path, reader)
         else:
-            reader.complain(path, f"unknown {what}; known here: {', '.join(self.keys)}")
+            reader.complain(path, Refusal(f"unknown_{what}", known=", ".join(self.keys)))
 
     def _check_there(self, name: str, value: Mapping[str, object], key: str, reader: Reader) -> None:
         """Complain if a required key is missing, and so are those that could stand in its place."""
@@ -367,8 +377,8 @@ class Table(NamedTuple):
         prefix = f"{key}." if key else ""
         if any(one in value for one in alternatives) or reader.doubts(*(f"{prefix}{one}" for one in alternatives)):
             return
-        advice = [_advice(one, self.keys[one].kind, prefix) for one in alternatives]
-        reader.complain(f"{prefix}{name}", f"is missing; write {' or '.join(advice)}")
+        advice = tuple(_advice(one, self.keys[one].kind, prefix) for one in alternatives)
+        reader.complain(f"{prefix}{name}", Refusal("missing", advice=advice))
 
     def schema(self) -> dict[str, Any]:
         """Return the schema of an object."""
@@ -402,9 +412,9 @@ def _shown(value: object) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, int) and not _is_moderate(value):
-        return "the number"
+        return Refusal("the_number")
     if isinstance(value, list | dict):
-        return "a list" if isinstance(value, list) else "a table"
+        return Refusal("some_list" if isinstance(value, list) else "some_table")
     text = f'"{value}"' if isinstance(value, str) else str(value)
     return text if len(text) <= 40 else f"{text[:37]}..."
 
@@ -421,9 +431,9 @@ def _advice(name: str, kind: Kind, prefix: str) -> str:
         case Text():
             return f'{name} = "..."'
         case Table():
-            return f"a table [{prefix}{name}]"
+            return Refusal("a_table", key=f"{prefix}{name}")
         case Named():
-            return f"tables [{prefix}{name}.NAME]"
+            return Refusal("tables_of_names", key=f"{prefix}{name}")
         case ListOf(Text()):
             return f'{name} = ["A", "B"]'
         case ListOf(Quantity() as entry):

@@ -6,22 +6,81 @@ inner joint and in the two outer ones, on the link that each joint holds (see `m
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
-from crankwork.dynamics.link_loads import Wrench, cross
-from crankwork.kinematics.crank_grid import Array
+from crankwork.dynamics.link_loads import Wrench, moment_about
+from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import named
+from crankwork.kinematics.plane_motion import across_guide, along_guide
+from crankwork.kinematics.sliding_dyads import sine_between
 
-Vector = tuple[Array, Array]
+Vector = tuple[Value, Value]
+_STATICS = "artobolevsky_1988, ch. 13"
+
+
+@formula("doubled_area", _STATICS)
+def area_of_arms(r_x: Value, r_ky: Value, r_y: Value, r_kx: Value) -> Value:
+    """Twice the area between the arms of two links, signed."""
+    return r_x * r_ky - r_y * r_kx
+
+
+@formula("joint_force_x", _STATICS)
+def rrr_inner_force(M_1: Value, r_kx: Value, M_2: Value, r_x: Value, S_sq: Value) -> Value:
+    """Component of the force in the inner joint of an RRR dyad, from the moments about its outer joints."""
+    return (M_1 * r_kx + M_2 * r_x) / S_sq
+
+
+@formula("force_along", _STATICS)
+def force_along(F_x: Value, cos_th: Value, F_y: Value, sin_th: Value) -> Value:
+    """Component of a force along a guide."""
+    return F_x * cos_th + F_y * sin_th
+
+
+@formula("force_across", _STATICS)
+def force_across(F_y: Value, cos_th: Value, F_x: Value, sin_th: Value) -> Value:
+    """Component of a force across a guide."""
+    return F_y * cos_th - F_x * sin_th
+
+
+@formula("force_across", _STATICS)
+def rrp_inner_force(M_1: Value, n_g: Value, R_t: Value, s_g: Value) -> Value:
+    """Component across the guide of the force in the inner joint of an RRP dyad, from the moment on its link."""
+    return (M_1 + n_g * R_t) / s_g
+
+
+@formula("joint_force_x", _STATICS)
+def force_along_x(R_t: Value, cos_th: Value, R_n: Value, sin_th: Value) -> Value:
+    """Component along x of a force given along and across a guide."""
+    return R_t * cos_th - R_n * sin_th
+
+
+@formula("joint_force_y", _STATICS)
+def force_along_y(R_t: Value, sin_th: Value, R_n: Value, cos_th: Value) -> Value:
+    """Component along y of a force given along and across a guide."""
+    return R_t * sin_th + R_n * cos_th
+
+
+@formula("normal_force", _STATICS)
+def rpr_normal_force(M_1: Value, M_2: Value, s_g: Value) -> Value:
+    """Normal force between the slotted lever of an RPR dyad and its block."""
+    return (M_1 + M_2) / s_g
+
+
+@formula("joint_force_x", _STATICS)
+def prp_inner_force(R_t: Value, cos_di: Value, R_k: Value, cos_th: Value, sin_gg: Value) -> Value:
+    """Component of the force in the pin of a PRP dyad, from the forces along its guides."""
+    return (R_t * cos_di - R_k * cos_th) / sin_gg
 
 
 class OnGuide(NamedTuple):
     """Normal force on a sliding piece [N] and its moment about the origin of the piece [N m], arrays of shape (n,)."""
 
-    normal: Array
-    moment: Array
+    normal: Value
+    moment: Value
 
 
-def rrr_forces(a: Wrench, b: Wrench, u: Vector, v: Vector) -> tuple[Vector, Vector, Vector]:
+def rrr_forces(a: Wrench, b: Wrench, u: Vector, v: Vector, name: str = "") -> tuple[Vector, Vector, Vector]:
     """Return the forces in the pins of two links.
 
     Parameters
@@ -30,6 +89,8 @@ def rrr_forces(a: Wrench, b: Wrench, u: Vector, v: Vector) -> tuple[Vector, Vect
         What acts on the links, moments about their outer pins. [N], [N]
     u, v : tuple of array, shape (n,)
         From the outer pins of the links to the inner one. [m], [m]
+    name : str
+        What the inner joint is called.
 
     Returns
     -------
@@ -44,12 +105,14 @@ def rrr_forces(a: Wrench, b: Wrench, u: Vector, v: Vector) -> tuple[Vector, Vect
     ----------
     artobolevsky_1988, ch. 13.
     """
-    area = cross(u, v)
-    inner = (a.moment * v[0] + b.moment * u[0]) / area, (a.moment * v[1] + b.moment * u[1]) / area
+    area = named(area_of_arms(u[0], v[1], u[1], v[0]), f"doubled_area.{name}_arms")
+    inner = _vector(
+        name, (rrr_inner_force(a.moment, one, b.moment, other, area) for one, other in zip(v, u, strict=True))
+    )
     return _minus(inner, a), inner, _balance(b, inner)
 
 
-def rrp_forces(link: Wrench, piece: Wrench, u: Vector, t: Vector) -> tuple[Vector, Vector, OnGuide]:
+def rrp_forces(link: Wrench, piece: Wrench, u: Vector, t: Vector, name: str = "") -> tuple[Vector, Vector, OnGuide]:
     """Return the forces in the pins of a link and on the guide of its sliding piece.
 
     Parameters
@@ -58,6 +121,8 @@ def rrp_forces(link: Wrench, piece: Wrench, u: Vector, t: Vector) -> tuple[Vecto
         What acts on them, moments about outer and inner pin. [N], [N]
     u, t : tuple of array, shape (n,)
         From the outer pin to the inner one [m], direction of the guide [-].
+    name : str
+        What the inner joint is called.
 
     Returns
     -------
@@ -73,14 +138,16 @@ def rrp_forces(link: Wrench, piece: Wrench, u: Vector, t: Vector) -> tuple[Vecto
     ----------
     artobolevsky_1988, ch. 13.
     """
-    n = -t[1], t[0]
-    along = -_dot(piece, t)
-    across = (link.moment + (u[0] * n[0] + u[1] * n[1]) * along) / (u[0] * t[0] + u[1] * t[1])
-    inner = along * t[0] + across * n[0], along * t[1] + across * n[1]
-    return _minus(inner, link), inner, OnGuide(-_dot(piece, n) - across, -piece.moment)
+    along, across = -force_along(piece.x, t[0], piece.y, t[1]), force_across(piece.y, t[0], piece.x, t[1])
+    along, across = named(along, f"force_along.{name}"), named(across, f"force_across.{name}_piece")
+    arm_along, arm_across = along_guide(u[0], t[0], u[1], t[1]), across_guide(u[1], t[0], u[0], t[1])
+    arm_along, arm_across = named(arm_along, f"guide_along.{name}_arm"), named(arm_across, f"guide_across.{name}_arm")
+    pressed = named(rrp_inner_force(link.moment, arm_across, along, arm_along), f"force_across.{name}")
+    inner = _vector(name, (force_along_x(along, t[0], pressed, t[1]), force_along_y(along, t[1], pressed, t[0])))
+    return _minus(inner, link), inner, OnGuide(-across - pressed, -piece.moment)
 
 
-def rpr_forces(lever: Wrench, block: Wrench, u: Vector, t: Vector) -> tuple[Vector, OnGuide, Vector]:
+def rpr_forces(lever: Wrench, block: Wrench, u: Vector, t: Vector, name: str = "") -> tuple[Vector, OnGuide, Vector]:
     """Return the forces in the pins of a slotted lever and its block, and between them.
 
     Parameters
@@ -89,6 +156,8 @@ def rpr_forces(lever: Wrench, block: Wrench, u: Vector, t: Vector) -> tuple[Vect
         What acts on them, moments about the pivot of the lever and the pin of the block. [N], [N]
     u, t : tuple of array, shape (n,)
         From the pivot to the pin [m], direction of the slot [-].
+    name : str
+        What the inner joint is called.
 
     Returns
     -------
@@ -103,13 +172,13 @@ def rpr_forces(lever: Wrench, block: Wrench, u: Vector, t: Vector) -> tuple[Vect
     ----------
     artobolevsky_1988, ch. 13.
     """
-    n = -t[1], t[0]
-    normal = (lever.moment + block.moment) / (u[0] * t[0] + u[1] * t[1])
-    pressed = normal * n[0], normal * n[1]
+    reach = named(along_guide(u[0], t[0], u[1], t[1]), f"guide_along.{name}_arm")
+    normal = named(rpr_normal_force(lever.moment, block.moment, reach), f"normal_force.{name}")
+    pressed = -normal * t[1], normal * t[0]
     return _balance(block, pressed), OnGuide(normal, -block.moment), _minus(pressed, lever)
 
 
-def prp_forces(a: Wrench, b: Wrench, t_a: Vector, t_b: Vector) -> tuple[OnGuide, Vector, OnGuide]:
+def prp_forces(a: Wrench, b: Wrench, t_a: Vector, t_b: Vector, name: str = "") -> tuple[OnGuide, Vector, OnGuide]:
     """Return the forces on the guides of two blocks and in the pin between them.
 
     Parameters
@@ -118,6 +187,8 @@ def prp_forces(a: Wrench, b: Wrench, t_a: Vector, t_b: Vector) -> tuple[OnGuide,
         What acts on the blocks, moments about the pin. [N], [N]
     t_a, t_b : tuple of array, shape (n,)
         Directions of the guides. [-], [-]
+    name : str
+        What the inner joint is called.
 
     Returns
     -------
@@ -132,15 +203,20 @@ def prp_forces(a: Wrench, b: Wrench, t_a: Vector, t_b: Vector) -> tuple[OnGuide,
     ----------
     artobolevsky_1988, ch. 13.
     """
-    sine, along_a, along_b = cross(t_a, t_b), _dot(a, t_a), -_dot(b, t_b)
-    inner = (along_a * t_b[1] - along_b * t_a[1]) / sine, (along_b * t_a[0] - along_a * t_b[0]) / sine
-    x, y = inner
-    on_a = OnGuide((x - a.x) * -t_a[1] + (y - a.y) * t_a[0], -a.moment)
-    on_b = OnGuide((x + b.x) * t_b[1] - (y + b.y) * t_b[0], -b.moment)
+    sine = named(sine_between(t_a[0], t_b[1], t_a[1], t_b[0]), f"guide_sine.{name}")
+    along_a, along_b = force_along(a.x, t_a[0], a.y, t_a[1]), -force_along(b.x, t_b[0], b.y, t_b[1])
+    along_a, along_b = named(along_a, f"force_along.{name}"), named(along_b, f"force_along.{name}_2")
+    x = prp_inner_force(along_a, t_b[1], along_b, t_a[1], sine)
+    y = prp_inner_force(along_b, t_a[0], along_a, t_b[0], sine)
+    x, y = inner = _vector(name, (x, y))
+    on_a = OnGuide(force_across(y - a.y, t_a[0], x - a.x, t_a[1]), -a.moment)
+    on_b = OnGuide(-force_across(y + b.y, t_b[0], x + b.x, t_b[1]), -b.moment)
     return on_a, inner, on_b
 
 
-def rpp_forces(yoke: Wrench, block: Wrench, u: Vector, slot: Vector, guide: Vector) -> tuple[Vector, OnGuide, OnGuide]:
+def rpp_forces(
+    yoke: Wrench, block: Wrench, u: Vector, slot: Vector, guide: Vector, name: str = ""
+) -> tuple[Vector, OnGuide, OnGuide]:
     """Return the forces in the pin of a block, in the slot of its yoke and on the guide of the yoke.
 
     Parameters
@@ -149,6 +225,8 @@ def rpp_forces(yoke: Wrench, block: Wrench, u: Vector, slot: Vector, guide: Vect
         What acts on them, moments about the origin of the yoke and the pin of the block. [N], [N]
     u, slot, guide : tuple of array, shape (n,)
         From the origin of the yoke to the pin, directions of slot and guide. [m], [-], [-]
+    name : str
+        What the inner joint is called.
 
     Returns
     -------
@@ -163,16 +241,19 @@ def rpp_forces(yoke: Wrench, block: Wrench, u: Vector, slot: Vector, guide: Vect
     ----------
     artobolevsky_1988, ch. 13.
     """
-    n = -slot[1], slot[0]
-    normal = _dot(yoke, guide) / (n[0] * guide[0] + n[1] * guide[1])
-    pressed = normal * n[0], normal * n[1]
-    on_yoke = (pressed[0] - yoke.x) * -guide[1] + (pressed[1] - yoke.y) * guide[0]
-    moment = -yoke.moment - block.moment + cross(u, pressed)
+    along = named(force_along(yoke.x, guide[0], yoke.y, guide[1]), f"force_along.{name}")
+    sine = named(sine_between(slot[0], guide[1], slot[1], guide[0]), f"guide_sine.{name}")
+    normal = named(along / sine, f"normal_force.{name}")
+    pressed = -normal * slot[1], normal * slot[0]
+    on_yoke = force_across(pressed[1] - yoke.y, guide[0], pressed[0] - yoke.x, guide[1])
+    turning = named(moment_about(u[0], pressed[1], u[1], pressed[0]), f"link_moment.{name}_normal")
+    moment = -yoke.moment - block.moment + turning
     return _balance(block, pressed), OnGuide(normal, -block.moment), OnGuide(on_yoke, moment)
 
 
-def _dot(force: Wrench, t: Vector) -> Array:
-    return force.x * t[0] + force.y * t[1]
+def _vector(name: str, parts: Iterable[Value]) -> Vector:
+    x, y = parts
+    return named(x, f"joint_force_x.{name}"), named(y, f"joint_force_y.{name}")
 
 
 def _minus(reaction: Vector, force: Wrench) -> Vector:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
 from crankwork.kinematics.crank_grid import Array
 
 
@@ -86,35 +86,13 @@ def efficiency(chain: Chain) -> float:
 
 @formula("driving_torque", "artobolevsky_1988, ch. 14")
 def driving_torque_as_motor(M_st: Value, M_dyn: Value, eta: Value) -> Value:
-    """Torque of a motor that drives the crank.
-
-    Parameters
-    ----------
-    M_st, M_dyn, eta : array
-        Static and dynamic torque, efficiency; for a positive sum of the torques. [N m], [N m], [-]
-
-    Returns
-    -------
-    array
-        Torque. [N m]
-    """
+    """Torque of a motor that drives the crank."""
     return (M_st + M_dyn) / eta
 
 
 @formula("driving_torque", "artobolevsky_1988, ch. 14")
 def driving_torque_as_brake(M_st: Value, M_dyn: Value, eta: Value) -> Value:
-    """Torque of a motor that the crank drives.
-
-    Parameters
-    ----------
-    M_st, M_dyn, eta : array
-        Static and dynamic torque, efficiency; for a negative sum of the torques. [N m], [N m], [-]
-
-    Returns
-    -------
-    array
-        Torque. [N m]
-    """
+    """Torque of a motor that the crank drives."""
     return (M_st + M_dyn) * eta
 
 

@@ -8,9 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from crankwork.dynamics.link_loads import Wrench, arm, cross, link_wrenches
+from crankwork.dynamics.link_loads import Wrench, Wrenches, arm, cross
+from crankwork.dynamics.plain_loads import plain_wrenches
 from crankwork.dynamics.reaction import GuideForce, JointForces, PinForce, Reaction, gathered, joint_place
 from crankwork.dynamics.running import Running
+from crankwork.formula.expression import Value
+from crankwork.formula.known import Component, Known, Root, is_known, total
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.dyads import LinkMotion
 from crankwork.kinematics.motion import Motion
@@ -18,6 +21,7 @@ from crankwork.mechanism.joints import Joint, Pin, group_links, joints
 from crankwork.mechanism.mechanism import Crank
 
 Vector = tuple[Array, Array]
+Acting = Wrenches | Mapping[str, Wrench]
 
 _ZERO, _ONE = np.array(0.0), np.array(1.0)
 _FIXED_AXES: list[Vector] = [(_ONE, _ZERO), (_ZERO, _ONE)]
@@ -41,7 +45,7 @@ class Equilibrium:
     joints: tuple[Joint, ...]
     matrix: Array
 
-    def right_side(self, wrenches: Mapping[str, Wrench]) -> Array:
+    def right_side(self, wrenches: Acting) -> Array:
         """Return minus what acts on the links, shape (n, 3 links). [N], [N m]"""
         return -np.stack([part for link in self.links for part in wrenches[link]], axis=-1)
 
@@ -93,7 +97,7 @@ def _normal(guide: LinkMotion) -> list[Vector]:
 
 
 def solved_group(
-    motion: Motion, links: Sequence[str], held: Sequence[Joint], wrenches: Mapping[str, Wrench]
+    motion: Motion, links: Sequence[str], held: Sequence[Joint], wrenches: Acting
 ) -> dict[Joint, Reaction]:
     """Return the reactions in the joints of one group.
 
@@ -105,15 +109,85 @@ def solved_group(
         The links of the group.
     held : sequence of Joint
         The joints that hold them.
-    wrenches : mapping of str to Wrench, arrays of shape (n,)
+    wrenches : Wrenches, arrays of shape (n,)
         What acts on them. [N]
 
     References
     ----------
     artobolevsky_1988, ch. 13.
     """
+    if is_known(motion.grid.angle):
+        return _remembered(motion, links, held, wrenches)
     system = equilibrium(motion, links, held)
     return system.reactions(solve_positions(system.matrix, system.right_side(wrenches)))
+
+
+class GroupSolver:
+    """Solves the equilibrium of a group from columns: entries of the matrix, then those of the right side.
+
+    Parameters
+    ----------
+    size : int
+        Number of equations.
+    entries : tuple
+        Row, column and value of each entry; None where a column gives it.
+    """
+
+    def __init__(self, size: int, entries: tuple[tuple[int, int, float | None], ...]) -> None:
+        self._size, self._entries = size, entries
+
+    def __call__(self, columns: Sequence[Array | float]) -> Array:
+        """Return the unknowns, shape (unknowns, n)."""
+        count = max(np.size(one) for one in columns)
+        whole, taken = np.zeros((count, self._size, self._size + 1)), iter(columns)
+        for row, column, value in self._entries:
+            whole[:, row, column] = next(taken) if value is None else value
+        return solve_positions(whole[:, :, :-1], whole[:, :, -1]).T
+
+
+def _remembered(motion: Motion, links: Sequence[str], held: Sequence[Joint], wrenches: Acting) -> dict[Joint, Reaction]:
+    """Return the reactions as the root of the equations of equilibrium."""
+    row = {link: 3 * k for k, link in enumerate(links)}
+    entries: list[tuple[int, int, Value]] = []
+    for k, joint in enumerate(held):
+        place, frame = joint_place(joint, motion), motion.frames[joint.link]
+        for link, sign in ((joint.link, 1), (joint.other, -1)):
+            if link not in row:
+                continue
+            i, (x, y) = row[link], arm(motion.frames[link].origin, place)
+            units = ((1.0, 0.0), (0.0, 1.0)) if isinstance(joint, Pin) else ((-frame.sin, frame.cos),)
+            for j, unit in enumerate(units, start=2 * k):
+                parts = (unit[0], unit[1], x * unit[1] - y * unit[0])
+                entries += [(i + at, j, one if sign == 1 else -one) for at, one in enumerate(parts)]
+            if not isinstance(joint, Pin):
+                entries.append((i + 2, 2 * k + 1, float(sign)))
+    size = 3 * len(row)
+    entries += [(i + at, size, -one) for link, i in row.items() for at, one in enumerate(wrenches[link])]
+    known = tuple(one for _, _, one in entries if is_known(one))
+    solver = GroupSolver(size, tuple((i, j, None if is_known(one) else one) for i, j, one in entries))
+    root = Root(solver, known)
+    unknowns = [Known(Component(root, at)) for at in range(size)]
+    root.residuals = tuple(_left_over(entries, unknowns, i) for i in range(size))
+    return {
+        joint: (PinForce(joint, *pair) if isinstance(joint, Pin) else GuideForce(joint, *pair))
+        for k, joint in enumerate(held)
+        for pair in [_named_pair(joint, unknowns[2 * k], unknowns[2 * k + 1])]
+    }
+
+
+def _left_over(entries: list[tuple[int, int, Value]], unknowns: Sequence[Known], row: int) -> Known:
+    """Return what one equation of equilibrium leaves over."""
+    terms = [one * unknowns[j] if j < len(unknowns) else -one for i, j, one in entries if i == row and _counts(one)]
+    return total(("link_force_x", "link_force_y", "link_moment")[row % 3], terms)
+
+
+def _counts(entry: Value) -> bool:
+    return is_known(entry) or bool(entry)
+
+
+def _named_pair(joint: Joint, one: Known, other: Known) -> tuple[Known, Known]:
+    kinds = ("joint_force_x", "joint_force_y") if isinstance(joint, Pin) else ("normal_force", "normal_moment")
+    return one.named(f"{kinds[0]}.{joint.name}"), other.named(f"{kinds[1]}.{joint.name}")
 
 
 def system_joint_forces(running: Running) -> JointForces:
@@ -134,7 +208,8 @@ def system_joint_forces(running: Running) -> JointForces:
     norton_2012, ch. 11.
     """
     system = whole_system(running)
-    unknowns = solve_positions(system.matrix, system.right_side(link_wrenches(running)))
+    wrenches = {link: Wrench(*one) for link, one in plain_wrenches(running).items()}
+    unknowns = solve_positions(system.matrix, system.right_side(wrenches))
     return gathered(system.reactions(unknowns), system.joints, unknowns[..., -1])
 
 

@@ -83,7 +83,7 @@ class FrictionForces:
     @property
     def held(self) -> NDArray[np.bool_]:
         """Where friction alone holds the load: without it the load would drive the crank, with it it does not."""
-        return (self.ideal_torque < 0) & (self.joint_forces.balancing_torque >= 0)
+        return np.asarray((self.ideal_torque < 0) & (self.joint_forces.balancing_torque >= 0))
 
     def messages(self, grid: CrankGrid) -> list[str]:
         """Return a sentence for each run of crank angles where something is wrong, or friction holds the load."""
@@ -263,9 +263,9 @@ def _relative_rate(motion: Motion, joint: Joint) -> Array:
     """Return how fast one link turns or slides in the other, over the speed of the crank."""
     still = np.zeros_like(motion.grid.angle)
     if isinstance(joint, SlidingJoint):
-        return motion.sliders[joint.link].position_1 + still
+        return np.asarray(motion.sliders[joint.link].position_1 + still)
     other = 0.0 if joint.other == GROUND else motion.frames[joint.other].angle_1
-    return motion.frames[joint.link].angle_1 - other + still
+    return np.asarray(motion.frames[joint.link].angle_1 - other + still)
 
 
 def _efficiency(ideal: Array, actual: Array) -> Array:

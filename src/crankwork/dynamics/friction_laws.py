@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
 
 
 @dataclass(frozen=True)
@@ -51,67 +51,23 @@ Friction = PinFriction | GuideFriction
 
 @formula("friction_radius", "artobolevsky_1988, ch. 11")
 def friction_radius(f_z: Value, r_z: Value) -> Value:
-    """Radius of the friction circle of a pin.
-
-    Parameters
-    ----------
-    f_z, r_z : float
-        Friction coefficient of the pin, its radius. [-], [m]
-
-    Returns
-    -------
-    float
-        Radius. [m]
-    """
+    """Radius of the friction circle of a pin."""
     return f_z * r_z
 
 
 @formula("friction_torque", "artobolevsky_1988, ch. 11")
 def friction_torque(rho: Value, R: Value) -> Value:
-    """Friction moment in a pin.
-
-    Parameters
-    ----------
-    rho, R : array
-        Radius of the friction circle, force in the pin. [m], [N]
-
-    Returns
-    -------
-    array
-        Moment, against the rotation of one link in the other. [N m]
-    """
+    """Friction moment in a pin."""
     return rho * R
 
 
 @formula("friction_force", "artobolevsky_1988, ch. 11")
 def friction_force(f: Value, N_s: Value) -> Value:
-    """Friction force of a guide.
-
-    Parameters
-    ----------
-    f, N_s : array
-        Friction coefficient, magnitude of the normal force. [-], [N]
-
-    Returns
-    -------
-    array
-        Force, against the sliding. [N]
-    """
+    """Friction force of a guide."""
     return f * N_s
 
 
 @formula("efficiency", "artobolevsky_1988, ch. 14")
 def instantaneous_efficiency(M_0: Value, M_f: Value) -> Value:
-    """Instantaneous efficiency of a mechanism that the crank drives.
-
-    Parameters
-    ----------
-    M_0, M_f : array
-        Torque on the crank without friction and with it. [N m], [N m]
-
-    Returns
-    -------
-    array
-        Efficiency. [-]
-    """
+    """Instantaneous efficiency of a mechanism that the crank drives."""
     return M_0 / M_f

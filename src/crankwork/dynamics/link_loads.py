@@ -2,97 +2,80 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterable
 from typing import NamedTuple
 
-import numpy as np
-
 from crankwork.dynamics.running import Running
-from crankwork.expressions import Value, formula
-from crankwork.kinematics.bodies import body_motions
+from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import absent, is_known, named
+from crankwork.kinematics.bodies import body_motions, nothing, summed
 from crankwork.kinematics.crank_grid import Array
+from crankwork.kinematics.dyads import is_nothing
+from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.transfer import PointMotion
 from crankwork.loads.applied import AppliedForce, AppliedLoads, AppliedTorque
 
 
 class Wrench(NamedTuple):
-    """Force [N] and moment about the origin of a frame [N m], arrays of shape (n,)."""
+    """Force [N] and moment about the origin of a frame [N m], arrays of shape (n,) or knowns."""
 
-    x: Array
-    y: Array
-    moment: Array
+    x: Value
+    y: Value
+    moment: Value
 
-    def plus(self, x: Array, y: Array, moment: Array) -> Wrench:
-        """Return this wrench with a further one about the same origin."""
-        return Wrench(self.x + x, self.y + y, self.moment + moment)
+
+class Wrenches:
+    """What acts on each link, gathered until it is asked for.
+
+    Parameters
+    ----------
+    motion : Motion
+        How the links move.
+    """
+
+    def __init__(self, motion: Motion) -> None:
+        self._grid = motion.grid
+        self._parts: dict[str, list[Wrench]] = {link: [] for link in motion.frames}
+
+    def add(self, link: str, wrench: Wrench) -> None:
+        """Add a force and its moment about the origin of a link."""
+        self._parts[link].append(wrench)
+
+    def __getitem__(self, link: str) -> Wrench:
+        """Return the sum of what acts on a link so far."""
+        sides = zip(*self._parts[link], strict=True) if self._parts[link] else ((), (), ())
+        keys = (f"{key}.{link}" for key in ("link_force_x", "link_force_y", "link_moment"))
+        return Wrench(*(summed(key, side, self._grid) for key, side in zip(keys, sides, strict=True)))
+
+
+@formula("link_moment", "artobolevsky_1988, ch. 13")
+def moment_about(r_x: Value, F_y: Value, r_y: Value, F_x: Value) -> Value:
+    """Moment of a force."""
+    return r_x * F_y - r_y * F_x
 
 
 @formula("link_inertia_force", "artobolevsky_1988, ch. 12")
 def link_inertia_force(m_i: Value, a_S: Value) -> Value:
-    """Inertia force of a body along one axis.
-
-    Parameters
-    ----------
-    m_i, a_S : array
-        Mass, acceleration of its centre along the axis. [kg], [m/s2]
-
-    Returns
-    -------
-    array
-        Force at the centre of mass. [N]
-    """
+    """Inertia force of a body along one axis."""
     return -m_i * a_S
 
 
 @formula("link_inertia_torque", "artobolevsky_1988, ch. 12")
 def link_inertia_torque(J_S: Value, eps_i: Value) -> Value:
-    """Inertia torque of a body.
-
-    Parameters
-    ----------
-    J_S, eps_i : array
-        Moment of inertia about the centre of mass, angular acceleration of the body. [kg m2], [rad/s2]
-
-    Returns
-    -------
-    array
-        Torque. [N m]
-    """
+    """Inertia torque of a body."""
     return -J_S * eps_i
 
 
 @formula("centre_acceleration", "artobolevsky_1988, ch. 5")
 def centre_acceleration(q_2: Value, w: Value, q_1: Value, eps: Value) -> Value:
-    """Acceleration of a centre of mass along one axis.
-
-    Parameters
-    ----------
-    q_2, w, q_1, eps : array
-        Second transfer function of the coordinate, angular speed, first transfer function, angular acceleration.
-        [m], [rad/s], [m], [rad/s2]
-
-    Returns
-    -------
-    array
-        Acceleration. [m/s2]
-    """
+    """Acceleration of a centre of mass along one axis."""
     return q_2 * w**2 + q_1 * eps
 
 
 @formula("link_angular_acceleration", "artobolevsky_1988, ch. 5")
 def link_angular_acceleration(theta_2: Value, w: Value, theta_1: Value, eps: Value) -> Value:
-    """Angular acceleration of a link.
-
-    Parameters
-    ----------
-    theta_2, w, theta_1, eps : array
-        Second transfer function of the rotation, angular speed of the crank, first transfer function, angular
-        acceleration of the crank. [-], [rad/s], [-], [rad/s2]
-
-    Returns
-    -------
-    array
-        Angular acceleration. [rad/s2]
-    """
+    """Angular acceleration of a link."""
     return theta_2 * w**2 + theta_1 * eps
 
 
@@ -115,14 +98,41 @@ def inertia_loads(running: Running) -> AppliedLoads:
     """
     w, eps = running.speed, running.angular_acceleration
     forces, torques = [], []
-    for body, centre, angle_1, angle_2 in body_motions(running.mechanism, running.motion):
-        x, y = (centre_acceleration(one.position_2, w, one.position_1, eps) for one in centre)
-        forces.append(
-            AppliedForce(body.link, centre, link_inertia_force(body.mass, x), link_inertia_force(body.mass, y))
-        )
-        turning = link_angular_acceleration(angle_2, w, angle_1, eps)
-        torques.append(AppliedTorque(body.link, link_inertia_torque(body.inertia, turning), angle_1))
+    bodies = body_motions(running.mechanism, running.motion)
+    for name, (body, centre, angle_1, angle_2) in zip(distinct(one.body.link for one in bodies), bodies, strict=True):
+        if not is_nothing(body.mass):
+            x, y = (
+                _inertia_force(body.mass, centre_acceleration(one.position_2, w, one.position_1, eps), f"{name}.{axis}")
+                for axis, one in zip("xy", centre, strict=True)
+            )
+            forces.append(AppliedForce(body.link, centre, x, y))
+        if not is_nothing(body.inertia):
+            turning = link_angular_acceleration(angle_2, w, angle_1, eps)
+            turning = named(turning, f"link_angular_acceleration.{name}")
+            torque = named(link_inertia_torque(body.inertia, turning), f"link_inertia_torque.{name}")
+            torques.append(AppliedTorque(body.link, torque, angle_1))
     return AppliedLoads(tuple(forces), tuple(torques))
+
+
+def _inertia_force(mass: Value, acceleration: Value, name: str) -> Value:
+    acceleration = named(acceleration, f"centre_acceleration.{name}")
+    return named(link_inertia_force(mass, acceleration), f"link_inertia_force.{name}")
+
+
+def distinct(names: Iterable[str]) -> list[str]:
+    """Return names with a number from the second of the same name on.
+
+    Parameters
+    ----------
+    names : iterable of str
+        The names.
+    """
+    seen: Counter[str] = Counter()
+    result = []
+    for name in names:
+        seen[name] += 1
+        result.append(name if seen[name] == 1 else f"{name}_{seen[name]}")
+    return result
 
 
 def all_loads(running: Running) -> AppliedLoads:
@@ -130,7 +140,7 @@ def all_loads(running: Running) -> AppliedLoads:
     return running.loads.also(inertia_loads(running))
 
 
-def link_wrenches(running: Running) -> dict[str, Wrench]:
+def link_wrenches(running: Running) -> Wrenches:
     """Return what loads and inertia put on each moving link.
 
     Parameters
@@ -140,21 +150,21 @@ def link_wrenches(running: Running) -> dict[str, Wrench]:
 
     Returns
     -------
-    dict of str to Wrench, arrays of shape (n,)
-        Force [N] and moment about the origin of the frame of the link [N m].
+    Wrenches
+        Force [N] and moment about the origin of the frame of each link [N m].
     """
     motion, loads = running.motion, all_loads(running)
-    still = np.zeros_like(motion.grid.angle)
-    wrenches = {link: Wrench(still, still, still) for link in motion.frames}
-    for force in loads.forces:
-        moment = cross(arm(motion.frames[force.link].origin, force.at), (force.x, force.y))
-        wrenches[force.link] = wrenches[force.link].plus(force.x, force.y, moment)
+    wrenches, still = Wrenches(motion), nothing(motion.grid)
+    names = distinct(f"{force.link}_load" for force in loads.forces)
+    for name, force in zip(names, loads.forces, strict=True):
+        moment = moment_of(arm(motion.frames[force.link].origin, force.at), (force.x, force.y), name)
+        wrenches.add(force.link, Wrench(force.x, force.y, moment))
     for one in loads.torques:
-        wrenches[one.link] = wrenches[one.link].plus(still, still, one.torque)
+        wrenches.add(one.link, Wrench(still, still, one.torque))
     return wrenches
 
 
-def arm(origin: PointMotion, point: PointMotion) -> tuple[Array, Array]:
+def arm(origin: PointMotion, point: PointMotion) -> tuple[Value, Value]:
     """Return the way from one point to another.
 
     Parameters
@@ -167,7 +177,25 @@ def arm(origin: PointMotion, point: PointMotion) -> tuple[Array, Array]:
     tuple of array, shape (n,)
         Components along the fixed axes. [m]
     """
-    return point.x.position - origin.x.position, point.y.position - origin.y.position
+    ends, starts = (point.x.position, point.y.position), (origin.x.position, origin.y.position)
+    if all(is_known(one, other) and one.node is other.node for one, other in zip(ends, starts, strict=True)):
+        return absent("arm_x"), absent("arm_y")
+    return ends[0] - starts[0], ends[1] - starts[1]
+
+
+def moment_of(way: tuple[Value, Value], force: tuple[Value, Value], name: str = "") -> Value:
+    """Return the moment of a force with an arm; absent where it has none.
+
+    Parameters
+    ----------
+    way, force : tuple of array, shape (n,)
+        Arm and force. [m], [N]
+    name : str
+        What turns which link.
+    """
+    if all(is_known(one) and one.is_absent for one in way):
+        return absent("link_moment")
+    return named(moment_about(way[0], force[1], way[1], force[0]), f"link_moment.{name}")
 
 
 def cross(a: tuple[Array, Array], b: tuple[Array, Array]) -> Array:

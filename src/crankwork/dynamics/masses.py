@@ -6,92 +6,36 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
 
 
 @formula("rod_small_end_mass", "kolchin_demidov_2008, ch. 7")
 def rod_small_end_mass(m: Value, b: Value, l: Value) -> Value:  # noqa: E741
-    """Part of the rod mass placed at the piston pin.
-
-    Parameters
-    ----------
-    m, b, l : float
-        Rod mass, distance of its centre of mass from the crankpin, rod length. [kg], [m], [m]
-
-    Returns
-    -------
-    float
-        Mass. [kg]
-    """
+    """Part of the rod mass placed at the piston pin."""
     return m * b / l
 
 
 @formula("rod_big_end_mass", "kolchin_demidov_2008, ch. 7")
 def rod_big_end_mass(m: Value, m_1: Value) -> Value:
-    """Part of the rod mass placed at the crankpin.
-
-    Parameters
-    ----------
-    m, m_1 : float
-        Rod mass, its part at the piston pin. [kg], [kg]
-
-    Returns
-    -------
-    float
-        Mass. [kg]
-    """
+    """Part of the rod mass placed at the crankpin."""
     return m - m_1
 
 
 @formula("rod_inertia_excess", "khurmi_gupta_2005, ch. 15")
 def rod_inertia_excess(J_c: Value, m: Value, b: Value, l: Value) -> Value:  # noqa: E741
-    """Moment of inertia of the rod less that of its two-mass model.
-
-    Parameters
-    ----------
-    J_c, m, b, l : float
-        Moment of inertia about the centre of mass, rod mass, distance of the centre of mass from the
-        crankpin, rod length. [kg m2], [kg], [m], [m]
-
-    Returns
-    -------
-    float
-        Excess; times minus the rod's angular acceleration it is the correction couple. [kg m2]
-    """
+    """Moment of inertia of the rod less that of its two-mass model."""
     return J_c - m * b * (l - b)
 
 
 @formula("reciprocating_mass", "kolchin_demidov_2008, ch. 7")
 def reciprocating_mass(m_p: Value, m_1: Value) -> Value:
-    """Mass taken to move with the piston.
-
-    Parameters
-    ----------
-    m_p, m_1 : float
-        Piston group, rod mass at the piston pin. [kg], [kg]
-
-    Returns
-    -------
-    float
-        Mass. [kg]
-    """
+    """Mass taken to move with the piston."""
     return m_p + m_1
 
 
 @formula("rotating_mass", "kolchin_demidov_2008, ch. 7")
 def rotating_mass(m_k: Value, m_2: Value) -> Value:
-    """Mass taken to turn with the crankpin.
-
-    Parameters
-    ----------
-    m_k, m_2 : float
-        Crank throw, rod mass at the crankpin. [kg], [kg]
-
-    Returns
-    -------
-    float
-        Mass. [kg]
-    """
+    """Mass taken to turn with the crankpin."""
     return m_k + m_2
 
 

@@ -8,24 +8,33 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.dynamics.link_loads import Wrench, arm, cross
+from crankwork.dynamics.link_loads import Wrench, arm, moment_of
+from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import is_known, named
+from crankwork.kinematics.bodies import nothing
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.transfer import PointMotion
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint
 
 
+@formula("joint_force", "artobolevsky_1988, ch. 13")
+def joint_force(R_x: Value, R_y: Value) -> Value:
+    """Magnitude of the force in a joint."""
+    return np.sqrt(R_x**2 + R_y**2)
+
+
 class PinForce(NamedTuple):
     """Force of a pin on the link it holds, along the fixed axes, arrays of shape (n,). [N]"""
 
     joint: Pin
-    x: Array
-    y: Array
+    x: Value
+    y: Value
 
     @property
-    def resultant(self) -> Array:
+    def resultant(self) -> Value:
         """Magnitude of the force. [N]"""
-        return np.hypot(self.x, self.y)
+        return joint_force(self.x, self.y)
 
 
 class GuideForce(NamedTuple):
@@ -35,8 +44,8 @@ class GuideForce(NamedTuple):
     """
 
     joint: SlidingJoint
-    normal: Array
-    moment: Array
+    normal: Value
+    moment: Value
 
     @property
     def application(self) -> Array:
@@ -80,15 +89,24 @@ def reaction_wrench(reaction: Reaction, motion: Motion, link: str) -> Wrench:
     Wrench, arrays of shape (n,)
         Force [N] and moment about the origin of the frame of `link` [N m].
     """
-    joint, sign = reaction.joint, 1.0 if link == reaction.joint.link else -1.0
+    joint = reaction.joint
     match reaction:
         case PinForce(_, x, y):
-            couple = np.zeros_like(x)
+            couple = nothing(motion.grid)
         case GuideForce(_, normal, couple):
             guide = motion.frames[joint.link]
             x, y = -guide.sin * normal, guide.cos * normal
-    moment = cross(arm(motion.frames[link].origin, joint_place(joint, motion)), (x, y)) + couple
-    return Wrench(sign * x, sign * y, sign * moment)
+    x, y = named(x, f"joint_force_x.{joint.name}"), named(y, f"joint_force_y.{joint.name}")
+    moment = moment_of(arm(motion.frames[link].origin, joint_place(joint, motion)), (x, y), f"{link}_{joint.name}")
+    if not (is_known(couple) and couple.is_absent):
+        moment = named(moment + couple, f"link_moment.{link}_{joint.name}_both")
+    if link == joint.link:
+        return Wrench(x, y, moment)
+    x, y, moment = (
+        named(-one, f"{key}.{link}_from_{joint.name}")
+        for key, one in zip(("link_force_x", "link_force_y", "link_moment"), (x, y, moment), strict=True)
+    )
+    return Wrench(x, y, moment)
 
 
 @dataclass(frozen=True)
@@ -107,7 +125,7 @@ class JointForces:
 
     pins: Mapping[str, PinForce]
     guides: Mapping[str, GuideForce]
-    balancing_torque: Array
+    balancing_torque: Value
 
     def columns(self) -> dict[str, Array]:
         """Return the columns of a table: components and resultants by joint, the balancing torque last. [N], [N m]"""

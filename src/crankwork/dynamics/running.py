@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from crankwork.kinematics.crank_grid import Array
+from crankwork.formula.expression import Value
 from crankwork.kinematics.motion import Motion
 from crankwork.loads.applied import NO_LOADS, AppliedLoads
 from crankwork.mechanism.mechanism import Mechanism
@@ -30,6 +30,6 @@ class Running:
 
     mechanism: Mechanism
     motion: Motion
-    speed: float | Array = 0.0
+    speed: Value = 0.0
     loads: AppliedLoads = NO_LOADS
-    angular_acceleration: float | Array = 0.0
+    angular_acceleration: Value = 0.0

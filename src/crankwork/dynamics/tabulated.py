@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
 from crankwork.kinematics.crank_grid import Array
 
 Differences = Literal["forward", "central", "spectral"]
@@ -40,18 +40,7 @@ class TabulatedBody:
 
 @formula("reduced_inertia", "artobolevsky_1988, ch. 15")
 def reduced_inertia_of_ratios(m_i: Value, v_w: Value, J_S: Value, w_w: Value) -> Value:
-    """Part of one body in the reduced moment of inertia, from its speeds over that of the crank.
-
-    Parameters
-    ----------
-    m_i, v_w, J_S, w_w : array
-        Mass, speed ratio of its centre, moment of inertia, ratio of its angular speed. [kg], [m], [kg m2], [-]
-
-    Returns
-    -------
-    array
-        Moment of inertia. [kg m2]
-    """
+    """Part of one body in the reduced moment of inertia, from its speeds over that of the crank."""
     return m_i * v_w**2 + J_S * w_w**2
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from crankwork.dynamics.link_loads import all_loads, cross
-from crankwork.dynamics.reduction import reduced_torque
+from crankwork.dynamics.link_loads import cross
+from crankwork.dynamics.plain_loads import plain_loads
 from crankwork.dynamics.running import Running
 from crankwork.kinematics.crank_grid import Array
 
@@ -32,7 +32,7 @@ def zhukovsky_torque(running: Running) -> Array:
     ----------
     artobolevsky_1988, ch. 15.
     """
-    motion, loads = running.motion, all_loads(running)
+    motion, loads = running.motion, plain_loads(running)
     moment = np.zeros_like(motion.grid.angle)
     for force in loads.forces:
         moment += cross((force.at.y.position_1, -force.at.x.position_1), (force.x, force.y))
@@ -62,4 +62,10 @@ def virtual_work_torque(running: Running) -> Array:
     ----------
     artobolevsky_1988, ch. 15.
     """
-    return -reduced_torque(running.motion, all_loads(running))
+    loads = plain_loads(running)
+    power = np.zeros_like(running.motion.grid.angle)
+    for force in loads.forces:
+        power += force.x * force.at.x.position_1 + force.y * force.at.y.position_1
+    for one in loads.torques:
+        power += one.torque * one.angle_1
+    return -power

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 
 from crankwork.errors import GeometryError
-from crankwork.kinematics.crank_grid import Array
+from crankwork.formula.expression import Value
+from crankwork.formula.known import absent, is_known, total
+from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.mechanism.mechanism import Body, Mechanism
@@ -18,8 +21,8 @@ class BodyMotion(NamedTuple):
 
     body: Body
     centre: PointMotion
-    angle_1: Array
-    angle_2: Array
+    angle_1: Value
+    angle_2: Value
 
 
 def body_motions(mechanism: Mechanism, motion: Motion) -> tuple[BodyMotion, ...]:
@@ -70,17 +73,58 @@ def centre_of_mass(body: Body, motion: Motion) -> PointMotion:
     return PointMotion(x, y)
 
 
-def _rates(body: Body, motion: Motion) -> tuple[Array, Array]:
-    still = np.zeros_like(motion.grid.angle)
+def _rates(body: Body, motion: Motion) -> tuple[Value, Value]:
     if body.link in motion.frames:
         frame = motion.frames[body.link]
-        return frame.angle_1 + still, frame.angle_2 + still
+        return everywhere(frame.angle_1, motion.grid), everywhere(frame.angle_2, motion.grid)
     if body.link in motion.links:
         _, angle_1, angle_2 = motion.links[body.link]
-        return angle_1 + still, angle_2 + still
+        return everywhere(angle_1, motion.grid), everywhere(angle_2, motion.grid)
     if body.inertia:
         raise GeometryError(
             f"body {body.link} has a moment of inertia, but the motion does not say how it turns; "
             "add its rotation, or set its inertia to zero if it only slides"
         )
-    return still, still
+    return nothing(motion.grid), nothing(motion.grid)
+
+
+def nothing(grid: CrankGrid) -> Value:
+    """Return zero at every crank angle, or an absent value where columns are remembered.
+
+    Parameters
+    ----------
+    grid : CrankGrid, shape (n,)
+        Crank angles. [rad]
+    """
+    return absent("") if is_known(grid.angle) else np.zeros_like(grid.angle)
+
+
+def everywhere(value: Value, grid: CrankGrid) -> Value:
+    """Return a value at every crank angle; a known is that already.
+
+    Parameters
+    ----------
+    value : float or array, shape (n,)
+        The value. [any]
+    grid : CrankGrid, shape (n,)
+        Crank angles. [rad]
+    """
+    return value if is_known(value, grid.angle) else value + np.zeros_like(grid.angle)
+
+
+def summed(key: str, terms: Iterable[Value], grid: CrankGrid) -> Value:
+    """Return the sum of columns in their order; of none, nothing.
+
+    Parameters
+    ----------
+    key : str
+        Key of the sum.
+    terms : iterable of array, shape (n,)
+        What is added. [any]
+    grid : CrankGrid, shape (n,)
+        Crank angles. [rad]
+    """
+    if not is_known(grid.angle):
+        return sum(terms, np.zeros_like(grid.angle))
+    stated = [one for one in terms if not (is_known(one) and one.is_absent)]
+    return total(key, stated) if stated else absent(key)

@@ -14,6 +14,7 @@ Array = NDArray[np.float64]
 
 # Angles closer than this are one row of a table. [deg]
 _SAME_ANGLE = 1e-9
+_DECIMALS = 9
 _SIN_OF_QUARTER = np.array([0.0, 1.0, 0.0, -1.0])
 _COS_OF_QUARTER = np.array([1.0, 0.0, -1.0, 0.0])
 
@@ -93,6 +94,64 @@ class CrankGrid:
         """1 - |sin|, from the square of the cosine."""
         return np.asarray(self.cos**2 / (1 + np.abs(self.sin)))
 
+    @cached_property
+    def _multiples(self) -> dict[int, Self]:
+        return {1: self}
+
+    @cached_property
+    def _shifts(self) -> dict[float, Self]:
+        return {}
+
+    def multiple(self, order: int) -> Self:
+        """Return the grid of a whole multiple of every angle.
+
+        Parameters
+        ----------
+        order : int
+            The multiple.
+        """
+        if order not in self._multiples:
+            self._multiples[order] = type(self).from_degrees(order * self.degrees)
+        return self._multiples[order]
+
+    def shifted(self, degrees: float) -> Self:
+        """Return the grid of angles larger by some degrees.
+
+        Parameters
+        ----------
+        degrees : float
+            How much larger. [deg]
+        """
+        if not degrees:
+            return self
+        if degrees not in self._shifts:
+            self._shifts[degrees] = type(self).from_degrees(self.degrees + degrees)
+        return self._shifts[degrees]
+
+    def earlier(self, by: Array, cycle: float) -> tuple[Self, NDArray[np.intp]]:
+        """Return the distinct angles that lie earlier in the cycle by each of some amounts, and where they stand.
+
+        Parameters
+        ----------
+        by : array, shape (m,)
+            How much earlier. [deg]
+        cycle : float
+            Length of the cycle. [deg]
+
+        Returns
+        -------
+        tuple of CrankGrid and array, shape (m, n)
+            The grid, and for each amount the place of every angle in it.
+        """
+        local = np.mod(self.degrees - by[:, None], cycle)
+        # a decimal where rounding alone keeps it from being one; the end of a cycle is its start
+        near = np.round(local, _DECIMALS)
+        reach = 1e-15 * (np.abs(self.degrees) + by[:, None] + cycle)
+        local = np.where(np.abs(local - near) <= reach, near, local)
+        local[cycle - local <= 1e-12 * cycle] = 0.0
+        distinct, place = np.unique(local, return_inverse=True)
+        return type(self).from_degrees(distinct), place.reshape(local.shape)
+
     def __getitem__(self, part: slice) -> Self:
         """Return a stretch of the grid."""
         return type(self)(self.degrees[part], self.angle[part], self.sin[part], self.cos[part])
@@ -102,36 +161,10 @@ class CrankGrid:
 
 
 def sin_multiple(grid: CrankGrid, order: int) -> Array:
-    """Return the sine of `order` times the crank angle.
-
-    Parameters
-    ----------
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    order : int
-        The multiple.
-
-    Returns
-    -------
-    array, shape (n,)
-        sin(order * angle). [-]
-    """
-    return CrankGrid.from_degrees(order * grid.degrees).sin
+    """Return the sine of `order` times the crank angle, shape (n,). [-]"""
+    return grid.multiple(order).sin
 
 
 def cos_multiple(grid: CrankGrid, order: int) -> Array:
-    """Return the cosine of `order` times the crank angle.
-
-    Parameters
-    ----------
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    order : int
-        The multiple.
-
-    Returns
-    -------
-    array, shape (n,)
-        cos(order * angle). [-]
-    """
-    return CrankGrid.from_degrees(order * grid.degrees).cos
+    """Return the cosine of `order` times the crank angle, shape (n,). [-]"""
+    return grid.multiple(order).cos

@@ -1,23 +1,114 @@
 """Closed-form positions and transfer functions of the crank, of points on links and of the dyads of two links.
 
-Everything is arrays with the crank angle on the last axis; what stands still is an array of no axes.
-The kernels hold for floats, arrays of designs and complex steps alike; whether a group closes is told by
-`closure`, which is positive where it does.
+Everything is arrays with the crank angle on the last axis; what stands still is an array of no axes. The same code
+takes knowns and then remembers: what stands still is absent there. The kernels hold for floats, arrays of designs and
+complex steps alike; whether a group closes is told by `closure`, which is positive where it does.
 """
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import Known, absent, given, is_known, named
+from crankwork.kinematics import plane_motion as plane
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.mechanism.dyads import RRP, RRR, Guide, Point
 from crankwork.mechanism.mechanism import Crank
 
 _ZERO = np.array(0.0)
+_DYADS = "artobolevsky_1988, ch. 4"
+
+
+@formula("joint_distance_square", _DYADS)
+def joint_distance_square(dx: Value, dy: Value) -> Value:
+    """Square of the distance of two points."""
+    return dx * dx + dy * dy
+
+
+@formula("doubled_area", _DYADS)
+def doubled_area(kappa: Value, l_i: Value, l_k: Value, d_sq: Value) -> Value:
+    """Twice the area of the triangle of an RRR dyad, by Heron's formula."""
+    return 0.5 * kappa * np.sqrt(((l_i + l_k) ** 2 - d_sq) * (d_sq - (l_i - l_k) ** 2))
+
+
+@formula("foot_ratio", _DYADS)
+def foot_ratio(l_i: Value, l_k: Value, d_sq: Value) -> Value:
+    """Where the foot of the inner joint of an RRR dyad lies between its outer joints."""
+    return 0.5 * (l_i**2 - l_k**2) / d_sq + 0.5
+
+
+@formula("arm_x", _DYADS)
+def rrr_arm_x(k_d: Value, dx: Value, k_n: Value, dy: Value) -> Value:
+    """Way along x from the first outer joint of an RRR dyad to the inner one."""
+    return k_d * dx - k_n * dy
+
+
+@formula("arm_y", _DYADS)
+def rrr_arm_y(k_d: Value, dy: Value, k_n: Value, dx: Value) -> Value:
+    """Way along y from the first outer joint of an RRR dyad to the inner one."""
+    return k_d * dy + k_n * dx
+
+
+@formula("link_angle_1", _DYADS)
+def rrr_rate(dx_1: Value, r_x: Value, dy_1: Value, r_y: Value, S_sq: Value) -> Value:
+    """Transfer function of the turning of a link of an RRR dyad, with the arm of the other link."""
+    return (dx_1 * r_x + dy_1 * r_y) / S_sq
+
+
+@formula("closing_x", _DYADS)
+def closing_x(dx_2: Value, theta_1: Value, r_x: Value, theta_k1: Value, r_kx: Value) -> Value:
+    """Second derivative of the way along x between the outer joints, less what the links of a dyad turn steadily."""
+    return dx_2 + theta_1**2 * r_x - theta_k1**2 * r_kx
+
+
+@formula("guide_reach", _DYADS)
+def rrp_reach(kappa: Value, l_i: Value, n_g: Value) -> Value:
+    """How far along its guide the link of an RRP dyad reaches."""
+    return kappa * np.sqrt((l_i - n_g) * (l_i + n_g))
+
+
+@formula("guide_rate", _DYADS)
+def rrp_rate(n_g1: Value, h_g: Value) -> Value:
+    """Rate of turning of the link of an RRP dyad against its guide."""
+    return -n_g1 / h_g
+
+
+@formula("guide_rate_1", _DYADS)
+def rrp_rate_1(n_g2: Value, gamma_1: Value, h_g1: Value, h_g: Value) -> Value:
+    """Second rate of turning of the link of an RRP dyad against its guide."""
+    return -(n_g2 + gamma_1 * h_g1) / h_g
+
+
+@formula("slider_displacement_2", _DYADS)
+def rrp_slide_2(s_g2: Value, gamma_2: Value, n_g: Value, gamma_1: Value, n_g1: Value) -> Value:
+    """Second transfer function of the slider of an RRP dyad along its guide."""
+    return s_g2 + gamma_2 * n_g + gamma_1 * n_g1
+
+
+@formula("link_cos", _DYADS)
+def rrp_cosine(cos_th: Value, h_g: Value, sin_th: Value, n_g: Value, l_i: Value) -> Value:
+    """Cosine of the direction of the link of an RRP dyad, from that of its guide."""
+    return (cos_th * h_g + sin_th * n_g) / l_i
+
+
+@formula("link_sin", _DYADS)
+def rrp_sine(sin_th: Value, h_g: Value, cos_th: Value, n_g: Value, l_i: Value) -> Value:
+    """Sine of the direction of the link of an RRP dyad, from that of its guide."""
+    return (sin_th * h_g - cos_th * n_g) / l_i
+
+
+def is_nothing(value: Any) -> bool:  # noqa: ANN401 - a known or a number
+    """Return whether a length or angle is not there: absent, or the number zero."""
+    return value.is_absent if isinstance(value, Known) else not value
+
+
+def _moves(rate: Any) -> bool:  # noqa: ANN401 - a known or an array
+    return not rate.is_absent if isinstance(rate, Known) else rate.ndim > 0
 
 
 class LinkMotion(NamedTuple):
@@ -27,20 +118,20 @@ class LinkMotion(NamedTuple):
     """
 
     origin: PointMotion
-    cos: Array
-    sin: Array
-    angle_1: Array
-    angle_2: Array
+    cos: Value
+    sin: Value
+    angle_1: Value
+    angle_2: Value
 
     @property
     def turns(self) -> bool:
         """Whether it turns at all; a fixed guide does not."""
-        return self.angle_1.ndim > 0
+        return _moves(self.angle_1)
 
     @property
     def stands(self) -> bool:
         """Whether it neither turns nor moves."""
-        return self.angle_1.ndim == self.origin.x.position_1.ndim == 0
+        return not (_moves(self.angle_1) or _moves(self.origin.x.position_1))
 
 
 class Closure(NamedTuple):
@@ -58,11 +149,17 @@ class Closure(NamedTuple):
 
 def fixed_point(point: Point) -> PointMotion:
     """Return the motion of a point that stands still."""
+    if is_known(*point):
+        x, y = (Transfer(one, absent("point_x_1"), absent("point_x_2")) for one in point)
+        return PointMotion(x, y)
     return PointMotion(Transfer(np.array(point[0]), _ZERO, _ZERO), Transfer(np.array(point[1]), _ZERO, _ZERO))
 
 
 def fixed_guide(guide: Guide) -> LinkMotion:
     """Return the motion of a guide that stands still."""
+    if is_known(guide.angle):
+        cos, sin = plane.cosine_of_direction(guide.angle), plane.sine_of_direction(guide.angle)
+        return LinkMotion(fixed_point(guide.point), cos, sin, absent("link_angle_1"), absent("link_angle_2"))
     cos, sin = np.array(math.cos(guide.angle)), np.array(math.sin(guide.angle))
     return LinkMotion(fixed_point(guide.point), cos, sin, _ZERO, _ZERO)
 
@@ -77,9 +174,16 @@ def crank_motion(crank: Crank, grid: CrankGrid) -> LinkMotion:
     grid : CrankGrid, shape (n,)
         Crank angles. [rad]
     """
-    cos_start, sin_start = math.cos(crank.start), math.sin(crank.start)
-    sin = grid.sin if crank.direction == 1 else -grid.sin
-    cos, sin = cos_start * grid.cos - sin_start * sin, sin_start * grid.cos + cos_start * sin
+    cos, sin = grid.cos, grid.sin if crank.direction == 1 else -grid.sin
+    if not is_nothing(crank.start):
+        cos_start, sin_start = plane.cosine_of_direction(crank.start), plane.sine_of_direction(crank.start)
+        cos_start, sin_start = named(cos_start, "line_cos.crank"), named(sin_start, "line_sin.crank")
+        cos, sin = (
+            plane.cosine_of_turned(cos_start, cos, sin_start, sin), plane.sine_of_turned(sin_start, cos, cos_start, sin)
+        )  # fmt: skip
+    if is_known(cos):
+        forward = absent("link_angle_1", 1.0) if crank.direction == 1 else given("link_angle_1", -1.0)
+        return LinkMotion(fixed_point(crank.pivot), cos, sin, forward, absent("link_angle_2"))
     rate = np.full_like(cos, crank.direction)
     return LinkMotion(fixed_point(crank.pivot), cos, sin, rate, np.zeros_like(cos))
 
@@ -105,12 +209,13 @@ def crank_pin_motion(crank: Crank, grid: CrankGrid) -> tuple[PointMotion, Transf
 
 def pin_on_crank(crank: Crank, link: LinkMotion) -> PointMotion:
     """Return the motion of the crank pin, given that of the crank. [m]"""
-    (x, y), d = crank.pivot, crank.direction
-    arm_x, arm_y = crank.radius * link.cos, crank.radius * link.sin
-    return PointMotion(Transfer(x + arm_x, -d * arm_y, -arm_x), Transfer(y + arm_y, d * arm_x, -arm_y))
+    x, y = crank.pivot
+    arm_x, arm_y = named(crank.radius * link.cos, "arm_x.crank"), named(crank.radius * link.sin, "arm_y.crank")
+    x_1, y_1 = (-arm_y, arm_x) if crank.direction == 1 else (arm_y, -arm_x)
+    return PointMotion(Transfer(x + arm_x, x_1, -arm_x), Transfer(y + arm_y, y_1, -arm_y))
 
 
-def point_on_link(link: LinkMotion, along: float, across: float) -> PointMotion:
+def point_on_link(link: LinkMotion, along: Value, across: Value, name: str = "") -> PointMotion:
     """Return the motion of a point that moves with a link.
 
     Parameters
@@ -119,6 +224,8 @@ def point_on_link(link: LinkMotion, along: float, across: float) -> PointMotion:
         The frame of the link.
     along, across : float
         Coordinates in that frame. [m]
+    name : str
+        What the point is called.
 
     Returns
     -------
@@ -126,24 +233,38 @@ def point_on_link(link: LinkMotion, along: float, across: float) -> PointMotion:
         r = o + d, r' = o' + J d theta', r'' = o'' + J d theta'' - d theta'^2. [m]
     """
     (x, x_1, x_2), (y, y_1, y_2) = link.origin
-    dx, dy = along * link.cos, along * link.sin
-    if across:
-        dx, dy = dx - across * link.sin, dy + across * link.cos
+    if is_known(along) and is_nothing(along) and is_nothing(across):
+        return link.origin
+    if is_nothing(across):
+        dx, dy = along * link.cos, along * link.sin
+    else:
+        dx = plane.arm_along_x(along, link.cos, across, link.sin)
+        dy = plane.arm_along_y(along, link.sin, across, link.cos)
+    dx, dy = named(dx, f"arm_x.{name}"), named(dy, f"arm_y.{name}")
     if not link.turns:
         return PointMotion(Transfer(x + dx, x_1, x_2), Transfer(y + dy, y_1, y_2))
-    square = link.angle_1 * link.angle_1
+    return carried(link, dx, dy)
+
+
+def carried(link: LinkMotion, dx: Value, dy: Value) -> PointMotion:
+    """Return the motion of the point of a turning link at the end of an arm from its origin. [m]"""
+    (x, x_1, x_2), (y, y_1, y_2) = link.origin
+    rate, rate_1 = link.angle_1, link.angle_2
     return PointMotion(
-        Transfer(x + dx, x_1 - link.angle_1 * dy, x_2 - link.angle_2 * dy - square * dx),
-        Transfer(y + dy, y_1 + link.angle_1 * dx, y_2 + link.angle_2 * dx - square * dy),
+        Transfer(x + dx, plane.carried_x_1(x_1, rate, dy), plane.carried_x_2(x_2, rate_1, dy, rate, dx)),
+        Transfer(y + dy, plane.carried_y_1(y_1, rate, dx), plane.carried_y_2(y_2, rate_1, dx, rate, dy)),
     )
 
 
-def turned(link: LinkMotion, angle: float) -> LinkMotion:
-    """Return a frame with the same origin, its x axis at an angle to that of the link. [rad]"""
-    if not angle:
+def turned(link: LinkMotion, angle: float, name: str = "line") -> LinkMotion:
+    """Return a frame with the same origin, its x axis at an angle to that of the link, under a name. [rad]"""
+    if is_nothing(angle):
         return link
-    cos, sin = math.cos(angle), math.sin(angle)
-    return link._replace(cos=cos * link.cos - sin * link.sin, sin=sin * link.cos + cos * link.sin)
+    cos, sin = plane.cosine_of_direction(angle), plane.sine_of_direction(angle)
+    cos, sin = named(cos, f"line_cos.{name}"), named(sin, f"line_sin.{name}")
+    return link._replace(
+        cos=plane.cosine_of_turned(cos, link.cos, sin, link.sin), sin=plane.sine_of_turned(sin, link.cos, cos, link.sin)
+    )
 
 
 def guide_on_link(link: LinkMotion, guide: Guide) -> LinkMotion:
@@ -174,14 +295,16 @@ def seen_from(link: LinkMotion, point: PointMotion) -> PointMotion:
     if not link.stands:
         x_1, y_1 = x_1 - base_x.position_1, y_1 - base_y.position_1
         x_2, y_2 = x_2 - base_x.position_2, y_2 - base_y.position_2
-    along, across = x * cos + y * sin, y * cos - x * sin
-    along_1, across_1 = x_1 * cos + y_1 * sin, y_1 * cos - x_1 * sin
-    along_2, across_2 = x_2 * cos + y_2 * sin, y_2 * cos - x_2 * sin
+    along, across = plane.along_guide(x, cos, y, sin), plane.across_guide(y, cos, x, sin)
     if link.turns:
-        rate, rate_1, square = link.angle_1, link.angle_2, link.angle_1 * link.angle_1
-        along_1, across_1 = along_1 + rate * across, across_1 - rate * along
-        along_2 = along_2 + 2 * rate * across_1 + rate_1 * across + square * along
-        across_2 = across_2 - 2 * rate * along_1 - rate_1 * along + square * across
+        rate, rate_1 = link.angle_1, link.angle_2
+        along_1 = plane.along_turning_1(x_1, cos, y_1, sin, rate, across)
+        across_1 = plane.across_turning_1(y_1, cos, x_1, sin, rate, along)
+        along_2 = plane.along_turning_2(x_2, cos, y_2, sin, rate, across_1, rate_1, across, along)
+        across_2 = plane.across_turning_2(y_2, cos, x_2, sin, rate, along_1, rate_1, along, across)
+    else:
+        along_1, across_1 = plane.along_guide(x_1, cos, y_1, sin), plane.across_guide(y_1, cos, x_1, sin)
+        along_2, across_2 = plane.along_guide(x_2, cos, y_2, sin), plane.across_guide(y_2, cos, x_2, sin)
     return PointMotion(Transfer(along, along_1, along_2), Transfer(across, across_1, across_2))
 
 
@@ -198,22 +321,26 @@ def point_on_guide(guide: LinkMotion, slide: Transfer) -> PointMotion:
     s, s_1, s_2 = slide
     cos, sin = guide.cos, guide.sin
     (x, x_1, x_2), (y, y_1, y_2) = guide.origin
+    place_x, place_y = plane.slid_x(x, cos, s), plane.slid_y(y, sin, s)
     if guide.stands:
-        return PointMotion(
-            Transfer(x + cos * s, cos * s_1, cos * s_2),
-            Transfer(y + sin * s, sin * s_1, sin * s_2),
-        )
+        return PointMotion(Transfer(place_x, cos * s_1, cos * s_2), Transfer(place_y, sin * s_1, sin * s_2))
     if not guide.turns:
         return PointMotion(
-            Transfer(x + cos * s, x_1 + cos * s_1, x_2 + cos * s_2),
-            Transfer(y + sin * s, y_1 + sin * s_1, y_2 + sin * s_2),
+            Transfer(place_x, plane.slid_x(x_1, cos, s_1), plane.slid_x(x_2, cos, s_2)),
+            Transfer(place_y, plane.slid_y(y_1, sin, s_1), plane.slid_y(y_2, sin, s_2)),
         )
-    across_1 = s * guide.angle_1
-    along_2 = s_2 - across_1 * guide.angle_1
-    across_2 = 2 * s_1 * guide.angle_1 + s * guide.angle_2
+    rate, rate_1 = guide.angle_1, guide.angle_2
     return PointMotion(
-        Transfer(x + cos * s, x_1 + cos * s_1 - sin * across_1, x_2 + cos * along_2 - sin * across_2),
-        Transfer(y + sin * s, y_1 + sin * s_1 + cos * across_1, y_2 + sin * along_2 + cos * across_2),
+        Transfer(
+            place_x,
+            plane.slid_x_1(x_1, cos, s_1, sin, s, rate),
+            plane.slid_x_2(x_2, cos, s_2, s, rate, sin, s_1, rate_1),
+        ),
+        Transfer(
+            place_y,
+            plane.slid_y_1(y_1, sin, s_1, cos, s, rate),
+            plane.slid_y_2(y_2, sin, s_2, s, rate, cos, s_1, rate_1),
+        ),
     )
 
 
@@ -223,7 +350,7 @@ class RRRMotion(NamedTuple):
     point: PointMotion
     link_a: LinkMotion
     link_b: LinkMotion
-    closure: Closure
+    closure: Closure | None
 
 
 def rrr_motion(dyad: RRR, a: PointMotion, b: PointMotion) -> RRRMotion:
@@ -252,32 +379,34 @@ def rrr_motion(dyad: RRR, a: PointMotion, b: PointMotion) -> RRRMotion:
     ----------
     artobolevsky_1988, ch. 4.
     """
-    p, q = dyad.length_a, dyad.length_b
+    p, q, name = dyad.length_a, dyad.length_b, dyad.point
     (ax, ax_1, ax_2), (ay, ay_1, ay_2) = a
     (bx, bx_1, bx_2), (by, by_1, by_2) = b
-    dx, dy = bx - ax, by - ay
-    square = dx * dx + dy * dy
-    area = ((p + q) ** 2 - square) * (square - (p - q) ** 2)
-    h = (0.5 * dyad.branch) * np.sqrt(area)
-    c, k = (0.5 * (p * p - q * q)) / square + 0.5, h / square
-    ux, uy = c * dx - k * dy, c * dy + k * dx
-    vx, vy = ux - dx, uy - dy
+    dx, dy = named(bx - ax, f"distance_x.{name}"), named(by - ay, f"distance_y.{name}")
+    square = named(joint_distance_square(dx, dy), f"joint_distance_square.{name}")
+    h = named(doubled_area(dyad.branch, p, q, square), f"doubled_area.{name}")
+    c, k = named(foot_ratio(p, q, square), f"foot_ratio.{name}"), named(h / square, f"height_ratio.{name}")
+    ux, uy = rrr_arm_x(c, dx, k, dy), rrr_arm_y(c, dy, k, dx)
+    ux, uy = named(ux, f"arm_x.{dyad.link_a}"), named(uy, f"arm_y.{dyad.link_a}")
+    vx, vy = named(ux - dx, f"arm_x.{dyad.link_b}"), named(uy - dy, f"arm_y.{dyad.link_b}")
 
-    inverse = 1 / h
-    ex, ey = bx_1 - ax_1, by_1 - ay_1
-    rate_a, rate_b = (ex * vx + ey * vy) * inverse, (ex * ux + ey * uy) * inverse
-    square_a, square_b = rate_a * rate_a, rate_b * rate_b
-    inward_x, inward_y = square_a * ux, square_a * uy
-    ex, ey = bx_2 - ax_2 + inward_x - square_b * vx, by_2 - ay_2 + inward_y - square_b * vy
-    rate_a_1, rate_b_1 = (ex * vx + ey * vy) * inverse, (ex * ux + ey * uy) * inverse
+    ex, ey = named(bx_1 - ax_1, f"distance_x_1.{name}"), named(by_1 - ay_1, f"distance_y_1.{name}")
+    rate_a, rate_b = rrr_rate(ex, vx, ey, vy, h), rrr_rate(ex, ux, ey, uy, h)
+    rate_a, rate_b = named(rate_a, f"link_angle_1.{dyad.link_a}"), named(rate_b, f"link_angle_1.{dyad.link_b}")
+    ex = named(closing_x(bx_2 - ax_2, rate_a, ux, rate_b, vx), f"closing_x.{name}")
+    ey = named(closing_x(by_2 - ay_2, rate_a, uy, rate_b, vy), f"closing_y.{name}")
+    rate_a_1, rate_b_1 = rrr_rate(ex, vx, ey, vy, h), rrr_rate(ex, ux, ey, uy, h)
+    rate_a_1, rate_b_1 = named(rate_a_1, f"link_angle_2.{dyad.link_a}"), named(rate_b_1, f"link_angle_2.{dyad.link_b}")
 
-    point = PointMotion(
-        Transfer(ax + ux, ax_1 - rate_a * uy, ax_2 - rate_a_1 * uy - inward_x),
-        Transfer(ay + uy, ay_1 + rate_a * ux, ay_2 + rate_a_1 * ux - inward_y),
-    )
-    link_a = LinkMotion(a, (1 / p) * ux, (1 / p) * uy, rate_a, rate_a_1)
-    link_b = LinkMotion(b, (1 / q) * vx, (1 / q) * vy, rate_b, rate_b_1)
-    return RRRMotion(point, link_a, link_b, Closure(area, (2 * p * q) ** 2, square))
+    link_a = LinkMotion(a, ux / p, uy / p, rate_a, rate_a_1)
+    link_b = LinkMotion(b, vx / q, vy / q, rate_b, rate_b_1)
+    return RRRMotion(carried(link_a, ux, uy), link_a, link_b, _rrr_closure(p, q, square))
+
+
+def _rrr_closure(p: float, q: float, square: Value) -> Closure | None:
+    if is_known(square):
+        return None
+    return Closure(((p + q) ** 2 - square) * (square - (p - q) ** 2), (2 * p * q) ** 2, square)
 
 
 class RRPMotion(NamedTuple):
@@ -287,7 +416,7 @@ class RRPMotion(NamedTuple):
     slide: Transfer
     link: LinkMotion
     piece: LinkMotion
-    closure: Closure
+    closure: Closure | None
 
 
 def rrp_motion(dyad: RRP, joint: PointMotion, guide: LinkMotion) -> RRPMotion:
@@ -317,18 +446,51 @@ def rrp_motion(dyad: RRP, joint: PointMotion, guide: LinkMotion) -> RRPMotion:
     ----------
     artobolevsky_1988, ch. 4.
     """
-    length = dyad.length
-    (along, along_1, along_2), (u, u_1, u_2) = seen_from(guide, joint)
-    square = (length - u) * (length + u)
-    h = dyad.branch * np.sqrt(square)
-    inverse = -1 / h
-    rate = u_1 * inverse
-    h_1 = rate * u
-    rate_1 = (u_2 + rate * h_1) * inverse
-    slide = Transfer(along + h, along_1 + h_1, along_2 + rate_1 * u + rate * u_1)
-    cos, sin = (1 / length) * guide.cos, (1 / length) * guide.sin
+    length, link_, piece = dyad.length, dyad.link, dyad.piece
+    (along, along_1, along_2), (u, u_1, u_2) = named_coordinates(seen_from(guide, joint), dyad.joint)
+    h = named(rrp_reach(dyad.branch, length, u), f"guide_reach.{piece}")
+    rate = named(rrp_rate(u_1, h), f"guide_rate.{link_}")
+    h_1 = named(rate * u, f"guide_reach_1.{piece}")
+    rate_1 = named(rrp_rate_1(u_2, rate, h_1, h), f"guide_rate_1.{link_}")
+    slide = named_slide(Transfer(along + h, along_1 + h_1, rrp_slide_2(along_2, rate_1, u, rate, u_1)), piece)
+    cos, sin = guide.cos, guide.sin
+    cos, sin = rrp_cosine(cos, h, sin, u, length), rrp_sine(sin, h, cos, u, length)
     if guide.turns:
         rate, rate_1 = rate + guide.angle_1, rate_1 + guide.angle_2
     point = point_on_guide(guide, slide)
-    link = LinkMotion(joint, cos * h + sin * u, sin * h - cos * u, rate, rate_1)
-    return RRPMotion(point, slide, link, guide._replace(origin=point), Closure(square, length**2, u))
+    link = LinkMotion(joint, cos, sin, rate, rate_1)
+    closure = None if is_known(u) else Closure((length - u) * (length + u), length**2, u)
+    return RRPMotion(point, slide, link, guide._replace(origin=point), closure)
+
+
+def named_coordinates(seen: PointMotion, name: str) -> PointMotion:
+    """Return coordinates along and across a guide under the name of their point."""
+    if not is_known(*seen.x):
+        return seen
+    sides = zip(("guide_along", "guide_across"), seen, strict=True)
+    return PointMotion(*(Transfer(*_ordered(side, key, name)) for key, side in sides))
+
+
+def named_slide(slide: Transfer, piece: str) -> Transfer:
+    """Return the distance of a sliding piece under its name."""
+    return Transfer(*_ordered(slide, "slider_displacement", piece)) if is_known(*slide) else slide
+
+
+def _ordered(transfer: Transfer, key: str, name: str) -> list[Any]:
+    return [named(one, f"{key}{order}.{name}") for one, order in zip(transfer, ("", "_1", "_2"), strict=True)]
+
+
+def named_point(point: PointMotion, name: str) -> PointMotion:
+    """Return the motion of a point under its name."""
+    if not is_known(*point.x, *point.y):
+        return point
+    x, y = (Transfer(*_ordered(side, f"point_{axis}", name)) for axis, side in zip("xy", point, strict=True))
+    return PointMotion(x, y)
+
+
+def named_link(link: LinkMotion, name: str) -> LinkMotion:
+    """Return a frame under the name of its link."""
+    if not is_known(*link[1:]):
+        return link
+    keys = ("link_cos", "link_sin", "link_angle_1", "link_angle_2")
+    return LinkMotion(link.origin, *(named(one, f"{key}.{name}") for key, one in zip(keys, link[1:], strict=True)))

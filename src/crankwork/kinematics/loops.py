@@ -23,7 +23,6 @@ from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide, Poin
 
 Positions = NDArray[np.intp]
 
-_FIELDS = ("degrees", "angle", "sin", "cos")
 _STEP = np.radians(6.0)
 _SMALLEST_STEP = 1e-4
 _LAST_STEP = 1e-8
@@ -48,7 +47,7 @@ class ChainMotion(NamedTuple):
     points: dict[str, PointMotion]
     links: dict[str, LinkMotion]
     sliders: dict[str, Transfer]
-    closure: Closure
+    closure: Closure | None
 
 
 class _Solution(NamedTuple):
@@ -98,25 +97,59 @@ def chain_motion(chain: Chain, grid: CrankGrid, around: Callable[[CrankGrid], Su
     ----------
     uicker_2011, on numerical loop closure.
     """
-    equations = _Equations(chain)
-    ahead, behind = (_knots(chain.start, float(end)) for end in (grid.angle.max(), grid.angle.min()))
-    knots = CrankGrid.from_radians([chain.start, *ahead, *behind])
-    every = CrankGrid(*(np.concatenate([getattr(one, name) for one in (knots, grid)]) for name in _FIELDS))
-    surroundings, size = around(every), len(knots)
-    start = _start(equations, surroundings)
-    walk = _Walk(equations, surroundings, around)
-    there = list(walk.along(start, knots.angle, np.arange(1, 1 + len(ahead))))
-    back = list(walk.along(start, knots.angle, np.arange(1 + len(ahead), size)))
-    path = _path([*back[::-1], (chain.start, start), *there], start)
-    nearest = np.clip(np.searchsorted(path.angle, grid.angle), 1, path.angle.size - 1)
-    nearest -= grid.angle - path.angle[nearest - 1] < path.angle[nearest] - grid.angle
-    step = (grid.angle - path.angle[nearest])[:, None]
-    guess = path.q[nearest] + step * (path.q_1[nearest] + 0.5 * step * path.q_2[nearest])
-    guess[np.abs(step[:, 0]) > 1.001 * _STEP] = np.nan
-    at = np.arange(size, size + len(grid))
-    q, _ = _newton(equations, guess, surroundings, at)
-    solution = _derivatives(equations, q, surroundings, at)
-    return _as_motion(equations, solution, path.determinant, surroundings, at)
+    return ChainPath(chain, grid, around).motion(grid)
+
+
+class ChainPath:
+    """Positions of a chain along the way of the crank, from the stated start; all others are solved from these.
+
+    Parameters
+    ----------
+    chain : Chain
+        The links and the stated start.
+    grid : CrankGrid, shape (n,)
+        Crank angles to be reached. [rad]
+    around : callable
+        What is placed before, as a function of the crank angles.
+    """
+
+    def __init__(self, chain: Chain, grid: CrankGrid, around: Callable[[CrankGrid], Surroundings]) -> None:
+        self._equations, self._around = _Equations(chain), around
+        self._reach = float(min(grid.angle.min(), chain.start)), float(max(grid.angle.max(), chain.start))
+        behind, ahead = (_knots(chain.start, end) for end in self._reach)
+        knots = CrankGrid.from_radians([chain.start, *ahead, *behind])
+        surroundings, size = around(knots), len(knots)
+        start = _start(self._equations, surroundings)
+        walk = _Walk(self._equations, surroundings, around)
+        there = list(walk.along(start, knots.angle, np.arange(1, 1 + len(ahead))))
+        back = list(walk.along(start, knots.angle, np.arange(1 + len(ahead), size)))
+        self._path = _path([*back[::-1], (chain.start, start), *there], start)
+
+    def covers(self, grid: CrankGrid) -> bool:
+        """Return whether crank angles lie within what has been followed."""
+        return bool(self._reach[0] <= grid.angle.min() and grid.angle.max() <= self._reach[1])
+
+    def _solved(self, grid: CrankGrid, surroundings: Surroundings) -> _Solution:
+        path = self._path
+        nearest = np.clip(np.searchsorted(path.angle, grid.angle), 1, path.angle.size - 1)
+        nearest -= grid.angle - path.angle[nearest - 1] < path.angle[nearest] - grid.angle
+        step = (grid.angle - path.angle[nearest])[:, None]
+        guess = path.q[nearest] + step * (path.q_1[nearest] + 0.5 * step * path.q_2[nearest])
+        guess[np.abs(step[:, 0]) > 1.001 * _STEP] = np.nan
+        at = np.arange(len(grid))
+        q, _ = _newton(self._equations, guess, surroundings, at)
+        return _derivatives(self._equations, q, surroundings, at)
+
+    def coordinates(self, grid: CrankGrid) -> Array:
+        """Return the coordinates of all links, then their derivatives, shape (9 links, n). [m], [rad]"""
+        found = self._solved(grid, self._around(grid))
+        return np.concatenate([found.q, found.q_1, found.q_2], axis=1).T
+
+    def motion(self, grid: CrankGrid) -> ChainMotion:
+        """Return points, frames and distances at crank angles."""
+        surroundings = self._around(grid)
+        solution, at = self._solved(grid, surroundings), np.arange(len(grid))
+        return _as_motion(self._equations, solution, self._path.determinant, surroundings, at)
 
 
 def _knots(start: float, end: float) -> Array:

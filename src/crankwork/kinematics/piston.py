@@ -5,18 +5,17 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
-
+from crankwork.formula.expression import Value
 from crankwork.kinematics import textbook
-from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.series import series_transfer
 from crankwork.kinematics.slider_crank import (
     RodSwing,
     SliderCrank,
     piston_displacement,
-    piston_displacement_offset,
     piston_transfer_1,
     piston_transfer_2,
+    rod_angle,
     rod_swing,
     rod_transfer_1,
     rod_transfer_2,
@@ -25,9 +24,6 @@ from crankwork.kinematics.transfer import Transfer
 from crankwork.mechanism.dyads import RRP
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.method import EXACT, Method
-
-# Step of the first look for the largest error; the second look is a hundred times finer. [deg]
-_COARSE = 0.25
 
 
 class PistonMotion(NamedTuple):
@@ -65,23 +61,55 @@ def piston_motion(slider_crank: SliderCrank, grid: CrankGrid, method: Method = E
     ----------
     kolchin_demidov_2008, ch. 6.
     """
-    swing = rod_swing(slider_crank, grid)
-    angle = np.arctan2(swing.sin, swing.cos)
     lam = slider_crank.rod_ratio
+    swing = rod_swing(slider_crank, grid, lam)
+    angle = rod_angle(swing.sin, swing.cos)
+    piston = piston_transfer(slider_crank, grid, method, swing, lam)
     if method.kinematics == "textbook":
-        piston = textbook_piston(slider_crank, grid)
         rod_1 = textbook.textbook_rod_transfer_1(lam, grid.cos)
         rod_2 = textbook.textbook_rod_transfer_2(lam, grid.sin)
         return PistonMotion(piston, Transfer(angle, rod_1, rod_2), swing)
     rod_1 = rod_transfer_1(lam, grid.cos, swing.cos)
     rod_2 = rod_transfer_2(rod_1, lam, grid.sin, swing.sin, swing.cos)
-    rod = Transfer(angle, rod_1, rod_2)
+    return PistonMotion(piston, Transfer(angle, rod_1, rod_2), swing)
+
+
+def piston_transfer(
+    slider_crank: SliderCrank, grid: CrankGrid, method: Method, swing: RodSwing | None = None, lam: Value = None
+) -> Transfer:
+    """Return the motion of the piston by the method asked for.
+
+    Parameters
+    ----------
+    slider_crank : SliderCrank
+        The dimensions.
+    grid : CrankGrid, shape (n,)
+        Crank angles. [rad]
+    method : Method
+        Exact, series or textbook.
+    swing : RodSwing, optional
+        Functions of the rod angle there, where they are known already.
+    lam : array, optional
+        Its rod ratio, where that is known already. [-]
+
+    Returns
+    -------
+    Transfer of array, shape (n,)
+        x, dx/dphi, d2x/dphi2. [m]
+
+    References
+    ----------
+    kolchin_demidov_2008, ch. 6.
+    """
+    lam = slider_crank.rod_ratio if lam is None else lam
+    if method.kinematics == "textbook":
+        return textbook_piston(slider_crank, grid, lam)
     if method.kinematics == "series":
-        return PistonMotion(Transfer(*series_transfer(slider_crank, grid, method.order)), rod, swing)
-    return PistonMotion(exact_piston(slider_crank, grid, swing), rod, swing)
+        return series_transfer(slider_crank, grid, method.order)
+    return exact_piston(slider_crank, grid, rod_swing(slider_crank, grid, lam) if swing is None else swing, lam)
 
 
-def exact_piston(slider_crank: SliderCrank, grid: CrankGrid, swing: RodSwing) -> Transfer:
+def exact_piston(slider_crank: SliderCrank, grid: CrankGrid, swing: RodSwing, lam: Value = None) -> Transfer:
     """Return the closed-form displacement of the piston and its derivatives.
 
     Parameters
@@ -92,6 +120,8 @@ def exact_piston(slider_crank: SliderCrank, grid: CrankGrid, swing: RodSwing) ->
         Crank angles. [rad]
     swing : RodSwing
         Functions of the rod angle there.
+    lam : array, optional
+        Its rod ratio, where that is known already. [-]
 
     Returns
     -------
@@ -103,19 +133,14 @@ def exact_piston(slider_crank: SliderCrank, grid: CrankGrid, swing: RodSwing) ->
     kolchin_demidov_2008, ch. 6.
     """
     r, l, e = slider_crank  # noqa: E741
-    lam = slider_crank.rod_ratio
-    if np.all(np.equal(e, 0)):
-        x = piston_displacement(r, lam, grid.sin, grid.cos, swing.cos)
-    else:
-        x = piston_displacement_offset(r, l, e, grid.cos, swing.cos)
     return Transfer(
-        x,
+        piston_displacement(r, grid.cos, l, swing.sin, swing.cos, e),
         piston_transfer_1(r, swing.sin_sum, swing.cos),
-        piston_transfer_2(r, lam, grid.cos, swing.cos_sum, swing.cos),
+        piston_transfer_2(r, slider_crank.rod_ratio if lam is None else lam, grid.cos, swing.cos_sum, swing.cos),
     )
 
 
-def textbook_piston(slider_crank: SliderCrank, grid: CrankGrid) -> Transfer:
+def textbook_piston(slider_crank: SliderCrank, grid: CrankGrid, lam: Value = None) -> Transfer:
     """Return the two-term displacement of the piston and its derivatives.
 
     Parameters
@@ -124,6 +149,8 @@ def textbook_piston(slider_crank: SliderCrank, grid: CrankGrid) -> Transfer:
         The dimensions.
     grid : CrankGrid, shape (n,)
         Crank angles. [rad]
+    lam : array, optional
+        Its rod ratio, where that is known already. [-]
 
     Returns
     -------
@@ -135,16 +162,11 @@ def textbook_piston(slider_crank: SliderCrank, grid: CrankGrid) -> Transfer:
     kolchin_demidov_2008, ch. 6.
     """
     r, _, e = slider_crank
-    lam = slider_crank.rod_ratio
-    x = textbook.textbook_displacement(r, lam, grid.cos, grid.cos_2)
-    x_1 = textbook.textbook_transfer_1(r, lam, grid.sin, grid.sin_2)
-    x_2 = textbook.textbook_transfer_2(r, lam, grid.cos, grid.cos_2)
-    if np.all(np.equal(e, 0)):
-        return Transfer(x, x_1, x_2)
+    lam = slider_crank.rod_ratio if lam is None else lam
     return Transfer(
-        x + textbook.textbook_displacement_offset(lam, e, grid.sin),
-        x_1 + textbook.textbook_transfer_1_offset(lam, e, grid.cos),
-        x_2 + textbook.textbook_transfer_2_offset(lam, e, grid.sin),
+        textbook.textbook_displacement(r, grid.cos, lam, grid.cos_2, e, grid.sin),
+        textbook.textbook_transfer_1(r, grid.sin, lam, grid.sin_2, e, grid.cos),
+        textbook.textbook_transfer_2(r, grid.cos, lam, grid.cos_2, e, grid.sin),
     )
 
 
@@ -179,37 +201,3 @@ def only_rod(mechanism: Mechanism) -> RRP | None:
         case (RRP(guide_link="") as rod,):
             return rod
     return None
-
-
-def largest_error(slider_crank: SliderCrank, method: Method, *, unsteadiness: float = 0.0) -> tuple[float, ...]:
-    """Return the largest error of a method against exact over one revolution.
-
-    Parameters
-    ----------
-    slider_crank : SliderCrank
-        The dimensions.
-    method : Method
-        Series or textbook; exact gives zeros.
-    unsteadiness : float
-        Angular acceleration over the square of the angular speed. [-]
-
-    Returns
-    -------
-    tuple of float
-        Largest absolute errors of x, of dx/dphi and of d2x/dphi2 + unsteadiness dx/dphi. [m]
-    """
-
-    def errors(degrees: Array) -> tuple[Array, ...]:
-        grid = CrankGrid.from_degrees(degrees)
-        exact = piston_motion(slider_crank, grid).piston
-        approximate = piston_motion(slider_crank, grid, method).piston
-        x, x_1, x_2 = (np.abs(one - other) for one, other in zip(approximate, exact, strict=True))
-        if not unsteadiness:
-            return x, x_1, x_2
-        both = approximate.position_2 - exact.position_2 + unsteadiness * (approximate.position_1 - exact.position_1)
-        return x, x_1, np.abs(both)
-
-    coarse = np.arange(0.0, 360.0, _COARSE)
-    tops = [coarse[int(np.argmax(one))] for one in errors(coarse)]
-    near = [errors(top + np.linspace(-_COARSE, _COARSE, 201))[i] for i, top in enumerate(tops)]
-    return tuple(float(np.max(one)) for one in near)

@@ -9,8 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.errors import GeometryError
+from crankwork.formula.known import Root
 from crankwork.kinematics.assembly import refusal, singular_between, unassembled
-from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.chain_memory import remembered_chain
+from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dyads import (
     Closure,
     LinkMotion,
@@ -18,12 +20,15 @@ from crankwork.kinematics.dyads import (
     fixed_guide,
     fixed_point,
     guide_on_link,
+    is_nothing,
+    named_link,
+    named_point,
     pin_on_crank,
     point_on_link,
     rrp_motion,
     rrr_motion,
 )
-from crankwork.kinematics.loops import chain_motion
+from crankwork.kinematics.loops import ChainPath
 from crankwork.kinematics.sliding_dyads import prp_motion, rpp_motion, rpr_motion
 from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.mechanism.chain import Chain
@@ -33,20 +38,26 @@ from crankwork.mechanism.mechanism import Mechanism
 
 @dataclass
 class Placed:
-    """What has been placed so far: points, frames of links, distances of sliders, and how well groups closed."""
+    """What has been placed so far: points, frames of links, distances of sliders, and how well groups closed.
+
+    Where all these are remembered, `plain` is the same mechanism in numbers.
+    """
 
     grid: CrankGrid
     points: dict[str, PointMotion] = field(default_factory=dict)
     links: dict[str, LinkMotion] = field(default_factory=dict)
     sliders: dict[str, Transfer] = field(default_factory=dict)
     closures: list[Closure] = field(default_factory=list)
+    plain: Mechanism | None = None
 
-    def guide(self, guide: Guide) -> LinkMotion:
-        """Return the motion of a guide."""
-        return guide_on_link(self.links[guide.link], guide) if guide.link else fixed_guide(guide)
+    def guide(self, guide: Guide, piece: str = "chain") -> LinkMotion:
+        """Return the motion of a guide, under the name of what slides on it."""
+        line = guide_on_link(self.links[guide.link], guide) if guide.link else fixed_guide(guide)
+        line = named_link(line, f"{piece}_guide")
+        return line._replace(origin=named_point(line.origin, f"{piece}_guide"))
 
 
-def place(mechanism: Mechanism, grid: CrankGrid) -> Placed:
+def place(mechanism: Mechanism, grid: CrankGrid, *, plain: Mechanism | None = None) -> Placed:
     """Return where everything is, without asking whether it can be assembled.
 
     Parameters
@@ -55,6 +66,8 @@ def place(mechanism: Mechanism, grid: CrankGrid) -> Placed:
         A crank and groups.
     grid : CrankGrid, shape (n,)
         Crank angles. [rad]
+    plain : Mechanism, optional
+        The same in numbers, where lengths and crank angle are knowns.
 
     Returns
     -------
@@ -68,32 +81,43 @@ def place(mechanism: Mechanism, grid: CrankGrid) -> Placed:
     """
     crank = mechanism.crank
     arm = crank_motion(crank, grid)
-    placed = Placed(grid)
+    placed = Placed(grid, plain=plain)
     placed.points.update({name: fixed_point(point) for name, point in mechanism.ground.items()})
-    placed.points[crank.pin] = pin_on_crank(crank, arm)
-    placed.links[crank.link] = arm
+    placed.points[crank.pin] = named_point(pin_on_crank(crank, arm), crank.pin)
+    placed.links[crank.link] = arm if is_nothing(crank.start) else named_link(arm, crank.link)
     _place_link_points(mechanism, placed, {crank.link})
     with np.errstate(invalid="ignore", divide="ignore"):
         for index, group in enumerate(mechanism.dyads):
-            before = set(placed.links)
+            before, standing = set(placed.links), set(placed.points)
             try:
-                placed.closures.append(_place_group(mechanism, index, placed))
+                closure = _place_group(mechanism, index, placed)
             except KeyError as missing:
                 raise GeometryError(
                     f"{_title(group)} rests on {missing}, which neither the ground nor the crank nor an earlier group "
                     f"places; put it after the one that does"
                 ) from None
+            if closure is not None:
+                placed.closures.append(closure)
+            _name(placed, placed.links.keys() - before, placed.points.keys() - standing)
             _place_link_points(mechanism, placed, placed.links.keys() - before)
     return placed
+
+
+def _name(placed: Placed, links: set[str], points: set[str]) -> None:
+    """Give what is remembered of links and points its name."""
+    if placed.plain is not None:
+        placed.links.update({name: named_link(placed.links[name], name) for name in links})
+        placed.points.update({name: named_point(placed.points[name], name) for name in points})
 
 
 def _place_link_points(mechanism: Mechanism, placed: Placed, links: set[str]) -> None:
     for point in mechanism.points:
         if point.link in links:
-            placed.points[point.name] = point_on_link(placed.links[point.link], point.along, point.across)
+            moved = point_on_link(placed.links[point.link], point.along, point.across, point.name)
+            placed.points[point.name] = named_point(moved, point.name)
 
 
-def _place_group(mechanism: Mechanism, index: int, placed: Placed) -> Closure:
+def _place_group(mechanism: Mechanism, index: int, placed: Placed) -> Closure | None:
     """Add the points, links and sliders of one group."""
     points, links, sliders = placed.points, placed.links, placed.sliders
     match mechanism.dyads[index]:
@@ -102,7 +126,7 @@ def _place_group(mechanism: Mechanism, index: int, placed: Placed) -> Closure:
             points[dyad.point], links[dyad.link_a], links[dyad.link_b] = rrr.point, rrr.link_a, rrr.link_b
             return rrr.closure
         case RRP() as dyad:
-            rrp = rrp_motion(dyad, points[dyad.joint], placed.guide(dyad.guide))
+            rrp = rrp_motion(dyad, points[dyad.joint], placed.guide(dyad.guide, dyad.piece))
             points[dyad.slider], sliders[dyad.piece] = rrp.point, rrp.slide
             links[dyad.link], links[dyad.piece] = rrp.link, rrp.piece
             return rrp.closure
@@ -111,22 +135,55 @@ def _place_group(mechanism: Mechanism, index: int, placed: Placed) -> Closure:
             links[dyad.link], links[dyad.block], sliders[dyad.block] = rpr.link, rpr.block, rpr.slide
             return rpr.closure
         case PRP() as dyad:
-            prp = prp_motion(placed.guide(dyad.guide_a), placed.guide(dyad.guide_b))
+            prp = prp_motion(dyad, placed.guide(dyad.guide_a, dyad.block_a), placed.guide(dyad.guide_b, dyad.block_b))
             points[dyad.point], links[dyad.block_a], links[dyad.block_b] = prp.point, prp.block_a, prp.block_b
             sliders[dyad.block_a], sliders[dyad.block_b] = prp.slide_a, prp.slide_b
             return prp.closure
         case RPP() as dyad:
-            rpp = rpp_motion(dyad, points[dyad.joint], placed.guide(dyad.guide))
+            rpp = rpp_motion(dyad, points[dyad.joint], placed.guide(dyad.guide, dyad.link))
             links[dyad.link], links[dyad.block] = rpp.link, rpp.block
             sliders[dyad.link], sliders[dyad.block] = rpp.slide, rpp.block_slide
             return rpp.closure
         case chain:
-            earlier = replace(mechanism, dyads=mechanism.dyads[:index])
-            solved = chain_motion(chain, placed.grid, lambda grid: place(earlier, grid))
+            if placed.plain is None:
+                root = ChainRoot(mechanism, index)
+                solved = ChainPath(chain, placed.grid, root.around).motion(placed.grid)
+            else:
+                solved = remembered_chain(chain, placed, Root(ChainRoot(placed.plain, index)))
             points.update(solved.points)
             links.update(solved.links)
             sliders.update(solved.sliders)
             return solved.closure
+
+
+class ChainRoot:
+    """The coordinates of the links of one chain of a mechanism, its way along the crank solved once.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        Whose chain it is.
+    index : int
+        Number of the group.
+    """
+
+    def __init__(self, mechanism: Mechanism, index: int) -> None:
+        self._earlier = replace(mechanism, dyads=mechanism.dyads[:index])
+        chain = mechanism.dyads[index]
+        if not isinstance(chain, Chain):
+            raise TypeError(f"group {index} is no chain")
+        self._chain = chain
+        self._path: ChainPath | None = None
+
+    def around(self, grid: CrankGrid) -> Placed:
+        """Return what the chain hangs on."""
+        return place(self._earlier, grid)
+
+    def __call__(self, grid: CrankGrid) -> Array:
+        """Return coordinates, first and second transfer functions, shape (9 links, n). [m], [rad]"""
+        if self._path is None or not self._path.covers(grid):
+            self._path = ChainPath(self._chain, grid, self.around)
+        return self._path.coordinates(grid)
 
 
 def assembled(mechanism: Mechanism, grid: CrankGrid) -> Placed:

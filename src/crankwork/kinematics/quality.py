@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Literal, NamedTuple
 
@@ -12,14 +13,17 @@ from numpy.typing import NDArray
 from crankwork.errors import GeometryError
 from crankwork.kinematics.assembly import unassembled
 from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.extremes import closed_in
 from crankwork.kinematics.motion import direction
 from crankwork.kinematics.placement import Placed, assembled, place
 from crankwork.kinematics.transfer import Transfer
-from crankwork.mechanism.dyads import RPR, RRP, RRR
+from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.dyads import RPR, RRP, RRR, Dyad
 from crankwork.mechanism.mechanism import Mechanism
 
 FourBarType = Literal["crank-rocker", "double crank", "double rocker", "rocker-crank", "triple rocker", "change point"]
 _SCAN = 1440
+_ZOOMS = 8
 
 
 class Grashof(NamedTuple):
@@ -88,15 +92,49 @@ def limits(mechanism: Mechanism, output: str) -> Limits:
     GeometryError
         If the mechanism cannot be assembled at some angle.
     """
+    return limits_of_all(mechanism, [output])[0]
+
+
+def limits_of_all(mechanism: Mechanism, outputs: Sequence[str]) -> list[Limits]:
+    """Return the dead positions of several outputs, found together.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A mechanism whose crank turns fully.
+    outputs : sequence of str
+        Names of sliding pieces or links.
+    """
     grid = CrankGrid.from_degrees(np.linspace(0.0, 360.0, _SCAN + 1))
-    coarse = _output(assembled(mechanism, grid), output)
-    degrees = _zeros(mechanism, output, grid.degrees, coarse.position_1)
+    scanned = assembled(mechanism, grid)
+    coarse = [_output(scanned, one) for one in outputs]
+    rates = np.stack([one.position_1 for one in coarse])
+    which, left = np.nonzero(np.sign(rates[:, :-1]) * np.sign(rates[:, 1:]) < 0)
+
+    def rate(degrees: Array) -> Array:
+        different, where = np.unique(degrees, return_inverse=True)
+        there = place(mechanism, CrankGrid.from_degrees(different))
+        return np.stack([_output(there, one).position_1 for one in outputs])[which, where]
+
+    found = np.empty(0)
+    if left.size:
+        found = closed_in(rate, grid.degrees[left], grid.degrees[left + 1], rates[which, left], rates[which, left + 1])
+    zeros = [np.concatenate([grid.degrees[:-1][rates[at, :-1] == 0], found[which == at]]) for at in range(len(outputs))]
+    every = np.unique(np.concatenate(zeros))
+    placed = place(mechanism, CrankGrid.from_degrees(every)) if every.size else scanned
+    return [
+        _limits(np.sort(at), one, placed, every, known) for at, one, known in zip(zeros, outputs, coarse, strict=True)
+    ]
+
+
+def _limits(degrees: Array, output: str, placed: Placed, every: Array, coarse: Transfer) -> Limits:
+    """Return the dead positions of an output at some of the angles at which a mechanism is placed."""
     if not degrees.size:
         return Limits(degrees, degrees, abs(float(coarse.position[-1] - coarse.position[0])))
-    placed = place(mechanism, CrankGrid.from_degrees(degrees))
-    found = _output(placed, output).position
+    found = _output(placed, output).position[np.searchsorted(every, degrees)]
     if output not in placed.sliders:
-        found = found + math.tau * np.rint((np.interp(degrees, grid.degrees, coarse.position) - found) / math.tau)
+        scanned = np.interp(degrees, np.linspace(0.0, 360.0, _SCAN + 1), coarse.position)
+        found = found + math.tau * np.rint((scanned - found) / math.tau)
     return Limits(degrees, found, float(np.ptp(found)))
 
 
@@ -106,19 +144,6 @@ def _output(placed: Placed, output: str) -> Transfer:
     if output in placed.links:
         return direction(placed.grid, placed.links[output])
     raise GeometryError(f"{output} is not an output; there is {', '.join([*placed.sliders, *placed.links])}")
-
-
-def _zeros(mechanism: Mechanism, output: str, degrees: Array, value: Array) -> Array:
-    """Return where the first transfer function changes its sign, by halving."""
-    sign = np.sign(value)
-    exact = degrees[:-1][sign[:-1] == 0]
-    left = np.flatnonzero(sign[:-1] * sign[1:] < 0)
-    low, high, below = degrees[left], degrees[left + 1], sign[left]
-    for _ in range(50 if left.size else 0):
-        middle = (low + high) / 2
-        same = np.sign(_output(place(mechanism, CrankGrid.from_degrees(middle)), output).position_1) == below
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
-    return np.sort(np.concatenate([exact, (low + high) / 2]))
 
 
 def time_ratio(mechanism: Mechanism, output: str) -> float:
@@ -150,6 +175,11 @@ def time_ratio(mechanism: Mechanism, output: str) -> float:
         raise GeometryError(
             f"{output} has {found.degrees.size} dead positions in a turn of the crank; a time ratio needs two"
         )
+    return stroke_ratio(found)
+
+
+def stroke_ratio(found: Limits) -> float:
+    """Return the time of the slower stroke over that of the faster one, between two dead positions. [-]"""
     way = float(found.degrees[1] - found.degrees[0])
     return max(way, 360.0 - way) / min(way, 360.0 - way)
 
@@ -176,20 +206,24 @@ def transmission_angle(mechanism: Mechanism, group: int, grid: CrankGrid) -> Arr
     ----------
     norton_2012, ch. 2, 4.
     """
-    placed = assembled(mechanism, grid)
-    match mechanism.dyads[group]:
-        case RRR() as dyad:
+    return np.degrees(_transmission(mechanism.dyads[group], assembled(mechanism, grid)))
+
+
+def _transmission(dyad: Dyad | Chain, placed: Placed) -> Array:
+    """Return the transmission angle of a placed dyad. [rad]"""
+    match dyad:
+        case RRR():
             one, other = placed.links[dyad.link_a], placed.links[dyad.link_b]
-        case RRP() as dyad:
+        case RRP():
             one, other = placed.links[dyad.link], placed.links[dyad.piece]
         case RPR():
-            return np.full(grid.angle.shape, 90.0)
+            return np.full(placed.grid.angle.shape, math.pi / 2)
         case _:
             raise GeometryError("a transmission angle is defined for RRR, RRP and RPR dyads; ask for another group")
     sine, cosine = one.cos * other.sin - one.sin * other.cos, one.cos * other.cos + one.sin * other.sin
-    if isinstance(dyad, RRR):
-        return np.degrees(np.arctan2(np.abs(sine), cosine))
-    return np.degrees(np.arctan2(np.abs(cosine), np.abs(sine)))
+    found = np.arctan2(np.abs(sine), cosine) if isinstance(dyad, RRR) else np.arctan2(np.abs(cosine), np.abs(sine))
+    # links between points that do not move have one angle only
+    return np.broadcast_to(found, placed.grid.angle.shape)
 
 
 def pressure_angle(mechanism: Mechanism, group: int, grid: CrankGrid) -> Array:
@@ -221,30 +255,38 @@ class Extremes(NamedTuple):
     greatest_at: float
 
 
-def transmission_extremes(mechanism: Mechanism, group: int) -> Extremes:
-    """Return the least and greatest transmission angle over a turn of the crank.
+def transmission_extremes(mechanism: Mechanism, groups: Sequence[int]) -> list[Extremes]:
+    """Return the least and greatest transmission angles over a turn of the crank.
 
     Parameters
     ----------
     mechanism : Mechanism
         A mechanism whose crank turns fully.
-    group : int
-        Number of the dyad, from 0.
+    groups : sequence of int
+        Numbers of the dyads, from 0.
+
+    Notes
+    -----
+    What surrounds the least and greatest angles of a scan is looked at ever closer, of all dyads at once: to place the
+    mechanism for each of them would take a time that grows with the square of their number.
     """
+    dyads, sign = [mechanism.dyads[one] for one in groups], np.array([[1.0], [-1.0]])
 
-    def value(degrees: Array) -> Array:
-        return transmission_angle(mechanism, group, CrankGrid.from_degrees(degrees))
+    def values(placed: Placed) -> Array:
+        return np.stack([np.degrees(_transmission(one, placed)) for one in dyads])
 
-    ends = []
-    for sign in (1, -1):
-        low, high = 0.0, 360.0
-        for _ in range(6):
-            degrees = np.linspace(low, high, 361)
-            at = int(np.argmin(sign * value(degrees)))
-            step = degrees[1] - degrees[0]
-            low, high = degrees[at] - step, degrees[at] + step
-        ends += [float(value(np.array([degrees[at]]))[0]), float(degrees[at]) % 360.0]
-    return Extremes(*ends)
+    scanned = assembled(mechanism, CrankGrid.from_degrees(np.linspace(0.0, 360.0, _SCAN + 1)))
+    at = scanned.grid.degrees[np.argmin(sign[..., None] * values(scanned), axis=-1)]
+    width, best = 360.0 / _SCAN, np.zeros_like(at)
+    for _ in range(_ZOOMS):
+        windows = at[..., None] + width * np.linspace(-1.0, 1.0, 9)
+        degrees, where = np.unique(windows, return_inverse=True)
+        found = values(place(mechanism, CrankGrid.from_degrees(degrees)))
+        inside = np.take_along_axis(found[None], where.reshape(2, len(dyads), -1), axis=-1)
+        closest = np.argmin(sign[..., None] * inside, axis=-1)[..., None]
+        at, best = (np.take_along_axis(one, closest, axis=-1)[..., 0] for one in (windows, inside))
+        width /= 4
+    return [Extremes(*map(float, one)) for one in zip(best[0], at[0] % 360.0, best[1], at[1] % 360.0, strict=True)]
 
 
 class CrankRange(NamedTuple):

@@ -10,12 +10,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array, CrankGrid, cos_multiple, sin_multiple
+from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import Found, Known, absent, added, is_known, plain
+from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank, piston_transfer_2, rod_swing
+from crankwork.kinematics.transfer import Transfer
 
 # Above this ratio the closed form needs too many terms.
 _CLOSED_FORM_RATIO = 0.999
 _MAX_SAMPLES = 2**18
+_KEYS = ("piston_displacement", "piston_transfer_1", "piston_transfer_2")
 
 
 def acceleration_harmonic(rod_ratio: float, order: int) -> float:
@@ -127,7 +131,49 @@ def _samples(slider_crank: SliderCrank, order: int) -> int:
     return int(min(_MAX_SAMPLES, 2 ** np.ceil(np.log2(max(wanted, 256)))))
 
 
-def series_transfer(slider_crank: SliderCrank, grid: CrankGrid, order: int) -> tuple[Array, Array, Array]:
+@formula("piston_displacement", "taylor_1985, vol. 2, ch. 8")
+def series_displacement_term(  # noqa: PLR0913 - two coefficients and two angles
+    a_k: Value, cos_kphi_0: Value, b_k: Value, sin_kphi_0: Value, cos_kphi: Value, sin_kphi: Value, k_h: Value
+) -> Value:
+    """One order of the displacement, from the angle where it is to be zero."""
+    return (a_k * cos_kphi_0 + b_k * sin_kphi_0 - (a_k * cos_kphi + b_k * sin_kphi)) / k_h**2
+
+
+@formula("piston_transfer_1", "taylor_1985, vol. 2, ch. 8")
+def series_transfer_1_term(a_k: Value, sin_kphi: Value, b_k: Value, cos_kphi: Value, k_h: Value) -> Value:
+    """One order of dx/dphi."""
+    return (a_k * sin_kphi - b_k * cos_kphi) / k_h
+
+
+@formula("piston_transfer_2", "taylor_1985, vol. 2, ch. 8")
+def series_transfer_2_term(a_k: Value, cos_kphi: Value, b_k: Value, sin_kphi: Value) -> Value:
+    """One order of d2x/dphi2."""
+    return a_k * cos_kphi + b_k * sin_kphi
+
+
+def order_terms(grid: CrankGrid, order: int, a_k: Value, b_k: Value, start: tuple[Value, Value]) -> Transfer:
+    """Return one order of displacement, dx/dphi and d2x/dphi2.
+
+    Parameters
+    ----------
+    grid : CrankGrid, shape (n,)
+        Crank angles. [rad]
+    order : int
+        The order.
+    a_k, b_k : float
+        Cosine and sine coefficient of d2x/dphi2. [m]
+    start : tuple of float
+        Cosine and sine of order times the crank angle where the displacement is to be zero. [-]
+    """
+    sin, cos = grid.multiple(order).sin, grid.multiple(order).cos
+    return Transfer(
+        series_displacement_term(a_k, start[0], b_k, start[1], cos, sin, float(order)),
+        series_transfer_1_term(a_k, sin, b_k, cos, float(order)),
+        series_transfer_2_term(a_k, cos, b_k, sin),
+    )
+
+
+def series_transfer(slider_crank: SliderCrank, grid: CrankGrid, order: int) -> Transfer:
     """Return displacement, dx/dphi and d2x/dphi2 as sums of the orders 1 to `order`.
 
     Parameters
@@ -141,22 +187,49 @@ def series_transfer(slider_crank: SliderCrank, grid: CrankGrid, order: int) -> t
 
     Returns
     -------
-    tuple of array, shape (n,)
+    Transfer of array, shape (n,)
         x, x', x''; the displacement is zero at the top dead centre of the mechanism. [m]
 
     References
     ----------
     taylor_1985, vol. 2, ch. 8.
     """
-    harmonics = acceleration_harmonics(slider_crank, order)
-    dead_centre = slider_crank.top_dead_centre
-    x, x_1, x_2 = np.zeros((3, *grid.angle.shape))
-    for k, (c, s) in enumerate(zip(*harmonics, strict=True), start=1):
+    lengths = SliderCrank(*map(plain, slider_crank))
+    dead_centre, remembers = lengths.top_dead_centre, is_known(*slider_crank)
+    terms: list[tuple[int, Transfer]] = []
+    for k, (c, s) in enumerate(zip(*acceleration_harmonics(lengths, order), strict=True), start=1):
         if c == 0 and s == 0:
             continue
-        cos, sin = cos_multiple(grid, k), sin_multiple(grid, k)
-        at_top = c * np.cos(k * dead_centre) + s * np.sin(k * dead_centre)
-        x += (at_top - (c * cos + s * sin)) / k**2
-        x_1 += (c * sin - s * cos) / k
-        x_2 += c * cos + s * sin
-    return x, x_1, x_2
+        at_top = (float(np.cos(k * dead_centre)), float(np.sin(k * dead_centre)))
+        taken = remembered_order(slider_crank, float(c), float(s), at_top) if remembers else (c, s, at_top)
+        terms.append((k, order_terms(grid, k, *taken)))
+    sums = (_sum(key, [(k, term[i]) for k, term in terms]) for i, key in enumerate(_KEYS))
+    return Transfer(*sums)
+
+
+def remembered_order(
+    slider_crank: SliderCrank, a_k: float, b_k: float, start: tuple[float, float]
+) -> tuple[Known, Known, tuple[Known, Known]]:
+    """Return the coefficients of one order as knowns; of a central mechanism those of the sines are absent.
+
+    Parameters
+    ----------
+    slider_crank : SliderCrank of Known
+        The dimensions.
+    a_k, b_k : float
+        Cosine and sine coefficient of d2x/dphi2. [m]
+    start : tuple of float
+        Cosine and sine of order times the crank angle where the displacement is to be zero. [-]
+    """
+    first = Known(Found(a_k, "harmonic", slider_crank))
+    if b_k == 0 and start == (1.0, 0.0):
+        return first, absent(""), (absent("", 1.0), absent(""))
+    return (
+        first,
+        Known(Found(b_k, "harmonic", slider_crank)),
+        (Known(Found(start[0], "dead_centre", slider_crank)), Known(Found(start[1], "dead_centre", slider_crank))),
+    )
+
+
+def _sum(key: str, terms: list[tuple[int, Value]]) -> Value:
+    return added(key, [one.named(f"{key}.order_{k}") if isinstance(one, Known) else one for k, one in terms])

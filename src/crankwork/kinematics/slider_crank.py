@@ -12,96 +12,84 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.errors import GeometryError
-from crankwork.expressions import Value, formula
-from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import called
+from crankwork.kinematics.crank_grid import CrankGrid
 
 
-@formula("rod_angle", "kolchin_demidov_2008, ch. 6")
-def rod_angle_sine(lam: Value, r: Value, e: Value, sin_phi: Value) -> Value:
-    """Sine of the rod angle.
+@formula("rod_ratio", "kolchin_demidov_2008, ch. 6")
+def rod_ratio(r: Value, l: Value) -> Value:  # noqa: E741 - l is the rod length of the subject
+    """Crank radius over rod length."""
+    return r / l
 
-    Parameters
-    ----------
-    lam, r, e, sin_phi : array
-        Crank-to-rod ratio, crank radius, offset, sine of the crank angle. [-], [m], [m], [-]
 
-    Returns
-    -------
-    array
-        sin(beta). [-]
-    """
+@formula("rod_sine", "kolchin_demidov_2008, ch. 6")
+def rod_sine(lam: Value, sin_phi: Value, e: Value, r: Value) -> Value:
+    """Sine of the rod angle."""
     return lam * (sin_phi - e / r)
 
 
-@formula("piston_displacement", "kolchin_demidov_2008, ch. 6")
-def piston_displacement(r: Value, lam: Value, sin_phi: Value, cos_phi: Value, cos_beta: Value) -> Value:
-    """Piston displacement of a central slider-crank.
+def _printed_rod_cosine(sin_beta: Value) -> Value:
+    return np.sqrt(1 - sin_beta**2)
 
-    Parameters
-    ----------
-    r, lam, sin_phi, cos_phi, cos_beta : array
-        Crank radius, crank-to-rod ratio, functions of the crank and rod angles. [m], [-], [-], [-], [-]
 
-    Returns
-    -------
-    array
-        Displacement from top dead centre. [m]
+@formula("rod_cosine", "kolchin_demidov_2008, ch. 6", printed=_printed_rod_cosine)
+def rod_cosine(sin_beta: Value, r: Value, l: Value, e: Value, less_sin_phi: Value, more_sin_phi: Value) -> Value:  # noqa: ARG001, E741 - the sine is what books print it from
+    """Cosine of the rod angle.
 
     Notes
     -----
-    R (1 - cos phi) + L (1 - cos beta) with 1 - cos beta = sin^2 beta / (1 + cos beta), which keeps
-    all digits as the ratio goes to zero.
+    cos^2 = (1 - sin)(1 + sin), each factor as what is left of the rod length beside crank and offset
+    plus r (1 -+ sin phi). Neither cancels when the rod is hardly longer than crank and offset.
     """
-    return r * (1 - cos_phi + lam * sin_phi**2 / (1 + cos_beta))
+    spare = l - r
+    lost = (l - spare) - r
+    return np.sqrt((spare + e + lost + r * less_sin_phi) * (spare - e + lost + r * more_sin_phi)) / l
 
 
-@formula("piston_displacement", "kolchin_demidov_2008, ch. 6")
-def piston_displacement_offset(r: Value, l: Value, e: Value, cos_phi: Value, cos_beta: Value) -> Value:  # noqa: E741 - l is the rod length of the subject
-    """Piston displacement of an offset slider-crank.
+@formula("rod_angle", "kolchin_demidov_2008, ch. 6")
+def rod_angle(sin_beta: Value, cos_beta: Value) -> Value:
+    """Angle of the rod from the cylinder axis, between -90 and 90 degrees."""
+    return np.arctan(sin_beta / cos_beta)
 
-    Parameters
-    ----------
-    r, l, e, cos_phi, cos_beta : array
-        Crank radius, rod length, offset, functions of the crank and rod angles. [m], [m], [m], [-], [-]
 
-    Returns
-    -------
-    array
-        Displacement from top dead centre. [m]
-    """
+@formula("crank_rod_sine", "kolchin_demidov_2008, ch. 7")
+def crank_rod_sine(sin_phi: Value, cos_beta: Value, cos_phi: Value, sin_beta: Value) -> Value:
+    """Sine of crank and rod angle together."""
+    return sin_phi * cos_beta + cos_phi * sin_beta
+
+
+@formula("crank_rod_cosine", "kolchin_demidov_2008, ch. 7")
+def crank_rod_cosine(cos_phi: Value, cos_beta: Value, sin_phi: Value, sin_beta: Value) -> Value:
+    """Cosine of crank and rod angle together."""
+    return cos_phi * cos_beta - sin_phi * sin_beta
+
+
+def _printed_displacement(r: Value, l: Value, e: Value, cos_phi: Value, cos_beta: Value) -> Value:  # noqa: E741
     return np.sqrt((r + l) ** 2 - e**2) - r * cos_phi - l * cos_beta
 
 
-@formula("piston_velocity", "kolchin_demidov_2008, ch. 6")
-def piston_transfer_1(r: Value, sin_phi_beta: Value, cos_beta: Value) -> Value:
-    """First transfer function of the piston, dx/dphi; the velocity over the angular speed.
+@formula("piston_displacement", "kolchin_demidov_2008, ch. 6", printed=_printed_displacement)
+def piston_displacement(r: Value, cos_phi: Value, l: Value, sin_beta: Value, cos_beta: Value, e: Value) -> Value:  # noqa: E741
+    """Piston displacement.
 
-    Parameters
-    ----------
-    r, sin_phi_beta, cos_beta : array
-        Crank radius, sin(phi + beta), cos beta. [m], [-], [-]
-
-    Returns
-    -------
-    array
-        dx/dphi. [m]
+    Notes
+    -----
+    1 - cos beta = sin^2 beta / (1 + cos beta), and the same for the dead centre, keep all digits as the ratio goes
+    to zero.
     """
+    return r * (1 - cos_phi) + l * sin_beta**2 / (1 + cos_beta) - e**2 / (r + l + np.sqrt((r + l) ** 2 - e**2))
+
+
+@formula("piston_transfer_1", "kolchin_demidov_2008, ch. 6")
+def piston_transfer_1(r: Value, sin_phi_beta: Value, cos_beta: Value) -> Value:
+    """First transfer function of the piston, dx/dphi; the velocity over the angular speed."""
     return r * sin_phi_beta / cos_beta
 
 
-@formula("piston_acceleration", "kolchin_demidov_2008, ch. 6")
+@formula("piston_transfer_2", "kolchin_demidov_2008, ch. 6")
 def piston_transfer_2(r: Value, lam: Value, cos_phi: Value, cos_phi_beta: Value, cos_beta: Value) -> Value:
     """Second transfer function of the piston, d2x/dphi2; the acceleration over the speed squared.
-
-    Parameters
-    ----------
-    r, lam, cos_phi, cos_phi_beta, cos_beta : array
-        Crank radius, crank-to-rod ratio, cos phi, cos(phi + beta), cos beta. [m], [-], [-], [-], [-]
-
-    Returns
-    -------
-    array
-        d2x/dphi2. [m]
 
     Notes
     -----
@@ -110,65 +98,15 @@ def piston_transfer_2(r: Value, lam: Value, cos_phi: Value, cos_phi_beta: Value,
     return r * (cos_phi_beta / cos_beta + lam * cos_phi**2 / cos_beta**3)
 
 
-def piston_transfer_3(slider_crank: SliderCrank, grid: CrankGrid) -> Array:
-    """Return the third transfer function of the piston, d3x/dphi3, which is zero at extremes of acceleration.
-
-    Parameters
-    ----------
-    slider_crank : SliderCrank
-        The dimensions.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-
-    Returns
-    -------
-    array, shape (n,)
-        d3x/dphi3. [m]
-
-    References
-    ----------
-    Derivative of `piston_transfer_2`.
-    """
-    rod = rod_swing(slider_crank, grid)
-    lam, cos_beta = slider_crank.rod_ratio, rod.cos
-    bracket = (
-        rod.sin_sum / cos_beta
-        + 3 * lam * grid.sin * grid.cos / cos_beta**3
-        - 3 * lam**2 * grid.cos**3 * rod.sin / cos_beta**5
-    )
-    return np.asarray(-slider_crank.crank_radius * bracket)
-
-
-@formula("rod_angular_velocity", "kolchin_demidov_2008, ch. 6")
+@formula("rod_transfer_1", "kolchin_demidov_2008, ch. 6")
 def rod_transfer_1(lam: Value, cos_phi: Value, cos_beta: Value) -> Value:
-    """First transfer function of the rod, dbeta/dphi.
-
-    Parameters
-    ----------
-    lam, cos_phi, cos_beta : array
-        Crank-to-rod ratio, functions of the crank and rod angles. [-], [-], [-]
-
-    Returns
-    -------
-    array
-        dbeta/dphi. [-]
-    """
+    """First transfer function of the rod, dbeta/dphi."""
     return lam * cos_phi / cos_beta
 
 
-@formula("rod_angular_acceleration", "kolchin_demidov_2008, ch. 6")
+@formula("rod_transfer_2", "kolchin_demidov_2008, ch. 6")
 def rod_transfer_2(beta_1: Value, lam: Value, sin_phi: Value, sin_beta: Value, cos_beta: Value) -> Value:
     """Second transfer function of the rod, d2beta/dphi2.
-
-    Parameters
-    ----------
-    beta_1, lam, sin_phi, sin_beta, cos_beta : array
-        dbeta/dphi, crank-to-rod ratio, functions of the crank and rod angles. [-], [-], [-], [-], [-]
-
-    Returns
-    -------
-    array
-        d2beta/dphi2. [-]
 
     Notes
     -----
@@ -191,7 +129,7 @@ class SliderCrank(NamedTuple):
     @property
     def rod_ratio(self) -> Value:
         """Crank radius over rod length. [-]"""
-        return self.crank_radius / self.rod_length
+        return rod_ratio(self.crank_radius, self.rod_length)
 
     @property
     def clearance(self) -> Value:
@@ -255,13 +193,13 @@ def check_slider_crank(slider_crank: SliderCrank) -> None:
 class RodSwing(NamedTuple):
     """Functions of the rod angle beta, and of phi + beta. [-]"""
 
-    sin: Array
-    cos: Array
-    sin_sum: Array
-    cos_sum: Array
+    sin: Value
+    cos: Value
+    sin_sum: Value
+    cos_sum: Value
 
 
-def rod_swing(slider_crank: SliderCrank, grid: CrankGrid) -> RodSwing:
+def rod_swing(slider_crank: SliderCrank, grid: CrankGrid, lam: Value = None, *, part: str = "") -> RodSwing:
     """Return the sines and cosines of the rod angle and of crank and rod angle together.
 
     Parameters
@@ -270,6 +208,10 @@ def rod_swing(slider_crank: SliderCrank, grid: CrankGrid) -> RodSwing:
         The dimensions.
     grid : CrankGrid, shape (n,)
         Crank angles. [rad]
+    lam : array, optional
+        Its rod ratio, where that is known already. [-]
+    part : str
+        What tells this rod from another of the same memory, `.master`.
 
     Returns
     -------
@@ -279,25 +221,16 @@ def rod_swing(slider_crank: SliderCrank, grid: CrankGrid) -> RodSwing:
     References
     ----------
     kolchin_demidov_2008, ch. 6, for sin(beta).
-
-    Notes
-    -----
-    cos^2 = (1 - sin)(1 + sin), each factor as what is left of the rod length beside crank and offset
-    plus r (1 -+ sin phi). Neither cancels when the rod is hardly longer than crank and offset.
     """
     r, l, e = slider_crank  # noqa: E741
-    sin_beta = rod_angle_sine(slider_crank.rod_ratio, r, e, grid.sin)
-    if np.all(np.equal(e, 0)):
-        spare = _difference(l, r, 0.0)
-        factors = (spare + r * grid.one_minus_sin) * (spare + r * grid.one_plus_sin)
-    else:
-        factors = (_difference(l, r, -e) + r * grid.one_minus_sin) * (_difference(l, r, e) + r * grid.one_plus_sin)
-    cos_beta = np.sqrt(factors) / l
+    sin_beta = called(rod_sine(slider_crank.rod_ratio if lam is None else lam, grid.sin, e, r), f"rod_sine{part}")
+    cos_beta = rod_cosine(sin_beta, r, l, e, grid.one_minus_sin, grid.one_plus_sin)
+    cos_beta = called(cos_beta, f"rod_cosine{part}")
     return RodSwing(
         sin_beta,
         cos_beta,
-        grid.sin * cos_beta + grid.cos * sin_beta,
-        grid.cos * cos_beta - grid.sin * sin_beta,
+        crank_rod_sine(grid.sin, cos_beta, grid.cos, sin_beta),
+        crank_rod_cosine(grid.cos, cos_beta, grid.sin, sin_beta),
     )
 
 

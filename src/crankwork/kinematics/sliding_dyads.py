@@ -2,15 +2,87 @@
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.dyads import Closure, LinkMotion, point_on_guide, seen_from, turned
+from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import absent, is_known, named
+from crankwork.kinematics import plane_motion as plane
+from crankwork.kinematics.dyads import (
+    Closure,
+    LinkMotion,
+    is_nothing,
+    joint_distance_square,
+    named_coordinates,
+    named_point,
+    named_slide,
+    point_on_guide,
+    seen_from,
+    turned,
+)
 from crankwork.kinematics.transfer import PointMotion, Transfer
-from crankwork.mechanism.dyads import RPP, RPR, Guide
+from crankwork.mechanism.dyads import PRP, RPP, RPR, Guide
+
+_DYADS = "artobolevsky_1988, ch. 4"
+
+
+@formula("guide_reach", _DYADS)
+def rpr_reach(kappa: Value, d_sq: Value, e_s: Value) -> Value:
+    """How far along its slot the pin of an RPR dyad lies from the foot of the pivot."""
+    return kappa * np.sqrt(d_sq - e_s * e_s)
+
+
+@formula("link_cos", _DYADS)
+def rpr_cosine(h_g: Value, dx: Value, e_s: Value, dy: Value, d_sq: Value) -> Value:
+    """Cosine of the direction of the slot of an RPR dyad."""
+    return (h_g * dx + e_s * dy) / d_sq
+
+
+@formula("link_sin", _DYADS)
+def rpr_sine(h_g: Value, dy: Value, e_s: Value, dx: Value, d_sq: Value) -> Value:
+    """Sine of the direction of the slot of an RPR dyad."""
+    return (h_g * dy - e_s * dx) / d_sq
+
+
+@formula("link_angle_1", _DYADS)
+def rpr_rate(dy_1: Value, cos_th: Value, dx_1: Value, sin_th: Value, h_g: Value) -> Value:
+    """Transfer function of the turning of the lever of an RPR dyad."""
+    return (dy_1 * cos_th - dx_1 * sin_th) / h_g
+
+
+@formula("link_angle_2", _DYADS)
+def rpr_rate_1(  # noqa: PLR0913 - an acceleration with its Coriolis part
+    dy_2: Value, cos_th: Value, dx_2: Value, sin_th: Value, s_1: Value, e_s: Value, theta_1: Value, h_g: Value
+) -> Value:
+    """Second transfer function of the turning of the lever of an RPR dyad."""
+    return (dy_2 * cos_th - dx_2 * sin_th - (2 * s_1 - e_s * theta_1) * theta_1) / h_g
+
+
+@formula("slider_displacement_1", _DYADS)
+def rpr_slide_1(dx_1: Value, cos_th: Value, dy_1: Value, sin_th: Value, e_s: Value, theta_1: Value) -> Value:
+    """First transfer function of the block of an RPR dyad along its slot."""
+    return dx_1 * cos_th + dy_1 * sin_th + e_s * theta_1
+
+
+@formula("slider_displacement_2", _DYADS)
+def rpr_slide_2(  # noqa: PLR0913 - an acceleration with its guiding parts
+    dx_2: Value, cos_th: Value, dy_2: Value, sin_th: Value, h_g: Value, theta_1: Value, e_s: Value, theta_2: Value
+) -> Value:
+    """Second transfer function of the block of an RPR dyad along its slot."""
+    return dx_2 * cos_th + dy_2 * sin_th + h_g * theta_1 * theta_1 + e_s * theta_2
+
+
+@formula("guide_sine", _DYADS)
+def sine_between(cos_th: Value, sin_al: Value, sin_th: Value, cos_al: Value) -> Value:
+    """Sine of the angle from one guide to another."""
+    return cos_th * sin_al - sin_th * cos_al
+
+
+@formula("slider_displacement", _DYADS)
+def crossing(dx: Value, sin_th: Value, dy: Value, cos_th: Value, sin_gg: Value) -> Value:
+    """Distance along one guide to where it crosses another, with the direction of the other; or its derivative."""
+    return (dx * sin_th - dy * cos_th) / sin_gg
 
 
 class RPRMotion(NamedTuple):
@@ -19,7 +91,7 @@ class RPRMotion(NamedTuple):
     slide: Transfer
     link: LinkMotion
     block: LinkMotion
-    closure: Closure
+    closure: Closure | None
 
 
 def rpr_motion(dyad: RPR, joint: PointMotion, pivot: PointMotion) -> RPRMotion:
@@ -48,28 +120,40 @@ def rpr_motion(dyad: RPR, joint: PointMotion, pivot: PointMotion) -> RPRMotion:
     artobolevsky_1988, ch. 4.
     """
     along, e = _in_slot_axes(dyad.slot)
+    name, block_ = dyad.link, dyad.block
     (dx, dx_1, dx_2), (dy, dy_1, dy_2) = (
-        tuple(one - other for one, other in zip(mine, base, strict=True))
-        for mine, base in zip(joint, pivot, strict=True)
+        tuple(
+            named(one - other, f"distance_{axis}{order}.{name}")
+            for one, other, order in zip(mine, base, ("", "_1", "_2"), strict=True)
+        )
+        for axis, mine, base in zip("xy", joint, pivot, strict=True)
     )
-    square = dx * dx + dy * dy
-    reach = square - e * e
-    s = dyad.branch * np.sqrt(reach)
-    cos, sin = (s * dx + e * dy) / square, (s * dy - e * dx) / square
-    rate = (dy_1 * cos - dx_1 * sin) / s
-    s_1 = dx_1 * cos + dy_1 * sin + e * rate
-    rate_1 = (dy_2 * cos - dx_2 * sin - (2 * s_1 - e * rate) * rate) / s
-    s_2 = dx_2 * cos + dy_2 * sin + s * rate * rate + e * rate_1
+    square = named(joint_distance_square(dx, dy), f"joint_distance_square.{name}")
+    s = named(rpr_reach(dyad.branch, square, e), f"guide_reach.{block_}")
+    cos = named(rpr_cosine(s, dx, e, dy, square), f"link_cos.{block_}")
+    sin = named(rpr_sine(s, dy, e, dx, square), f"link_sin.{block_}")
+    rate = named(rpr_rate(dy_1, cos, dx_1, sin, s), f"link_angle_1.{name}")
+    s_1 = named(rpr_slide_1(dx_1, cos, dy_1, sin, e, rate), f"slider_displacement_1.{block_}")
+    rate_1 = named(rpr_rate_1(dy_2, cos, dx_2, sin, s_1, e, rate, s), f"link_angle_2.{name}")
+    s_2 = rpr_slide_2(dx_2, cos, dy_2, sin, s, rate, e, rate_1)
     block = LinkMotion(joint, cos, sin, rate, rate_1)
-    link = turned(block._replace(origin=pivot), -dyad.slot.angle)
-    closure = Closure(reach, float(np.nanmax(square.real)), square)
-    return RPRMotion(Transfer(s - along, s_1, s_2), link, block, closure)
+    angle = dyad.slot.angle
+    link = turned(block._replace(origin=pivot), angle if is_nothing(angle) else -angle, name)
+    closure = None if is_known(square) else Closure(square - e * e, float(np.nanmax(square.real)), square)
+    place = s if is_nothing(along) else s - along
+    return RPRMotion(named_slide(Transfer(place, s_1, s_2), block_), link, block, closure)
 
 
-def _in_slot_axes(slot: Guide) -> tuple[float, float]:
+def _in_slot_axes(slot: Guide) -> tuple[Value, Value]:
     """Return the coordinates of the point of a slot along and across the slot, seen from the origin of the link."""
-    (x, y), cos, sin = slot.point, math.cos(slot.angle), math.sin(slot.angle)
-    return x * cos + y * sin, y * cos - x * sin
+    x, y = slot.point
+    if is_nothing(slot.angle):
+        return x, y
+    cos, sin = plane.cosine_of_direction(slot.angle), plane.sine_of_direction(slot.angle)
+    if is_known(x) and is_nothing(x) and is_nothing(y):
+        return absent("slider_displacement"), absent("slot_offset")
+    along, across = plane.along_guide(x, cos, y, sin), plane.across_guide(y, cos, x, sin)
+    return named(along, "guide_along.slot"), named(across, "slot_offset")
 
 
 class PRPMotion(NamedTuple):
@@ -80,14 +164,16 @@ class PRPMotion(NamedTuple):
     slide_b: Transfer
     block_a: LinkMotion
     block_b: LinkMotion
-    closure: Closure
+    closure: Closure | None
 
 
-def prp_motion(a: LinkMotion, b: LinkMotion) -> PRPMotion:
+def prp_motion(dyad: PRP, a: LinkMotion, b: LinkMotion) -> PRPMotion:
     """Return the motion of two blocks on one pin where two guides cross.
 
     Parameters
     ----------
+    dyad : PRP
+        The blocks.
     a, b : LinkMotion
         The guides.
 
@@ -104,25 +190,41 @@ def prp_motion(a: LinkMotion, b: LinkMotion) -> PRPMotion:
     ----------
     artobolevsky_1988, ch. 4.
     """
-    zero = np.zeros_like(a.cos * b.cos)
-    sine = zero + (a.cos * b.sin - a.sin * b.cos)
+    zero: Value
+    if is_known(a.cos, b.cos):
+        zero, sine = absent("slider_displacement_1"), sine_between(a.cos, b.sin, a.sin, b.cos)
+        sine = named(sine, f"guide_sine.{dyad.point}")
+    else:
+        zero = np.zeros_like(a.cos * b.cos)
+        sine = zero + sine_between(a.cos, b.sin, a.sin, b.cos)
 
-    def solved(start: tuple[Array, Array], end: tuple[Array, Array]) -> tuple[Array, Array]:
+    def solved(order: str, start: tuple[Value, Value], end: tuple[Value, Value]) -> tuple[Value, ...]:
         x, y = end[0] - start[0], end[1] - start[1]
-        return (x * b.sin - y * b.cos) / sine, (x * a.sin - y * a.cos) / sine
+        s_a, s_b = crossing(x, b.sin, y, b.cos, sine), crossing(x, a.sin, y, a.cos, sine)
+        keys = (f"slider_displacement{order}.{piece}" for piece in (dyad.block_a, dyad.block_b))
+        return tuple(named(one, key) for one, key in zip((s_a, s_b), keys, strict=True))
 
-    s_a, s_b = solved(*(_column(guide.origin, 0) for guide in (a, b)))
-    carried = [point_on_guide(guide, Transfer(s, zero, zero)) for guide, s in ((a, s_a), (b, s_b))]
-    s_a_1, s_b_1 = solved(*(_column(one, 1) for one in carried))
-    carried = [point_on_guide(guide, Transfer(s, s_1, zero)) for guide, s, s_1 in ((a, s_a, s_a_1), (b, s_b, s_b_1))]
-    s_a_2, s_b_2 = solved(*(_column(one, 2) for one in carried))
+    s_a, s_b = solved("", *(_column(guide.origin, 0) for guide in (a, b)))
+    names = f"{dyad.block_a}_place", f"{dyad.block_b}_place"
+    carried = [
+        named_point(point_on_guide(guide, Transfer(s, zero, zero)), name)
+        for guide, s, name in zip((a, b), (s_a, s_b), names, strict=True)
+    ]
+    s_a_1, s_b_1 = solved("_1", *(_column(one, 1) for one in carried))
+    names = f"{dyad.block_a}_carried", f"{dyad.block_b}_carried"
+    carried = [
+        named_point(point_on_guide(guide, Transfer(s, s_1, zero)), name)
+        for guide, s, s_1, name in zip((a, b), (s_a, s_b), (s_a_1, s_b_1), names, strict=True)
+    ]
+    s_a_2, s_b_2 = solved("_2", *(_column(one, 2) for one in carried))
     slide_a, slide_b = Transfer(s_a, s_a_1, s_a_2), Transfer(s_b, s_b_1, s_b_2)
     point = point_on_guide(a, slide_a)
     blocks = a._replace(origin=point), b._replace(origin=point)
-    return PRPMotion(point, slide_a, slide_b, *blocks, Closure(sine * sine, 1.0, sine))
+    closure = None if is_known(sine) else Closure(sine * sine, 1.0, sine)
+    return PRPMotion(point, slide_a, slide_b, *blocks, closure)
 
 
-def _column(point: PointMotion, order: int) -> tuple[Array, Array]:
+def _column(point: PointMotion, order: int) -> tuple[Value, Value]:
     """Return both coordinates of a point, or of one of its derivatives."""
     return point.x[order], point.y[order]
 
@@ -134,7 +236,7 @@ class RPPMotion(NamedTuple):
     block_slide: Transfer
     link: LinkMotion
     block: LinkMotion
-    closure: Closure
+    closure: Closure | None
 
 
 def rpp_motion(dyad: RPP, joint: PointMotion, guide: LinkMotion) -> RPPMotion:
@@ -164,13 +266,17 @@ def rpp_motion(dyad: RPP, joint: PointMotion, guide: LinkMotion) -> RPPMotion:
     artobolevsky_1988, ch. 4.
     """
     (x, y), gamma = dyad.slot.point, dyad.slot.angle
-    cos, sin = math.cos(gamma), math.sin(gamma)
-    along, across = seen_from(guide, joint)
-    block_slide = Transfer((across[0] - y) / sin, across[1] / sin, across[2] / sin)
-    slide = Transfer(
-        along[0] - x - cos * block_slide[0], along[1] - cos * block_slide[1], along[2] - cos * block_slide[2]
+    cos, sin = (
+        named(plane.cosine_of_direction(gamma), f"line_cos.{dyad.block}"),
+        named(plane.sine_of_direction(gamma), f"line_sin.{dyad.block}"),
+    )
+    along, across = named_coordinates(seen_from(guide, joint), dyad.joint)
+    block_slide = named_slide(Transfer((across[0] - y) / sin, across[1] / sin, across[2] / sin), dyad.block)
+    slide = named_slide(
+        Transfer(along[0] - x - cos * block_slide[0], along[1] - cos * block_slide[1], along[2] - cos * block_slide[2]),
+        dyad.link,
     )
     link = guide._replace(origin=point_on_guide(guide, slide))
-    block = turned(guide, gamma)._replace(origin=joint)
-    closure = Closure(np.full_like(slide[0], sin * sin), 1.0, slide[0])
+    block = turned(guide, gamma, dyad.block)._replace(origin=joint)
+    closure = None if is_known(gamma) else Closure(np.full_like(slide[0], sin * sin), 1.0, slide[0])
     return RPPMotion(slide, block_slide, link, block, closure)

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from crankwork.kinematics.crank_grid import Array
+from crankwork.formula.expression import Value
 
 
 class Transfer(NamedTuple):
-    """A coordinate and its first and second derivative by the crank angle, arrays of shape (n,)."""
+    """A coordinate and its first and second derivative by the crank angle, arrays of shape (n,) or knowns."""
 
-    position: Array
-    position_1: Array
-    position_2: Array
+    position: Value
+    position_1: Value
+    position_2: Value
 
 
 class PointMotion(NamedTuple):

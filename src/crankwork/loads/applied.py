@@ -6,13 +6,13 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import NamedTuple
 
-import numpy as np
-
 from crankwork.errors import GeometryError
-from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.dyads import LinkMotion
+from crankwork.formula.expression import Value
+from crankwork.formula.known import named
+from crankwork.kinematics.bodies import everywhere
+from crankwork.kinematics.dyads import LinkMotion, carried
 from crankwork.kinematics.motion import Motion
-from crankwork.kinematics.transfer import PointMotion, Transfer
+from crankwork.kinematics.transfer import PointMotion
 from crankwork.mechanism.joints import bearers
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Mechanism
@@ -23,16 +23,16 @@ class AppliedForce(NamedTuple):
 
     link: str
     at: PointMotion
-    x: Array
-    y: Array
+    x: Value
+    y: Value
 
 
 class AppliedTorque(NamedTuple):
     """A torque on a link, positive anticlockwise, an array of shape (n,), and the link's rate of turning. [N m], [-]"""
 
     link: str
-    torque: Array
-    angle_1: Array
+    torque: Value
+    angle_1: Value
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,7 @@ def check_name(what: str, name: str, known: Iterable[str]) -> None:
 
 
 def force_at(
-    mechanism: Mechanism, motion: Motion, point: str, force: tuple[Array, Array], link: str = ""
+    mechanism: Mechanism, motion: Motion, point: str, force: tuple[Value, Value], link: str = ""
 ) -> AppliedLoads:
     """Return a force at a named point; nothing if the point is fixed.
 
@@ -112,11 +112,11 @@ def force_at(
     link = link or bearer[point]
     if link == GROUND:
         return NO_LOADS
-    still = np.zeros_like(motion.grid.angle)
-    return AppliedLoads((AppliedForce(link, motion.points[point], force[0] + still, force[1] + still),))
+    x, y = (everywhere(one, motion.grid) for one in force)
+    return AppliedLoads((AppliedForce(link, motion.points[point], x, y),))
 
 
-def force_along_guide(motion: Motion, slider: str, force: Array) -> AppliedForce:
+def force_along_guide(motion: Motion, slider: str, force: Value) -> AppliedForce:
     """Return a force on a sliding piece, along its guide and through the origin of its frame.
 
     Parameters
@@ -129,10 +129,11 @@ def force_along_guide(motion: Motion, slider: str, force: Array) -> AppliedForce
         Positive in the direction in which the distance of the piece counts. [N]
     """
     frame = motion.frames[slider]
-    return AppliedForce(slider, frame.origin, force * frame.cos, force * frame.sin)
+    x, y = named(force * frame.cos, f"load_x.{slider}"), named(force * frame.sin, f"load_y.{slider}")
+    return AppliedForce(slider, frame.origin, x, y)
 
 
-def torque_on(motion: Motion, link: str, torque: Array) -> AppliedLoads:
+def torque_on(motion: Motion, link: str, torque: Value) -> AppliedLoads:
     """Return a torque on a link.
 
     Parameters
@@ -145,8 +146,8 @@ def torque_on(motion: Motion, link: str, torque: Array) -> AppliedLoads:
         Positive anticlockwise. [N m]
     """
     check_name("link", link, {**motion.links, **motion.frames})
-    still = np.zeros_like(motion.grid.angle)
-    return AppliedLoads(torques=(AppliedTorque(link, torque + still, _rate(motion, link) + still),))
+    rate = everywhere(_rate(motion, link), motion.grid)
+    return AppliedLoads(torques=(AppliedTorque(link, everywhere(torque, motion.grid), rate),))
 
 
 def carried_point(link: LinkMotion, point: PointMotion) -> PointMotion:
@@ -164,15 +165,11 @@ def carried_point(link: LinkMotion, point: PointMotion) -> PointMotion:
     PointMotion, arrays of shape (n,)
         The place of the one, with the transfer functions of the other. [m]
     """
-    (x, x_1, x_2), (y, y_1, y_2) = link.origin
-    dx, dy = point.x.position - x, point.y.position - y
-    rate, rate_1 = link.angle_1, link.angle_2
-    return PointMotion(
-        Transfer(point.x.position, x_1 - rate * dy, x_2 - rate_1 * dy - rate * rate * dx),
-        Transfer(point.y.position, y_1 + rate * dx, y_2 + rate_1 * dx - rate * rate * dy),
-    )
+    place = point.x.position, point.y.position
+    x, y = carried(link, place[0] - link.origin.x.position, place[1] - link.origin.y.position)
+    return PointMotion(x._replace(position=place[0]), y._replace(position=place[1]))
 
 
-def _rate(motion: Motion, link: str) -> Array:
+def _rate(motion: Motion, link: str) -> Value:
     frame: LinkMotion | None = motion.frames.get(link)
     return motion.links[link].position_1 if frame is None else frame.angle_1

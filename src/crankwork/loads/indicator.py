@@ -9,13 +9,15 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
 
 from crankwork.errors import CrankworkError
+from crankwork.formula.known import Known
 from crankwork.kinematics.crank_grid import Array
+from crankwork.kinematics.extremes import reached
 from crankwork.loads.cycle import quadrature
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
@@ -61,7 +63,12 @@ class Piece:
 
 @dataclass(frozen=True)
 class Segment:
-    """A solved piece from `start` to `end` [deg]: knots of a curve [deg], [Pa], or a polytrope's state."""
+    """A solved piece from `start` to `end` [deg]: knots of a curve [deg], [Pa], or a polytrope's state.
+
+    `origin` is the named point whose state that is, if it has a name; `of` is what a calculated pressure was made from:
+    of a constant its pressure, of a polytrope pressure, exponent and what else its volume follows from, of a curve
+    what its equation takes.
+    """
 
     start: float
     end: float
@@ -70,6 +77,12 @@ class Segment:
     pressures: Array
     slopes: Array
     state: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    origin: str = ""
+    of: tuple[Known, ...] = field(default=(), compare=False)
+
+    def rounded(self, degrees: Array) -> Array:
+        """Return the pressure on the curve through the knots, shape (n,). [Pa]"""
+        return hermite(self.knots, self.pressures, self.slopes, degrees)
 
     def pressure(self, degrees: Array, volume: Array) -> Array:
         """Return the pressure at crank angles of this segment.
@@ -89,7 +102,7 @@ class Segment:
         if self.law == "polytropic":
             pressure, reference, exponent = self.state
             return np.asarray(polytropic_pressure(pressure, reference, volume, exponent))
-        return hermite(self.knots, self.pressures, self.slopes, degrees)
+        return self.rounded(degrees)
 
     def work(self, volume_at: VolumeAt) -> float:
         """Return the integral of pressure by volume over the segment.
@@ -291,12 +304,14 @@ class _Solver:
 
     def _polytropic(self, key: str, piece: Piece) -> Segment:
         if piece.exponent is None:
-            raise DiagramError(f"{key}.exponent", "a polytropic piece needs its exponent, for example 1.35")
+            raise DiagramError(f"{key}.exponent", "is missing for a polytropic piece; write exponent = 1.35")
         first, last = piece.points[0], piece.points[-1]
         reference = piece.reference or first
         state = (self.pressure(key, reference), self._volume(key, reference), piece.exponent)
         if state[0] <= 0:
-            raise DiagramError(key, f'a polytrope needs a positive pressure at "{reference}"')
+            raise DiagramError(
+                key, f'a polytrope needs a positive pressure at "{reference}"; write one, or pressures = "absolute"'
+            )
         start = self.angle(key, first)
         end = self.points[last].angle
         if end is None:
@@ -305,7 +320,7 @@ class _Solver:
         ends = np.asarray(polytropic_pressure(*state[:2], self.volume_at(degrees), state[2]))
         self.settle(first, start, float(ends[0]))
         self.settle(last, end, float(ends[1]))
-        return Segment(start, end, "polytropic", degrees, ends, np.zeros(2), state)
+        return Segment(start, end, "polytropic", degrees, ends, np.zeros(2), state, reference)
 
     def _volume(self, key: str, name: str) -> float:
         given = self.points[name].volume
@@ -315,26 +330,22 @@ class _Solver:
         """Return where the polytrope reaches the pressure of its end point, before the next dead centre."""
         wanted = self.points[last].pressure
         if wanted is None or wanted <= 0:
-            raise DiagramError(key, f'point "{last}" needs an angle or a positive pressure')
-        turns = np.arange(0.0, self.cycle + 360.0, 360.0)
+            raise DiagramError(key, f'point "{last}" needs an angle or a positive pressure; write one of them')
+        turns = np.arange(0.0, max(self.cycle, start) + 720.0, 360.0)
         centres = np.sort(np.concatenate([turns + one for one in self.dead_centres]))
         low, high = start, float(centres[np.searchsorted(centres, start + 1e-9)])
 
-        def excess(angle: float) -> float:
-            volume = float(self.volume_at(np.array([angle]))[0])
-            return float(polytropic_pressure(*state[:2], volume, state[2])) - wanted
+        def pressure(degrees: Array) -> Array:
+            return np.asarray(polytropic_pressure(*state[:2], self.volume_at(degrees), state[2]))
 
-        if excess(low) * excess(high) > 0:
+        ends = pressure(np.array([low, high])) - wanted
+        if ends[0] * ends[1] > 0:
             raise DiagramError(
                 key,
                 f'the polytrope does not reach the pressure of "{last}" before the dead centre at {high:g} deg; begin '
                 f"it at {self.dead_centres[0]:g} or {self.dead_centres[1]:g} deg, or change the pressure",
             )
-        rising = excess(high) > 0 or excess(low) < 0
-        for _ in range(60):
-            middle = (low + high) / 2
-            low, high = (low, middle) if (excess(middle) > 0) == rising else (middle, high)
-        return (low + high) / 2
+        return reached(pressure, wanted, low, high)
 
     def _rounded(self, key: str, piece: Piece) -> Segment:
         if len(piece.points) < 2:
@@ -361,8 +372,8 @@ def _check_chain(segments: list[Segment], cycle: float, named: Mapping[str, tupl
         if abs(segment.start - end) > 1e-6:
             raise DiagramError(
                 f"gas.pieces[{number}]",
-                f"starts at {segment.start:g} deg, but the pieces before it end at {end:g} deg: "
-                + ("fill the gap" if segment.start > end else "the angle must not go backwards"),
+                f"starts at {segment.start:g} deg, but the pieces before it end at {end:g} deg; "
+                + ("fill the gap" if segment.start > end else "do not let the angle go backwards"),
             )
         if segment.end < segment.start:
             raise DiagramError(

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array
+from crankwork.formula.expression import Value
+from crankwork.formula.known import Known, Pieces, absent, given, is_known, named
+from crankwork.kinematics.memory import angle_of, course_of
 from crankwork.kinematics.motion import Motion
 from crankwork.loads.applied import AppliedLoads, check_name, force_along_guide, force_at, torque_on
+from crankwork.loads.remembered import by_angle, by_column
 from crankwork.loads.table import Curve
 from crankwork.mechanism.dyads import Branch
 from crankwork.mechanism.mechanism import Mechanism
 
-# share of the largest speed below which a piece counts as at rest
+# share of the largest speed below which a piece counts as at rest, and about how far that is from there [deg]
 _REST = 1e-12
+_AT_REST = 1e-11
+_DECIMALS = 9
 
 
 @dataclass(frozen=True)
@@ -116,8 +122,8 @@ class TorqueOnLink:
 class _Way(NamedTuple):
     """How far a piece or point has come on its forward stroke, and its speed there. [m], [m]"""
 
-    position: Array
-    position_1: Array
+    position: Value
+    position_1: Value
 
 
 def process_force(load: ProcessForce, motion: Motion) -> AppliedLoads:
@@ -132,8 +138,13 @@ def process_force(load: ProcessForce, motion: Motion) -> AppliedLoads:
     """
     check_name("sliding piece", load.slider, motion.sliders)
     slide = motion.sliders[load.slider]
-    way = _Way(load.forward * (slide.position - load.start), load.forward * slide.position_1)
-    return AppliedLoads((force_along_guide(motion, load.slider, -load.forward * _force(load, way, motion)),))
+    start: Value = load.start
+    if is_known(slide.position):
+        start = given(f"slider_displacement.{load.slider}_start", start, "loads")
+    way = slide.position - start, slide.position_1
+    way = _Way(*(way if load.forward == 1 else (-way[0], -way[1])))
+    force = _force(load, way, motion, load.slider)
+    return AppliedLoads((force_along_guide(motion, load.slider, -force if load.forward == 1 else force),))
 
 
 def process_force_at_point(load: ProcessForceAtPoint, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
@@ -152,16 +163,44 @@ def process_force_at_point(load: ProcessForceAtPoint, mechanism: Mechanism, moti
     x, y = motion.points[load.point]
     cos, sin = np.cos(load.direction), np.sin(load.direction)
     way = _Way(x.position * cos + y.position * sin - load.start, x.position_1 * cos + y.position_1 * sin)
-    force = -_force(load, way, motion)
+    force = -_force(load, way, motion, load.point)
     return force_at(mechanism, motion, load.point, (force * cos, force * sin), load.link)
 
 
-def _force(load: ProcessForce | ProcessForceAtPoint, way: _Way, motion: Motion) -> Array:
+def _force(load: ProcessForce | ProcessForceAtPoint, way: _Way, motion: Motion, name: str) -> Value:
+    if is_known(way.position):
+        return _remembered(load, way, motion, name)
     force = np.asarray(load.force(way.position if load.against == "stroke" else motion.grid.angle), dtype=float)
     if load.acts == "both":
         return force
     forward = way.position_1 >= -_REST * np.max(np.abs(way.position_1))
     return np.where(forward, force, 0.0)
+
+
+def _remembered(load: ProcessForce | ProcessForceAtPoint, way: _Way, motion: Motion, name: str) -> Known:
+    """Return the force as a table read at the way or the crank angle, in pieces where it acts one way only."""
+    key, course = f"process_force.{name}", course_of(motion.grid)
+    way = way._replace(position=named(way.position, f"working_stroke.{name}"))
+    if load.against == "stroke":
+        force = by_column(load.force, way.position, course, key)
+    else:
+        force = by_angle(load.force, angle_of(motion.grid), key)
+    if load.acts == "both":
+        return force
+    over = course({"": way.position_1})
+    (*ends, last), is_back = over.stretches("")
+    # at rest it acts: a stretch on the way back does not own its end
+    ends = [_rounded(end, back=back) for end, back in zip(ends, is_back, strict=False)]
+    if is_back[-1] and not is_back[0]:
+        ends, is_back = [*ends, math.nextafter(last, 0.0)], [*is_back, False]
+    return Known(Pieces([*ends, last], tuple(absent(key) if back else force for back in is_back)), key)
+
+
+def _rounded(end: float, *, back: bool) -> float:
+    """Return where a stretch ends, a decimal where rounding alone keeps it from being one. [deg]"""
+    near = round(end, _DECIMALS)
+    end = near if abs(near - end) < _AT_REST else end
+    return math.nextafter(end, 0.0) if back else end
 
 
 def constant_force(load: ForceOnPoint, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
@@ -176,7 +215,10 @@ def constant_force(load: ForceOnPoint, mechanism: Mechanism, motion: Motion) -> 
     motion : Motion
         Where the point is.
     """
-    return force_at(mechanism, motion, load.point, (np.array(load.x), np.array(load.y)), load.link)
+    force: tuple[Value, Value] = np.array(load.x), np.array(load.y)
+    if is_known(motion.grid.angle):
+        force = given(f"load_x.{load.point}", load.x, "loads"), given(f"load_y.{load.point}", load.y, "loads")
+    return force_at(mechanism, motion, load.point, force, load.link)
 
 
 def link_torque(load: TorqueOnLink, motion: Motion) -> AppliedLoads:
@@ -189,5 +231,13 @@ def link_torque(load: TorqueOnLink, motion: Motion) -> AppliedLoads:
     motion : Motion
         How the link turns.
     """
-    torque = load.torque(motion.grid.angle) if callable(load.torque) else np.array(load.torque)
+    torque: Value
+    if is_known(motion.grid.angle):
+        key = f"link_torque.{load.link}"
+        if callable(load.torque):
+            torque = by_angle(load.torque, angle_of(motion.grid), key)
+        else:
+            torque = given(key, load.torque, "loads")
+    else:
+        torque = load.torque(motion.grid.angle) if callable(load.torque) else np.array(load.torque)
     return torque_on(motion, load.link, torque)

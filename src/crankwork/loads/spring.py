@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from crankwork.errors import GeometryError
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import absent, given, is_known, named
 from crankwork.kinematics.motion import Motion
 from crankwork.loads.applied import AppliedForce, AppliedLoads, carried_point, check_name, force_along_guide, force_at
 from crankwork.mechanism.joints import SlidingJoint, joints
@@ -66,19 +67,25 @@ class SliderSpring:
 
 @formula("spring_force", "norton_2012, ch. 8")
 def spring_force(c: Value, s: Value, s_0: Value, F_0: Value) -> Value:
-    """Pull of a linear spring.
-
-    Parameters
-    ----------
-    c, s, s_0, F_0 : array
-        Stiffness, length, free length, preload. [N/m], [m], [m], [N]
-
-    Returns
-    -------
-    array
-        Force, positive as it pulls its ends together. [N]
-    """
+    """Pull of a linear spring."""
     return c * (s - s_0) + F_0
+
+
+@formula("spring_length", "norton_2012, ch. 8")
+def spring_length(dx: Value, dy: Value) -> Value:
+    """Distance of the ends of a spring."""
+    return np.sqrt(dx**2 + dy**2)
+
+
+def _stated(stiffness: Value, free: Value, preload: Value, name: str, length: Value) -> tuple[Value, Value, Value]:
+    """Return what a spring is like, as given values where its length is remembered."""
+    if not is_known(length):
+        return stiffness, free, preload
+    return (
+        given(f"spring_stiffness.{name}", stiffness, "loads"),
+        given(f"spring_length.{name}_free", free, "loads") if free else absent("spring_length"),
+        given(f"spring_force.{name}_preload", preload, "loads") if preload else absent("spring_force"),
+    )
 
 
 def point_spring(load: Spring, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
@@ -102,13 +109,16 @@ def point_spring(load: Spring, mechanism: Mechanism, motion: Motion) -> AppliedL
         check_name("point", name, motion.points)
     start, end = motion.points[load.start], motion.points[load.end]
     x, y = end.x.position - start.x.position, end.y.position - start.y.position
-    length = np.hypot(x, y)
-    if np.any(length == 0):
+    name = f"{load.start}_{load.end}"
+    length = named(spring_length(x, y), f"spring_length.{name}")
+    if not is_known(length) and np.any(length == 0):
         raise GeometryError(f"the ends of the spring from {load.start} to {load.end} meet; move one of them")
-    force = spring_force(load.stiffness, length, load.free_length, load.preload)
-    x, y = x / length * force, y / length * force
+    stiffness, free, preload = _stated(load.stiffness, load.free_length, load.preload, name, length)
+    force = named(spring_force(stiffness, length, free, preload), f"spring_force.{name}")
+    x, y = named(x / length * force, f"load_x.{name}"), named(y / length * force, f"load_y.{name}")
+    back = named(-x, f"load_x.{name}_end"), named(-y, f"load_y.{name}_end")
     return force_at(mechanism, motion, load.start, (x, y), load.start_link).also(
-        force_at(mechanism, motion, load.end, (-x, -y), load.end_link)
+        force_at(mechanism, motion, load.end, back, load.end_link)
     )
 
 
@@ -129,11 +139,20 @@ def slider_spring(load: SliderSpring, mechanism: Mechanism, motion: Motion) -> A
     On a carrier the force acts at the point of it where the piece is: it moves with the carrier, not with the piece.
     """
     check_name("sliding piece", load.slider, motion.sliders)
-    force = -spring_force(load.stiffness, motion.sliders[load.slider].position, load.free_position, load.preload)
+    position = motion.sliders[load.slider].position
+    stiffness, free, preload = _stated(load.stiffness, load.free_position, load.preload, load.slider, position)
+    force = -named(spring_force(stiffness, position, free, preload), f"spring_force.{load.slider}")
     pull = force_along_guide(motion, load.slider, force)
     slides = (one for one in joints(mechanism) if isinstance(one, SlidingJoint))
     carrier = next(one.other for one in slides if one.link == load.slider)
     if carrier == GROUND:
         return AppliedLoads((pull,))
     under = carried_point(motion.frames[carrier], pull.at)
-    return AppliedLoads((pull, AppliedForce(carrier, under, -pull.x, -pull.y)))
+    return AppliedLoads(
+        (
+            pull,
+            AppliedForce(
+                carrier, under, named(-pull.x, f"load_x.{carrier}_spring"), named(-pull.y, f"load_y.{carrier}_spring")
+            ),
+        )
+    )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Literal
 
 import numpy as np
@@ -24,7 +25,7 @@ class Table:
     at, values : tuple of float
         Ascending abscissas, angles in radians or lengths in metres, and ordinates. [rad or m], [N or N m]
     interpolation : {"linear", "monotone"}
-        Straight, or a smooth curve that never overshoots the points.
+        Straight, where an abscissa given twice is a jump; or a smooth curve that never overshoots the points.
     period : float
         Period of the abscissa, 0 for none: outside the table the value is then zero. [rad]
 
@@ -45,7 +46,10 @@ class Table:
             raise ValueError(f"a table needs two points or more, not {len(self.at)} and {len(self.values)} numbers")
         if not all(math.isfinite(one) for one in (*self.at, *self.values)):
             raise ValueError("a table needs finite numbers")
-        if any(after <= before for before, after in zip(self.at, self.at[1:], strict=False)):
+        jumps = self.interpolation == "linear"
+        if any(after < before or (after == before and not jumps) for before, after in pairwise(self.at)) or (
+            self.at[0] == self.at[-1]
+        ):
             raise ValueError("the abscissas of a table must ascend")
         if self.period and self.at[-1] - self.at[0] > self.period * (1 + 1e-12):
             raise ValueError("a table must not be longer than its period")

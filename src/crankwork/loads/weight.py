@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
-from crankwork.kinematics.bodies import centre_of_mass
+from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import given, is_known, named
+from crankwork.kinematics.bodies import centre_of_mass, everywhere
 from crankwork.kinematics.motion import Motion
 from crankwork.loads.applied import AppliedForce, AppliedLoads
 from crankwork.mechanism.mechanism import Mechanism
@@ -30,6 +30,12 @@ class Weight:
     direction: float = -math.pi / 2
 
 
+@formula("load_x", "artobolevsky_1988, ch. 12")
+def weight_along(m_i: Value, g: Value, cos_th: Value) -> Value:
+    """Component of a weight along a fixed axis."""
+    return m_i * g * cos_th
+
+
 def weight(load: Weight, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
     """Return the weights of the bodies of a mechanism.
 
@@ -42,16 +48,16 @@ def weight(load: Weight, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
     motion : Motion
         Where they are.
     """
-    still = np.zeros_like(motion.grid.angle)
-    cos, sin = math.cos(load.direction), math.sin(load.direction)
-    return AppliedLoads(
-        tuple(
+    gravity: Value = load.gravity
+    if is_known(motion.grid.angle):
+        gravity = given("gravity", load.gravity, "method.gravity")
+    forces = []
+    for body in mechanism.bodies:
+        x, y = (weight_along(body.mass, gravity, part) for part in (math.cos(load.direction), math.sin(load.direction)))
+        x, y = named(x, f"load_x.{body.link}_weight"), named(y, f"load_y.{body.link}_weight")
+        forces.append(
             AppliedForce(
-                body.link,
-                centre_of_mass(body, motion),
-                still + body.mass * load.gravity * cos,
-                still + body.mass * load.gravity * sin,
+                body.link, centre_of_mass(body, motion), everywhere(x, motion.grid), everywhere(y, motion.grid)
             )
-            for body in mechanism.bodies
         )
-    )
+    return AppliedLoads(tuple(forces))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from crankwork.errors import Problem
@@ -13,13 +14,16 @@ from crankwork.mechanism.mechanism import LinkPoint, Mechanism, body_at
 from crankwork.mechanism.structure import known_points, structure
 
 
-def mechanism_of(linkage: Linkage) -> tuple[Mechanism | None, list[Problem]]:
+def mechanism_of(linkage: Linkage, solved: Mapping[str, Point] | None = None) -> tuple[Mechanism | None, list[Problem]]:
     """Return the mechanism that a linkage is, or every problem that keeps it from being one.
 
     Parameters
     ----------
     linkage : Linkage
         Crank, links and sliding pieces in any order.
+    solved : mapping of str to tuple of float, optional
+        Where points are at a crank angle of zero, as far as the groups before have been solved. A branch is that of the
+        stated position of a joint, seen from the points that it hangs on. [m]
 
     Returns
     -------
@@ -29,7 +33,7 @@ def mechanism_of(linkage: Linkage) -> tuple[Mechanism | None, list[Problem]]:
     found, problems = structure(linkage)
     if found is None:
         return None, problems
-    order = _Order(linkage)
+    order = _Order(linkage, {**linkage.at_zero(), **(solved or {})})
     groups = [order.group([linkage.member(name) for name in group.members]) for group in found.groups]
     order.check_branches()
     if order.problems:
@@ -44,6 +48,7 @@ class _Order:
     """What is solved so far: the names of the members, their frames in their own drawn frames, further points."""
 
     linkage: Linkage
+    at: Mapping[str, Point]
     solved: list[str] = field(default_factory=list)
     frames: dict[str, tuple[Point, float]] = field(default_factory=dict)
     points: list[LinkPoint] = field(default_factory=list)
@@ -85,10 +90,10 @@ class _Order:
 
     def _rrr(self, a: Member, b: Member, joint_a: str, joint_b: str, point: str) -> RRR:
         lengths = [self._placed_bar(one, joint, point) for one, joint in ((a, joint_a), (b, joint_b))]
-        at = self.linkage.at_zero()
+        stated, at = self.linkage.positions, self.at
         side = 0.0
-        if {joint_a, joint_b, point} <= at.keys():
-            (ax, ay), (bx, by), (cx, cy) = at[joint_a], at[joint_b], at[point]
+        if point in stated and {joint_a, joint_b} <= at.keys():
+            (ax, ay), (bx, by), (cx, cy) = at[joint_a], at[joint_b], stated[point]
             side = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
         return RRR(joint_a, joint_b, point, a.name, b.name, lengths[0], lengths[1], self._branch(point, side))
 
@@ -96,11 +101,11 @@ class _Order:
         length = self._placed_bar(link, joint, point)
         line = self._shifted(guide, piece, point)
         self._place(piece, piece.points[point], 0.0, {point})
-        at = self.linkage.at_zero()
+        stated, at = self.linkage.positions, self.at
         ahead = 0.0
-        if {joint, point} <= at.keys():
-            angle = line.angle + self._angle_at_zero(line.link)
-            ahead = (at[point][0] - at[joint][0]) * math.cos(angle) + (at[point][1] - at[joint][1]) * math.sin(angle)
+        if point in stated and joint in at:
+            angle, (x, y) = line.angle + self._angle_at_zero(line.link), _difference(at[joint], stated[point])
+            ahead = x * math.cos(angle) + y * math.sin(angle)
         branch = self._branch(point, ahead)
         return RRP(joint, point, link.name, length, line.point, line.angle, branch, line.link, piece.name)
 
@@ -110,10 +115,13 @@ class _Order:
         slot = _moved(slot, block.points[joint])
         self._place(lever, (x, y), 0.0, {pivot})
         self._place(block, block.points[joint], 0.0, {joint})
-        at, ahead = self.linkage.at_zero(), 0.0
-        if {joint, pivot} <= at.keys() and sum(name in at for name in lever.points) > 1:
+        at, ahead = self.at, 0.0
+        stated = self.linkage.positions
+        named = next((name for name in lever.points if name in stated and name != pivot), None)
+        if {joint, pivot} <= at.keys() and named is not None:
             along, across = _difference(at[pivot], at[joint])
-            angle = self._drawn_angle(lever.name) + slot.angle
+            (u, v), (p, q) = _difference(at[pivot], stated[named]), _difference((x, y), lever.points[named])
+            angle = math.atan2(v, u) - math.atan2(q, p) + slot.angle
             ahead = along * math.cos(angle) + across * math.sin(angle)
         return RPR(joint, pivot, lever.name, block.name, slot, self._branch(lever.name, ahead))
 
@@ -156,11 +164,11 @@ class _Order:
         """Return the direction of the solved frame of a link at a crank angle of zero. [rad]"""
         return self._drawn_angle(link) + self.frames.get(link, ((0.0, 0.0), 0.0))[1]
 
-    def _drawn_angle(self, link: str) -> float:
-        """Return the direction of the drawn frame of a member at a crank angle of zero. [rad]"""
+    def _drawn_angle(self, link: str, *, stated: bool = False) -> float:
+        """Return the direction of the drawn frame of a member at a crank angle of zero, stated or solved. [rad]"""
         if not link or link == self.linkage.crank.link:
             return self.linkage.crank.start if link else 0.0
-        member, at = self.linkage.member(link), self.linkage.at_zero()
+        member, at = self.linkage.member(link), self.linkage.at_zero() if stated else self.at
         if member.guide:
             guide = self.linkage.guides[member.guide]
             return guide.angle + self._drawn_angle(guide.link)
@@ -184,7 +192,7 @@ class _Order:
                     f"{', '.join(one.points)} at a crank angle of 0"
                 )))  # fmt: skip
                 continue
-            angle, (u, v) = self._drawn_angle(one.name), one.points[anchor]
+            angle, (u, v) = self._drawn_angle(one.name, stated=True), one.points[anchor]
             cos, sin = math.cos(angle), math.sin(angle)
             origin = (at[anchor][0] - u * cos + v * sin, at[anchor][1] - u * sin - v * cos)
             links.append(ChainLink(one.name, origin, angle, dict(one.points)))

@@ -135,13 +135,15 @@ class _Reader:
     def _point(self, key: str, value: object) -> Point:
         if isinstance(value, list | tuple) and len(value) == 2:
             return self._number(key, value[0]), self._number(key, value[1])
-        self._problem(key, "must be two coordinates, [x, y]")
+        self._problem(
+            key, "is missing; give two coordinates, [x, y]" if value is None else "must be two coordinates, like [x, y]"
+        )
         return 0.0, 0.0
 
     def _word(self, key: str, value: object) -> str:
         if isinstance(value, str) and value:
             return value
-        self._problem(key, "is missing; give a name" if value is None else "must be a name")
+        self._problem(key, "is missing; give a name" if value is None else "must be a name in quotes")
         return ""
 
     def _points(self, key: str, table: Table) -> dict[str, Point]:
@@ -174,7 +176,9 @@ class _Reader:
                 self._problem(f"{key}.joins", 'must be the names of two or more joints, ["A", "B"]')
                 continue
             if len(set(joins)) < len(joins):
-                self._problem(f"{key}.joins", f"names a joint twice: {', '.join(joins)}; a link joins different points")
+                self._problem(
+                    f"{key}.joins", f"names a joint twice: {', '.join(joins)[:80]}; a link joins different points"
+                )
                 continue
             points = self._points(key, table)
             for point in {*points, ""}.intersection(joins[:2]):
@@ -232,7 +236,8 @@ class _Reader:
             name = f"{member.name}.centre"
             return _replaced(member, {**member.points, name: self._point(f"{key}.centre", centre)}, mass, inertia, name)
         if centre not in member.points:
-            self._problem(f"{key}.centre", f"{centre or 'the centre of mass'} is not a point of {member.name}")
+            advice = f"write one of {', '.join(member.points)}, or [along, across]"
+            self._problem(f"{key}.centre", f"{centre or 'it'} is not a point of {member.name}; {advice}")
         return _replaced(member, member.points, mass, inertia, centre)
 
     def _guide(self, name: str, table: Table, ground: Mapping[str, Point]) -> Guide:
@@ -270,7 +275,10 @@ class _Reader:
                 )
         for name, guide in linkage.guides.items():
             if guide.link and guide.link not in names:
-                self._problem(f"guides.{name}.link", f"{guide.link} is neither a link nor a slider")
+                self._problem(
+                    f"guides.{name}.link",
+                    f"{guide.link} is neither a link nor a slider; write one of these: {', '.join(sorted(names))}",
+                )
         for name in linkage.positions:
             if name in linkage.ground or name == linkage.crank.pin:
                 self._problem(f"positions.{name}", f"{name} is placed by the ground or the crank; leave it out")

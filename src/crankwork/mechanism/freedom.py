@@ -2,21 +2,10 @@
 
 from __future__ import annotations
 
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
 
 
 @formula("mobility", "artobolevsky_1988, ch. 2")
 def chain_mobility(n_i: Value, p_5: Value) -> Value:
-    """Degrees of freedom of a planar chain without higher pairs.
-
-    Parameters
-    ----------
-    n_i, p_5 : float
-        Moving links, joints of one freedom. [-]
-
-    Returns
-    -------
-    float
-        Degrees of freedom. [-]
-    """
+    """Degrees of freedom of a planar chain without higher pairs."""
     return 3 * n_i - 2 * p_5

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from crankwork.mechanism.dyads import Branch, Guide, Point
 from crankwork.mechanism.mechanism import Crank
@@ -72,8 +73,9 @@ class Linkage:
         """Return the member of a name."""
         return next(one for one in self.members if one.name == name)
 
+    @cached_property
     def owners(self) -> dict[str, list[str]]:
-        """Return, for every point, what it belongs to: members, the crank, the ground."""
+        """For every point what it belongs to: members, the crank, the ground."""
         owners: dict[str, list[str]] = {name: [GROUND] for name in self.ground}
         for name in (self.crank.pin, *self.crank_points):
             owners.setdefault(name, []).append(self.crank.link)

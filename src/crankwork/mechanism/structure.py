@@ -85,7 +85,7 @@ def mobility(linkage: Linkage) -> int:
 
 
 def _joints(linkage: Linkage) -> int:
-    pins = sum(len(owners) - 1 for owners in linkage.owners().values())
+    pins = sum(len(owners) - 1 for owners in linkage.owners.values())
     return 1 + pins + sum(1 for one in linkage.members if one.guide)
 
 
@@ -112,6 +112,7 @@ def structure(linkage: Linkage) -> tuple[Structure | None, list[Problem]]:
     names = [one.name for one in linkage.members]
     solved: set[str] = set()
     groups: list[AssurGroup] = []
+    bodies = {GROUND: GROUND, linkage.crank.link: linkage.crank.link}
     while len(solved) < len(names):
         rest = [name for name in names if name not in solved]
         found = _smallest_group(linkage, rest, solved)
@@ -119,16 +120,33 @@ def structure(linkage: Linkage) -> tuple[Structure | None, list[Problem]]:
             return None, [Problem("", _too_free(linkage, rest))]
         if _Equations(linkage, solved).excess(found) > 0:
             return None, [Problem(_key(linkage, found[0]), _too_stiff(linkage, found))]
+        bearer = _only_bearer(linkage, found, bodies)
+        stuck = next((name for name in found if bearer and linkage.member(name).guide), None)
+        if stuck is not None:
+            return None, [Problem(_key(linkage, stuck), _too_still(stuck, found, bearer))]
+        bodies |= {name: bearer or name for name in found}
         groups.append(AssurGroup(found, _class(linkage, found, solved)))
         solved |= set(found)
     return Structure((linkage.crank.link, *names), _joints(linkage), tuple(groups)), []
 
 
+def _only_bearer(linkage: Linkage, some: tuple[str, ...], bodies: dict[str, str]) -> str:
+    """Return the one body that bears all outer joints of a group, so that it cannot move on it; else nothing."""
+    bearers = []
+    for name in some:
+        member = linkage.member(name)
+        owners = ({bodies[one] for one in linkage.owners[point] if one in bodies} for point in member.points)
+        bearers += [one for one in owners if one]
+        carrier = (linkage.guides[member.guide].link or GROUND) if member.guide else ""
+        bearers += [{bodies[carrier]}] if carrier in bodies else []
+    return min(set.intersection(*bearers), default="") if bearers else ""
+
+
 def _smallest_group(linkage: Linkage, rest: list[str], solved: set[str]) -> tuple[str, ...] | None:
     """Return the fewest members that what is solved determines, or overdetermines; those named first go first."""
-    beside = _beside(linkage, rest, known_points(linkage, solved))
-    order = {name: number for number, name in enumerate(rest)}
     equations = _Equations(linkage, solved)
+    beside = _beside(linkage, rest, equations.known)
+    order = {name: number for number, name in enumerate(rest)}
     # only members that hang together: of two groups that do not, one alone is determined
     candidates: set[tuple[str, ...]] = {(name,) for name in rest}
     while candidates and len(candidates) <= _MOST_CANDIDATES:
@@ -146,7 +164,7 @@ def _smallest_group(linkage: Linkage, rest: list[str], solved: set[str]) -> tupl
 def known_points(linkage: Linkage, solved: Iterable[str]) -> set[str]:
     """Return the points that are placed once some members are solved."""
     members = {GROUND, linkage.crank.link, *solved}
-    return {name for name, owners in linkage.owners().items() if members.intersection(owners)}
+    return {name for name, owners in linkage.owners.items() if members.intersection(owners)}
 
 
 class _Equations:
@@ -179,7 +197,7 @@ def _class(linkage: Linkage, some: tuple[str, ...], solved: set[str]) -> int:
 def _beside(linkage: Linkage, some: Iterable[str], known: set[str]) -> dict[str, set[str]]:
     """Return for each of some members those that are joined to it at a point not known, or by a guide."""
     beside: dict[str, set[str]] = {name: set() for name in some}
-    for point, owners in linkage.owners().items():
+    for point, owners in linkage.owners.items():
         inner = [name for name in owners if name in beside]
         if point not in known:
             for one, other in combinations(inner, 2):
@@ -203,7 +221,7 @@ def _longest_loop(beside: dict[str, set[str]], first: str) -> int:
 
 def _loose_ends(linkage: Linkage) -> list[Problem]:
     """Return what hangs on fewer than two joints, and names that stand for nothing."""
-    owners, problems = linkage.owners(), []
+    owners, problems = linkage.owners, []
     carriers = {guide.link for name, guide in linkage.guides.items() if any(m.guide == name for m in linkage.members)}
     for one in linkage.members:
         joints = [name for name in one.points if len(owners[name]) > 1]
@@ -231,6 +249,13 @@ def _too_stiff(linkage: Linkage, some: tuple[str, ...]) -> str:
     return (
         f"{what} cannot move with the crank: {'it has' if len(some) == 1 else 'they have'} more joints than the rest "
         f"leaves free (mobility {mobility(linkage)}); take away a joint or a link"
+    )
+
+
+def _too_still(slider: str, some: tuple[str, ...], bearer: str) -> str:
+    return (
+        f"{slider} cannot slide, because {' and '.join(some)} are held by {bearer} alone; "
+        "join one of them to another link, or take them away"
     )
 
 

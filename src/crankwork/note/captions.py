@@ -5,39 +5,54 @@ from __future__ import annotations
 import datetime as dt
 import re
 
-from crankwork.quantities import LANGUAGES, Language
+from crankwork.locale import Language, capital, say
 
-_WORDS = {
-    "figure": ("Figure {}. {}", "Рисунок {} – {}", "Hình {}. {}"),
-    "table": ("Table {}. {}", "Таблица {} – {}", "Bảng {}. {}"),
-    "contents": ("Contents", "Содержание", "Mục lục"),
-    "where": ("where", "где", "trong đó"),
-}
-_PLACES = {
-    "ch.": ("ch.", "гл.", "chương"),
-    "sec.": ("sec.", "разд.", "mục"),
-    "p.": ("p.", "с.", "tr."),
-    "pp.": ("pp.", "с.", "tr."),
-    "eq.": ("eq.", "ф-ла", "công thức"),
-    "fig.": ("fig.", "рис.", "hình"),
-    "table": ("table", "табл.", "bảng"),
-    "vol.": ("vol.", "т.", "tập"),
-    "ex.": ("ex.", "прим.", "ví dụ"),
-    "example": ("example", "пример", "ví dụ"),
+# what is called as something else is called already
+_SAME = {
+    "headings.driving": "quantities.driving_torque",
+    "headings.firing": "columns.order",
+    "headings.method": "report.method",
+    "headings.reactions": "tables.joint_forces",
+    "headings.static": "quantities.static_torque",
+    "headings.torques": "figures.torques",
+    "headings.unrolled": "figures.crankpin_load",
+    "headings.wear": "figures.crankpin_wear",
+    "captions.accumulated": "tables.accumulated_torque",
+    "captions.acceleration": "quantities.piston_acceleration",
+    "captions.balance": "figures.balance_orders",
+    "captions.displacement": "quantities.piston_displacement",
+    "captions.firing": "tables.firing",
+    "captions.harmonics": "tables.torque_harmonics",
+    "captions.heat_balance": "headings.heat_balance",
+    "captions.inertia": "quantities.inertia_force",
+    "captions.more": "headings.more",
+    "captions.motion": "figures.kinematics",
+    "captions.pairs": "columns.joints",
+    "captions.polytropes": "tables.polytropes",
+    "captions.reactions": "tables.joint_forces",
+    "captions.summary": "headings.results",
+    "captions.table_static": "quantities.static_torque",
+    "captions.torques_all": "tables.dynamics",
+    "captions.total": "figures.total_torque",
+    "captions.velocity": "quantities.piston_velocity",
+    "columns.fuel": "report.fuel",
+    "columns.row": "report.row",
+    "figures.joint_forces": "tables.joint_forces",
 }
 _PLACE = re.compile(r"(?<!\w)(?:ch\.|vol\.|sec\.|pp\.|p\.|eq\.|fig\.|table|ex\.|example)(?!\w)")
 _REMARK = re.compile(r"\s*\([^)]*\)")
 LANGUAGE_TAGS: dict[Language, str] = {"en": "en-GB", "ru": "ru-RU", "vi": "vi-VN"}
 
 
-def fixed_word(key: str, language: Language) -> str:
-    """Return a word or pattern: `figure`, `table`, `contents`, `where`."""
-    return _WORDS[key][LANGUAGES.index(language)]
+def note_text(key: str, language: Language, **values: str) -> str:
+    """Return a text of a note, also one that stands under another key; headings and captions have a capital letter."""
+    found = say(_SAME.get(key, key), language, **values)
+    return found if key.startswith("columns.") else capital(found)
 
 
-def caption(kind: str, number: str, text: str, language: Language) -> str:
+def caption(kind: str, number: str, title: str, language: Language) -> str:
     """Return the line under a `figure` or over a `table`."""
-    return fixed_word(kind, language).format(number, text)
+    return say(f"note.{kind}", language, number=number, title=title)
 
 
 def place_in_source(place: str, language: Language) -> str:
@@ -50,7 +65,7 @@ def place_in_source(place: str, language: Language) -> str:
     """
     # a remark in parentheses is in English
     place = place if language == "en" else _REMARK.sub("", place)
-    return _PLACE.sub(lambda found: _PLACES[found[0]][LANGUAGES.index(language)], place)
+    return _PLACE.sub(lambda found: say(f"places.{found[0]}", language), place)
 
 
 def printed_date(date: dt.date, language: Language) -> str:

@@ -11,11 +11,6 @@ _BLANKS = "\t\n\v\f\r\x85\u2028\u2029"
 def plain_text(text: str) -> str:
     r"""Return text in composed letters, on one line and without control characters.
 
-    Parameters
-    ----------
-    text : str
-        Whatever the user wrote.
-
     Examples
     --------
     >>> plain_text("one\ntwo\x07")

@@ -21,15 +21,7 @@ _MEANS: Mapping[str, str] = MappingProxyType(
 
 
 def definition_box(key: str, language: Language) -> Box | None:
-    """Return what a value is by definition; None where nothing is to be said.
-
-    Parameters
-    ----------
-    key : str
-        Key of the value.
-    language : str
-        Language of the symbols.
-    """
+    """Return what a value is by definition; None where nothing is to be said."""
     kind = key.partition(".")[0]
     if kind == "indicated_work":
         return row(Upright("∮"), _over("diagram_pressure", "cylinder_volume", language))
@@ -44,15 +36,7 @@ def definition_box(key: str, language: Language) -> Box | None:
 
 
 def definition_text(key: str, language: Language) -> str:
-    """Return the same as one line of text, empty where nothing is to be said.
-
-    Parameters
-    ----------
-    key : str
-        Key of the value.
-    language : str
-        Language of the symbols.
-    """
+    """Return the same as one line of text, empty where nothing is to be said."""
     kind = key.partition(".")[0]
     names = {one: QUANTITIES[one].symbol(language) for one in (*_MEANS, *_MEANS.values(), "crank_angle", "cycle_angle")}
     if kind == "indicated_work":

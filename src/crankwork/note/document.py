@@ -10,9 +10,9 @@ import datetime as dt
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from crankwork.expressions import Expression, Formula
+from crankwork.formula.expression import Expression, Formula
+from crankwork.formula.steps import AnyStep
 from crankwork.quantities import Language
-from crankwork.steps import AnyStep
 
 
 @dataclass(frozen=True)
@@ -45,6 +45,8 @@ class Citation:
 
 Run = str | Bold | Math | Reference | Citation
 Runs = tuple[Run, ...]
+# what stands in a table: finished text or a symbol
+Cell = str | Math
 
 
 @dataclass(frozen=True)
@@ -90,14 +92,14 @@ class Equation:
 
 @dataclass(frozen=True)
 class Table:
-    """A table: rows of finished text under headings; a wide one stands on a page turned on its side.
+    """A table: rows of finished text and symbols under headings; a wide one stands on a page turned on its side.
 
     `align` has a letter per column, `l`, `c` or `r`; without it everything stands to the right.
     """
 
     caption: str
     headings: tuple[Runs, ...]
-    rows: Sequence[Sequence[str]]
+    rows: Sequence[Sequence[Cell]]
     wide: bool = False
     align: str = ""
     label: str = ""
@@ -108,6 +110,11 @@ class Table:
             raise ValueError(
                 f'table "{self.caption}": every row, and align, must have {count} entries, as headings has'
             )
+
+
+def cell_length(cell: Cell) -> int:
+    """Return about how many letters wide a cell is."""
+    return len(cell if isinstance(cell, str) else str(cell.content))
 
 
 @dataclass(frozen=True)

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from crankwork.expressions import symbol
-from crankwork.notation import ARGUMENTS
+from crankwork.formula.expression import symbol
+from crankwork.formula.steps import Step
+from crankwork.locale import has_text
+from crankwork.notation import ARGUMENTS, argument_unit
+from crankwork.note.document import Cell, Math
 from crankwork.note.engine_data import cycle_keys
 from crankwork.note.engine_material import Material
 from crankwork.note.engine_tables import value_row
-from crankwork.note.engine_words import flat
 from crankwork.note.legends import legend
-from crankwork.note.stated_units import printed_unit, stated_units
+from crankwork.note.printed_units import printed_unit
 from crankwork.quantities import QUANTITIES, base_key
-from crankwork.report.engine_words import FILE_KEYS
-from crankwork.steps import Step
+from crankwork.report.language import FILE_KEYS
 from crankwork.units import UNITS
 
 # what varies with the crank angle or stands among the data of the machine
@@ -23,7 +24,7 @@ _ELSEWHERE = (
     "diagram_pressure", "bore", "rotational_speed", "speed", "stroke",
 )  # fmt: skip
 # arguments that formulas of the cycle calculate under several names
-_CALCULATED = ("Q_part", "mc_gas", "th_gas", "h_prod", "h_fresh", "p_1", "V_1", "V_phi")
+_CALCULATED = ("Q_part", "mc_gas", "th_gas", "T_zero", "t_gas", "h_prod", "h_fresh", "p_1", "V_1", "V_phi")
 # what a fuel, or the kind of an engine, brings along when it is taken as usual
 _BROUGHT = {
     "fuel": ("fuel_carbon", "fuel_hydrogen", "fuel_oxygen", "fuel_molar_mass"),
@@ -31,45 +32,38 @@ _BROUGHT = {
 }
 
 
-def cycle_data_rows(material: Material, steps: Sequence[Step]) -> Iterator[tuple[str, ...]]:
-    """Yield what is given or chosen for the cycle, and what is put into its formulas that nothing else gives.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    steps : sequence of Step
-        Of its cycle.
-    """
+def cycle_data_rows(material: Material, steps: Sequence[Step]) -> Iterator[tuple[Cell, ...]]:
+    """Yield what is given or chosen for the cycle, and what is put into its formulas that nothing else gives."""
     words, given, assumed = material.words, cycle_keys(material), _assumed(material)
 
-    def marked(key: str, row: tuple[str, ...]) -> tuple[str, ...]:
-        return (f"{row[0]} ({words.column('assumed')})", *row[1:]) if key in assumed else row
+    def marked(key: str, row: tuple[Cell, ...]) -> tuple[Cell, ...]:
+        return (f"{row[0]} ({words.term('assumed')})", *row[1:]) if key in assumed else row
 
     for key in given:
         yield marked(key, value_row(key, material.summary[key], words))
     known = {*given, *material.summary, *material.results.columns, *_ELSEWHERE}
     known |= {base_key(one.key) for one in material.results.steps}
     for step in steps:
-        units = stated_units(step.formula)
         meanings = {one.symbol: one.text for one in legend(step, words.language, frozenset(known))}
         for name, value in step.values.items():
+            if name not in ARGUMENTS:
+                continue
             shown, key = symbol(name, words.language), _key(name)
             if shown not in meanings or key in known or name in _CALCULATED:
                 continue
             known.add(key)
-            stated = units.get(name, "")
+            stated = argument_unit(name)
             if key in QUANTITIES and stated in UNITS and UNITS[stated].factor == 1.0:
                 yield marked(key, value_row(key, value, words))
                 continue
             unit = printed_unit(stated, words.language)
             title = meanings[shown].removesuffix(f", {unit}") if unit else meanings[shown]
-            yield marked(key, (title, flat(shown), words.number(value), unit or "–"))
+            yield marked(key, (title, Math(shown), words.number(value), unit or "–"))
 
 
 def _key(name: str) -> str:
     entry = ARGUMENTS[name]
-    return f"argument:{name}" if entry.meaning else entry.quantity
+    return f"argument:{name}" if has_text(f"arguments.{name}") else entry.quantity
 
 
 def _assumed(material: Material) -> set[str]:

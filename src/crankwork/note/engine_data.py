@@ -5,15 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from crankwork.locale import say
 from crankwork.machine import Bearings, Engine
-from crankwork.note.document import Block, Citation, Reference
+from crankwork.note.document import Block, Cell, Citation, Math, Reference
 from crankwork.note.engine_material import Material
 from crankwork.note.engine_tables import value_row, value_table
 from crankwork.note.engine_words import EngineWords
-from crankwork.note.stated_units import printed_unit
+from crankwork.note.printed_units import printed_unit
 from crankwork.quantities import QUANTITIES
 from crankwork.quantities import cycle as cycle_quantities
-from crankwork.report.language import label, word
+from crankwork.report.language import label
 from crankwork.report.summary import results_method
 
 GEAR = ("rotational_speed", "angular_acceleration", "crank_radius", "rod_length", "rod_ratio", "offset")
@@ -27,25 +28,13 @@ _SOURCES = {"first": "kolchin_demidov_2008, ch. 7", "second": "kolchin_demidov_2
 
 
 def preface(material: Material) -> Iterator[Block]:
-    """Yield the preface of notes that have one.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield the preface of notes that have one."""
     yield material.words.heading("preface")
     yield material.words.paragraph("preface")
 
 
 def data(material: Material) -> Iterator[Block]:
-    """Yield the input data and, except where it is a section of its own, the method.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield the input data and, except where it is a section of its own, the method."""
     words = material.words
     yield words.heading("data", numbered=material.order != "vi")
     yield words.paragraph("data", table=Reference("t:data"))
@@ -60,13 +49,7 @@ def data(material: Material) -> Iterator[Block]:
 
 
 def method(material: Material) -> Iterator[Block]:
-    """Yield the section about the method, with what it follows.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield the section about the method, with what it follows."""
     yield material.words.heading("method")
     yield from _how(material)
 
@@ -90,7 +73,7 @@ def _how(material: Material) -> Iterator[Block]:
         yield words.paragraph("references", **{name: Citation(one) for name, one in _SOURCES.items()})
 
 
-def _rows(material: Material) -> Iterator[tuple[str, ...]]:
+def _rows(material: Material) -> Iterator[tuple[Cell, ...]]:
     """Yield what is given, row by row."""
     words, machine, summary = material.words, material.machine, material.summary
     known = {**summary, "rotational_speed": machine.speed, "angular_acceleration": machine.angular_acceleration}
@@ -111,7 +94,7 @@ def _rows(material: Material) -> Iterator[tuple[str, ...]]:
             yield value_row("speed_fluctuation", engine.fluctuation, words)
 
 
-def _cylinder(material: Material) -> Iterator[tuple[str, ...]]:
+def _cylinder(material: Material) -> Iterator[tuple[Cell, ...]]:
     cylinder = material.machine.cylinder
     if cylinder is not None:
         for key in ("bore", "clearance_volume", "compression_ratio", "inclination"):
@@ -120,7 +103,7 @@ def _cylinder(material: Material) -> Iterator[tuple[str, ...]]:
                 yield value_row(key, value, material.words)
 
 
-def _masses(material: Material) -> Iterator[tuple[str, ...]]:
+def _masses(material: Material) -> Iterator[tuple[Cell, ...]]:
     masses = material.machine.masses
     if masses is not None:
         parts = {
@@ -134,33 +117,27 @@ def _masses(material: Material) -> Iterator[tuple[str, ...]]:
         yield from (value_row(key, value, material.words, area=area) for key, value in parts.items() if value)
 
 
-def _engine(engine: Engine, words: EngineWords) -> Iterator[tuple[str, ...]]:
+def _engine(engine: Engine, words: EngineWords) -> Iterator[tuple[Cell, ...]]:
     layout = engine.layout
     yield value_row("cylinder_count", float(len(layout.places)), words)
-    yield (words.column("arrangement"), "–", words.column(layout.kind), "–")
-    yield (words.column("order"), "–", "–".join(map(str, layout.firing_order)), "–")
+    yield (words.term("arrangement"), "–", words.kind(layout.kind), "–")
+    yield (words.term("order"), "–", "–".join(map(str, layout.firing_order)), "–")
 
 
-def _sizes(bearings: Bearings, words: EngineWords) -> Iterator[tuple[str, ...]]:
+def _sizes(bearings: Bearings, words: EngineWords) -> Iterator[tuple[Cell, ...]]:
     for key, name, part in _SIZES:
         value = getattr(bearings, name)
         if value is not None:
             row = QUANTITIES[key]
             yield (
-                f"{label(key, words.language)}, {word(part, words.language)}",
-                row.symbol(words.language),
+                f"{label(key, words.language)}, {say(f'report.{part}', words.language)}",
+                Math(row.symbol(words.language)),
                 words.number(value * 1e3),
                 printed_unit("mm", words.language),
             )
 
 
 def cycle_keys(material: Material) -> list[str]:
-    """Return what is given or chosen for the working cycle: its values that no step gives.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Return what is given or chosen for the working cycle: its values that no step gives."""
     given = {one.key for one in cycle_quantities.ROWS} - {one.key for one in material.results.steps}
     return [key for key in material.summary if key in given and key not in _ELSEWHERE]

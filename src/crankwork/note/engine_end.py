@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from crankwork.analysis.solved import Notice
-from crankwork.note.document import Bibliography, Block, ItemList, Reference, Runs, Table
+from crankwork.locale import say
+from crankwork.note.document import Bibliography, Block, Cell, ItemList, Math, Reference, Runs, Table
 from crankwork.note.engine_data import GEAR, cycle_keys
 from crankwork.note.engine_material import Material
 from crankwork.note.engine_motion import errors
 from crankwork.note.engine_shaft import balance, evenness, mains
 from crankwork.note.engine_tables import value_row, value_table
 from crankwork.note.engine_words import EngineWords
-from crankwork.note.stated_units import printed_unit
-from crankwork.report.language import displayed, key_unit, label, word
+from crankwork.note.printed_units import printed_unit
+from crankwork.report.language import displayed, key_unit, label
 from crankwork.report.notices import notice_text
 
 _MAIN = (
@@ -30,13 +31,7 @@ _OF_ENGINES = ("displacement", "mean_total_torque", "total_torque_max", "total_t
 
 
 def checks(material: Material) -> Iterator[Block]:
-    """Yield the identities that were checked, the errors of the method, and what the reader should know.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield the identities that were checked, the errors of the method, and what the reader should know."""
     words, results = material.words, material.results
     found = errors(material)
     if not (results.checks or found or results.notices):
@@ -44,7 +39,7 @@ def checks(material: Material) -> Iterator[Block]:
     yield words.heading("checks", numbered=material.order != "vi")
     if results.checks:
         yield words.paragraph("checks", table=Reference("t:identities"))
-        rows = [(word(key, words.language), words.number(100.0 * one, digits=2)) for key, one in results.checks.items()]
+        rows = [(_identity(key, words), words.number(100.0 * one, digits=2)) for key, one in results.checks.items()]
         titles: tuple[Runs, ...] = ((words.column("identity"),), (words.column("residual"),))
         yield Table(words.caption("identities"), titles, rows, align="lr", label="t:identities")
     if found:
@@ -53,6 +48,12 @@ def checks(material: Material) -> Iterator[Block]:
     if results.notices:
         yield words.paragraph("notices")
         yield ItemList(tuple((_notice(one, words),) for one in results.notices))
+
+
+def _identity(key: str, words: EngineWords) -> Cell:
+    """Return what a check compares: in words, or symbols where it is an equation."""
+    said = say(f"report.{key}", words.language)
+    return Math(said) if "²" in said else said
 
 
 def _notice(notice: Notice, words: EngineWords) -> str:
@@ -82,13 +83,7 @@ def _errors(material: Material, found: dict[str, tuple[float, float]]) -> Table:
 
 
 def conclusion(material: Material) -> Iterator[Block]:
-    """Yield the main results as a table.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield the main results as a table."""
     words = material.words
     yield words.heading("results" if material.order == "en" else "conclusion")
     yield words.paragraph("conclusion", table=Reference("t:summary"))
@@ -101,7 +96,7 @@ def _main_keys(material: Material) -> list[str]:
     return [key for one in kinds for key in material.summary if key == one or key.startswith(f"{one}.")]
 
 
-def _row(material: Material, key: str) -> tuple[str, ...]:
+def _row(material: Material, key: str) -> tuple[Cell, ...]:
     """Return name, symbol, value and unit of a single value, and the crank angle where it is reached."""
     words, summary = material.words, material.summary
     area = summary["piston_area"] if material.per_area else None
@@ -112,25 +107,13 @@ def _row(material: Material, key: str) -> tuple[str, ...]:
 
 
 def sources(material: Material) -> Iterator[Block]:
-    """Yield the bibliography.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield the bibliography."""
     yield material.words.heading("sources")
     yield Bibliography()
 
 
 def appendix(material: Material) -> Iterator[Block]:
-    """Yield what no section has given: journals, balance and flywheel in Vietnamese notes, further values, figures.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield what no section has given: journals, balance and flywheel in Vietnamese notes, further values, figures."""
     blocks: list[Block] = []
     if material.order == "vi":
         blocks += [*mains(material), *balance(material), *evenness(material)]

@@ -24,13 +24,7 @@ _VIETNAMESE = {"gas_force": 5, "inertia_force": 6, "piston_force": 6}
 
 
 def dynamics(material: Material) -> Iterator[Block]:
-    """Yield the section about masses and forces; nothing if neither is known.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield the section about masses and forces; nothing if neither is known."""
     words = material.words
     if "masses" not in material.groups and "forces" not in material.groups:
         return
@@ -59,26 +53,14 @@ def dynamics(material: Material) -> Iterator[Block]:
 
 
 def masses(material: Material) -> Iterator[Block]:
-    """Yield the masses of the crank gear.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield the masses of the crank gear."""
     given = material.machine.masses
     rigid = given is not None and bool(given.rod_inertia_excess) and material.results.method.rod == "rigid"
     yield from material.intro("masses_rigid" if rigid else "masses", material.equations("masses"))
 
 
 def per_area(material: Material) -> Iterator[Block]:
-    """Yield how forces are related to the piston area, where they are.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield how forces are related to the piston area, where they are."""
     if material.per_area:
         words = material.words
         value = words.amount(material.summary["piston_area"], "cm2")
@@ -86,13 +68,7 @@ def per_area(material: Material) -> Iterator[Block]:
 
 
 def inertia(material: Material) -> Iterator[Block]:
-    """Yield masses and inertia force as a section of its own; nothing if no masses are known.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield masses and inertia force as a section of its own; nothing if no masses are known."""
     words = material.words
     if "masses" not in material.groups:
         return
@@ -107,13 +83,7 @@ def inertia(material: Material) -> Iterator[Block]:
 
 
 def along(material: Material) -> Iterator[Block]:
-    """Yield the forces along the cylinder axis with the table that Vietnamese notes print.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield the forces along the cylinder axis with the table that Vietnamese notes print."""
     words = material.words
     if "forces" not in material.groups:
         return
@@ -134,13 +104,7 @@ def _along_table(material: Material) -> Table | None:
 
 
 def across(material: Material) -> Iterator[Block]:
-    """Yield the forces on wall, rod and crankpin as a section of its own.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield the forces on wall, rod and crankpin as a section of its own."""
     if "forces" not in material.groups:
         return
     yield material.words.heading("forces")

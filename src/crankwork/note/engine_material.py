@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import cast
 
 import numpy as np
 
-from crankwork.analysis import Results, analyse
+from crankwork.analysis import Array, Results
 from crankwork.analysis.force_functions import force_functions
 from crankwork.analysis.steps import worked_steps
-from crankwork.cylinders.engines import inline
-from crankwork.kinematics.crank_grid import Array
-from crankwork.machine import Bearings, Engine, Machine
+from crankwork.formula.steps import AnyStep, Given, ProductStep, Step, StepGroup, SumStep
+from crankwork.machine import Machine
 from crankwork.note.document import Block, Equation, Figure, Paragraph, Reference, Run, Runs, Table
 from crankwork.note.engine_seen import crankpins, kind_of, seen
 from crankwork.note.engine_words import EngineWords
@@ -23,35 +22,12 @@ from crankwork.note.options import NoteOptions
 from crankwork.report.figure_data import figure_title
 from crankwork.report.figures import figures
 from crankwork.report.language import key_unit
-from crankwork.steps import AnyStep, Given, ProductStep, Step, StepGroup, SumStep
 from crankwork.units import from_si
 
-_FOUR_STROKES = 720.0
 # what a crank gear of its own has no need of
 _OF_ENGINES = ("total_torque", "main_journal", "journal_share")
-_RAYS = {"vi": 24}
 # values without a formula that a table of their own gives
 _TABLED = ("free_force", "free_moment", "firing_angle", "cylinder_count", "bearing_load_max", "mean_bearing_load")
-
-
-def whole(results: Results, school: str) -> Results:
-    """Return results with those of the whole engine; a crank gear of its own is an engine of one cylinder.
-
-    Parameters
-    ----------
-    results : Results
-        Of an engine.
-    school : str
-        Whose wear diagram is drawn where the machine does not say.
-    """
-    machine = results.machine
-    if not isinstance(machine, Machine) or machine.engine is not None or "crank_torque" not in results.columns:
-        return results
-    layout, notices = inline(1, (1,), strokes=4 if machine.cycle == _FOUR_STROKES else 2)
-    if layout.cycle != machine.cycle:
-        return results
-    one = replace(machine, engine=Engine(layout, bearings=Bearings(rays=_RAYS.get(school, 12)), notices=notices))
-    return analyse(one, results.grid, method=results.method)
 
 
 @dataclass
@@ -140,15 +116,6 @@ class Material:
         """Return equations of the steps of a group that the note has not shown yet.
 
         What results without a formula and stands in a table is left to the table.
-
-        Parameters
-        ----------
-        group : str
-            Name of the group.
-        *kinds : str
-            Quantities that they give; all if none is named.
-        first : bool
-            Whether each formula is worked once, for the first of what the table has.
         """
         steps = self.groups[group].steps if group in self.groups else ()
         some = [one for one in steps if not kinds or one.key.partition(".")[0] in kinds]
@@ -197,15 +164,7 @@ class Material:
             yield self.words.paragraph("worked_at", value=self.words.amount(found.crank_angle, "deg"))
 
     def presented(self, tables: Iterable[Table | None] = (), names: Iterable[str] = ()) -> Iterator[Block]:
-        """Yield tables and figures after a sentence that refers to them by number.
-
-        Parameters
-        ----------
-        tables : iterable of Table or None
-            The tables; None is left out.
-        names : iterable of str
-            Names of figures; those that are not there, or shown before, are left out.
-        """
+        """Yield tables and figures after a sentence that refers to them by number."""
         some = [one for one in tables if one is not None]
         drawn = [self._figure(name) for name in names if name in self.drawn and name not in self._told]
         sides = {

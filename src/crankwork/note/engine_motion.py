@@ -17,13 +17,7 @@ _ORDERS = ("first", "second")
 
 
 def kinematics(material: Material) -> Iterator[Block]:
-    """Yield the section about the motion: displacement, velocity and acceleration in one.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield the section about the motion: displacement, velocity and acceleration in one."""
     words = material.words
     yield words.heading("kinematics")
     yield from material.worked_at("motion")
@@ -40,13 +34,7 @@ def kinematics(material: Material) -> Iterator[Block]:
 
 
 def displacement(material: Material) -> Iterator[Block]:
-    """Yield the section about the displacement, by the construction of Brix.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield the section about the displacement, by the construction of Brix."""
     words = material.words
     yield words.heading("brix")
     yield words.paragraph("brix")
@@ -58,13 +46,7 @@ def displacement(material: Material) -> Iterator[Block]:
 
 
 def velocity(material: Material) -> Iterator[Block]:
-    """Yield the section about the velocity.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield the section about the velocity."""
     yield material.words.heading("velocity")
     yield from material.worked_at("motion")
     yield from material.equations("motion", "piston_transfer_1", "piston_velocity")
@@ -77,13 +59,7 @@ def velocity(material: Material) -> Iterator[Block]:
 
 
 def acceleration(material: Material) -> Iterator[Block]:
-    """Yield the section about the acceleration over the displacement, by the construction of Tolle.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield the section about the acceleration over the displacement, by the construction of Tolle."""
     yield material.words.heading("acceleration")
     yield material.words.paragraph("tolle")
     yield from material.worked_at("motion")
@@ -102,13 +78,7 @@ def _table(material: Material, noun: str) -> Table | None:
 
 
 def error_bound(material: Material) -> Iterator[Block]:
-    """Yield how far the method is from exact; nothing if it is exact.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield how far the method is from exact; nothing if it is exact."""
     found = errors(material)
     if "piston_acceleration_error" in found:
         share = material.words.number(100 * found["piston_acceleration_error"][1], digits=2)
@@ -119,13 +89,7 @@ def error_bound(material: Material) -> Iterator[Block]:
 
 
 def errors(material: Material) -> dict[str, tuple[float, float]]:
-    """Return the largest errors against exact [SI], and their shares of the largest value, by key.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Return the largest errors against exact [SI], and their shares of the largest value, by key."""
     found = {}
     for key in (one for one in material.summary if one.endswith("_error")):
         values = material.results.columns.get(key.removesuffix("_error"))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from crankwork.analysis import Results
+from crankwork.analysis.one_cylinder import as_engine
 from crankwork.errors import CrankworkError
 from crankwork.machine import Machine
 from crankwork.note.document import Block, Contents, Note, PageBreak, TitlePage
@@ -12,7 +13,7 @@ from crankwork.note.engine_cycle import cycle, indicator
 from crankwork.note.engine_data import data, method, preface
 from crankwork.note.engine_end import appendix, checks, conclusion, sources
 from crankwork.note.engine_forces import across, along, dynamics, inertia
-from crankwork.note.engine_material import Material, whole
+from crankwork.note.engine_material import Material
 from crankwork.note.engine_motion import acceleration, displacement, kinematics, velocity
 from crankwork.note.engine_shaft import balance, big_end, crankpin, evenness, mains, polar, total, unrolled, wear
 from crankwork.note.engine_tables import explained
@@ -41,18 +42,6 @@ _ORDERS: dict[str, tuple[Section, ...]] = {
 def engine_note(results: Results, options: NoteOptions) -> Note:
     """Return the note of an engine, or of a crank gear of which less is known.
 
-    Parameters
-    ----------
-    results : Results
-        Their results.
-    options : NoteOptions
-        Language, school, title and what else is chosen.
-
-    Returns
-    -------
-    Note
-        Title page, contents, the sections of the school, sources and appendix; what is not known is left out.
-
     Raises
     ------
     CrankworkError
@@ -66,7 +55,7 @@ def engine_note(results: Results, options: NoteOptions) -> Note:
         raise CrankworkError(f'no school of notes is called "{options.order}"; take en, ru or vi')
     machine = results.machine
     has_engine = isinstance(machine, Machine) and machine.engine is not None
-    material = Material(whole(results, options.order), options, has_engine=has_engine)
+    material = Material(as_engine(results), options, has_engine=has_engine)
     words = material.words
     blocks: list[Block] = [TitlePage(), Contents(), PageBreak()]
     for section in _ORDERS[options.order]:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Protocol
 
-from crankwork.analysis import Results
-from crankwork.kinematics.crank_grid import Array
+from crankwork.analysis import Array, Results
 from crankwork.note.engine_words import EngineWords
 from crankwork.report.language import label
 
@@ -55,15 +54,7 @@ class Shown(Protocol):
 
 
 def seen(name: str, shown: Shown) -> str:
-    """Return the quantities of a figure with their extreme values.
-
-    Parameters
-    ----------
-    name : str
-        Name of the figure.
-    shown : Shown
-        What is shown.
-    """
+    """Return the quantities of a figure with their extreme values."""
     keys = _SHOWN.get(kind_of(name), ())
     pins = crankpins(name, shown.results.columns)
     if pins:
@@ -74,26 +65,12 @@ def seen(name: str, shown: Shown) -> str:
 
 
 def kind_of(name: str) -> str:
-    """Return the name of a figure without the number of a crankpin.
-
-    Parameters
-    ----------
-    name : str
-        Name of the figure.
-    """
+    """Return the name of a figure without the number of a crankpin."""
     return name.rstrip("0123456789").rstrip("_")
 
 
 def crankpins(name: str, columns: Iterable[str]) -> tuple[str, ...]:
-    """Return the numbers of the crankpins that a figure shows: of a polar diagram one, none of other figures.
-
-    Parameters
-    ----------
-    name : str
-        Name of the figure.
-    columns : iterable of str
-        Keys of the results; each unlike crankpin has its load there.
-    """
+    """Return the numbers of the crankpins that a figure shows: of a polar diagram one, none of other figures."""
     kind = kind_of(name)
     pins = tuple(key.partition(".")[2] for key in columns if key.startswith("crankpin_load."))
     if kind not in _OF_CRANKPINS or not pins:

@@ -29,13 +29,7 @@ def _cylinders(material: Material) -> int:
 
 
 def total(material: Material) -> Iterator[Block]:
-    """Yield the torque of all cylinders; for one cylinder only where the order of sections asks for it.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield the torque of all cylinders; for one cylinder only where the order of sections asks for it."""
     words, summary, engine = material.words, material.summary, material.machine.engine
     if engine is None or "mean_total_torque" not in summary:
         return
@@ -93,13 +87,7 @@ def _bearings(material: Material) -> list[str]:
 
 
 def crankpin(material: Material) -> Iterator[Block]:
-    """Yield the loads on the crankpin; polar, unrolled and wear in one.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield the loads on the crankpin; polar, unrolled and wear in one."""
     if not _bearings(material):
         return
     yield material.words.heading("crankpin")
@@ -115,13 +103,7 @@ def crankpin(material: Material) -> Iterator[Block]:
 
 
 def polar(material: Material) -> Iterator[Block]:
-    """Yield the polar diagram of the crankpin as a section of its own.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield the polar diagram of the crankpin as a section of its own."""
     if not _bearings(material):
         return
     yield material.words.heading("crankpin")
@@ -131,13 +113,7 @@ def polar(material: Material) -> Iterator[Block]:
 
 
 def unrolled(material: Material) -> Iterator[Block]:
-    """Yield the load on the crankpin over the crank angle as a section of its own.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield the load on the crankpin over the crank angle as a section of its own."""
     if not _bearings(material):
         return
     yield material.words.heading("unrolled")
@@ -152,13 +128,7 @@ def _statistics(material: Material) -> Iterator[Block]:
 
 
 def big_end(material: Material) -> Iterator[Block]:
-    """Yield the load on the big end as a section of its own.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield the load on the big end as a section of its own."""
     if "big_end_load" not in material.columns:
         return
     yield material.words.heading("big_end")
@@ -170,13 +140,7 @@ def big_end(material: Material) -> Iterator[Block]:
 
 
 def wear(material: Material) -> Iterator[Block]:
-    """Yield the wear of the crankpin as a section of its own.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield the wear of the crankpin as a section of its own."""
     if "crankpin_wear" in material.results.listings:
         yield material.words.heading("wear")
         yield from _wear(material)
@@ -203,13 +167,7 @@ def _wear(material: Material) -> Iterator[Block]:
 
 
 def mains(material: Material) -> Iterator[Block]:
-    """Yield loads and wear of the main journals, and the torque along the shaft.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield loads and wear of the main journals, and the torque along the shaft."""
     if not material.has_engine or "main_journals" not in material.results.tables:
         return
     yield from _heading(material, "mains")
@@ -232,13 +190,7 @@ def _heading(material: Material, key: str) -> Iterator[Block]:
 
 
 def balance(material: Material) -> Iterator[Block]:
-    """Yield free forces and moments by order.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield free forces and moments by order."""
     if "balance" not in material.results.listings:
         return
     yield from _heading(material, "balance")
@@ -250,13 +202,7 @@ def balance(material: Material) -> Iterator[Block]:
 
 
 def evenness(material: Material) -> Iterator[Block]:
-    """Yield the excess work, the flywheel and the speed over the cycle.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    """
+    """Yield the excess work, the flywheel and the speed over the cycle."""
     if "excess_work" not in material.summary:
         return
     yield from _heading(material, "evenness")

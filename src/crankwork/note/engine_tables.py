@@ -8,17 +8,17 @@ from typing import cast
 
 import numpy as np
 
-from crankwork.expressions import Formula
-from crankwork.kinematics.crank_grid import Array
-from crankwork.note.document import Block, Equation, Explanation, Math, Runs, Table
+from crankwork.analysis import Array
+from crankwork.formula.expression import Formula
+from crankwork.formula.steps import Step
+from crankwork.note.document import Block, Cell, Equation, Explanation, Math, Runs, Table
 from crankwork.note.engine_material import Material
-from crankwork.note.engine_words import EngineWords, flat
+from crankwork.note.engine_words import EngineWords
 from crankwork.note.legends import explained_keys, legend
-from crankwork.note.stated_units import printed_unit
+from crankwork.note.printed_units import printed_unit
 from crankwork.quantities import QUANTITIES
 from crankwork.report.language import displayed, key_unit, label, symbol
 from crankwork.report.tables import row_name
-from crankwork.steps import Step
 
 # columns of numbers that fit on a page upright
 _UPRIGHT = 9
@@ -28,24 +28,7 @@ _TURN = 360.0
 
 
 def angle_table(material: Material, caption: str, keys: Iterable[str], *, one_turn: bool = False) -> Table | None:
-    """Return a table over the crank angle; parts of a long narrow one stand side by side.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    caption : str
-        Key of its caption, and its label.
-    keys : iterable of str
-        Its columns; those that are not there are left out.
-    one_turn : bool
-        Whether it stops after one turn of the crank.
-
-    Returns
-    -------
-    Table or None
-        None if none of the columns is there.
-    """
+    """Return a table over the crank angle; parts of a long narrow one stand side by side."""
     table = long_table(material, caption, keys, one_turn=one_turn)
     return None if table is None else folded(table)
 
@@ -58,26 +41,7 @@ def long_table(
     one_turn: bool = False,
     decimals: Mapping[str, int] | None = None,
 ) -> Table | None:
-    """Return a table over the crank angle with one row for each.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    caption : str
-        Key of its caption, and its label.
-    keys : iterable of str
-        Its columns; those that are not there are left out.
-    one_turn : bool
-        Whether it stops after one turn of the crank.
-    decimals : mapping of str to int, optional
-        Decimals of some columns.
-
-    Returns
-    -------
-    Table or None
-        None if none of the columns is there.
-    """
+    """Return a table over the crank angle with one row for each."""
     words, degrees = material.words, material.results.grid.degrees
     present = [key for key in keys if key in material.columns]
     if not present:
@@ -91,13 +55,7 @@ def long_table(
 
 
 def folded(table: Table) -> Table:
-    """Return a long narrow table with its parts side by side; any other as it is.
-
-    Parameters
-    ----------
-    table : Table
-        With columns over the crank angle.
-    """
+    """Return a long narrow table with its parts side by side; any other as it is."""
     count, rows = len(table.headings), list(table.rows)
     parts = min((_UPRIGHT + 1) // count, _MOST_PARTS)
     if len(rows) <= _LONG or parts == 1 or not parts:
@@ -109,18 +67,8 @@ def folded(table: Table) -> Table:
     return replace(table, headings=table.headings * parts, rows=joined, align=table.align * parts)
 
 
-def column_table(caption: str, columns: Sequence[tuple[Runs, Sequence[str]]], words: EngineWords) -> Table:
-    """Return a table of finished columns.
-
-    Parameters
-    ----------
-    caption : str
-        Key of its caption, and its label.
-    columns : sequence of (runs, sequence of str)
-        Headings and entries.
-    words : EngineWords
-        The language.
-    """
+def column_table(caption: str, columns: Sequence[tuple[Runs, Sequence[Cell]]], words: EngineWords) -> Table:
+    """Return a table of finished columns."""
     rows = list(zip(*(entries for _, entries in columns), strict=True))
     return Table(
         words.caption(caption),
@@ -133,17 +81,7 @@ def column_table(caption: str, columns: Sequence[tuple[Runs, Sequence[str]]], wo
 
 
 def listing_table(material: Material, name: str, caption: str) -> Table | None:
-    """Return a table of results that does not run over the crank angle.
-
-    Parameters
-    ----------
-    material : Material
-        Of an engine.
-    name : str
-        Name of the listing.
-    caption : str
-        Key of its caption, and its label.
-    """
+    """Return a table of results that does not run over the crank angle."""
     words, sheet = material.words, material.results.listings.get(name)
     if sheet is None:
         return None
@@ -162,18 +100,8 @@ def listing_table(material: Material, name: str, caption: str) -> Table | None:
     return replace(table, align=("l" if sheet.names else "c") + table.align[1:])
 
 
-def value_table(caption: str, rows: Iterable[tuple[str, ...]], words: EngineWords) -> Table:
-    """Return a table of single values: name, symbol, value, unit, and the crank angle where there is a fifth entry.
-
-    Parameters
-    ----------
-    caption : str
-        Key of its caption, and its label.
-    rows : iterable of tuple
-        Its rows, all of one length.
-    words : EngineWords
-        The language.
-    """
+def value_table(caption: str, rows: Iterable[tuple[Cell, ...]], words: EngineWords) -> Table:
+    """Return a table of single values: name, symbol, value, unit, and the crank angle where there is a fifth entry."""
     found = list(rows)
     titles: list[Runs] = [(words.column(one),) for one in ("quantity", "symbol", "value", "unit")]
     has_angle = any(len(one) > len(titles) for one in found)
@@ -182,7 +110,7 @@ def value_table(caption: str, rows: Iterable[tuple[str, ...]], words: EngineWord
     return Table(words.caption(caption), tuple(titles), found, align="lcrcr"[: len(titles)], label=f"t:{caption}")
 
 
-def value_row(key: str, value: float, words: EngineWords, *, area: float | None = None) -> tuple[str, ...]:
+def value_row(key: str, value: float, words: EngineWords, *, area: float | None = None) -> tuple[Cell, ...]:
     """Return name, symbol, value and unit of a single value.
 
     Parameters
@@ -200,22 +128,14 @@ def value_row(key: str, value: float, words: EngineWords, *, area: float | None 
     shown = words.symbol(key) if kind in QUANTITIES else symbol(key, words.language)
     return (
         label(key, words.language),
-        flat(shown),
+        Math(shown),
         words.number(displayed(key, value, per_area=area)),
         printed_unit(key_unit(key, per_area=area is not None), words.language) or "–",
     )
 
 
 def explained(blocks: Iterable[Block], words: EngineWords) -> Iterator[Block]:
-    """Yield blocks, where each equation explains the symbols that come for the first time.
-
-    Parameters
-    ----------
-    blocks : iterable of block
-        A whole note; of equations with the same formula only the first keeps its number.
-    words : EngineWords
-        The language of the explanations.
-    """
+    """Yield blocks, where each equation explains the symbols that come for the first time."""
     known: set[str] = set()
     seen: set[str] = set()
     for block in blocks:

@@ -2,8 +2,8 @@
 
 A formula computes in SI, or in the unit that it states, so the numbers put in and the value after them are printed in
 those units; only then is the line true as it stands. Where the value is shown elsewhere in another unit, it follows
-after one more sign of equality: `P = ... = 41200 W = 41.2 kW`. Numbers have six significant digits and are roundings of
-the exact values; a value is never computed from the rounded numbers before it.
+after one more sign of equality: `P = ... = 41200 W = 41.2 kW`. Values have six significant digits, and the numbers put
+in as many as give the printed value again; all are roundings: no value is computed from rounded numbers.
 """
 
 from __future__ import annotations
@@ -11,9 +11,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from crankwork.expressions import Formula, record, text
-from crankwork.note.captions import fixed_word
+from crankwork.formula.expression import Formula, record, text
+from crankwork.formula.steps import AnyStep, Given, ProductStep, Step
+from crankwork.locale import say, texts
 from crankwork.note.definitions import definition_box, definition_text
+from crankwork.note.digits import enough_digits, is_exact_pi
 from crankwork.note.document import Equation
 from crankwork.note.layout import (
     DOT,
@@ -29,15 +31,14 @@ from crankwork.note.layout import (
     row,
     width,
 )
-from crankwork.note.math import formula_box, is_exact_pi
-from crankwork.note.stated_units import RESULT, coherent_unit, display_unit, printed_unit, stated_units
+from crankwork.note.linkage_words import owned_symbol
+from crankwork.note.math import formula_box
+from crankwork.note.printed_units import display_unit, printed_unit
 from crankwork.note.symbols import number_box, symbol_box
-from crankwork.note.texts.engine_headings import MARKS
-from crankwork.quantities import LANGUAGES, QUANTITIES, Language, base_key
+from crankwork.quantities import QUANTITIES, Language, base_key, linkage
 from crankwork.report.language import number
 from crankwork.report.language import symbol as key_symbol
-from crankwork.steps import AnyStep, Given, ProductStep, Step
-from crankwork.units import UNITS, from_si, to_si
+from crankwork.units import UNITS, coherent_unit, from_si, to_si
 
 LINE_WIDTH = 33.0
 _MANY = 6
@@ -87,27 +88,25 @@ def equation_symbol(step: AnyStep | Formula, language: Language) -> str:
     return f"{shown}{',' if '_' in shown else '_'}{name}" if name and len(name) <= _SHORT_NAME else shown
 
 
-def value_symbol(key: str, language: Language) -> str:
-    """Return the symbol of a value as `base_subscript`, what tells it from others of its quantity in the subscript.
+# quantities that links and points have, whose names are any words
+_OF_LINKS = frozenset(row.key for row in linkage.ROWS)
 
-    Parameters
-    ----------
-    key : str
-        Its key, `tangential_force.5`.
-    language : str
-        Language of the symbol.
-    """
+
+def value_symbol(key: str, language: Language) -> str:
+    """Return the symbol of a value as `base_subscript`, what tells it from others of its quantity in the subscript."""
     kind, *names = key.split(".")
     if base_key(kind) not in QUANTITIES:
         return kind
-    place = LANGUAGES.index(language)
     shown = equation_symbol(Given(kind, 0.0), language)
+    if kind in _OF_LINKS and names:
+        return owned_symbol(shown, ".".join(names))
+    known = texts("marks", language)
     if kind in _OF_ORDERS and names and names[0] in _WITHOUT_ORDER:
         # what turns with the shaft has no order
         shown = shown.partition("_")[0]
-    marks = [MARKS[name][place] if name in MARKS else name for name in names]
+    marks = [known.get(name, name) for name in names]
     # a point or a number tells parts of a quantity apart; a whole word would make no symbol
-    below = ",".join(one for one, name in zip(marks, names, strict=True) if name in MARKS or len(one) <= _SHORT_NAME)
+    below = ",".join(one for one, name in zip(marks, names, strict=True) if name in known or len(one) <= _SHORT_NAME)
     if kind in _AT_POINTS and below:
         # the clearance volume has the subscript that the point at the end of compression has
         below = f"({below})"
@@ -140,13 +139,13 @@ def _definition(block: Equation, language: Language) -> tuple[Box, ...]:
 def _parts(step: AnyStep | Formula, language: Language) -> Iterator[Box]:
     """Yield what stands between the signs of equality."""
     match step:
-        case Formula(function):
-            yield formula_box(record(function), None, language)
+        case Formula():
+            yield formula_box(record(step.shown), None, language)
             return
-        case Step(formula=formula, values=values):
-            tree, symbols = record(formula.function), _symbols(step, language)
+        case Step(values=values):
+            tree, symbols = step.expression, _symbols(step, language)
             yield formula_box(tree, None, language, symbols=symbols)
-            yield formula_box(tree, values, language, symbols=symbols)
+            yield formula_box(tree, values, language, digits=enough_digits(step), symbols=symbols)
         case Given():
             pass
         case _:
@@ -154,7 +153,8 @@ def _parts(step: AnyStep | Formula, language: Language) -> Iterator[Box]:
             if len(step.terms) <= _MANY:
                 yield _joined([symbol_box(equation_symbol(one, language)) for one in step.terms], sign)
             if len(step.terms) > 1:
-                yield _joined([number_box(one.value, language)[0] for one in step.terms], sign)
+                digits = enough_digits(step)
+                yield _joined([number_box(one.value, language, digits)[0] for one in step.terms], sign)
     for value, unit in shown_values(step):
         yield value_box(value, unit, language)
 
@@ -167,22 +167,11 @@ def _joined(boxes: list[Box], sign: Sign) -> Box:
 
 
 def shown_values(step: AnyStep) -> list[tuple[float, str]]:
-    """Return the value of a step in the unit of its formula, and in the unit of the tables where that is another.
-
-    Parameters
-    ----------
-    step : Step, Given, SumStep or ProductStep
-        The step.
-
-    Returns
-    -------
-    list of tuple
-        One or two values with their units, spelled as the table of units does.
-    """
+    """Return the value of a step in the unit of its formula, and in the unit of the tables where that is another."""
     formula = step.formula if isinstance(step, Step) else None
     known = formula is not None or base_key(step.key) in QUANTITIES
     shown = display_unit(step.key, formula) if known else ""
-    stated = stated_units(formula).get(RESULT) if formula else None
+    stated = formula.unit if formula else None
     if stated is None:
         own = coherent_unit(shown)
         stated = own if own not in UNITS or UNITS[own].factor == 1.0 else stated
@@ -217,18 +206,34 @@ def _plain(block: Equation, language: Language) -> str:
     """Return an equation as one line of text."""
     step = block.step
     parts = [block.symbol or equation_symbol(step, language)]
-    formula = step if isinstance(step, Formula) else step.formula if isinstance(step, Step) else None
     if block.defined:
         parts += [one for one in (definition_text(block.defined, language),) if one]
-    if formula:
-        named = _symbols(step, language) if isinstance(step, Step) else {}
-        parts.append(text(record(formula.function), named, language))
+    if isinstance(step, Formula):
+        return " = ".join([*parts, text(record(step.shown), None, language)])
+    return " = ".join([*parts, *line_parts(step, language)])
+
+
+def line_parts(step: AnyStep, language: Language) -> list[str]:
+    """Return what stands between the signs of equality of a line, as text: symbols, numbers, values with units."""
+    parts, digits = [], enough_digits(step)
     if isinstance(step, Step):
-        printed = {name: number(value, language) for name, value in step.values.items() if not is_exact_pi(name, value)}
-        parts.append(text(record(step.formula.function), printed, language))
-    if not isinstance(step, Formula):
-        parts += [value_text(value, unit, language) for value, unit in shown_values(step)]
-    return " = ".join(parts)
+        put_in = {name: one for name, one in step.values.items() if not is_exact_pi(name, one)}
+        printed = {name: number(one, language, digits=digits) for name, one in put_in.items()}
+        parts = [text(step.expression, _symbols(step, language), language), text(step.expression, printed, language)]
+    elif not isinstance(step, Given) and step.terms:
+        sign = "·" if isinstance(step, ProductStep) else " + "
+        symbols = [value_symbol(one.key, language) for one in step.terms]
+        numbers = [number(one.value, language, digits=digits) for one in step.terms]
+        parts = [sign.join(symbols), sign.join([numbers[0], *map(_fenced, numbers[1:])])]
+    while parts and parts[-1] == number(step.value, language):
+        # the same number follows with its unit
+        parts.pop()
+    parts += [value_text(value, unit, language) for value, unit in shown_values(step)]
+    return [one for at, one in enumerate(parts) if not at or one != parts[at - 1]]
+
+
+def _fenced(printed: str) -> str:
+    return f"({printed})" if printed.startswith("−") else printed
 
 
 def legend_rows(block: Equation, language: Language) -> list[tuple[str, Box, str]]:
@@ -236,7 +241,5 @@ def legend_rows(block: Equation, language: Language) -> list[tuple[str, Box, str
     ends = [";"] * (len(block.legend) - 1) + ["."]
     rows = []
     for k, (entry, end) in enumerate(zip(block.legend, ends, strict=True) if block.legend else ()):
-        rows.append(
-            (fixed_word("where", language) if k == 0 else "", symbol_box(entry.symbol), f" – {entry.text}{end}")
-        )
+        rows.append((say("note.where", language) if k == 0 else "", symbol_box(entry.symbol), f" – {entry.text}{end}"))
     return rows

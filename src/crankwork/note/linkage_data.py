@@ -5,14 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-import numpy as np
-
-from crankwork.kinematics.quality import grashof
-from crankwork.linkage_machine import LinkageMachine
-from crankwork.loads.load import Load
-from crankwork.loads.process import ForceOnPoint, ProcessForce, ProcessForceAtPoint, TorqueOnLink
-from crankwork.loads.spring import SliderSpring, Spring
-from crankwork.loads.weight import Weight
+from crankwork.analysis.linkage import four_bar_type
+from crankwork.analysis.stated import StatedLoad, stated_loads
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.dyads import PRP, RRP, RRR, Dyad
 from crankwork.mechanism.joints import Pin, joints
@@ -28,13 +22,7 @@ _MOST_JOINTS = 3
 
 
 def task(material: Material) -> Iterator[Block]:
-    """Yield what is asked and what is given.
-
-    Parameters
-    ----------
-    material : Material
-        Of a linkage.
-    """
+    """Yield what is asked and what is given."""
     words, machine = material.words, material.machine
     crank = machine.mechanism.crank
     yield words.heading("task")
@@ -52,8 +40,8 @@ def task(material: Material) -> Iterator[Block]:
     yield _links(material)
     yield from _places(material)
     if machine.loads:
-        yield words.paragraph("loads")
-        yield ItemList(tuple(_load(one, words) for one in machine.loads))
+        yield words.paragraph("outer_loads")
+        yield ItemList(tuple(_load(one, words) for one in stated_loads(machine)))
     elif machine.mechanism.bodies:
         yield words.paragraph("no_loads")
     if machine.drive.inertia:
@@ -66,16 +54,10 @@ def task(material: Material) -> Iterator[Block]:
 
 
 def method(material: Material) -> Block:
-    """Return the paragraph that says how everything is computed.
-
-    Parameters
-    ----------
-    material : Material
-        Of any machine without a piston.
-    """
+    """Return the paragraph that says how everything is computed."""
     results, words = material.results, material.words
     return words.paragraph(
-        "method",
+        "linkage_method",
         method=results_method(results, words.language),
         pi=words.number(results.method.pi, digits=9 if results.method.pi == math.pi else 6),
     )
@@ -84,7 +66,7 @@ def method(material: Material) -> Block:
 def _links(material: Material) -> Table:
     """Return links and sliding pieces with their masses."""
     words, linkage = material.words, material.machine.linkage
-    owners = linkage.owners()
+    owners = linkage.owners
     rows = []
     for number, one in enumerate(linkage.members, start=2):
         shared = [name for name in one.points if len(owners[name]) > 1]
@@ -127,7 +109,7 @@ def _places(material: Material) -> Iterator[Table]:
         yield Table(words.caption("pivots"), ((words.column("point"),), *axes), rows, align="crr")
     lines = [
         (
-            name, guide.link or words.column("ground"), *(words.number(one * 1e3) for one in guide.point),
+            name, guide.link or words.term("ground"), *(words.number(one * 1e3) for one in guide.point),
             words.number(math.degrees(guide.angle)),
         )
         for name, guide in linkage.guides.items()
@@ -137,42 +119,15 @@ def _places(material: Material) -> Iterator[Table]:
         yield Table(words.caption("guides"), (*titles, (words.column("angle"),)), lines, align="ccrrr")
 
 
-def _load(load: Load, words: Words) -> Runs:
-    match load:
-        case ProcessForce():
-            return words.sentence("load_slider", name=load.slider, force=_largest(load.force, "N", words))
-        case ProcessForceAtPoint():
-            return words.sentence("load_point", name=load.point, force=_largest(load.force, "N", words))
-        case ForceOnPoint():
-            x, y = words.amount(load.x, "N"), words.amount(load.y, "N")
-            return words.sentence("load_force", name=load.point, x=x, y=y)
-        case TorqueOnLink():
-            return words.sentence("load_torque", name=load.link, torque=_largest(load.torque, "N*m", words))
-        case Spring():
-            stiffness, free = words.amount(load.stiffness, "N/m"), words.amount(load.free_length, "mm")
-            return words.sentence("load_spring", name=load.start, other=load.end, stiffness=stiffness, free=free)
-        case SliderSpring():
-            return words.sentence("load_slider_spring", name=load.slider, stiffness=words.amount(load.stiffness, "N/m"))
-        case Weight():
-            return words.sentence("load_weight", gravity=words.amount(load.gravity, "m/s2"))
-
-
-def _largest(force: object, unit: str, words: Words) -> str:
-    """Return the largest value of a constant or of a table, `…` for a law that is a program."""
-    values = getattr(force, "values", force)
-    if callable(values):
-        return "…"
-    return words.amount(float(np.max(np.abs(np.asarray(values, dtype=float)))), unit)
+def _load(load: StatedLoad, words: Words) -> Runs:
+    amounts = {
+        name: "…" if value is None else words.amount(value, unit) for name, (value, unit) in load.amounts.items()
+    }
+    return words.sentence(f"load_{load.kind}", **load.names, **amounts)
 
 
 def structural_analysis(material: Material) -> Iterator[Block]:
-    """Yield links, joints, mobility, groups and class.
-
-    Parameters
-    ----------
-    material : Material
-        Of a linkage.
-    """
+    """Yield links, joints, mobility, groups and class."""
     words, found = material.words, material.structure
     if found is None:
         return
@@ -189,16 +144,16 @@ def structural_analysis(material: Material) -> Iterator[Block]:
             str(number),
             ", ".join(f"{numbers[name]} ({name})" for name in group.members),
             _ROMAN[group.number],
-            words.species(kinds.get(frozenset(group.members), "")),
+            words.kind(kinds.get(frozenset(group.members), "")),
         )
         for number, group in enumerate(found.groups, start=1)
     ]
     titles = tuple((words.column(one),) for one in ("group", "members", "class", "species"))
     yield Table(words.caption("groups"), titles, rows, align="clcc")
     yield words.paragraph("formula", formula=found.formula.replace("->", "→"), number=_ROMAN[found.number])
-    kind = _four_bar(material.machine)
+    kind = four_bar_type(material.machine)
     if kind:
-        yield words.paragraph("grashof", type=words.four_bar(kind))
+        yield words.paragraph("grashof", type=words.kind(kind))
 
 
 def _members(dyad: Dyad | Chain) -> frozenset[str]:
@@ -222,20 +177,7 @@ def _pairs(material: Material, links: tuple[str, ...]) -> Table:
     for number, one in enumerate(joints(material.machine.mechanism), start=1):
         ends = sorted(0 if name == GROUND else links.index(name) for name in (one.link, one.other))
         name = (one.point or pivot) if isinstance(one, Pin) else one.link
-        kind = words.column("turning" if isinstance(one, Pin) else "sliding")
+        kind = words.term("turning" if isinstance(one, Pin) else "sliding")
         rows.append((str(number), name, f"{ends[0]}–{ends[1]}", kind))
     titles = tuple((words.column(one),) for one in ("number", "pair", "between", "kind"))
     return Table(words.caption("pairs"), titles, rows, align="cccc")
-
-
-def _four_bar(machine: LinkageMachine) -> str:
-    """Return the type of a four-bar linkage, empty for any other."""
-    mechanism = machine.mechanism
-    match mechanism.dyads:
-        case (RRR() as dyad,) if {dyad.joint_a, dyad.joint_b} & set(mechanism.ground):
-            fixed = dyad.joint_a if dyad.joint_a in mechanism.ground else dyad.joint_b
-            lengths = (dyad.length_a, dyad.length_b) if fixed == dyad.joint_b else (dyad.length_b, dyad.length_a)
-            return grashof(
-                mechanism.crank.radius, *lengths, math.dist(mechanism.ground[fixed], mechanism.crank.pivot)
-            ).type
-    return ""

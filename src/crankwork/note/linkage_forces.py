@@ -6,12 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from crankwork.analysis import Array
+from crankwork.analysis.linkage import torque_by_routes
 from crankwork.analysis.steps_torque import efficiency_steps
-from crankwork.dynamics.force_system import system_joint_forces
-from crankwork.dynamics.joint_forces import joint_forces
-from crankwork.dynamics.reduction import crank_torque
-from crankwork.dynamics.zhukovsky import virtual_work_torque, zhukovsky_torque
-from crankwork.kinematics.crank_grid import Array
 from crankwork.note.document import Block, Citation
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_motion import worked_at
@@ -28,85 +25,48 @@ def has_forces(material: Material) -> bool:
 
 
 def forces(material: Material) -> Iterator[Block]:
-    """Yield the section about inertia forces, joint forces and the balancing torque.
-
-    Parameters
-    ----------
-    material : Material
-        Of a linkage; nothing where it has neither masses nor loads.
-    """
+    """Yield the section about inertia forces, joint forces and the balancing torque."""
     mechanism = material.machine.mechanism
     if not (mechanism.bodies or material.machine.loads):
         return
     words, columns = material.words, material.columns
-    yield words.heading("forces")
+    yield words.heading("linkage_forces")
     if mechanism.bodies:
         yield words.heading("inertia_loads", 2)
-        yield words.paragraph("inertia", source=Citation(_STATICS))
+        yield words.paragraph("inertia_of_links", source=Citation(_STATICS))
         yield from worked_at(material, "inertia_loads")
         yield from equations(material.steps("inertia_loads"), words)
     yield words.heading("reactions", 2)
     yield words.paragraph("reactions")
+    yield from worked_at(material, "joint_forces")
+    yield from equations(material.steps("joint_forces"), words)
     keys = any_nonzero(named(columns, "joint_force", "normal_force", "normal_moment"), columns)
     shown = quantity_columns(keys, columns, words)
-    yield from position_tables(
-        "reactions", material.positions.degrees, shown, words, first=material.first, label="reactions"
-    )
+    yield from position_tables("reactions", material.positions, shown, words, first=material.first, label="reactions")
     yield from material.figures("joint_forces")
     yield from _lever(material)
 
 
 def _lever(material: Material) -> Iterator[Block]:
     """Yield the balancing torque by five routes at every position, with their largest difference."""
-    words, running = material.words, material.running
-    torque = crank_torque(running)
-    routes = {
-        "by_groups": joint_forces(running).balancing_torque,
-        "whole_system": system_joint_forces(running).balancing_torque,
-        "zhukovsky": zhukovsky_torque(running),
-        "virtual_work": virtual_work_torque(running),
-        "energy": torque.static + torque.dynamic,
-    }
-    apart = differences(list(routes.values()))
+    words = material.words
+    routes, apart = torque_by_routes(material.results, material.positions)
     yield words.heading("lever", 2)
-    yield words.paragraph(
-        "lever", source=Citation(_WORK), difference=words.number(float(np.max(apart, initial=0.0)), digits=2)
-    )
+    largest = words.number(100.0 * float(np.max(apart, initial=0.0)), digits=2)
+    yield words.paragraph("lever", source=Citation(_WORK), difference=largest)
     shown = [_route(name, values, words) for name, values in routes.items()]
-    shown.append(Column((words.column("difference"),), [words.number(one, digits=2) for one in apart.tolist()]))
-    yield from position_tables("routes", material.positions.degrees, shown, words, first=material.first, label="routes")
-
-
-def differences(routes: list[Array]) -> Array:
-    """Return how far routes are apart at each position, relative to the largest torque of the turn.
-
-    Parameters
-    ----------
-    routes : list of array, shape (n,)
-        The same torque, computed in different ways. [N m]
-
-    Returns
-    -------
-    array, shape (n,)
-        Largest less least, in percent. [%]
-    """
-    every = np.array(routes)
-    return np.asarray(100.0 * np.ptp(every, axis=0) / (float(np.max(np.abs(every))) or 1.0))
+    percent = [words.number(one, digits=2) for one in (100.0 * apart).tolist()]
+    shown.append(Column((words.column("difference"),), percent))
+    yield from position_tables("routes", material.positions, shown, words, first=material.first, label="routes")
 
 
 def _route(name: str, values: Array, words: Words) -> Column:
-    heading = (*words.titled("balancing_torque"), f", {words.column(name)}")
+    heading = (*words.titled("balancing_torque"), f", {words.term(name)}")
     return Column(heading, words.column_texts(values.tolist(), digits=5))
 
 
 def reduction(material: Material) -> Iterator[Block]:
-    """Yield the section about reduced inertia and reduced torque.
-
-    Parameters
-    ----------
-    material : Material
-        Of a linkage.
-    """
+    """Yield the section about reduced inertia and reduced torque."""
     if not has_forces(material):
         return
     words, columns = material.words, material.columns
@@ -116,20 +76,12 @@ def reduction(material: Material) -> Iterator[Block]:
     yield from equations(material.steps("reduction"), words)
     keys = any_nonzero(("reduced_inertia", "reduced_inertia_1"), columns)
     shown = quantity_columns(keys, columns, words)
-    yield from position_tables(
-        "reduced", material.positions.degrees, shown, words, first=material.first, label="reduced"
-    )
+    yield from position_tables("reduced", material.positions, shown, words, first=material.first, label="reduced")
     yield from material.figures("reduced_inertia")
 
 
 def torques(material: Material) -> Iterator[Block]:
-    """Yield the section about static, dynamic and driving torque, with the efficiency.
-
-    Parameters
-    ----------
-    material : Material
-        Of a linkage.
-    """
+    """Yield the section about static, dynamic and driving torque, with the efficiency."""
     if not has_forces(material):
         return
     words, columns = material.words, material.columns
@@ -141,20 +93,12 @@ def torques(material: Material) -> Iterator[Block]:
     yield words.paragraph("driving")
     yield from equations(material.steps("torques", "driving_torque"), words)
     shown = quantity_columns(any_nonzero(_TORQUES, columns), columns, words)
-    yield from position_tables(
-        "table_torque", material.positions.degrees, shown, words, first=material.first, label="torque"
-    )
+    yield from position_tables("table_torque", material.positions, shown, words, first=material.first, label="torque")
     yield from material.figures("torques")
 
 
 def efficiency(material: Material) -> Iterator[Block]:
-    """Yield what is said of the efficiency of the joints.
-
-    Parameters
-    ----------
-    material : Material
-        Of any machine without a piston.
-    """
+    """Yield what is said of the efficiency of the joints."""
     words = material.words
     drive = (material.results.machine).drive  # type: ignore[union-attr]
     yield words.heading("efficiency", 2)

@@ -9,20 +9,17 @@ from typing import cast
 
 import numpy as np
 
-from crankwork.analysis import Results
-from crankwork.analysis.linkage import SolvedLinkage, linkage_columns, reachable, running_at
-from crankwork.analysis.linkage_speed import speed_columns
+from crankwork.analysis import Array, Results
+from crankwork.analysis.linkage import SolvedLinkage
+from crankwork.analysis.moving import reached_angles
 from crankwork.analysis.steps import worked_steps
-from crankwork.dynamics.running import Running
-from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.motion import Motion, linkage_motion
+from crankwork.formula.steps import AnyStep, StepGroup
 from crankwork.linkage_machine import LinkageMachine, TabulatedMachine
 from crankwork.mechanism.structure import Structure, structure
 from crankwork.note.document import Block
 from crankwork.note.linkage_words import Words
 from crankwork.note.options import NoteOptions
 from crankwork.report.figures import figures
-from crankwork.steps import AnyStep, StepGroup
 
 _POSITION_STEP = 30.0
 
@@ -69,40 +66,24 @@ class Material:
         return structure(self.machine.linkage)[0]
 
     @cached_property
-    def positions(self) -> CrankGrid:
-        """The positions of the plans, every 30 degrees, as far as the linkage reaches them."""
-        dense, notices = reachable(self.machine, CrankGrid.steps(1.0, 360.0))
-        grid = CrankGrid.steps(_POSITION_STEP, 360.0)
-        if not notices:
-            return grid
-        inside = [k for k, one in enumerate(grid.degrees) if dense.degrees[0] <= one <= dense.degrees[-1]]
+    def positions(self) -> Array:
+        """The positions of the plans, every 30 degrees, as far as the linkage reaches them. [deg]"""
+        reached, _ = reached_angles(self.machine, 1.0)
+        every = np.arange(0.0, 360.0 + _POSITION_STEP, _POSITION_STEP)
+        inside = every[(every >= reached[0]) & (every <= reached[-1])]
         # a linkage that reaches none of them is shown where it does move
-        return grid[slice(inside[0], inside[-1] + 1)] if inside else dense[slice(0, len(dense), 5)]
+        return inside if inside.size else reached[::5]
 
     @property
     def first(self) -> int | None:
         """Number of the first position, counted from a crank angle of zero; none where they have no numbers."""
-        numbers = self.positions.degrees / _POSITION_STEP
+        numbers = self.positions / _POSITION_STEP
         return round(float(numbers[0])) if np.allclose(numbers, np.round(numbers)) else None
-
-    @cached_property
-    def motion(self) -> Motion:
-        """Motion at the positions."""
-        return linkage_motion(self.machine.mechanism, self.positions)
-
-    @cached_property
-    def running(self) -> Running:
-        """The linkage at work at the positions."""
-        return running_at(self.solved, self.motion)
 
     @cached_property
     def columns(self) -> Mapping[str, Array]:
         """All columns at the positions. [SI]"""
-        columns = linkage_columns(self.solved, self.positions)
-        if "kinetic_energy_change" in self.results.columns:
-            known = linkage_columns(self.solved, CrankGrid.steps(1.0, 360.0))
-            columns |= speed_columns(self.machine, self.solved.speed, known, self.positions.angle)
-        return columns
+        return self.results.columns_at(self.positions)
 
     @cached_property
     def groups(self) -> dict[str, StepGroup]:
@@ -110,8 +91,9 @@ class Material:
         angle = None
         if isinstance(self.results.machine, LinkageMachine) and self.results.machine.loads:
             at = int(np.argmax(np.abs(self.columns["static_torque"])))
-            angle = float(self.positions.degrees[at])
-        return {one.name: one for one in worked_steps(self.results, force_angle=angle)}
+            angle = float(self.positions[at])
+        angles = {} if angle is None else {"crank_angle": angle, "force_angle": angle}
+        return {one.name: one for one in worked_steps(self.results, **angles)}
 
     def steps(self, group: str, *kinds: str) -> tuple[AnyStep, ...]:
         """Return the steps of a group, or those of it that give some quantities; none if there is no such group."""

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-import numpy as np
-
+from crankwork.analysis.moving import transfer_ratios
 from crankwork.note.document import Block, Citation
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_tables import Column, equations, position_tables, quantity_columns
@@ -18,15 +17,9 @@ _ACCELERATING = ("point_acceleration", "link_angular_acceleration", "slider_acce
 
 
 def kinematics(material: Material) -> Iterator[Block]:
-    """Yield the section about the motion.
-
-    Parameters
-    ----------
-    material : Material
-        Of a linkage.
-    """
-    words, columns, degrees = material.words, material.columns, material.positions.degrees
-    yield words.heading("kinematics")
+    """Yield the section about the motion."""
+    words, columns, degrees = material.words, material.columns, material.positions
+    yield words.heading("linkage_kinematics")
     yield words.heading("plans", 2)
     yield words.paragraph("positions")
     yield from material.figures("position_plans")
@@ -54,46 +47,27 @@ def kinematics(material: Material) -> Iterator[Block]:
 
 
 def worked_at(material: Material, group: str) -> Iterator[Block]:
-    """Yield the sentence that says at which crank angle a group of steps is worked.
-
-    Parameters
-    ----------
-    material : Material
-        Of any machine without a piston.
-    group : str
-        Name of the group; nothing where it is not there, or holds everywhere.
-    """
+    """Yield the sentence that says at which crank angle a group of steps is worked."""
     found = material.groups.get(group)
     if found is not None and found.crank_angle is not None:
         words = material.words
-        yield words.paragraph("worked_at", value=words.amount(found.crank_angle, "deg"))
+        yield words.paragraph("worked_position", value=words.amount(found.crank_angle, "deg"))
 
 
 def _transfer_columns(material: Material) -> list[Column]:
     """Return velocities of points and sliders and angular velocities of links, over that of the crank."""
-    words, motion = material.words, material.motion
-    mechanism, found = material.machine.mechanism, []
-    for name, (x, y) in motion.points.items():
-        if name not in mechanism.ground:
-            values = np.hypot(x.position_1, y.position_1)
-            found.append(Column(words.titled(f"velocity_ratio.{name}", "m"), words.column_texts(values.tolist())))
-    for name, one in motion.links.items():
-        if name != mechanism.crank.link:
-            found.append(Column(words.titled(f"rotation_ratio.{name}"), words.column_texts(one.position_1.tolist())))
-    for name, slide in motion.sliders.items():
-        values = slide.position_1.tolist()
-        found.append(Column(words.titled(f"velocity_ratio.{name}", "m"), words.column_texts(values)))
-    return found
+    words = material.words
+    return [
+        Column(
+            words.titled(key, "m") if key.startswith("velocity_ratio.") else words.titled(key),
+            words.column_texts(values.tolist()),
+        )
+        for key, values in transfer_ratios(material.machine.mechanism, material.positions).items()
+    ]
 
 
 def law_of_motion(material: Material) -> Iterator[Block]:
-    """Yield the speed of the crank with the flywheel found, or the way from a start, where it is known.
-
-    Parameters
-    ----------
-    material : Material
-        Of a linkage.
-    """
+    """Yield the speed of the crank with the flywheel found, or the way from a start, where it is known."""
     words, summary, transient = material.words, material.results.summary, material.machine.transient
     has_speed = "crank_speed" in material.columns
     if not has_speed and transient is None and "steady_speed" not in summary:
@@ -103,7 +77,7 @@ def law_of_motion(material: Material) -> Iterator[Block]:
         yield words.paragraph("law")
         keys = ("kinetic_energy_change", "crank_speed")
         shown = quantity_columns(keys, material.columns, words)
-        yield from position_tables("speeds", material.positions.degrees, shown, words, first=material.first)
+        yield from position_tables("speeds", material.positions, shown, words, first=material.first)
         yield from material.figures("speed")
     if "steady_speed" in summary:
         yield words.paragraph(

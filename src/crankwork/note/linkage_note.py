@@ -36,19 +36,6 @@ _OF_TABLE: tuple[Section, ...] = (
 def linkage_note(results: Results, options: NoteOptions) -> Note:
     """Return the note of a linkage, or of a table of transfer functions.
 
-    Parameters
-    ----------
-    results : Results
-        Their results.
-    options : NoteOptions
-        Language, school, title and what else is chosen.
-
-    Returns
-    -------
-    Note
-        Title page, contents, data, structure, motion, forces, reduction, torques, motor, flywheel, law of motion,
-        checks, main results, sources, and all columns in an appendix; what is not known is left out.
-
     References
     ----------
     artobolevsky_1988, ch. 2-16.
@@ -64,6 +51,6 @@ def linkage_note(results: Results, options: NoteOptions) -> Note:
         title,
         options.language,
         tuple(explained(blocks, options.language)),
-        subtitle=words.title("subtitle"),
+        subtitle=words.title("linkage_subtitle"),
         authors=(options.author,) if options.author else (),
     )

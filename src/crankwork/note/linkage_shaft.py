@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 import numpy as np
 
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import Notice
 from crankwork.linkage_machine import TabulatedMachine
-from crankwork.note.document import Bibliography, Block, Bold, ItemList, Paragraph, Reference, Runs, Table
+from crankwork.locale import capital, say
+from crankwork.note.document import Bibliography, Block, Bold, ItemList, Math, Paragraph, Reference, Runs, Table
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_tables import any_nonzero, equations, position_tables, quantity_columns
 from crankwork.note.linkage_words import Words, named
-from crankwork.note.stated_units import printed_unit
-from crankwork.report.language import displayed, key_unit, label, word
+from crankwork.note.printed_units import printed_unit
+from crankwork.report.language import displayed, key_unit, label
 from crankwork.report.notices import notice_text
-from crankwork.shaft.flywheel import WAYS
 
 _DYNAMICS = (
     "reduced_inertia", "reduced_inertia_1", "static_torque", "dynamic_torque", "balancing_torque", "driving_torque",
@@ -29,13 +29,7 @@ _MOTION = (
 
 
 def motor(material: Material) -> Iterator[Block]:
-    """Yield the choice of the motor, where there is one.
-
-    Parameters
-    ----------
-    material : Material
-        Of a linkage.
-    """
+    """Yield the choice of the motor, where there is one."""
     drive, words = material.machine.drive, material.words
     if drive.motor is None:
         return
@@ -45,41 +39,36 @@ def motor(material: Material) -> Iterator[Block]:
 
 
 def flywheel(material: Material) -> Iterator[Block]:
-    """Yield the flywheel in its four ways, where one is wanted.
-
-    Parameters
-    ----------
-    material : Material
-        Of a linkage.
-    """
+    """Yield the flywheel in its four ways, where one is wanted."""
     words, summary = material.words, material.results.summary
     if "excess_work" not in summary:
         return
     yield words.heading("flywheel")
-    yield words.paragraph("flywheel", value=words.number(summary["speed_fluctuation"]))
+    yield words.paragraph("flywheel", value=words.number(material.machine.drive.fluctuation or 0.0))
     steps = material.steps("flywheel")
+    ways = [key.partition(".")[2] for key in summary if key.startswith("flywheel_inertia.")]
     last = ""
     for one in steps:
-        way = next((name for name in WAYS if name in one.key.split(".")), last or WAYS[0])
+        way = next((name for name in ways if name in one.key.split(".")), last or ways[0])
         if way != last and one.key != "work_per_cycle":
-            yield Paragraph((Bold(words.way(way)[:1].upper() + words.way(way)[1:]), ":"))
+            yield Paragraph((Bold(capital(words.way(way))), ":"))
             last = way
-        yield from equations((one,), words, marks=_marks(words))
-    excess = {way: one.value for way in WAYS for one in steps if one.key in (f"excess_work.{way}", "excess_work")}
+        yield from equations((one,), words, marks=_marks(ways, words))
+    excess = {way: one.value for way in ways for one in steps if one.key in (f"excess_work.{way}", "excess_work")}
     rows = [
         (words.way(way), words.number(excess[way]), words.number(summary[f"flywheel_inertia.{way}"]))
-        for way in WAYS
-        if f"flywheel_inertia.{way}" in summary and way in excess
+        for way in ways
+        if way in excess
     ]
     titles: tuple[Runs, ...] = ((words.column("way"),), words.titled("excess_work"), words.titled("flywheel_inertia"))
     yield Table(words.caption("flywheels"), titles, rows, align="lrr", label="flywheels")
     yield from material.figures("wittenbauer")
 
 
-def _marks(words: Words) -> Mapping[str, str]:
+def _marks(ways: Iterable[str], words: Words) -> Mapping[str, str]:
     """Return symbols of the slopes and inertias of each way: the name of the way does not stand in a symbol."""
     found: dict[str, str] = {}
-    for way in WAYS:
+    for way in ways:
         for kind in ("excess_work", "flywheel_inertia", "whole_inertia"):
             found[f"{kind}.{way}"] = words.symbol(kind)
         slope = words.symbol("wittenbauer_slope")
@@ -89,23 +78,20 @@ def _marks(words: Words) -> Mapping[str, str]:
 
 
 def checks(material: Material) -> Iterator[Block]:
-    """Yield the identities that were checked, and what the reader should know.
-
-    Parameters
-    ----------
-    material : Material
-        Of any machine without a piston.
-    """
+    """Yield the identities that were checked, and what the reader should know."""
     words, results = material.words, material.results
     is_table = isinstance(results.machine, TabulatedMachine)
     if not (results.checks or results.notices or is_table):
         return
     yield words.heading("checks")
     if results.checks:
-        yield words.paragraph("checks")
-        rows = [(word(key, words.language), words.number(100.0 * one, digits=2)) for key, one in results.checks.items()]
+        yield words.paragraph("identities")
+        rows = [
+            (say(f"report.{key}", words.language), words.number(100.0 * one, digits=2))
+            for key, one in results.checks.items()
+        ]
         titles: tuple[Runs, ...] = ((words.column("identity"),), (words.column("difference"),))
-        yield Table(words.caption("checks"), titles, rows, align="lr", label="checks")
+        yield Table(words.caption("identities"), titles, rows, align="lr", label="checks")
     elif is_table:
         yield words.paragraph("no_checks")
     if results.notices:
@@ -122,19 +108,14 @@ def _notice(notice: Notice, words: Words) -> str:
 
 
 def conclusion(material: Material) -> Iterator[Block]:
-    """Yield the main results as a table.
-
-    Parameters
-    ----------
-    material : Material
-        Of any machine without a piston.
-    """
+    """Yield the main results as a table."""
     words, results = material.words, material.results
-    yield words.heading("conclusion")
+    yield words.heading("results" if material.options.order == "en" else "conclusion")
     yield words.paragraph("conclusion", table=Reference("summary"))
     rows = [_row(key, results, words) for key in results.summary if not _is_angle(key)]
-    titles = tuple((words.column(one),) for one in ("quantity", "value", "unit", "at"))
-    yield Table(words.caption("summary"), titles, rows, align="lrcr", label="summary")
+    titles: list[Runs] = [(words.column(one),) for one in ("quantity", "value", "unit")]
+    titles.append((words.column("at") + " ", Math(words.symbol("crank_angle")), ", °"))
+    yield Table(words.caption("summary"), tuple(titles), rows, align="lrcr", label="summary")
 
 
 def _is_angle(key: str) -> bool:
@@ -159,19 +140,13 @@ def _wheel(key: str, words: Words) -> str:
 
 
 def appendix(material: Material) -> Iterator[Block]:
-    """Yield all columns at the step of the tables.
-
-    Parameters
-    ----------
-    material : Material
-        Of a linkage.
-    """
+    """Yield all columns at the step of the tables."""
     words, results = material.words, material.results
     columns, degrees = results.columns, results.grid.degrees
-    if len(degrees) == len(material.positions) and np.allclose(degrees, material.positions.degrees):
+    if len(degrees) == len(material.positions) and np.allclose(degrees, material.positions):
         # the sections before have the same tables
         return
-    yield words.heading("appendix")
+    yield words.heading("linkage_appendix")
     for caption, keys in (
         ("torques_all", any_nonzero(_DYNAMICS, columns)),
         ("motion_all", named(columns, *_MOTION)),
@@ -182,12 +157,6 @@ def appendix(material: Material) -> Iterator[Block]:
 
 
 def sources(material: Material) -> Iterator[Block]:
-    """Yield the bibliography.
-
-    Parameters
-    ----------
-    material : Material
-        Of any machine without a piston.
-    """
+    """Yield the bibliography."""
     yield material.words.heading("sources")
     yield Bibliography()

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from crankwork.analysis.steps_table import table_steps
-from crankwork.dynamics.tabulated import TabulatedBody, tabulated_inertia
+from crankwork.analysis.steps_linkage import linkage_steps
+from crankwork.formula.known import in_order
+from crankwork.formula.replay import Program
+from crankwork.linkage_machine import TabulatedMachine
 from crankwork.note.document import Block, Citation, Equation, ItemList, Math, Reference, Runs
 from crankwork.note.linkage_data import method
 from crankwork.note.linkage_forces import efficiency
@@ -13,25 +15,18 @@ from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_motion import worked_at
 from crankwork.note.linkage_tables import Column, equations, position_tables, quantity_columns
 from crankwork.note.linkage_words import Words, subscript
-from crankwork.steps import AnyStep
 
 _WORK = "artobolevsky_1988, ch. 15"
 
 
 def table_task(material: Material) -> Iterator[Block]:
-    """Yield what is asked, the masses, and the transfer functions.
-
-    Parameters
-    ----------
-    material : Material
-        Of a table of transfer functions.
-    """
+    """Yield what is asked, the masses, and the transfer functions."""
     words, table = material.words, material.table
     yield words.heading("task")
     yield words.paragraph("task_table")
     yield words.paragraph("table_speed", value=words.amount(material.results.solved.speed, "rad/s"))
     yield words.paragraph("bodies")
-    yield ItemList(tuple(_body(one, words) for one in table.bodies))
+    yield ItemList(tuple(_body(table, at, words) for at in range(len(table.bodies))))
     yield from position_tables(
         "table_transfer", material.results.grid.degrees, list(_ratios(material)), words, first=1, label="transfer"
     )
@@ -40,7 +35,8 @@ def table_task(material: Material) -> Iterator[Block]:
         yield words.paragraph("sheets")
 
 
-def _body(body: TabulatedBody, words: Words) -> Runs:
+def _body(table: TabulatedMachine, at: int, words: Words) -> Runs:
+    body = table.bodies[at]
     mass, inertia = Math(words.symbol(f"body_mass.{body.name}")), Math(f"J_{subscript(body.name)}")
     runs: list[str | Math] = [f"{body.name}: "]
     if body.mass:
@@ -64,13 +60,7 @@ def _ratios(material: Material) -> Iterator[Column]:
 
 
 def static(material: Material) -> Iterator[Block]:
-    """Yield the static torque, where it is known.
-
-    Parameters
-    ----------
-    material : Material
-        Of a table of transfer functions.
-    """
+    """Yield the static torque, where it is known."""
     words, columns = material.words, material.results.columns
     if "static_torque" not in columns:
         return
@@ -84,13 +74,7 @@ def static(material: Material) -> Iterator[Block]:
 
 
 def dynamic(material: Material) -> Iterator[Block]:
-    """Yield reduced inertia, its derivative and the dynamic torque, at all positions one after the other.
-
-    Parameters
-    ----------
-    material : Material
-        Of a table of transfer functions.
-    """
+    """Yield reduced inertia, its derivative and the dynamic torque, at all positions one after the other."""
     words, columns = material.words, material.results.columns
     yield words.heading("dynamic")
     yield words.paragraph("table_reduction", source=Citation(_WORK), table=Reference("transfer"))
@@ -109,24 +93,18 @@ def dynamic(material: Material) -> Iterator[Block]:
 
 def _parts(material: Material) -> list[Column]:
     """Return the parts of the bodies in the reduced inertia."""
-    words = material.words
-    parts = {
-        f"reduced_inertia.{one.name}": tabulated_inertia([one]) + 0.0 * material.results.grid.angle
-        for one in material.table.bodies
-    }
+    words, results = material.words, material.results
+    whole = in_order([results.memory["reduced_inertia"]])
+    known = {one.key: one for one in whole if one.key.startswith("reduced_inertia.")}
+    rows = Program(known)(results.grid)
+    parts = {key: rows[key] for key in (f"reduced_inertia.{one.name}" for one in material.table.bodies) if key in rows}
     return [
         Column(words.titled(key), words.column_texts(values.tolist())) for key, values in parts.items() if values.any()
     ]
 
 
 def driving(material: Material) -> Iterator[Block]:
-    """Yield the driving torque with the losses, at all positions one after the other.
-
-    Parameters
-    ----------
-    material : Material
-        Of a table of transfer functions.
-    """
+    """Yield the driving torque with the losses, at all positions one after the other."""
     words, columns = material.words, material.results.columns
     if "driving_torque" not in columns:
         return
@@ -145,8 +123,8 @@ def _at_all(material: Material, group: str, kind: str) -> Iterator[Block]:
     """Yield the equation of a quantity at every position, its number in the subscript."""
     words = material.words
     for row in range(len(material.results.grid)):
-        steps: tuple[AnyStep, ...] = next(one.steps for one in table_steps(material.results, row) if one.name == group)
-        for one in steps:
+        groups = linkage_steps(material.results, row, row)
+        for one in next(found.steps for found in groups if found.name == group):
             if one.key == kind:
                 yield Equation(one, symbol=_numbered(words.symbol(kind), row + 1))
 

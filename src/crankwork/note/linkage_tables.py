@@ -7,13 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from crankwork.expressions import Formula
-from crankwork.kinematics.crank_grid import Array
+from crankwork.analysis import Array
+from crankwork.formula.expression import Formula
+from crankwork.formula.steps import AnyStep, Given, ProductStep, Step, SumStep, all_steps
 from crankwork.note.document import Block, Equation, Math, Runs, Table
 from crankwork.note.legends import explained_keys, legend
 from crankwork.note.linkage_words import Words, in_display_unit
 from crankwork.quantities import QUANTITIES, Language, base_key
-from crankwork.steps import AnyStep, Given, ProductStep, Step, SumStep, all_steps, worked_step
 
 # columns of numbers beside position and crank angle, on a page upright and on its side
 _UPRIGHT, _WIDE = 9, 14
@@ -113,17 +113,7 @@ def any_nonzero(keys: Iterable[str], columns: Mapping[str, Array]) -> list[str]:
 
 
 def equations(steps: Iterable[AnyStep], words: Words, *, marks: Mapping[str, str] | None = None) -> Iterator[Equation]:
-    """Yield equations of steps, before each sum those of its terms.
-
-    Parameters
-    ----------
-    steps : iterable of Step, Given, SumStep or ProductStep
-        The steps.
-    words : Words
-        The language.
-    marks : mapping of str to str, optional
-        Symbols by key, instead of those of the table of quantities.
-    """
+    """Yield equations of steps, before each sum those of its terms."""
     for one in all_steps(steps):
         if isinstance(one, SumStep | ProductStep):
             # a sum prints its terms by their keys, which are no symbols where a link has a long name
@@ -137,11 +127,11 @@ def _without_noise(step: AnyStep) -> AnyStep:
     """Return a step in which what is zero but for rounding is zero, so that nobody reads a meaning into it."""
     if not isinstance(step, Step):
         return step
-    noise = _NOISE * max(1.0, *(abs(value) for value in step.values.values()))
+    noise = _NOISE * max([1.0, *(abs(value) for value in step.values.values())])
     if not any(0 < abs(value) < noise for value in step.values.values()):
         return step
     values = {name: value if abs(value) >= noise else 0.0 for name, value in step.values.items()}
-    return worked_step(step.formula.function, *values.values(), key=step.key)
+    return step._replace(values=values, value=step.value if abs(step.value) >= noise else 0.0)
 
 
 def _mark(key: str, words: Words, marks: Mapping[str, str] | None) -> str:
@@ -149,15 +139,7 @@ def _mark(key: str, words: Words, marks: Mapping[str, str] | None) -> str:
 
 
 def explained(blocks: Iterable[Block], language: Language) -> Iterator[Block]:
-    """Yield blocks, where each formula that comes for the first time explains the symbols that are new.
-
-    Parameters
-    ----------
-    blocks : iterable of block
-        A whole note; of equations with the same formula only the first keeps its number.
-    language : str
-        Language of the explanations.
-    """
+    """Yield blocks, where each equation explains the symbols that are new."""
     seen: set[str] = set()
     known: set[str] = set()
     for block in blocks:
@@ -165,12 +147,12 @@ def explained(blocks: Iterable[Block], language: Language) -> Iterator[Block]:
         if not isinstance(block, Equation) or formula is None:
             yield replace(block, numbered=False) if isinstance(block, Equation) else block
             continue
-        if formula.name in seen:
-            yield replace(block, numbered=False)
-            continue
+        new = legend(block.step, language, frozenset(known)) if isinstance(block.step, Step | Formula) else ()
+        # arithmetic that is written in place has no number, nor what comes again
+        is_first = bool(formula.source) and formula.name not in seen
         seen.add(formula.name)
-        yield replace(block, legend=legend(formula, language, frozenset(known)))
-        known |= explained_keys(formula)
+        yield replace(block, legend=new) if is_first else replace(block, legend=new, numbered=False)
+        known |= explained_keys(block.step) if isinstance(block.step, Step | Formula) else set()
 
 
 def _formula(block: Block) -> Formula | None:

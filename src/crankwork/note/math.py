@@ -7,7 +7,6 @@ formula states (`n` in revolutions per minute), because only those numbers give 
 
 from __future__ import annotations
 
-import math
 import operator
 from collections.abc import Mapping
 from types import MappingProxyType
@@ -15,7 +14,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from crankwork.expressions import Expression, Number, Operation, Symbol, symbol
+from crankwork.formula.expression import Expression, Number, Operation, Symbol, function_name, symbol
+from crankwork.note.digits import is_exact_pi
 from crankwork.note.layout import (
     DOT,
     MINUS,
@@ -35,13 +35,10 @@ from crankwork.note.layout import (
     leads_with_sign,
     row,
 )
-from crankwork.note.symbols import number_box, printed_number_box, symbol_box
+from crankwork.note.symbols import number_box, symbol_box
 from crankwork.quantities import Language
 
 _SIGNED, _SUM, _PRODUCT, _POWER, _ATOM = 0, 1, 2, 3, 5
-_NAMES = {"log": "ln", "log10": "lg", "arcsin": "arcsin", "arccos": "arccos", "arctan": "arctan", "maximum": "max",
-          "minimum": "min"}  # fmt: skip
-_RUSSIAN_NAMES = {"tan": "tg", "arctan": "arctg", "sinh": "sh", "cosh": "ch", "tanh": "th"}
 
 
 class _Printing(NamedTuple):
@@ -62,21 +59,7 @@ def formula_box(
     digits: int = 6,
     symbols: Mapping[str, str] | None = None,
 ) -> Box:
-    """Return the boxes of a recorded formula, with symbols, or with numbers in place of them.
-
-    Parameters
-    ----------
-    tree : Expression
-        The formula.
-    values : mapping of str to float, optional
-        Numbers by argument name; an argument that is missing keeps its symbol, and so does an exact π.
-    language : str
-        Whose symbols and decimal mark.
-    digits : int
-        Significant digits of the numbers.
-    symbols : mapping of str to str, optional
-        Symbols by argument name, instead of those of the table of arguments.
-    """
+    """Return the boxes of a recorded formula, with symbols, or with numbers in place of them."""
     return _box(tree, _Printing(values or {}, language, digits, symbols=symbols or {}))[0]
 
 
@@ -86,9 +69,7 @@ def _box(tree: Expression, printing: _Printing) -> tuple[Box, int]:
         case Symbol(name):
             return _symbol(name, printing)
         case Number(value):
-            text = f"{value + 0.0:.15g}".replace("e+0", "e").replace("e-0", "e-").replace("e", "·10^")
-            text = text.replace("-", "−")
-            return _bound(*printed_number_box(text if printing.language == "en" else text.replace(".", ",")))
+            return _bound(*number_box(value, printing.language, digits=15))
         case Operation(function, (left, right)) if function in (operator.add, operator.sub):
             return _sum(Sign("+" if function is operator.add else "−"), left, right, printing), _SUM
         case Operation(operator.mul, (left, right)):
@@ -104,15 +85,10 @@ def _box(tree: Expression, printing: _Printing) -> tuple[Box, int]:
     raise TypeError(f"{tree!r} is not part of a formula")
 
 
-def _bound(box: Box, plain: bool) -> tuple[Box, int]:  # noqa: FBT001 - as printed_number_box returns it
+def _bound(box: Box, plain: bool) -> tuple[Box, int]:  # noqa: FBT001 - as number_box returns it
     if plain:
         return box, _ATOM
     return box, _SIGNED if leads_with_sign(box) else _PRODUCT
-
-
-def is_exact_pi(name: str, value: float) -> bool:
-    """Return whether an argument is π itself, which is printed as π; a document's 3.14 is a number."""
-    return name == "pi" and value == math.pi
 
 
 def _symbol(name: str, printing: _Printing) -> tuple[Box, int]:
@@ -188,12 +164,9 @@ def _function(function: Any, operands: tuple[Expression, ...], printing: _Printi
         return Script(Upright("e"), None, _box(operands[0], printing._replace(inline=True))[0]), _POWER
     if function in (np.absolute, abs):
         return Fence(_box(operands[0], printing)[0], "||"), _ATOM
-    name = _NAMES.get(function.__name__, function.__name__)
-    if printing.language == "ru":
-        name = _RUSSIAN_NAMES.get(name, name)
     # a comma between numbers with decimal commas would not be seen
     between = Sign("," if printing.language == "en" else ";", "comma")
     inside: list[Box] = []
     for operand in operands:
         inside += [*([between] if inside else []), _box(operand, printing)[0]]
-    return Apply(Upright(name), Fence(row(*inside))), _POWER
+    return Apply(Upright(function_name(function, printing.language)), Fence(row(*inside))), _POWER

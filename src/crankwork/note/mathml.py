@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from crankwork.expressions import Expression
+from crankwork.formula.expression import Expression
 from crankwork.note.characters import xml_text
 from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright
 from crankwork.note.math import formula_box
@@ -15,17 +15,7 @@ _SPACES = {"prefix": "0", "times": "0.12em", "slash": "0", "binary": "0.25em", "
 
 
 def mathml(tree: Expression, values: Mapping[str, float] | None = None, language: Language = "en") -> str:
-    """Return a recorded formula as an element `math`.
-
-    Parameters
-    ----------
-    tree : Expression
-        The formula.
-    values : mapping of str to float, optional
-        Numbers by argument name, in place of symbols.
-    language : str
-        Whose symbols and decimal mark.
-    """
+    """Return a recorded formula as an element `math`."""
     return f'<math xmlns="{NAMESPACE}">{mathml_box(formula_box(tree, values, language))}</math>'
 
 

@@ -7,12 +7,12 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from crankwork.errors import CrankworkError
-from crankwork.expressions import Formula
+from crankwork.formula.expression import Formula
+from crankwork.formula.steps import Step
 from crankwork.note.captions import place_in_source
 from crankwork.note.document import Block, Citation, Equation, Figure, Heading, ItemList, Note, Paragraph, Run, Table
 from crankwork.quantities import Language
 from crankwork.sources import sources
-from crankwork.steps import Step
 
 
 class Numbering(NamedTuple):
@@ -38,11 +38,6 @@ class Numbering(NamedTuple):
 
 def numbering(note: Note) -> Numbering:
     """Return the numbers of everything that a note numbers.
-
-    Parameters
-    ----------
-    note : Note
-        The note.
 
     Raises
     ------

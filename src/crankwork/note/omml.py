@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from crankwork.expressions import Expression
+from crankwork.formula.expression import Expression
 from crankwork.note.characters import xml_text
 from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright
 from crankwork.note.math import formula_box
@@ -22,17 +22,7 @@ _STYLES = {"letter": '<m:sty m:val="i"/>', "upright": '<m:sty m:val="p"/>', "tex
 
 
 def omml(tree: Expression, values: Mapping[str, float] | None = None, language: Language = "en") -> str:
-    """Return a recorded formula as an element `m:oMath`, namespaces declared.
-
-    Parameters
-    ----------
-    tree : Expression
-        The formula.
-    values : mapping of str to float, optional
-        Numbers by argument name, in place of symbols.
-    language : str
-        Whose symbols and decimal mark.
-    """
+    """Return a recorded formula as an element `m:oMath`, namespaces declared."""
     return f"<m:oMath {NAMESPACES}>{omml_box(formula_box(tree, values, language))}</m:oMath>"
 
 

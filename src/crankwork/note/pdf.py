@@ -15,11 +15,6 @@ _NO_GLYPH = re.compile(r'the text `"(?P<text>.+?)"` could not be displayed', re.
 def pdf(note: Note) -> bytes:
     """Return a note as a PDF file.
 
-    Parameters
-    ----------
-    note : Note
-        The note.
-
     Raises
     ------
     MissingExtraError
@@ -52,13 +47,6 @@ def _missing_character(text: str) -> CrankworkError:
 
 def png(svg: bytes, pixels_per_inch: float = 110.0) -> bytes:
     """Return a drawing as a picture of pixels, for programs that know no SVG.
-
-    Parameters
-    ----------
-    svg : bytes
-        The drawing.
-    pixels_per_inch : float
-        How fine.
 
     Raises
     ------

@@ -6,6 +6,7 @@ import re
 
 from crankwork.note.layout import (
     DOT,
+    EQUALS,
     MINUS,
     Apply,
     Box,
@@ -23,22 +24,19 @@ from crankwork.quantities import Language
 from crankwork.report.language import number
 
 _FUNCTION = re.compile(r"(?P<name>sin|cos|tan|tg|ctg|arcsin|arccos|arctan|arctg|ln|lg|exp) ?(?P<rest>\S.*)")
-_SUM = re.compile(r" ?([+−]) ?")
+_SUM = re.compile(r" ?([+−=]) ?")
 _MULTIPLE = re.compile(r"(?P<count>\d+(?:[.,]\d+)?)(?P<rest>\D.*)")
-_PLAIN = re.compile(r"(?P<base>[^_\s′″₀-₉]+)(?:_(?P<below>[^\s′″₀-₉]+))?")
-_MARKS = re.compile(r"[′″]+")
-_LOW = re.compile(r"[₀-₉]+")
+_SUBSTANCE = re.compile(r"(?P<base>\w)_(?P<below>[CHNO][CHNO₀-₉]*)")
+_PLAIN = re.compile(r"(?P<base>[^_\s′″²₀-₉]+)(?:_(?P<below>[^\s′″²₀-₉]+))?")
+_MARKS = re.compile(r"[′″²]+")
+_LOW = re.compile(r"([₀-₉]+)")
 _LOWERED = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
-_POWER = re.compile(r"(?P<sign>−?)(?:(?P<mantissa>[\d.,]+)(?P<dot>·)?)?(?:10\^(?P<exponent>−?-?\d+))?")
+_NUMBER = re.compile(r"(?P<sign>−?)(?:(?P<mantissa>[\d.,]+)(?:·|$))?(?:10(?P<exponent>[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+))?")
+_LEVEL = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
 
 
 def symbol_box(symbol: str) -> Box:
     """Return the box of a symbol, its subscript upright and its primes raised.
-
-    Parameters
-    ----------
-    symbol : str
-        As the tables write it: `v_п.ср`, `x_S′`, `J′_пр`, `sin 2φ`, `cos(φ + β)`.
 
     Examples
     --------
@@ -50,6 +48,8 @@ def symbol_box(symbol: str) -> Box:
         top, bottom = symbol_box(over), symbol_box(under)
         tall = isinstance(top, Apply) or isinstance(bottom, Apply)
         return Fraction(top, bottom) if tall else row(top, Sign("/", "slash"), bottom)
+    if " = " in symbol:
+        return _sum_box(symbol)
     if symbol.isdecimal():
         return Digits(symbol)
     if found := _FUNCTION.fullmatch(symbol):
@@ -58,6 +58,8 @@ def symbol_box(symbol: str) -> Box:
         return Apply(Upright(found["name"]), Fence(inside) if inside else symbol_box(rest))
     if found := _MULTIPLE.fullmatch(symbol):
         return row(Digits(found["count"]), symbol_box(found["rest"]))
+    if (found := _SUBSTANCE.fullmatch(symbol)) and _LOW.search(symbol):
+        return Script(Letter(found["base"]), _substance_box(found["below"]))
     marks, low = "".join(_MARKS.findall(symbol)), "".join(_LOW.findall(symbol)).translate(_LOWERED)
     found = _PLAIN.fullmatch(_LOW.sub("", _MARKS.sub("", symbol)))
     if not found:
@@ -65,12 +67,24 @@ def symbol_box(symbol: str) -> Box:
     below = (found["below"] or "") + low
     if not below and not marks:
         return _base_box(found["base"])
-    return Script(_base_box(found["base"]), Upright(below) if below else None, Upright(marks) if marks else None)
+    return Script(
+        _base_box(found["base"]), Upright(below) if below else None, Upright(marks.replace("²", "2")) if marks else None
+    )
+
+
+def _substance_box(text: str) -> Row:
+    """Return the box of a chemical formula: the numbers in it stay where they are."""
+    boxes: list[Box] = []
+    for part in filter(None, _LOW.split(text)):
+        number = _LOW.fullmatch(part)
+        boxes.append(Script(boxes.pop(), Upright(part.translate(_LOWERED))) if number else Upright(part))
+    return row(*boxes)
 
 
 def _sum_box(text: str) -> Row:
-    """Return the box of symbols with plus or minus between them."""
-    return row(*(Sign(part) if part in ("+", "−") else symbol_box(part) for part in _SUM.split(text)))
+    """Return the box of symbols with plus, minus or a sign of equality between them."""
+    signs = {"+": Sign("+"), "−": Sign("−"), "=": EQUALS}
+    return row(*(signs.get(part) or symbol_box(part) for part in _SUM.split(text)))
 
 
 def _base_box(base: str) -> Box:
@@ -87,34 +101,21 @@ def _base_box(base: str) -> Box:
 def number_box(value: float, language: Language, digits: int = 6) -> tuple[Box, bool]:
     """Return the box of a number in SI or any unit, and whether it is a single run of digits.
 
-    Parameters
-    ----------
-    value : float
-        What is printed.
-    language : str
-        Whose decimal mark.
-    digits : int
-        Significant digits.
-
     Examples
     --------
     >>> number_box(0.5, "ru")
     (Digits(text='0,5'), True)
     """
-    return printed_number_box(number(value, language, digits=digits))
-
-
-def printed_number_box(text: str) -> tuple[Box, bool]:
-    """Return the box of a number that is printed already, and whether it is a single run of digits."""
-    found = _POWER.fullmatch(text)
-    if not found or not (found["mantissa"] or found["exponent"]):
+    text = number(value, language, digits=digits)
+    found = _NUMBER.fullmatch(text)
+    if not found:
         return Upright({"inf": "∞"}.get(text, text)), True
-    if not found["exponent"]:
-        mantissa = Digits(found["mantissa"])
-        return (row(MINUS, mantissa), False) if found["sign"] else (mantissa, True)
-    exponent = found["exponent"].replace("-", "−")
-    above = row(MINUS, Digits(exponent[1:])) if exponent.startswith("−") else Digits(exponent)
     parts: list[Box] = [MINUS] if found["sign"] else []
-    if found["mantissa"]:
-        parts += [Digits(found["mantissa"]), DOT]
-    return row(*parts, Script(Digits("10"), None, above)), False
+    mantissa, exponent = found["mantissa"], found["exponent"]
+    if mantissa:
+        parts.append(Digits(mantissa))
+    if not exponent:
+        return (row(*parts), False) if found["sign"] else (parts[0], True)
+    above = Digits(exponent.lstrip("⁻").translate(_LEVEL))
+    ten = Script(Digits("10"), None, row(MINUS, above) if exponent.startswith("⁻") else above)
+    return row(*parts, *((DOT,) if mantissa else ()), ten), False

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from crankwork.expressions import Expression
+from crankwork.formula.expression import Expression
 from crankwork.note.characters import typst_string
 from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright
 from crankwork.note.math import formula_box
@@ -17,18 +17,9 @@ _PRIMES = {"′": "prime", "″": "prime.double", "‴": "prime.triple"}
 def typst_math(tree: Expression, values: Mapping[str, float] | None = None, language: Language = "en") -> str:
     """Return a recorded formula as what stands between the dollar signs of Typst.
 
-    Parameters
-    ----------
-    tree : Expression
-        The formula.
-    values : mapping of str to float, optional
-        Numbers by argument name, in place of symbols.
-    language : str
-        Whose symbols and decimal mark.
-
     Examples
     --------
-    >>> from crankwork.expressions import record
+    >>> from crankwork.formula.expression import record
     >>> typst_math(record(lambda r, w: r * w**2 / 2))
     'frac(r thin attach(ω, t: 2), 2)'
     """

@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from crankwork.expressions import Expression, text
-from crankwork.note.captions import LANGUAGE_TAGS, caption, fixed_word, printed_date
+from crankwork.formula.expression import Expression, text
+from crankwork.locale import say
+from crankwork.note.captions import LANGUAGE_TAGS, caption, printed_date
 from crankwork.note.characters import typst_string
 from crankwork.note.document import (
     Bibliography,
@@ -27,6 +28,7 @@ from crankwork.note.document import (
     Runs,
     Table,
     TitlePage,
+    cell_length,
 )
 from crankwork.note.equations import legend_rows, printed_equation
 from crankwork.note.layout import Box
@@ -71,15 +73,7 @@ _ALIGN = {"l": "left", "c": "center", "r": "right"}
 
 
 def typst_source(note: Note, numbers: Numbering) -> str:
-    """Return a note as the source of a Typst document.
-
-    Parameters
-    ----------
-    note : Note
-        The note.
-    numbers : Numbering
-        Its numbers.
-    """
+    """Return a note as the source of a Typst document."""
     year, month, day = (note.date.year, note.date.month, note.date.day) if note.date else (2000, 1, 1)
     authors = "".join(f"{typst_string(one)}, " for one in note.authors)
     language, _, region = LANGUAGE_TAGS[note.language].partition("-")
@@ -116,7 +110,7 @@ def _block(block: Block, number: str, note: Note, numbers: Numbering) -> Iterato
         case PageBreak():
             yield "#pagebreak(weak: true)"
         case Contents():
-            title = typst_string(fixed_word("contents", note.language))
+            title = typst_string(say("note.contents", note.language))
             yield f"#outline(title: {title}, depth: 2, indent: 1em)"
         case TitlePage():
             yield _title_page(note)
@@ -179,7 +173,10 @@ def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
         yield "#block(breakable: false)["
     yield f"#above({typst_string(caption('table', number, block.caption, numbers.language))})"
     headings = ", ".join(f"[{_runs(runs, numbers)}]" for runs in block.headings)
-    rows = ",\n".join(", ".join(map(typst_string, row)) for row in block.rows)
+    rows = ",\n".join(
+        ", ".join(typst_string(cell) if isinstance(cell, str) else f"[{_run(cell, numbers)}]" for cell in row)
+        for row in block.rows
+    )
     columns = _columns(block, size)
     header = f"table.header(..({headings},).map(cell => table.cell(align: center + horizon, cell)))"
     yield (
@@ -192,7 +189,7 @@ def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
 
 def _columns(block: Table, size: int) -> str:
     """Return the columns of a table; those of a long table of short entries are not measured, which takes long."""
-    longest = [max(map(len, column), default=0) for column in zip(*block.rows, strict=True)]
+    longest = [max(map(cell_length, column), default=0) for column in zip(*block.rows, strict=True)]
     if len(block.rows) < _LONG or max(longest) > _SHORT:
         return f"columns: {len(block.headings)}"
     widths = [max(0.55 * size * length, 3.2 * size) + 8 for length in longest]

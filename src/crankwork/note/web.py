@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from crankwork.note.captions import caption, fixed_word, printed_date
+from crankwork.locale import say
+from crankwork.note.captions import caption, printed_date
 from crankwork.note.characters import xml_text
 from crankwork.note.document import (
     Bibliography,
@@ -45,13 +46,7 @@ _ALIGN = {"l": "left", "c": "centre", "r": "right"}
 
 
 def web(note: Note) -> bytes:
-    """Return a note as a web page, UTF-8.
-
-    Parameters
-    ----------
-    note : Note
-        The note.
-    """
+    """Return a note as a web page, UTF-8."""
     numbers = numbering(note)
     parts = [
         f'<!DOCTYPE html>\n<html lang="{note.language}">\n<head>\n<meta charset="utf-8">',
@@ -128,7 +123,9 @@ def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     words = xml_text(caption("table", number, block.caption, numbers.language))
     before = ["<td>" if kind == "right" else f'<td class="{kind}">' for kind in kinds]
     rows = "\n".join(
-        "<tr>" + "".join(f"{start}{xml_text(cell)}</td>" for start, cell in zip(before, row, strict=True)) + "</tr>"
+        "<tr>"
+        + "".join(f"{start}{_run(cell, numbers)}</td>" for start, cell in zip(before, row, strict=True))
+        + "</tr>"
         for row in block.rows
     )
     yield (
@@ -153,7 +150,7 @@ def _contents(note: Note, numbers: Numbering) -> str:
         for k, (block, number) in enumerate(zip(note.blocks, numbers.blocks, strict=True))
         if isinstance(block, Heading) and block.level <= 2
     )
-    return f'<nav><p class="contents">{fixed_word("contents", note.language)}</p><ul>{items}</ul></nav>'
+    return f'<nav><p class="contents">{say("note.contents", note.language)}</p><ul>{items}</ul></nav>'
 
 
 def _title_page(note: Note) -> str:

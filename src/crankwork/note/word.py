@@ -59,11 +59,6 @@ _WIDEST = 481.0
 def word(note: Note) -> bytes:
     """Return a note as a Word file.
 
-    Parameters
-    ----------
-    note : Note
-        The note.
-
     Raises
     ------
     MissingExtraError

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from crankwork.expressions import Expression
-from crankwork.note.captions import caption, fixed_word
+from crankwork.formula.expression import Expression
+from crankwork.locale import say
+from crankwork.note.captions import caption
 from crankwork.note.characters import xml_text
-from crankwork.note.document import Bold, Citation, Equation, Math, Reference, Run, Runs, Table
+from crankwork.note.document import Bold, Cell, Citation, Equation, Math, Reference, Run, Runs, Table, cell_length
 from crankwork.note.equations import legend_rows, printed_equation
 from crankwork.note.layout import Box
+from crankwork.note.layout import width as box_width
 from crankwork.note.math import formula_box
 from crankwork.note.numbering import Numbering, equation_source
 from crankwork.note.omml import omml_box
@@ -23,12 +25,22 @@ PREFIXES = (
 )
 # twentieths of a point, for an A4 page upright and on its side
 TEXT_WIDTH, WIDE_TEXT_WIDTH = 9638, 14570
-# of a column, so that a heading fits above short numbers [twip]
-_NARROWEST = 640
+# of a column, and the room beside its text [twip]
+_NARROWEST, _SIDES = 640, 140
+# how wide a digit and a letter are for every half point of their size, and an em of mathematics, in a wide font: what
+# stands in for Times New Roman elsewhere is no wider [twip]
+_DIGIT, _LETTER, _EM = 6.6, 7.4, 240
+# of a line of an equation in Cambria Math, whose digits are wider than those of the PDF [em]
+_LINE_WIDTH = 26.0
+# of the text of tables, tried in turn [half pt]
+_SIZES = (20, 18, 16, 14)
 _MARK_WIDTH = 2150
 _LEGEND = (
     '<w:tabs><w:tab w:val="left" w:pos="960"/></w:tabs><w:spacing w:after="0"/><w:ind w:left="960" w:hanging="960"/>'
 )
+_CELL_STYLE = '<w:pStyle w:val="TableText"/>'
+# rows that stay with the heading of their table; LibreOffice loses the others where one alone ends a page
+_TOGETHER = 2
 _ALIGN = {"l": "left", "c": "center", "r": "right"}
 
 
@@ -51,31 +63,25 @@ PAGE_BREAK = paragraph(
 
 
 def runs_xml(runs: Runs, numbers: Numbering, properties: str = "") -> str:
-    """Return runs of a note as runs of Word.
-
-    Parameters
-    ----------
-    runs : tuple of run
-        What stands in the line.
-    numbers : Numbering
-        Numbers of what they refer to.
-    properties : str
-        Elements that every run of text has, such as its size.
-    """
+    """Return runs of a note as runs of Word."""
     return "".join(_run(run, numbers, properties) for run in runs)
 
 
 def _run(run: Run, numbers: Numbering, properties: str) -> str:
+    if isinstance(run, Math):
+        return f"<m:oMath>{omml_box(inline_box(run.content, numbers.language))}</m:oMath>"
+    return text_run(_words(run, numbers), "<w:b/>" + properties if isinstance(run, Bold) else properties)
+
+
+def _words(run: str | Bold | Reference | Citation, numbers: Numbering) -> str:
     match run:
         case Bold(words):
-            return text_run(words, "<w:b/>" + properties)
-        case Math(content):
-            return f"<m:oMath>{omml_box(inline_box(content, numbers.language))}</m:oMath>"
+            return words
         case Reference(label):
-            return text_run(numbers.reference(label), properties)
+            return numbers.reference(label)
         case Citation(source):
-            return text_run(numbers.citation(source), properties)
-    return text_run(run, properties)
+            return numbers.citation(source)
+    return run
 
 
 def inline_box(content: str | Expression, language: Language) -> Box:
@@ -85,7 +91,7 @@ def inline_box(content: str | Expression, language: Language) -> Box:
 
 def equation_xml(block: Equation, number: str, numbers: Numbering) -> Iterator[str]:
     """Yield an equation, a table without lines: mathematics in the middle, source and number at the right."""
-    printed = printed_equation(block, numbers.language)
+    printed = printed_equation(block, numbers.language, _LINE_WIDTH)
     source = equation_source(block)
     mark = "\u2002".join(([numbers.citation(source)] if source else []) + ([f"({number})"] if number else []))
     spacing = '<w:spacing w:before="60" w:after="60" w:line="240" w:lineRule="auto"/>'
@@ -121,15 +127,16 @@ def _cell(width: int, content: str, place: str) -> str:
 
 def table_xml(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     """Yield the caption of a table, the table with a header on every page, and a gap after it."""
-    count = len(block.headings)
-    size = 20 if count <= 9 else 18 if count <= 14 else 16
+    size, widths = _columns(block, WIDE_TEXT_WIDTH if block.wide else TEXT_WIDTH, numbers)
     font = f'<w:sz w:val="{size}"/><w:szCs w:val="{size}"/>'
     words = caption("table", number, block.caption, numbers.language)
     yield paragraph(text_run(words), "Caption", '<w:keepNext/><w:jc w:val="left"/>')
-    full = WIDE_TEXT_WIDTH if block.wide else TEXT_WIDTH
-    widths = _widths(block, full, size)
     heading = "".join(
-        _cell(width, paragraph(runs_xml(runs, numbers, font), "TableText", '<w:jc w:val="center"/>'), "center")
+        _cell(
+            width,
+            paragraph(runs_xml(runs, numbers, font), "TableText", '<w:keepNext/><w:jc w:val="center"/>'),
+            "center",
+        )
         for width, runs in zip(widths, block.headings, strict=True)
     )
     grid = "".join(f'<w:gridCol w:w="{width}"/>' for width in widths)
@@ -137,17 +144,16 @@ def table_xml(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
         f'<w:{side} w:val="single" w:sz="4" w:space="0" w:color="auto"/>'
         for side in ("top", "left", "bottom", "right", "insideH", "insideV")
     )
-    before = [
-        f'<w:tc><w:p><w:pPr><w:pStyle w:val="TableText"/><w:jc w:val="{_ALIGN[letter]}"/></w:pPr>'
-        f'<w:r><w:rPr>{font}</w:rPr><w:t xml:space="preserve">'
-        for letter in (block.align or "r" * count)
-    ]
-    after = "</w:t></w:r></w:p></w:tc>"
+    aligned = [f'<w:jc w:val="{_ALIGN[letter]}"/></w:pPr>' for letter in (block.align or "r" * len(widths))]
+    loose, kept = ([f"<w:tc><w:p><w:pPr>{_CELL_STYLE}{keep}{one}" for one in aligned] for keep in ("", "<w:keepNext/>"))
     rows = "".join(
         "<w:tr><w:trPr><w:cantSplit/></w:trPr>"
-        + "".join(f"{start}{xml_text(cell)}{after}" for start, cell in zip(before, row, strict=True))
+        + "".join(
+            f"{start}{_run(cell, numbers, font)}</w:p></w:tc>"
+            for start, cell in zip(kept if k < _TOGETHER else loose, row, strict=True)
+        )
         + "</w:tr>"
-        for row in block.rows
+        for k, row in enumerate(block.rows)
     )
     yield (
         f'<w:tbl><w:tblPr><w:tblW w:w="{sum(widths)}" w:type="dxa"/><w:jc w:val="center"/>'
@@ -160,52 +166,73 @@ def table_xml(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     yield paragraph("", "", '<w:spacing w:before="0" w:after="0"/>')
 
 
-def _widths(block: Table, full: int, size: int) -> list[int]:
-    """Return the widths of the columns: as wide as their entries, and together no wider than the text. [twip]"""
-    longest = [max(map(len, column), default=0) for column in zip(*block.rows, strict=True)] or [0] * len(
-        block.headings
-    )
-    wanted = [max(_NARROWEST, round(5.6 * size * length) + 140) for length in longest]
-    room = full - sum(min(one, _NARROWEST) for one in wanted)
-    excess = sum(one - min(one, _NARROWEST) for one in wanted)
-    share = min(1.0, room / excess) if excess > 0 else 1.0
-    if room < 0:
-        return [full // len(wanted)] * len(wanted)
-    return [round(_NARROWEST + share * (one - _NARROWEST)) for one in wanted]
+def _columns(block: Table, full: int, numbers: Numbering) -> tuple[int, list[int]]:
+    """Return the size of the text of a table [half pt] and the widths of its columns, together no wider than the text.
+
+    A column is as wide as its entries, but no narrower than a word of them or of its heading. [twip]
+    """
+    columns = list(zip(*block.rows, strict=True)) or [()] * len(block.headings)
+    words = [max(map(_word_width, column), default=0.0) for column in columns]
+    entries = [_DIGIT * max(map(cell_length, column), default=0) for column in columns]
+    size, least = _SIZES[0], [0]
+    for size in _SIZES:
+        headings = [_heading_width(runs, numbers, size) for runs in block.headings]
+        least = [
+            round(max(_NARROWEST * size / _SIZES[0], heading + _SIDES, size * word + _SIDES))
+            for heading, word in zip(headings, words, strict=True)
+        ]
+        if sum(least) <= full:
+            break
+    else:
+        return size, [one * full // sum(least) for one in least]
+    wanted = [max(one, round(size * entry) + _SIDES) for one, entry in zip(least, entries, strict=True)]
+    excess = sum(wanted) - sum(least)
+    share = min(1.0, (full - sum(least)) / excess) if excess else 1.0
+    return size, [int(one + share * (most - one)) for one, most in zip(least, wanted, strict=True)]
+
+
+def _word_width(cell: Cell) -> float:
+    """Return how wide the longest word of a cell is, or its symbol, for every half point of its size. [twip]"""
+    if isinstance(cell, Math):
+        return _DIGIT * cell_length(cell)
+    return max((_letters_width(one) for one in cell.split()), default=0.0)
+
+
+def _letters_width(word: str) -> float:
+    return (_LETTER if word.isalpha() else _DIGIT) * len(word)
+
+
+def _heading_width(runs: Runs, numbers: Numbering, size: int) -> float:
+    """Return how wide the widest part of a heading is that stands between spaces. [twip]"""
+    widths = [0.0]
+    for run in runs:
+        if isinstance(run, Math):
+            widths[-1] += _EM * box_width(inline_box(run.content, numbers.language))
+            continue
+        first, *others = (size * _letters_width(one) for one in _words(run, numbers).split(" "))
+        widths[-1] += first
+        widths += others
+    return max(widths)
 
 
 def contents_xml(headings: list[tuple[int, str]], language: Language) -> Iterator[str]:
-    """Yield the list of sections as a field of Word, filled with the sections; Word adds the pages when it updates it.
+    """Yield the list of sections, each with its page, which whatever opens the document fills in.
 
-    Parameters
-    ----------
-    headings : list of tuple
-        Level and text of every heading; their bookmarks are numbered in this order.
-    language : str
-        Language of the title.
+    A list that Word gathers itself would stay without pages everywhere else.
     """
-    yield paragraph(text_run(fixed_word("contents", language)), "ContentsTitle")
-    begin = (
-        '<w:r><w:fldChar w:fldCharType="begin" w:dirty="true"/></w:r>'
-        '<w:r><w:instrText xml:space="preserve"> TOC \\o "1-2" \\h \\z \\u </w:instrText></w:r>'
-        '<w:r><w:fldChar w:fldCharType="separate"/></w:r>'
-    )
-    end = '<w:r><w:fldChar w:fldCharType="end"/></w:r>'
-    shown = [(k, level, text) for k, (level, text) in enumerate(headings) if level <= 2]
-    for k, level, text in shown:
-        link = f'<w:hyperlink w:anchor="{bookmark(k)}">{text_run(text)}<w:r><w:tab/></w:r>{_page(k)}</w:hyperlink>'
-        start = begin if k == shown[0][0] else ""
-        yield paragraph(f"{start}{link}{end if k == shown[-1][0] else ''}", f"TOC{level}")
-    if not shown:
-        yield paragraph(begin + end)
+    yield paragraph(text_run(say("note.contents", language)), "ContentsTitle")
+    for k, (level, text) in enumerate(headings):
+        if level <= 2:
+            link = f'<w:hyperlink w:anchor="{bookmark(k)}">{text_run(text)}<w:r><w:tab/></w:r>{_page(k)}</w:hyperlink>'
+            yield paragraph(link, f"TOC{level}")
 
 
 def _page(k: int) -> str:
-    """Return a field with the page of a heading, which Word fills in."""
+    """Return a field with the page of a heading."""
     return (
         '<w:r><w:fldChar w:fldCharType="begin" w:dirty="true"/></w:r>'
         f'<w:r><w:instrText xml:space="preserve"> PAGEREF {bookmark(k)} \\h </w:instrText></w:r>'
-        '<w:r><w:fldChar w:fldCharType="end"/></w:r>'
+        '<w:r><w:fldChar w:fldCharType="separate"/></w:r><w:r><w:fldChar w:fldCharType="end"/></w:r>'
     )
 
 

@@ -48,15 +48,7 @@ _TIGHT = ("TableText", "TitleLine")
 
 
 def set_styles(document: Document, language: Language) -> None:
-    """Give a document the styles of a note and its language.
-
-    Parameters
-    ----------
-    document : docx.document.Document
-        A new document of python-docx.
-    language : str
-        Language of the spelling checker.
-    """
+    """Give a document the styles of a note and its language."""
     from docx.oxml import parse_xml  # noqa: PLC0415 - an optional part
 
     styles: Any = document.styles.element

@@ -1,13 +1,13 @@
-"""The one table of quantities: key, symbols, display unit, label in three languages, definition.
+"""The one table of quantities: key, display unit, definition; name and symbol in each language are in `locale`.
 
-Tables, figures, notes, the studio and the nomenclature page all read it. Symbols are written as
-`base_subscript`; where Russian or Vietnamese books use the English symbol, it is not repeated.
+Tables, figures, notes, the studio and the nomenclature page all read it.
 """
 
 from __future__ import annotations
 
+from crankwork.locale import LANGUAGES, Language
 from crankwork.quantities import balance, bearings, cycle, cylinders, engine, linkage, shaft
-from crankwork.quantities.quantity import LANGUAGES, Language, Quantity
+from crankwork.quantities.quantity import Quantity
 
 __all__ = ["LANGUAGES", "Language", "QUANTITIES", "Quantity", "base_key"]
 

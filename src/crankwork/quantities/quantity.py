@@ -2,34 +2,41 @@
 
 from __future__ import annotations
 
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
-Language = Literal["en", "ru", "vi"]
-LANGUAGES: tuple[Language, ...] = ("en", "ru", "vi")
+from crankwork.locale import Language, say
+from crankwork.units import coherent_unit
 
 
 class Quantity(NamedTuple):
-    """One row of the table. `per_area_unit` is set where the quantity may be given per piston area."""
+    """One row of the table. `per_area_unit` is set where the quantity may be given per piston area.
+
+    `unit` is that of tables, figures and notes; values of results and arguments of functions are in `si_unit`.
+    A copy of a row whose key goes on after a dot, `joint_force.A`, is the quantity of that point or link.
+    """
 
     key: str
     unit: str
-    symbols: tuple[str, str, str]
-    labels: tuple[str, str, str]
     definition: str
     per_area_unit: str = ""
 
+    @property
+    def si_unit(self) -> str:
+        """Unit of the values of results, which are in SI: `m` where `unit` is `mm`."""
+        return coherent_unit(self.unit)
+
     def symbol(self, language: Language = "en") -> str:
-        """Return the symbol used in books of that language."""
-        return self.symbols[LANGUAGES.index(language)]
+        """Return the symbol used in books of that language, the name of a point or link in its subscript."""
+        kind, part = self._split()
+        shown = say(f"symbols.{kind}", language)
+        return f"{shown}{',' if '_' in shown else '_'}{part}" if part else shown
 
     def label(self, language: Language = "en") -> str:
         """Return the name of the quantity in that language."""
-        return self.labels[LANGUAGES.index(language)]
+        kind, part = self._split()
+        name = say(f"quantities.{kind}", language)
+        return f"{name}, {part}" if part else name
 
-
-def row(key: str, unit: str, symbols: str, labels: str, definition: str, per_area_unit: str = "") -> Quantity:
-    """Return a row: symbols `EN|RU|VI`, labels `en | ru | vi`; symbols that are the same are not repeated."""
-    en, *others = symbols.split("|")
-    ru, vi = [*others, en, en][:2] if len(others) != 1 else (others[0], en)
-    one, two, three = labels.split(" | ")
-    return Quantity(key, unit, (en, ru, vi), (one, two, three), definition, per_area_unit)
+    def _split(self) -> tuple[str, str]:
+        kind, _, part = self.key.partition(".")
+        return kind, part.replace("_", " ")

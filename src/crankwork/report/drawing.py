@@ -9,27 +9,24 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from crankwork.cylinders.throw import throw_mechanism
+from crankwork.analysis.moving import drawn_mechanism, moving
+from crankwork.analysis.skeleton import skeleton
 from crankwork.errors import CrankworkError
-from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.motion import motion
-from crankwork.kinematics.piston import as_slider_crank
 from crankwork.linkage_machine import LinkageMachine
+from crankwork.locale import capital, say
 from crankwork.machine import Machine
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.mechanism.structure import structure
-from crankwork.quantities import LANGUAGES, Language
+from crankwork.quantities import Language
 from crankwork.report import drawing_parts as parts
 from crankwork.report.drawing_parts import Box, Stage
 from crankwork.report.language import displayed, key_unit, label, number, symbol, unit_name
 from crankwork.report.linkage_drawing import linkage_drawing
 from crankwork.report.linkage_engine import crank_gear, engine_drawing
-from crankwork.report.linkage_skeleton import skeleton
 
 _MARGIN, _FOOTER, _NARROWEST = 34.0, 44.0, 260.0
 _STILL = 60.0
 _READOUT = 15
-_TITLES = ("moving drawing of the mechanism", "движущаяся схема механизма", "sơ đồ chuyển động của cơ cấu")
 _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
@@ -59,11 +56,6 @@ def moving_drawing(
         The moving links in the order of their numbers, as `Structure.links` gives them; where it is left
         out, those of a LinkageMachine, or group after group.
 
-    Returns
-    -------
-    str
-        A standalone SVG without script.
-
     Raises
     ------
     CrankworkError
@@ -71,8 +63,8 @@ def moving_drawing(
     """
     if frames < 8 or not 0 < seconds < math.inf:
         raise CrankworkError("a moving drawing needs at least 8 frames and a time above zero")
-    mechanism, whole = (machine, None) if isinstance(machine, Mechanism) else (_drawn(machine), machine)
-    moving = motion(mechanism, CrankGrid.from_degrees(np.arange(frames + 1) * 360 / frames))
+    mechanism, whole = (machine, None) if isinstance(machine, Mechanism) else (drawn_mechanism(machine), machine)
+    moved = moving(mechanism, np.arange(frames + 1) * 360 / frames)
     duration, still = f"{seconds:g}s", round(frames * _STILL / 360)
     if isinstance(whole, LinkageMachine) and not links:
         found, _ = structure(whole.linkage)
@@ -80,9 +72,9 @@ def moving_drawing(
     engine = whole if isinstance(whole, Machine) else None
     gear = crank_gear(mechanism, engine.cylinder if engine else None, has_gas=bool(engine and engine.gas))
     if gear:
-        drawn, reach, scale = engine_drawing(gear, moving, duration, still)
+        drawn, reach, scale = engine_drawing(gear, moved, duration, still)
     else:
-        drawn, reach, scale = linkage_drawing(mechanism, skeleton(mechanism, links), moving, duration, still)
+        drawn, reach, scale = linkage_drawing(mechanism, skeleton(mechanism, links), moved, duration, still)
     x, y, width, height = _view_box(reach)
     stage = Stage(scale, duration, still)
     foot = [
@@ -98,14 +90,6 @@ def moving_drawing(
     back = f'<rect x="{x:.0f}" y="{y:.0f}" width="{width:.0f}" height="{height:.0f}" fill="white"/>'
     lines = [head, f"<title>{title}</title>", f"<desc>{about}</desc>", back, *drawn, *foot, "</svg>", ""]
     return "\n".join(lines)
-
-
-def _drawn(machine: Machine | LinkageMachine) -> Mechanism:
-    """Return the mechanism to draw: of an engine with several rods on a crankpin, all of these."""
-    lengths = as_slider_crank(machine.mechanism) if isinstance(machine, Machine) else None
-    if not isinstance(machine, Machine) or machine.engine is None or lengths is None:
-        return machine.mechanism
-    return throw_mechanism(machine.engine.layout, lengths, machine.engine.slaves)
 
 
 def _view_box(reach: Box) -> tuple[float, float, float, float]:
@@ -133,9 +117,9 @@ def _readout(x: float, y: float, stage: Stage, language: Language) -> str:
 
 
 def _title(title: str, language: Language) -> str:
-    what = _TITLES[LANGUAGES.index(language)]
+    what = say("drawing.moving_drawing", language)
     own = _NOT_XML.sub("", title).strip()
-    return html.escape(f"{own}: {what}" if own else what[0].upper() + what[1:])
+    return html.escape(f"{own}: {what}" if own else capital(what))
 
 
 def _description(mechanism: Mechanism, language: Language, seconds: float, links: Sequence[str]) -> str:
@@ -150,5 +134,5 @@ def _description(mechanism: Mechanism, language: Language, seconds: float, links
     if not gear:
         members = sorted(skeleton(mechanism, links).members, key=lambda one: one.number)
         texts += [f"{one.number} – {one.name}" for one in members]
-    turn = {"en": "one revolution in {} s", "ru": "один оборот за {} с", "vi": "một vòng quay trong {} s"}[language]
-    return html.escape(_NOT_XML.sub("", "; ".join([*texts, turn.format(number(seconds, language))])))
+    texts.append(say("drawing.one_revolution", language, seconds=number(seconds, language)))
+    return html.escape(_NOT_XML.sub("", "; ".join(texts)))

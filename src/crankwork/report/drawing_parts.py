@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.transfer import PointMotion
+from crankwork.analysis import Array
+from crankwork.analysis.moving import Track
 from crankwork.mechanism.dyads import RRP, Point
 from crankwork.quantities import Language
 from crankwork.report.language import number as number_text
@@ -40,10 +40,9 @@ class Stage(NamedTuple):
     duration: str
     still: int
 
-    def points(self, point: PointMotion) -> Array:
+    def points(self, point: Track) -> Array:
         """Return the places of a point, shape (n, 2); the picture counts downward."""
-        x, y = np.broadcast_arrays(point.x.position, point.y.position)
-        return np.column_stack([x, -y]) * self.scale
+        return np.asarray(point.place * np.array([1.0, -1.0]) * self.scale)
 
     def fixed(self, point: Point) -> Array:
         """Return the place of a fixed point, shape (2,)."""

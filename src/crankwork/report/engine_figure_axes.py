@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array
+from crankwork.analysis import Array
 from crankwork.quantities import Language
 from crankwork.report.engine_figure_paper import BLACK, GREY, LIGHT, Paper, fitted_lines, text_width
 from crankwork.report.figure_look import DASH_DOT, SOLID, Style
@@ -18,6 +18,7 @@ WIDTH = 460.8
 LEFT, RIGHT, BOTTOM, TOP = 70.6, 18.0, 45.0, 10.0
 LEGEND_ROW = 13.4
 _TICK, _SMALL, _LEGEND = 8.5, 7.5, 8.5
+_FOOT_ROW = 9.0
 # The style of a row of a legend that explains an open circle.
 CIRCLE = "o"
 
@@ -264,11 +265,6 @@ def over_cycle(
         Language of the numbers.
     numbers : bool
         Whether numbers stand under the graph.
-
-    Returns
-    -------
-    Graph
-        Without curves and titles.
     """
     graph = Graph(paper, box, (0.0, cycle), y, language)
     ticks = np.arange(0.0, cycle + 1, 90.0 if cycle > 360 else 30.0)
@@ -301,10 +297,14 @@ def sheet(height: float, rows: Sequence[Row] = (), *, below: float = BOTTOM) -> 
 
 
 def sign(paper: Paper, method: str, remark: str = "") -> None:
-    """Write how the numbers were made at the lower right, and a remark at the lower left."""
-    paper.text(paper.width * 0.985, paper.height - 6, method, size=7, anchor="end", colour=GREY)
+    """Write how the numbers were made at the lower right, and a remark at the lower left, or above it."""
+    size = 7.0
+    foot = paper.height - 6
+    if text_width(method, size) + text_width(remark, size) > 0.94 * paper.width:
+        paper.height += _FOOT_ROW
+    paper.text(paper.width * 0.985, paper.height - 6, method, size=size, anchor="end", colour=GREY)
     if remark:
-        paper.text(paper.width * 0.02, paper.height - 6, remark, size=7, colour=GREY)
+        paper.text(paper.width * 0.02, foot, remark, size=size, colour=GREY)
 
 
 def small_text(paper: Paper, x: float, y: float, text: str, anchor: str = "middle") -> None:

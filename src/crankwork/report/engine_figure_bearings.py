@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import NamedTuple, Self
 
 import numpy as np
 
-from crankwork.cylinders.bearings import big_end_inertia_force
-from crankwork.cylinders.load_statistics import PolarDiagram, load_statistics, polar_diagram
-from crankwork.cylinders.load_vectors import BearingLoad
-from crankwork.kinematics.crank_grid import Array
+from crankwork.analysis import Array
+from crankwork.analysis.engine_diagrams import CrankpinLoad, PolarDiagram, crankpin_of_one
+from crankwork.analysis.results import Listing
+from crankwork.locale import say
 from crankwork.report.engine_figure_axes import (
     BOTTOM,
     CIRCLE,
@@ -28,41 +29,43 @@ from crankwork.report.engine_figure_axes import (
 from crankwork.report.engine_figure_data import EngineDrawn
 from crankwork.report.engine_figure_labels import label_marks, spread
 from crankwork.report.engine_figure_paper import Paper
-from crankwork.report.engine_figure_words import engine_word
 from crankwork.report.figure_look import DASHED, SOLID
+from crankwork.report.tables import row_name
 
 _HEIGHT, _MARGIN = 340.0, 1.12
 _LINES = (SOLID, DASHED, (0, (7, 2, 1.5, 2)), (0, (1.2, 1.6)))
 
 
+class _OverCycle(NamedTuple):
+    """Mean and extremes of a load and where they are. [N], [deg]"""
+
+    mean: float
+    max: float
+    max_angle: float
+    min: float
+    min_angle: float
+
+    @classmethod
+    def read(cls, listing: Listing, name: str) -> Self:
+        """Return the row of a bearing."""
+        at = listing.names.index(name)
+        mean, *ends = (
+            float(listing.columns[key][at]) for key in ("mean_bearing_load", "bearing_load_max", "bearing_load_min")
+        )
+        angles = (float(np.degrees(listing.columns[f"bearing_load_{one}_angle"][at])) for one in ("max", "min"))
+        return cls(mean, *(value for pair in zip(ends, angles, strict=True) for value in pair))
+
+
 def crankpin_polar(engine: EngineDrawn, pin: int) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the load of all rods on a crankpin: tangential to the right, radial downward, seen from its pole.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share.
-    pin : int
-        Number of the crankpin.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graph by the name of the figure.
-    """
-    degrees, loads = engine.loads
-    rods = len(engine.whole.on_pin[pin - 1])
-    inertia = rods * engine.rod_inertia
-    diagram = polar_diagram(loads.crankpins[pin], degrees, engine.cycle, inertia)
-    return _pin_polar(engine, diagram, inertia, rods)
+    """Return the load of all rods on a crankpin: tangential to the right, radial downward, seen from its pole."""
+    return _pin_polar(engine, engine.diagrams.crankpin(pin))
 
 
-def _pin_polar(
-    engine: EngineDrawn, diagram: PolarDiagram, inertia: float, rods: int
-) -> tuple[Paper, Mapping[str, Graph]]:
-    """Draw the polar diagram of a crankpin with the inertia force of so many rods from its pole."""
+def _pin_polar(engine: EngineDrawn, load: CrankpinLoad) -> tuple[Paper, Mapping[str, Graph]]:
+    """Draw the polar diagram of a crankpin with the inertia force of its rods from its pole."""
+    rods, inertia = load.rods, load.inertia
     count = f"{rods} " if rods > 1 else ""
-    pole = engine_word("pole_rods" if rods > 1 else "pole", engine.language)
+    pole = say("drawing.pole_rods" if rods > 1 else "drawing.pole", engine.language)
     force = (
         f"{count}{engine.symbol('big_end_inertia_force')} – {engine.named('big_end_inertia_force').partition(' – ')[2]}"
     )
@@ -71,71 +74,33 @@ def _pin_polar(
         f"{engine.symbol('tangential_force')}, {engine.unit('tangential_force')}",
         f"{engine.symbol('radial_force')}, {engine.unit('radial_force')}",
     )
-    return _polar(engine, "crankpin_load", diagram, rows if inertia else [], titles)
+    return _polar(engine, "crankpin_load", load.polar, rows if inertia else [], titles)
 
 
 def crankpin_polar_of_one(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the load of the one rod of a crank gear on its crankpin, from the columns of the results.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share; its machine may have no engine.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graph by the name of the figure.
-    """
+    """Return the load of the one rod of a crank gear on its crankpin, from the columns of the results."""
     drawn = engine.drawn
-    solved, masses = drawn.results.solved, drawn.results.solved.machine.masses
-    mass = masses.rod_big_end if masses is not None else 0.0
-    inertia = float(big_end_inertia_force(mass, solved.lengths.crank_radius, solved.speed))
-    load = BearingLoad(-drawn.columns["radial_force"] - inertia, drawn.columns["tangential_force"])
-    return _pin_polar(engine, polar_diagram(load, drawn.degrees, engine.cycle, inertia), inertia, 1)
+    return _pin_polar(engine, crankpin_of_one(drawn.results, drawn.degrees, drawn.columns))
 
 
 def big_end_polar(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the load of the crankpin on the big-end bearing, in the frame of the rod.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graph by the name of the figure.
-    """
-    return _rod_polar(engine, "big_end_load", engine.loads[1].big_end)
+    """Return the load of the crankpin on the big-end bearing, in the frame of the rod."""
+    return _rod_polar(engine, "big_end_load")
 
 
 def small_end_polar(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the load of the piston pin on the small-end bearing, in the frame of the rod.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graph by the name of the figure.
-    """
-    return _rod_polar(engine, "small_end_load", engine.loads[1].small_end)
+    """Return the load of the piston pin on the small-end bearing, in the frame of the rod."""
+    return _rod_polar(engine, "small_end_load")
 
 
-def _rod_polar(engine: EngineDrawn, key: str, load: BearingLoad) -> tuple[Paper, Mapping[str, Graph]]:
-    diagram = polar_diagram(load, engine.loads[0], engine.cycle)
+def _rod_polar(engine: EngineDrawn, key: str) -> tuple[Paper, Mapping[str, Graph]]:
     unit = engine.unit(key)
     titles = (
-        f"{engine.symbol(key)} {engine_word('across_rod', engine.language)}, {unit}",
-        f"{engine.symbol(key)} {engine_word('along_rod', engine.language)}, {unit}",
+        f"{engine.symbol(key)} {say('drawing.across_rod', engine.language)}, {unit}",
+        f"{engine.symbol(key)} {say('drawing.along_rod', engine.language)}, {unit}",
     )
     # along the rod is upward, not downward
-    return _polar(engine, key, diagram, [], titles, upward=True)
+    return _polar(engine, key, engine.diagrams.rod_bearings[key], [], titles, upward=True)
 
 
 def _polar(
@@ -190,32 +155,21 @@ def _equal_scales(box: Box, x: Array, y: Array) -> tuple[tuple[float, float], tu
 
 
 def crankpin_load(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the size of the load on every unlike crankpin over the crank angle, with mean and extremes of the first.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graph by the name of the figure.
-    """
-    degrees, loads = engine.loads
+    """Return the size of the load on every unlike crankpin over the crank angle, mean and extremes of the first."""
+    degrees, loads = engine.diagrams.loads
     sizes = {pin: engine.shown("crankpin_load", one.resultant) for pin, one in loads.crankpins.items()}
     first = next(iter(sizes))
-    found = load_statistics(loads.crankpins[first], degrees, engine.cycle)
+    found = _OverCycle.read(engine.drawn.results.listings["bearing_loads"], f"crankpin.{first}")
     rows = [
         Row(
             engine.named("crankpin_load")
-            + (f", {engine_word('crankpin', engine.language, str(pin))}" if len(sizes) > 1 else ""),
+            + (f", {row_name(f'crankpin.{pin}', engine.language)}" if len(sizes) > 1 else ""),
             _LINES[at % len(_LINES)],
         )
         for at, pin in enumerate(sizes)
     ]
     style = (0, (10, 3)) if len(sizes) > 1 else DASHED
-    which = engine_word("crankpin", engine.language, str(first)) if len(sizes) > 1 else ""
+    which = row_name(f"crankpin.{first}", engine.language) if len(sizes) > 1 else ""
     mean = f"{engine.named('mean_crankpin_load')}{', ' if which else ''}{which}"
     rows.append(Row(f"{mean}, {engine.value('mean_crankpin_load', found.mean)}", style, 0.8))
     base = engine.symbol("crankpin_load")[:-1]
@@ -247,21 +201,9 @@ def crankpin_load(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
 
 
 def main_journal_polar(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the loads of all main journals in the frame of the shaft, side by side on equal scales.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graph of each journal by its number.
-    """
-    degrees, loads = engine.loads
-    diagrams = [polar_diagram(one, degrees, engine.cycle, 0.0, 90.0) for one in loads.mains]
-    most = max(float(one.resultant.max()) for one in loads.mains)
+    """Return the loads of all main journals in the frame of the shaft, side by side on equal scales."""
+    diagrams = engine.diagrams.mains
+    most = max(float(np.hypot(one.across, one.down).max()) for one in diagrams)
     reach = 1.18 * float(engine.shown("main_journal_load", most)) or 1.0
     columns = min(len(diagrams), 2 if len(diagrams) in (2, 4) else 3)
     lines = -(-len(diagrams) // columns)
@@ -273,7 +215,7 @@ def main_journal_polar(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]
         box = Box(52 + column * (side + gap[0]), TOP + 12 + line * (side + gap[1]), side, side)
         has_below = at + columns >= len(diagrams)
         graphs[str(at + 1)] = _small_polar(engine, paper, box, diagram, reach, labels=(has_below, column == 0))
-        small_text(paper, box.left + side / 2, box.top - 5, engine_word("main_journal", engine.language, str(at + 1)))
+        small_text(paper, box.left + side / 2, box.top - 5, row_name(f"main_journal.{at + 1}", engine.language))
         if has_below:
             graphs[str(at + 1)].x_title(f"{engine.symbol('main_journal_load')}, {engine.unit('main_journal_load')}")
     return paper, graphs

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.slider_crank import SliderCrank
+from crankwork.analysis import Array
+from crankwork.analysis.diagrams import BrixPoints, brix_points, tangent_ends, tolle_parabola, tolle_points
+from crankwork.locale import say
 from crankwork.report.engine_figure_axes import (
     RIGHT,
     WIDTH,
@@ -22,73 +22,15 @@ from crankwork.report.engine_figure_axes import (
 from crankwork.report.engine_figure_data import EngineDrawn
 from crankwork.report.engine_figure_labels import label_marks, spread
 from crankwork.report.engine_figure_paper import GREY, Paper
-from crankwork.report.engine_figure_words import engine_word
 from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED
 
-_PARTS = 6
 _SIDES = ("AC", "BD", "CD", "EF", "CF", "FD")
 _STEP = 30.0
 _CIRCLE, _MARGIN, _TITLES = 190.0, 26.0, 44.0
 
 
-class BrixPoints(NamedTuple):
-    """Points of Brix's circle for a circle of radius 1 about the crankshaft, up towards top dead centre.
-
-    Parameters
-    ----------
-    pole : array, shape (2,)
-        Where the rays begin: right and up, in crank radii. [-]
-    across, up : array, shape (n,)
-        Where they cut the circle. [-]
-    """
-
-    pole: Array
-    across: Array
-    up: Array
-
-
-def brix_points(lengths: SliderCrank, degrees: Array) -> BrixPoints:
-    """Return where rays from the shifted pole cut the circle; its height below the top is the displacement.
-
-    Parameters
-    ----------
-    lengths : SliderCrank
-        Crank radius, rod length, offset. [m]
-    degrees : array, shape (n,)
-        Crank angles, which the rays make with the axis. [deg]
-
-    Returns
-    -------
-    BrixPoints
-        Pole and points. [-]
-
-    Notes
-    -----
-    The pole lies half the crank-to-rod ratio towards bottom dead centre. Where the cylinder is offset, the axis is
-    turned by the ratio of offset to rod length, which gives the displacement its part of the sine.
-    """
-    turn = float(lengths.offset / lengths.rod_length)
-    pole = -float(lengths.rod_ratio) / 2 * np.array([np.sin(-turn), np.cos(turn)])
-    angle = np.radians(degrees) - turn
-    ray = np.array([np.sin(angle), np.cos(angle)])
-    along = pole @ ray
-    reach = -along + np.sqrt(along**2 + 1 - pole @ pole)
-    return BrixPoints(pole, pole[0] + reach * ray[0], pole[1] + reach * ray[1])
-
-
 def brix(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return Brix's circle beside the displacement over the crank angle, on one vertical scale.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graphs `circle` and `displacement`.
-    """
+    """Return Brix's circle beside the displacement over the crank angle, on one vertical scale."""
     lengths = engine.drawn.results.solved.lengths
     degrees, radius = engine.drawn.degrees, float(engine.shown("piston_displacement", lengths.crank_radius))
     turn = degrees <= 360
@@ -99,8 +41,11 @@ def brix(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     apart = f"{engine.number(error, 2)} {engine.unit('piston_displacement')}"
     half = f"{engine.symbol('rod_ratio')}{engine.symbol('crank_radius')}/2"
     rows = [
-        Row(f"{engine_word('brix_circle', engine.language)} OO′ = {half} = {shift}"),
-        Row(engine_word("brix_error", engine.language, engine.symbol("piston_displacement"), apart), width=0.0),
+        Row(f"{say('drawing.brix_circle', engine.language)} OO′ = {half} = {shift}"),
+        Row(
+            say("drawing.brix_error", engine.language, symbol=engine.symbol("piston_displacement"), value=apart),
+            width=0.0,
+        ),
     ]
     height = _CIRCLE * max(1.0, float(exact.max()) / (2 * radius))
     paper, box = sheet(height + _MARGIN - 10, rows)
@@ -158,59 +103,8 @@ def _projections(ring: Graph, graph: Graph, points: BrixPoints, radius: float, m
             graph.paper.dot(end, y, 1.4)
 
 
-class TollePoints(NamedTuple):
-    """Points of Tolle's construction: displacement over the crank radius, acceleration over r w^2.
-
-    Parameters
-    ----------
-    a, b, c, d, e, f : tuple of float
-        A and B at the dead centres on the axis, C and D at the accelerations there, E where CD cuts the axis,
-        F at the acceleration -3 r/l beside E. [-]
-    """
-
-    a: tuple[float, float]
-    b: tuple[float, float]
-    c: tuple[float, float]
-    d: tuple[float, float]
-    e: tuple[float, float]
-    f: tuple[float, float]
-
-
-def tolle_points(ratio: float) -> TollePoints:
-    """Return the points of Tolle's construction for a central slider-crank.
-
-    Parameters
-    ----------
-    ratio : float
-        Crank radius over rod length. [-]
-
-    Returns
-    -------
-    TollePoints
-        In crank radii and r w^2. [-]
-
-    Notes
-    -----
-    With two terms of the series both displacement and acceleration are quadratic in the cosine of the crank angle, so
-    that one over the other is a parabola; CF and FD are its tangents at the dead centres.
-    """
-    cut = 1 + ratio
-    return TollePoints((0.0, 0.0), (2.0, 0.0), (0.0, 1 + ratio), (2.0, ratio - 1), (cut, 0.0), (cut, -3 * ratio))
-
-
 def tolle(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the acceleration over the displacement, and the tangents that envelop it by Tolle's construction.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graph by the name of the figure.
-    """
+    """Return the acceleration over the displacement, and the tangents that envelop it by Tolle's construction."""
     drawn, lengths = engine.drawn, engine.drawn.results.solved.lengths
     ratio, radius = float(lengths.rod_ratio), float(engine.shown("piston_displacement", lengths.crank_radius))
     unit = float(engine.shown("piston_acceleration", lengths.crank_radius * drawn.results.solved.speed**2))
@@ -218,15 +112,15 @@ def tolle(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     x, y = drawn.values("piston_displacement")[turn], drawn.values("piston_acceleration")[turn]
     found = tolle_points(ratio)
     corners = {name.upper(): (a * radius, b * unit) for name, (a, b) in found._asdict().items()}
-    cosine = np.cos(np.radians(np.arange(0.0, 181.0, 3.0)))
-    parabola = radius * (1 - cosine + ratio / 2 * (1 - cosine**2)), unit * (cosine + ratio * (2 * cosine**2 - 1))
+    along, up = tolle_parabola(ratio)
+    parabola = radius * along, unit * up
     rows = [
         Row(engine.title("piston_acceleration").rpartition(",")[0]),
-        Row(engine_word("tangents", engine.language), width=0.5),
+        Row(say("drawing.tangents", engine.language), width=0.5),
     ]
     is_apart = float(np.max(np.abs(np.interp(x, *parabola) - y))) > 2e-3 * unit
     if is_apart:
-        rows.insert(1, Row(engine_word("parabola", engine.language), DOTTED, 1.0))
+        rows.insert(1, Row(say("drawing.parabola", engine.language), DOTTED, 1.0))
     paper, box = sheet(270.0, rows)
     low, high = limits(np.array([one[1] for one in corners.values()]), y, margin=0.09)
     room = 0.04 * 2 * radius
@@ -261,21 +155,3 @@ def _numbered(graph: Graph, tangents: Array) -> list[tuple[str, float, float]]:
     """Return the parts of the two outer tangents with their numbers, where they stand on the paper."""
     one = [(f"{at}", *graph.point(*row[:2])) for at, row in enumerate(tangents.tolist(), start=1)]
     return one + [(f"{at}′", *graph.point(*row[2:])) for at, row in enumerate(tangents.tolist(), start=1)]
-
-
-def tangent_ends(start: tuple[float, float], corner: tuple[float, float], end: tuple[float, float]) -> Array:
-    """Return the lines that join equal parts of two tangents of a parabola, which are tangents as well.
-
-    Parameters
-    ----------
-    start, corner, end : tuple of float
-        Where the tangents touch the parabola, and between them where they meet. [any]
-
-    Returns
-    -------
-    array, shape (n, 4)
-        Both ends of every line. [any]
-    """
-    share = np.arange(1, _PARTS)[:, None] / _PARTS
-    a, b, c = (np.array(one) for one in (start, corner, end))
-    return np.hstack([a + (b - a) * share, b + (c - b) * share])

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array
+from crankwork.analysis import Array
 from crankwork.quantities import QUANTITIES
 from crankwork.report.engine_figure_axes import (
     BOTTOM,
@@ -40,18 +40,7 @@ class _Line(NamedTuple):
 
 
 def kinematics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return three panels over one revolution; an approximate method shows the two orders it is made of.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graphs `displacement`, `velocity` and `acceleration`.
-    """
+    """Return three panels over one revolution; an approximate method shows the two orders it is made of."""
     drawn = engine.drawn
     turn = drawn.degrees <= 360
     has_orders = "piston_velocity_first_order" in drawn.columns
@@ -80,18 +69,7 @@ def kinematics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
 
 
 def pressure(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the gas pressure over the cycle with the named points of the diagram.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graph by the name of the figure.
-    """
+    """Return the gas pressure over the cycle with the named points of the diagram."""
     degrees, values = engine.drawn.degrees, engine.drawn.values("gas_pressure")
     paper, box = sheet(_HEIGHT)
     graph = over_cycle(paper, box, limits(values), engine.cycle, engine.language)
@@ -103,18 +81,7 @@ def pressure(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
 
 
 def named_points(engine: EngineDrawn) -> list[tuple[str, float, float]]:
-    """Return the named points of the diagram: name, crank angle [deg] and gauge pressure [display unit].
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share.
-
-    Returns
-    -------
-    list of tuple
-        Names shortened where they are long.
-    """
+    """Return the named points of the diagram: name, crank angle [deg] and gauge pressure [display unit]."""
     space = engine.drawn.results.solved.space
     return [
         (_short(name), angle, float(engine.shown("gas_pressure", value - space.ambient)))
@@ -154,18 +121,7 @@ def mark_points(graph: Graph, points: Sequence[tuple[str, float, float]], *lines
 
 
 def piston_forces(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the parts of the force on the piston and their sum; a part that is the whole sum stands for it.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graph by the name of the figure.
-    """
+    """Return the parts of the force on the piston and their sum; a part that is the whole sum stands for it."""
     styles = {"gas_force": DASHED, "inertia_force": DASH_DOT, "weight_force": DOTTED}
     parts = {key: style for key, style in styles.items() if key in engine.drawn.columns}
     if len(parts) == 1:
@@ -174,34 +130,12 @@ def piston_forces(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
 
 
 def rod_forces(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the force along the rod and the side force.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graph by the name of the figure.
-    """
+    """Return the force along the rod and the side force."""
     return _forces(engine, "rod_forces", {"rod_force": SOLID, "side_force": DASHED})
 
 
 def crankpin_forces(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the tangential and the radial force on the crankpin.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graph by the name of the figure.
-    """
+    """Return the tangential and the radial force on the crankpin."""
     return _forces(engine, "crankpin_forces", {"tangential_force": SOLID, "radial_force": DASHED})
 
 
@@ -225,18 +159,7 @@ def _over_cycle(
 
 
 def torque(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the crank torque of one cylinder and its mean.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graph by the name of the figure.
-    """
+    """Return the crank torque of one cylinder and its mean."""
     values, mean = engine.drawn.values("crank_torque"), engine.drawn.results.summary["mean_torque"]
     if abs(float(engine.shown("mean_torque", mean))) < 1e-6 * float(np.max(np.abs(values))):
         mean = 0.0

@@ -1,4 +1,4 @@
-"""What the figures of a whole engine share: its loads, torques and balance, computed finer than the tables, once."""
+"""What the figures of a whole engine share: its diagrams, and how values, units and titles are written."""
 
 from __future__ import annotations
 
@@ -7,20 +7,14 @@ from functools import cached_property
 
 import numpy as np
 
-from crankwork.analysis.cylinders import WholeEngine, breaks, cylinder_columns, torque_curves, whole_engine
-from crankwork.analysis.engine_balance import EngineBalance, engine_balance
-from crankwork.analysis.engine_bearings import BearingLoads, dense_loads
-from crankwork.analysis.engine_torque import EngineTorque, engine_torque
-from crankwork.cylinders.bearings import big_end_inertia_force
-from crankwork.kinematics.crank_grid import Array
+from crankwork.analysis import Array
+from crankwork.analysis.engine_diagrams import EngineDiagrams
+from crankwork.locale import say
 from crankwork.quantities import QUANTITIES, Language
 from crankwork.report.engine_figure_axes import sign
 from crankwork.report.engine_figure_paper import Paper
 from crankwork.report.figure_data import Drawn, figure_title
-from crankwork.report.language import displayed, key_unit, method_name, number, unit_name, word
-
-# Behind a corner of the pressure, where there may be a jump. [deg]
-_AFTER = 1e-6
+from crankwork.report.language import displayed, key_unit, method_name, number, unit_name
 
 
 @dataclass(frozen=True)
@@ -46,42 +40,9 @@ class EngineDrawn:
         return self.drawn.results.machine.cycle
 
     @cached_property
-    def whole(self) -> WholeEngine:
-        """The engine."""
-        return whole_engine(self.drawn.results.solved)
-
-    @cached_property
-    def torque(self) -> EngineTorque:
-        """Torque of one cylinder and of all, excess work and speed."""
-        return engine_torque(self.whole, *torque_curves(self.whole))[0]
-
-    @cached_property
-    def degrees(self) -> Array:
-        """Crank angles of the torques, on both sides of every corner of the pressure. [deg]"""
-        corners = breaks(self.whole)
-        angles = np.concatenate([np.arange(0.0, self.cycle + 0.5), corners, corners[:-1] + _AFTER])
-        return np.unique(angles)
-
-    @cached_property
-    def torques(self) -> Array:
-        """Torque of every cylinder at `degrees`, shape (cylinders, n). [N m]"""
-        return cylinder_columns(self.whole, self.degrees)["crank_torque"]
-
-    @cached_property
-    def loads(self) -> tuple[Array, BearingLoads]:
-        """Crank angles one degree apart [deg], and the loads of the bearings there, those of the summary. [N]"""
-        return dense_loads(self.whole)
-
-    @cached_property
-    def balance(self) -> EngineBalance:
-        """Free forces and moments."""
-        return engine_balance(self.whole)
-
-    @property
-    def rod_inertia(self) -> float:
-        """Inertia force of the mass of one rod at the crankpin, never positive. [N]"""
-        solved = self.whole.master
-        return float(big_end_inertia_force(self.whole.masses.rod_big_end, solved.lengths.crank_radius, solved.speed))
+    def diagrams(self) -> EngineDiagrams:
+        """Curves and diagrams of all cylinders."""
+        return EngineDiagrams(self.drawn.results)
 
     def shown(self, key: str, values: Array | float) -> Array:
         """Return SI values in the display unit of a quantity.
@@ -128,11 +89,6 @@ class EngineDrawn:
             Its value. [SI]
         digits : int
             How many significant ones.
-
-        Returns
-        -------
-        str
-            Number and unit.
         """
         shown = self.number(float(self.shown(key, value)), digits)
         unit = self.unit(key)
@@ -143,26 +99,9 @@ class EngineDrawn:
         return number(float(f"{value:.{digits}g}"), self.language, digits=max(digits, 9))
 
     def finished(self, name: str, paper: Paper, remark: str = "", *, forces: bool = False) -> bytes:
-        """Return a figure as SVG, with the method that made it.
-
-        Parameters
-        ----------
-        name : str
-            Name of the figure.
-        paper : Paper
-            What is drawn.
-        remark : str
-            Printed at the lower left.
-        forces : bool
-            Whether forces per piston area must be said to be so.
-
-        Returns
-        -------
-        bytes
-            SVG.
-        """
+        """Return a figure as SVG, with the method that made it."""
         method = self.drawn.results.method
         if forces and self.drawn.per_area:
-            remark = "; ".join(one for one in (remark, word("per_area", self.language)) if one)
+            remark = "; ".join(one for one in (remark, say("report.per_area", self.language)) if one)
         sign(paper, method_name(method.kinematics, method.order, method.rod, self.language), remark)
         return paper.svg(figure_title(name, self.language))

@@ -6,43 +6,35 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array
-from crankwork.report.engine_figure_axes import TOP, Graph, limits, round_ticks, sheet, small_text
+from crankwork.analysis import Array
+from crankwork.locale import say
+from crankwork.report.engine_figure_axes import Graph, Row, limits, round_ticks, sheet, small_text
 from crankwork.report.engine_figure_cylinder import mark_points, named_points
 from crankwork.report.engine_figure_data import EngineDrawn
 from crankwork.report.engine_figure_labels import spread
 from crankwork.report.engine_figure_paper import Paper
-from crankwork.report.figure_look import DASH_DOT, DASHED, figure_word
+from crankwork.report.figure_look import DASH_DOT, DASHED
 
 _HEIGHT, _ABOVE = 245.0, 24.0
 
 
 def indicator(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the gas pressure over the volume with its named points, and the diagram with sharp corners if known.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graph by the name of the figure.
-    """
+    """Return the gas pressure over the volume with its named points, and the diagram with sharp corners if known."""
     drawn, space = engine.drawn, engine.drawn.results.solved.space
     volume, values = drawn.values("cylinder_volume"), drawn.values("gas_pressure")
-    paper, box = sheet(_HEIGHT + _ABOVE)
-    box = box._replace(top=TOP + _ABOVE, height=_HEIGHT)
-    ends, reach = limits(values), 1.06 * float(np.max(volume))
+    sharp = space.theoretical
+    pressures = [values]
+    if sharp is not None:
+        absolute = sharp.pressure(drawn.degrees, drawn.columns["cylinder_volume"])
+        pressures.append(engine.shown("gas_pressure", absolute - space.ambient))
+    rows = [Row(engine.named("gas_pressure")), Row(say("drawing.sharp", engine.language), DASHED, 0.9)]
+    paper, box = sheet(_HEIGHT + _ABOVE, rows if sharp is not None else ())
+    box = box._replace(top=box.top + _ABOVE, height=_HEIGHT)
+    ends, reach = limits(*pressures), 1.06 * float(np.max(volume))
     graph = Graph(paper, box, (0.0, reach), ends, engine.language)
     graph.frame(round_ticks(0.0, reach, 8), round_ticks(*ends, 9))
-    sharp = space.theoretical
     if sharp is not None:
-        pressures = engine.shown(
-            "gas_pressure", sharp.pressure(drawn.degrees, drawn.columns["cylinder_volume"]) - space.ambient
-        )
-        graph.curve("theoretical", volume, pressures, DASHED, width=0.9)
+        graph.curve("theoretical", volume, pressures[1], DASHED, width=0.9)
     graph.curve("gas_pressure", volume, values)
     graph.x_title(engine.title("cylinder_volume"))
     graph.y_title(engine.title("gas_pressure"))
@@ -63,7 +55,7 @@ def _dead_centres(engine: EngineDrawn, graph: Graph) -> list[Array]:
         at = float(graph.across(volume))
         down = np.array([box.top - 6, box.top + box.height])
         paper.line([at, at], down, style=DASH_DOT, width=0.6)
-        small_text(paper, at, box.top - 17, figure_word(name, engine.language))
+        small_text(paper, at, box.top - 17, say(f"drawing.{name}", engine.language))
         lines.append(spread(np.array([at, at]), down))
     level = box.top - 4
     spans = (("clearance_volume", 0.0, volumes[0]), ("swept_volume", volumes[0], volumes[1]))

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array
+from crankwork.analysis import Array
 from crankwork.report.engine_figure_axes import Box
 from crankwork.report.engine_figure_paper import GREY, Paper, text_width
 
@@ -128,7 +128,7 @@ def _merged(marks: Sequence[tuple[str, float, float]]) -> list[tuple[str, float,
         same = [at for at, (_, a, b) in enumerate(result) if np.hypot(a - x, b - y) < 1.0]
         if same:
             first, a, b = result[same[0]]
-            result[same[0]] = (f"{first}, {name}", a, b)
+            result[same[0]] = (", ".join(dict.fromkeys([*first.split(", "), name])), a, b)
         else:
             result.append((name, float(x), float(y)))
     return result

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 
+from crankwork.locale import say
 from crankwork.machine import Machine
 from crankwork.report.engine_figure_axes import Graph
 from crankwork.report.engine_figure_bearings import (
@@ -35,9 +36,7 @@ from crankwork.report.engine_figure_orders import (
 from crankwork.report.engine_figure_paper import Paper
 from crankwork.report.engine_figure_torque import accumulated_torque, crank_speed, excess_work, total_torque
 from crankwork.report.engine_figure_wear import crankpin_wear, main_wear
-from crankwork.report.engine_figure_words import engine_word
 from crankwork.report.figure_data import Drawn
-from crankwork.report.figure_look import figure_word
 
 Draw = Callable[[EngineDrawn], tuple[Paper, Mapping[str, Graph]]]
 # what draws it, and the column it needs
@@ -65,18 +64,7 @@ _OF_FORCES = ("piston_forces", "rod_forces", "crankpin_forces", "crankpin_polar"
 
 
 def engine_figures(drawn: Drawn) -> Iterator[tuple[str, bytes]]:
-    """Yield the figures of one cylinder, and of a machine that has an engine those of all its cylinders.
-
-    Parameters
-    ----------
-    drawn : Drawn
-        What the figures share.
-
-    Yields
-    ------
-    tuple of str, bytes
-        Name and SVG.
-    """
+    """Yield the figures of one cylinder, and of a machine that has an engine those of all its cylinders."""
     engine = EngineDrawn(drawn)
     for name, draw in figure_list(engine).items():
         kind = name.rstrip("0123456789").rstrip("_")
@@ -84,32 +72,21 @@ def engine_figures(drawn: Drawn) -> Iterator[tuple[str, bytes]]:
 
 
 def figure_list(engine: EngineDrawn) -> dict[str, Draw]:
-    """Return what draws each figure of a machine.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share.
-
-    Returns
-    -------
-    dict of str to callable
-        By name of the figure.
-    """
+    """Return what draws each figure of a machine."""
     machine, columns = engine.drawn.results.machine, engine.drawn.columns
     result = {name: draw for name, (draw, key) in _ONE_CYLINDER.items() if key in columns}
     if not isinstance(machine, Machine) or machine.engine is None or "crank_torque" not in columns:
         return result
     result |= _polars(engine) | _LOADS
-    if len(engine.whole.cylinders) > 1:
+    if engine.diagrams.count > 1:
         result["total_torque"] = total_torque
-    if len({place.throw for place in engine.whole.layout.places}) > 1:
+    if engine.diagrams.has_throws:
         result["accumulated_torque"] = accumulated_torque
     result["excess_work"] = excess_work
-    if engine.torque.speed is not None:
+    if engine.diagrams.torque.speed is not None:
         result["crank_speed"] = crank_speed
     result["torque_harmonics"] = torque_harmonics
-    if len(engine.whole.cylinders) > 1:
+    if engine.diagrams.count > 1:
         result["phase_stars"] = phase_stars
     result["balance_orders"] = balance_orders
     if has_free_forces(engine):
@@ -123,7 +100,7 @@ def _polars(engine: EngineDrawn) -> dict[str, Draw]:
     def of_pin(pin: int) -> Draw:
         return lambda one: crankpin_polar(one, pin)
 
-    pins = list(engine.loads[1].crankpins)
+    pins = list(engine.diagrams.loads[1].crankpins)
     return {"crankpin_polar" if at == 0 else f"crankpin_polar_{pin}": of_pin(pin) for at, pin in enumerate(pins)}
 
 
@@ -136,5 +113,5 @@ def _remark(engine: EngineDrawn, kind: str) -> str:
         "main_journal_polar": "crank_one",
     }
     if kind == "kinematics" and "piston_velocity_first_order" in engine.drawn.columns:
-        return figure_word("orders", engine.language)
-    return engine_word(frames[kind], engine.language) if kind in frames else ""
+        return say("drawing.orders", engine.language)
+    return say(f"drawing.{frames[kind]}", engine.language) if kind in frames else ""

@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.cylinders.ellipse import Ellipse, balance_sum
-from crankwork.cylinders.torque_harmonics import PhaseStar, phase_star
-from crankwork.kinematics.crank_grid import Array
+from crankwork.analysis import Array
+from crankwork.analysis.engine_diagrams import Locus
+from crankwork.locale import say
 from crankwork.report.engine_figure_axes import (
     BOTTOM,
     LEFT,
@@ -23,13 +23,7 @@ from crankwork.report.engine_figure_axes import (
 )
 from crankwork.report.engine_figure_data import EngineDrawn
 from crankwork.report.engine_figure_paper import BLACK, Paper, text_width
-from crankwork.report.engine_figure_words import engine_word
 from crankwork.report.figure_look import DASHED
-
-_ROUNDING = 1e-9
-_STAR_ORDERS = 6
-# Loci are drawn of the orders up to this one; higher ones are small.
-_LOCI = 2
 
 
 class _Bars(NamedTuple):
@@ -117,19 +111,8 @@ def _swatch_lines(texts: Sequence[str]) -> int:
 
 
 def balance_orders(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return free forces and moments per order: of each kind of mass, and what is left of all together.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graphs `force` and, for cylinders side by side, `moment`.
-    """
-    balance, language = engine.balance, engine.language
+    """Return free forces and moments per order: of each kind of mass, and what is left of all together."""
+    balance, language = engine.diagrams.balance, engine.language
     kinds = {
         "reciprocating": balance.reciprocating,
         "rotating": (balance.rotating,),
@@ -139,8 +122,8 @@ def balance_orders(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     }
     kinds = {name: parts for name, parts in kinds.items() if parts}
     fills = [["reciprocating", "rotating", "balance_shafts", "counterweights", "residual"].index(one) for one in kinds]
-    panels = ["force", "moment"] if len({one.position for one in engine.whole.layout.places}) > 1 else ["force"]
-    texts = [engine_word(kind, language) for kind in kinds]
+    panels = ["force", "moment"] if engine.diagrams.is_spread else ["force"]
+    texts = [say(f"report.{kind}", language) for kind in kinds]
     head = 13.4 * _swatch_lines(texts) + 5
     height = 150.0
     paper = Paper(WIDTH, TOP + head + len(panels) * height + (len(panels) - 1) * 28 + BOTTOM)
@@ -155,46 +138,21 @@ def balance_orders(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
         ]
         box = Box(LEFT, TOP + head + at * (height + 28), WIDTH - LEFT - RIGHT, height)
         graphs[panel] = _bar_graph(engine, paper, box, bars, orders, fills)
-        graphs[panel].y_title(f"{engine_word(key, language)} {engine.symbol(key)}, {engine.unit(key)}")
-    graphs[panels[-1]].x_title(engine_word("order", language, "$q$"))
+        graphs[panel].y_title(f"{say(f'drawing.{key}', language)} {engine.symbol(key)}, {engine.unit(key)}")
+    graphs[panels[-1]].x_title(say("report.order", language, order="$q$"))
     return paper, graphs
 
 
 def has_free_forces(engine: EngineDrawn) -> bool:
     """Return whether any order leaves a force free before or after balancing."""
-    return bool(_loci(engine))
-
-
-def _loci(engine: EngineDrawn) -> dict[int, tuple[Ellipse, Ellipse]]:
-    """Return the forces of each order of cylinders and cranks, and of all, where either is not nothing."""
-    balance = engine.balance
-    before = {one.order: one.force for one in balance_sum((*balance.reciprocating, balance.rotating))}
-    after = {one.order: one.force for one in balance.residual}
-    least = _ROUNDING * engine.whole.masses.reciprocating * engine.whole.master.lengths.crank_radius
-    least *= engine.whole.master.speed**2
-    return {
-        order: (one, after[order])
-        for order, one in before.items()
-        if order <= _LOCI and max(one.largest, after[order].largest) > least
-    }
+    return bool(engine.diagrams.loci)
 
 
 def balance_ellipses(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the closed curves in which the free forces of each order run, before and after balancing.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share; some order leaves a force free.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graph of each order by its number.
-    """
-    loci, language = _loci(engine), engine.language
-    is_balanced = bool(engine.balance.weights or engine.balance.shafts)
-    rows = [engine_word("before", language), engine_word("after", language)] if is_balanced else []
+    """Return the closed curves in which the free forces of each order run, before and after balancing."""
+    loci, language = engine.diagrams.loci, engine.language
+    is_balanced = bool(engine.diagrams.balance.weights or engine.diagrams.balance.shafts)
+    rows = [say("drawing.before", language), say("drawing.after", language)] if is_balanced else []
     columns = 2 if len(loci) > 1 else 1
     lines = -(-len(loci) // columns)
     side, gap = (170.0, 56.0) if columns == 2 else (240.0, 0.0)
@@ -208,12 +166,12 @@ def balance_ellipses(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     for at, (order, (before, after)) in enumerate(loci.items()):
         box = Box(start + (at % columns) * (side + gap), TOP + head + (at // columns) * (side + 52), side, side)
         graphs[str(order)] = _locus(engine, paper, box, before, after, is_balanced=is_balanced)
-        small_text(paper, box.left + side / 2, box.top - 5, engine_word("order", language, str(order)))
+        small_text(paper, box.left + side / 2, box.top - 5, say("report.order", language, order=order))
         graphs[str(order)].x_title(f"{engine.symbol('free_force')}, {engine.unit('free_force')}")
     return paper, graphs
 
 
-def _locus(engine: EngineDrawn, paper: Paper, box: Box, before: Ellipse, after: Ellipse, *, is_balanced: bool) -> Graph:
+def _locus(engine: EngineDrawn, paper: Paper, box: Box, before: Locus, after: Locus, *, is_balanced: bool) -> Graph:
     """Draw the loci of one order, the reference direction of the engine upward."""
     reach = 1.15 * float(engine.shown("free_force", max(before.largest, after.largest)))
     graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language)
@@ -222,11 +180,11 @@ def _locus(engine: EngineDrawn, paper: Paper, box: Box, before: Ellipse, after: 
     middle = graph.point(0.0, 0.0)
     paper.segments(np.array([(middle[0], box.top, middle[0], box.top + box.height)]), width=0.8)
     drawn = [("before", before, DASHED if is_balanced else "-")] + ([("after", after, "-")] if is_balanced else [])
-    for name, ellipse, style in drawn:
-        points = engine.shown("free_force", 1.0) * ellipse.outline()
-        graph.curve(name, points.imag, points.real, style)
-        if ellipse.largest > 1e-3 * max(before.largest, after.largest):
-            end = graph.point(float(points.imag[0]), float(points.real[0]))
+    for name, locus, style in drawn:
+        across, up = engine.shown("free_force", locus.across), engine.shown("free_force", locus.up)
+        graph.curve(name, across, up, style)
+        if locus.largest > 1e-3 * max(before.largest, after.largest):
+            end = graph.point(float(across[0]), float(up[0]))
             paper.arrow(middle, end, width=1.0)
         else:
             paper.dot(*middle, 2.2)
@@ -234,28 +192,17 @@ def _locus(engine: EngineDrawn, paper: Paper, box: Box, before: Ellipse, after: 
 
 
 def torque_harmonics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the amplitudes of the harmonics of the torque of one cylinder and of all as bars over the orders.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share; its results hold the harmonics.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graph by the name of the figure.
-    """
+    """Return the amplitudes of the harmonics of the torque of one cylinder and of all as bars over the orders."""
     columns = engine.drawn.results.listings["torque_harmonics"].columns
     orders = columns["harmonic_order"].tolist()
     kinds = {"one_cylinder": "harmonic_amplitude", "all_cylinders": "total_harmonic_amplitude"}
-    if len(engine.whole.cylinders) == 1:
+    if engine.diagrams.count == 1:
         kinds.pop("all_cylinders")
     bars = [
         _Bars(name, dict(zip(orders, engine.shown(key, columns[key]).tolist(), strict=True)))
         for name, key in kinds.items()
     ]
-    texts = [f"{engine.symbol(key)} – {engine_word(name, engine.language)}" for name, key in kinds.items()]
+    texts = [f"{engine.symbol(key)} – {say(f'drawing.{name}', engine.language)}" for name, key in kinds.items()]
     paper = Paper(WIDTH, TOP + 19 + 200.0 + BOTTOM)
     _swatches(paper, texts, [0, 4][: len(texts)])
     graph = _bar_graph(engine, paper, Box(LEFT, TOP + 19, WIDTH - LEFT - RIGHT, 200.0), bars, orders, [0, 4])
@@ -266,20 +213,8 @@ def torque_harmonics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
 
 
 def phase_stars(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the phase stars of the orders up to 6, equal directions end to end, with the sum of each.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graph of each order by its number.
-    """
-    step = 360 / engine.cycle
-    stars = [phase_star(engine.whole.layout, step * at) for at in range(1, round(_STAR_ORDERS / step) + 1)]
+    """Return the phase stars of the orders up to 6, equal directions end to end, with the sum of each."""
+    stars = engine.diagrams.phase_stars
     columns = 4 if len(stars) > 6 else 3
     lines = -(-len(stars) // columns)
     side, gap, head = (WIDTH - 24) / columns - 8, 8.0, 14.0
@@ -288,26 +223,26 @@ def phase_stars(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     for at, star in enumerate(stars):
         box = Box(12 + (at % columns) * (side + gap), TOP + head + (at // columns) * (side + head), side, side)
         order = engine.number(star.order)
-        graphs[order] = _star(paper, box, star, engine)
+        graphs[order] = _star(paper, box, star.vectors.tolist(), star.sum, engine)
         text = f"$ν$ = {order}  ({engine.number(round(abs(star.sum), 9), 3)})"
         small_text(paper, box.left + side / 2, box.top - 3, text)
-    paper.text(WIDTH / 2, paper.height - 18, engine_word("star_sum", engine.language), size=8, anchor="middle")
+    paper.text(WIDTH / 2, paper.height - 18, say("drawing.star_sum", engine.language), size=8, anchor="middle")
     return paper, graphs
 
 
-def _star(paper: Paper, box: Box, star: PhaseStar, engine: EngineDrawn) -> Graph:
+def _star(paper: Paper, box: Box, vectors: Sequence[complex], total: complex, engine: EngineDrawn) -> Graph:
     """Draw one phase star, its reference direction upward and angles with the rotation, clockwise."""
     directions: dict[tuple[float, float], list[int]] = {}
-    for number, vector in enumerate(star.vectors.tolist(), start=1):
+    for number, vector in enumerate(vectors, start=1):
         directions.setdefault((round(vector.real, 6) + 0.0, round(vector.imag, 6) + 0.0), []).append(number)
-    longest = max(*(len(one) for one in directions.values()), abs(star.sum))
+    longest = max(*(len(one) for one in directions.values()), abs(total))
     reach = longest * (1 + 22 / (box.width / 2 - 22))
     graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language)
     middle = graph.point(0.0, 0.0)
-    if abs(star.sum) > 1e-9:
-        end = graph.point(star.sum.imag, star.sum.real)
+    if abs(total) > 1e-9:
+        end = graph.point(total.imag, total.real)
         paper.arrow(middle, end, width=3.2, colour="#a8a8a8")
-    graph.curves["sum"] = np.array([star.sum.imag]), np.array([star.sum.real])
+    graph.curves["sum"] = np.array([total.imag]), np.array([total.real])
     for (up, across), numbers in directions.items():
         for at in range(len(numbers)):
             paper.arrow(graph.point(at * across, at * up), graph.point((at + 1) * across, (at + 1) * up), width=0.8)

@@ -14,8 +14,8 @@ from xml.sax.saxutils import escape
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array
-from crankwork.report.figure_look import SOLID, Style
+from crankwork.analysis import Array
+from crankwork.report.figure_look import SOLID, Style, drawing_library
 
 if TYPE_CHECKING:
     from matplotlib.ft2font import FT2Font
@@ -36,10 +36,10 @@ class _Letter(NamedTuple):
 
 @lru_cache(maxsize=4)
 def _font(name: str) -> FT2Font:
-    import matplotlib as mpl  # noqa: PLC0415 - an optional part
+    library = drawing_library()
     from matplotlib.ft2font import FT2Font  # noqa: PLC0415 - an optional part
 
-    font = FT2Font(f"{mpl.get_data_path()}/fonts/ttf/{_FONTS[name]}")
+    font = FT2Font(f"{library.get_data_path()}/fonts/ttf/{_FONTS[name]}")
     font.set_size(_EM, 72)
     return font
 
@@ -61,13 +61,7 @@ def _letter(font: str, letter: str) -> _Letter:
 
 
 def has_letter(letter: str) -> bool:
-    """Return whether the font has a letter.
-
-    Parameters
-    ----------
-    letter : str
-        One letter.
-    """
+    """Return whether the font has a letter."""
     return bool(_font("r").get_char_index(ord(letter)))
 
 
@@ -124,11 +118,6 @@ def fitted_lines(text: str, size: float, width: float) -> tuple[str, ...]:
         With symbols between dollar signs.
     size, width : float
         Of the letters, and of the lines. [pt]
-
-    Returns
-    -------
-    tuple of str
-        Its lines, broken between words.
     """
     lines: list[str] = []
     for word in text.split(" "):
@@ -149,11 +138,6 @@ def path_data(x: Array, y: Array, *, closed: bool = False) -> str:
         To the right and downward. [pt]
     closed : bool
         Whether the last is joined with the first.
-
-    Returns
-    -------
-    str
-        Path data.
     """
     numbers = np.round(np.column_stack([x, y]), 2).tolist()
     return "M" + "L".join(f"{a:g} {b:g}" for a, b in numbers) + ("Z" if closed else "")
@@ -345,18 +329,7 @@ class Paper:
         self._parts.append("</g>")
 
     def svg(self, title: str) -> bytes:
-        """Return the sheet as SVG.
-
-        Parameters
-        ----------
-        title : str
-            For readers who cannot see it.
-
-        Returns
-        -------
-        bytes
-            The file.
-        """
+        """Return the sheet as SVG."""
         letters = "".join(f'<path id="{key}" d="{data}"/>' for key, data in sorted(self._letters.items()))
         size = f'width="{self.width:g}pt" height="{self.height:g}pt" viewBox="0 0 {self.width:g} {self.height:g}"'
         head = '<?xml version="1.0" encoding="utf-8" standalone="no"?>\n'

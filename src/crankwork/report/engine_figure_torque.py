@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from crankwork.cylinders.torque import torques_along_shaft
-from crankwork.kinematics.crank_grid import Array
+from crankwork.analysis import Array
+from crankwork.locale import say
 from crankwork.report.engine_figure_axes import (
     BOTTOM,
     LEFT,
@@ -24,9 +24,8 @@ from crankwork.report.engine_figure_axes import (
 )
 from crankwork.report.engine_figure_data import EngineDrawn
 from crankwork.report.engine_figure_paper import GREY, Paper
-from crankwork.report.engine_figure_words import engine_word
 from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED
-from crankwork.report.language import word
+from crankwork.report.tables import row_name
 
 _MANY = 8
 _PANEL_GAP = 15.0
@@ -34,27 +33,18 @@ _THIN, _NAMED = 0.8, 1.3
 
 
 def total_torque(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the torque of each cylinder, thin, and their sum with its mean.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graph by the name of the figure.
-    """
-    language, torque = engine.language, engine.torque
-    each = engine.shown("crank_torque", engine.torques)
+    """Return the torque of each cylinder, thin, and their sum with its mean."""
+    language, torque = engine.language, engine.diagrams.torque
+    each = engine.shown("crank_torque", engine.diagrams.torques)
     shown = each if len(each) <= _MANY else each[:1]
-    total = engine.shown("total_torque", torque.total(np.radians(engine.degrees)))
+    total = engine.shown("total_torque", torque.total(np.radians(engine.diagrams.degrees)))
     total[-1] = total[0]
     mean = float(engine.shown("mean_total_torque", torque.excess.mean_torque))
     mean = 0.0 if abs(mean) < 1e-9 * float(np.max(np.abs(total))) else mean
     which = (
-        engine_word("cylinders", language, str(len(each))) if len(shown) > 1 else engine_word("cylinder", language, "1")
+        say("drawing.cylinders", language, last=len(each))
+        if len(shown) > 1
+        else say("drawing.cylinder", language, number=1)
     )
     rows = [
         Row(engine.named("total_torque"), width=_NAMED),
@@ -64,8 +54,8 @@ def total_torque(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     paper, box = sheet(225.0, rows)
     graph = over_cycle(paper, box, limits(total, shown), engine.cycle, language)
     for at, one in enumerate(shown, start=1):
-        graph.curve(f"cylinder_{at}", engine.degrees, one, DOTTED, width=_THIN, colour="#404040")
-    graph.curve("total", engine.degrees, total, width=_NAMED)
+        graph.curve(f"cylinder_{at}", engine.diagrams.degrees, one, DOTTED, width=_THIN, colour="#404040")
+    graph.curve("total", engine.diagrams.degrees, total, width=_NAMED)
     graph.level(mean, DASHED, "mean")
     graph.x_title(engine.title("crank_angle"))
     graph.y_title(f"{engine.symbol('total_torque')}, {engine.symbol('crank_torque')}, {engine.unit('total_torque')}")
@@ -73,19 +63,8 @@ def total_torque(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
 
 
 def accumulated_torque(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the torque on every main journal that carries some, in panels of one scale.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graph of each journal by its number.
-    """
-    journals = engine.shown("journal_torque", torques_along_shaft(engine.torques, engine.whole.layout).journals[1:])
+    """Return the torque on every main journal that carries some, in panels of one scale."""
+    journals = engine.shown("journal_torque", engine.diagrams.journal_torques)
     height = max(52.0, min(110.0, 560.0 / len(journals)))
     paper = Paper(WIDTH, TOP + len(journals) * height + (len(journals) - 1) * _PANEL_GAP + BOTTOM)
     graphs, ends = {}, limits(journals)
@@ -93,9 +72,9 @@ def accumulated_torque(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]
         is_last = at == len(journals) - 1
         box = Box(LEFT, TOP + at * (height + _PANEL_GAP), WIDTH - LEFT - RIGHT, height)
         graph = over_cycle(paper, box, ends, engine.cycle, engine.language, numbers=is_last)
-        graph.curve(f"journal_{at + 2}", engine.degrees, values)
+        graph.curve(f"journal_{at + 2}", engine.diagrams.degrees, values)
         graph.y_title(f"{engine.symbol('journal_torque')[:-1]}{at + 2}$, {engine.unit('journal_torque')}")
-        name = engine_word("main_journal", engine.language, str(at + 2))
+        name = row_name(f"main_journal.{at + 2}", engine.language)
         small_text(paper, box.left + box.width - 3, box.top + 7, name, "end")
         graphs[str(at + 2)] = graph
     graph.x_title(engine.title("crank_angle"))
@@ -103,36 +82,25 @@ def accumulated_torque(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]
 
 
 def excess_work(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the torque less its mean, hatched where it gives energy, and below it the energy with its extremes.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graphs `torque` and `energy`.
-    """
-    language, excess = engine.language, engine.torque.excess
-    angle = np.radians(engine.degrees)
-    surplus = engine.shown("total_torque", engine.torque.total(angle) - excess.mean_torque)
+    """Return the torque less its mean, hatched where it gives energy, and below it the energy with its extremes."""
+    language, excess = engine.language, engine.diagrams.torque.excess
+    angle = np.radians(engine.diagrams.degrees)
+    surplus = engine.shown("total_torque", engine.diagrams.torque.total(angle) - excess.mean_torque)
     surplus[-1] = surplus[0]
     energy = engine.shown("kinetic_energy_change", excess.curve(angle))
     upper, lower = 120.0, 150.0
     paper = Paper(WIDTH, TOP + upper + _PANEL_GAP + lower + BOTTOM)
     width = WIDTH - LEFT - RIGHT
     torque = over_cycle(paper, Box(LEFT, TOP, width, upper), limits(surplus), engine.cycle, language, numbers=False)
-    _hatch(torque, engine.degrees, surplus)
-    torque.curve("surplus", engine.degrees, surplus)
+    _hatch(torque, engine.diagrams.degrees, surplus)
+    torque.curve("surplus", engine.diagrams.degrees, surplus)
     torque.y_title(
         f"{engine.symbol('total_torque')} − {engine.symbol('mean_total_torque')}, {engine.unit('total_torque')}"
     )
     box = Box(LEFT, TOP + upper + _PANEL_GAP, width, lower)
     low, high = limits(energy, margin=0.16)
     graph = over_cycle(paper, box, (low, high), engine.cycle, language)
-    graph.curve("energy", engine.degrees, energy)
+    graph.curve("energy", engine.diagrams.degrees, energy)
     found = excess.curve.extremes()
     unit_less = [float(engine.shown("kinetic_energy_change", one)) for one in (found.largest, found.least)]
     for name, value, at in zip(("max", "min"), unit_less, (found.at_largest, found.at_least), strict=True):
@@ -161,37 +129,26 @@ def _hatch(graph: Graph, degrees: Array, values: Array) -> None:
 
 
 def _span(graph: Graph, at: float, ends: list[float], text: str) -> None:
-    """Draw a double arrow between two levels with a text in a white box at its middle."""
+    """Draw a double arrow between two levels with a text above the graph, where no curve is."""
     x = float(graph.across(at))
     top, bottom = (float(graph.down(one)) for one in ends)
     graph.paper.arrow((x, (top + bottom) / 2), (x, top), width=0.8)
     graph.paper.arrow((x, (top + bottom) / 2), (x, bottom), width=0.8)
-    is_left = at < graph.x[1] / 2
-    graph.boxed(x + (6 if is_left else -6), (top + bottom) / 2 + 3, text, "start" if is_left else "end")
+    graph.paper.text(x, graph.box.top - 5, text, size=8.5, anchor="start" if at < graph.x[1] / 2 else "end")
 
 
 def crank_speed(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the angular speed over the cycle with its mean and its extremes.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share; its `torque` has a speed.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graph by the name of the figure.
-    """
-    language, speed = engine.language, engine.torque.speed
+    """Return the angular speed over the cycle with its mean and its extremes."""
+    language, speed = engine.language, engine.diagrams.torque.speed
     if speed is None:
         raise TypeError("this engine has no moment of inertia that its speed would follow from")
-    values = engine.shown("crank_speed", speed.speed(np.radians(engine.degrees)))
-    mean = float(engine.shown("speed", engine.whole.master.speed))
+    values = engine.shown("crank_speed", speed.speed(np.radians(engine.diagrams.degrees)))
+    mean = float(engine.shown("speed", engine.drawn.results.solved.speed))
     rows = [
         Row(engine.named("crank_speed")),
         Row(
-            f"{engine.symbol('speed')} – {word('mean', language)}, {engine.value('speed', engine.whole.master.speed)}",
+            f"{engine.symbol('speed')} – {say('report.mean', language)},"
+            f" {engine.value('speed', engine.drawn.results.solved.speed)}",
             DASHED,
         ),
         Row(f"{engine.named('speed_fluctuation')}, {engine.number(speed.fluctuation, 4)}", width=0.0),
@@ -199,7 +156,7 @@ def crank_speed(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     paper, box = sheet(200.0, rows)
     room = 0.16 * float(np.ptp(values))
     graph = over_cycle(paper, box, (float(values.min()) - room, float(values.max()) + room), engine.cycle, language)
-    graph.curve("speed", engine.degrees, values)
+    graph.curve("speed", engine.diagrams.degrees, values)
     graph.level(mean, DASHED, "mean")
     ends = speed.extremes
     for name, value, at in (("max", ends.largest, ends.at_largest), ("min", ends.least, ends.at_least)):

@@ -6,13 +6,14 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from crankwork.cylinders.wear import oil_hole
-from crankwork.kinematics.crank_grid import Array
+from crankwork.analysis import Array
+from crankwork.analysis.engine_diagrams import WearRing, wear_rings
+from crankwork.locale import say
 from crankwork.report.engine_figure_axes import TOP, WIDTH, Box, Graph, small_text
 from crankwork.report.engine_figure_data import EngineDrawn
 from crankwork.report.engine_figure_paper import GREY, Paper
-from crankwork.report.engine_figure_words import engine_word
 from crankwork.report.figure_look import DASH_DOT
+from crankwork.report.tables import row_name
 
 # The largest sum takes this share of the radius of the journal.
 _DEEPEST = 0.45
@@ -23,73 +24,52 @@ _SMALL = 200.0
 
 
 def crankpin_wear(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the wear rings of all unlike crankpins.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share; its results hold the sums on the rays.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graph of each crankpin by its number.
-    """
+    """Return the wear rings of all unlike crankpins."""
     return _rings(engine, "crankpin_wear", "crankpin")
 
 
 def main_wear(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the wear rings of all main journals.
-
-    Parameters
-    ----------
-    engine : EngineDrawn
-        What the figures share; its results hold the sums on the rays.
-
-    Returns
-    -------
-    tuple
-        Paper, and the graph of each journal by its number.
-    """
+    """Return the wear rings of all main journals."""
     return _rings(engine, "main_wear", "main_journal")
 
 
 def _rings(engine: EngineDrawn, listing: str, thing: str) -> tuple[Paper, Mapping[str, Graph]]:
     """Draw the rings of a listing side by side, depths on one scale."""
-    columns = dict(engine.drawn.results.listings[listing].columns)
-    angles = np.degrees(columns.pop("wear_ray_angle"))
-    sums = {key.partition(".")[2]: np.asarray(engine.shown("wear_sum", one)) for key, one in columns.items()}
-    across = len(sums) if len(sums) < 3 else 2 if len(sums) == 4 else 3
-    lines = -(-len(sums) // across)
+    angles, rings = wear_rings(engine.drawn.results, listing)
+    rings = {name: one._replace(sums=engine.shown("wear_sum", one.sums)) for name, one in rings.items()}
+    across = len(rings) if len(rings) < 3 else 2 if len(rings) == 4 else 3
+    lines = -(-len(rings) // across)
     side = min((WIDTH - 24 - (across - 1) * _GAP) / across, 290.0)
     start = (WIDTH - across * side - (across - 1) * _GAP) / 2
     is_small = side < _SMALL
-    head = (_HEAD if len(sums) > 1 else 0.0) + (10.0 if is_small else 0.0)
+    head = (_HEAD if len(rings) > 1 else 0.0) + (10.0 if is_small else 0.0)
     paper = Paper(WIDTH, TOP + lines * (side + head) + (lines - 1) * _GAP + _FOOT)
-    deepest = max(float(one.max()) for one in sums.values()) or 1.0
+    deepest = max(float(one.sums.max()) for one in rings.values()) or 1.0
     graphs = {}
-    for at, (name, one) in enumerate(sums.items()):
+    for at, (name, one) in enumerate(rings.items()):
         top = TOP + (at // across) * (side + head + _GAP) + head
         box = Box(start + (at % across) * (side + _GAP), top, side, side)
         graphs[name] = _ring(engine, paper, box, angles, one, deepest)
-        if len(sums) > 1:
-            small_text(paper, box.left + side / 2, top - 4 - 10 * is_small, engine_word(thing, engine.language, name))
-        if is_small and oil_hole(one).arc < 360:
-            small_text(paper, box.left + side / 2, top - 3, _hole_words(engine, one))
+        if len(rings) > 1:
+            small_text(
+                paper, box.left + side / 2, top - 4 - 10 * is_small, row_name(f"{thing}.{name}", engine.language)
+            )
+        if is_small and one.hole.arc < 360:
+            small_text(paper, box.left + side / 2, top - 3, _hole_words(engine, one.hole.angle))
     unit = engine.unit("wear_sum")
-    largest = engine_word("largest", engine.language, f"{engine.number(deepest, 4)} {unit}")
-    text = f"{engine.symbol('wear_sum')} – {largest}; {engine_word('worn', engine.language)}"
+    largest = say("drawing.largest", engine.language, value=f"{engine.number(deepest, 4)} {unit}")
+    text = f"{engine.symbol('wear_sum')} – {largest}; {say('drawing.worn', engine.language)}"
     paper.text(WIDTH / 2, paper.height - 35, text, size=8, anchor="middle")
-    frame = engine_word("crank_up" if thing == "crankpin" else "crank_one", engine.language)
+    frame = say("drawing.crank_up" if thing == "crankpin" else "drawing.crank_one", engine.language)
     paper.text(WIDTH / 2, paper.height - 23, frame, size=8, anchor="middle")
     return paper, graphs
 
 
-def _ring(engine: EngineDrawn, paper: Paper, box: Box, angles: Array, sums: Array, deepest: float) -> Graph:
+def _ring(engine: EngineDrawn, paper: Paper, box: Box, angles: Array, ring: WearRing, deepest: float) -> Graph:
     """Draw a journal of radius 1, what is worn off it, its numbered rays and its oil hole."""
     reach = 1 + _ROOM / (box.width / 2 - _ROOM)
     graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language)
-    depth = _DEEPEST * sums / deepest
+    depth = _DEEPEST * ring.sums / deepest
     fine = np.arange(0.0, 361.0, 2.0)
     worn = 1 - np.interp(fine, angles, depth, period=360)
     direction = _towards(fine)
@@ -109,13 +89,13 @@ def _ring(engine: EngineDrawn, paper: Paper, box: Box, angles: Array, sums: Arra
     cross = np.array([[-0.12, 0, 0.12, 0], [0, -0.12, 0, 0.12]])
     centre = [graph.across(cross[:, 0]), graph.down(cross[:, 1]), graph.across(cross[:, 2]), graph.down(cross[:, 3])]
     paper.segments(np.column_stack(centre), width=0.6)
-    _hole(engine, graph, sums)
+    _hole(engine, graph, ring)
     return graph
 
 
-def _hole(engine: EngineDrawn, graph: Graph, sums: Array) -> None:
+def _hole(engine: EngineDrawn, graph: Graph, ring: WearRing) -> None:
     """Draw the oil hole from the surface to the middle, and its angle."""
-    hole = oil_hole(sums)
+    hole = ring.hole
     if hole.arc == 360:
         return
     axis = _towards(np.array([hole.angle]))[:, 0]
@@ -128,11 +108,11 @@ def _hole(engine: EngineDrawn, graph: Graph, sums: Array) -> None:
     if graph.box.width >= _SMALL:
         # under the middle where the hole goes up, over it where it goes down
         level = -0.26 if axis[1] > -0.2 else 0.2
-        graph.boxed(float(graph.across(0.0)), float(graph.down(level)), _hole_words(engine, sums), "middle", 7.5)
+        graph.boxed(float(graph.across(0.0)), float(graph.down(level)), _hole_words(engine, hole.angle), "middle", 7.5)
 
 
-def _hole_words(engine: EngineDrawn, sums: Array) -> str:
-    return engine_word("oil_hole", engine.language, engine.number(oil_hole(sums).angle, 4))
+def _hole_words(engine: EngineDrawn, angle: float) -> str:
+    return say("drawing.oil_hole_at", engine.language, angle=engine.number(angle, 4))
 
 
 def _hatch(graph: Graph, angles: Array, worn: Array) -> None:

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from crankwork.kinematics.crank_grid import Array
+from crankwork.analysis import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _SIZE = 8.0
-_SPACING = 2.5
+_SPACING, _ALIKE = 2.5, 1.25
 _LONGEST = 16
 _REACHES = np.array([8.0, 11.0, 15.0, 20.0, 26.0, 33.0, 41.0, 50.0])
 _ANGLES = np.radians([45, 135, 90, 0, 180, 315, 225, 270, 22, 67, 112, 157, 202, 247, 292, 337])
@@ -28,15 +28,6 @@ def label_points(axes: Axes, points: Sequence[tuple[str, float, float]], *lines:
     """Mark points and name them, with a thin line to names that had to go further away.
 
     Points that fall together share one mark.
-
-    Parameters
-    ----------
-    axes : Axes
-        With limits already set.
-    points : sequence of (str, float, float)
-        Name and coordinates in the units of the axes.
-    *lines : tuple of sequence, shape (n,)
-        Coordinates of lines to keep clear of.
     """
     points = _merged(axes, points)
     if not points:
@@ -48,6 +39,8 @@ def label_points(axes: Axes, points: Sequence[tuple[str, float, float]], *lines:
     edges: list[Line] = [([left, left], [bottom, top]), ([left, right], [axis, axis])]
     marks = _on_paper(axes, ([x for _, x, _ in points], [y for _, _, y in points]))
     obstacles = np.vstack([marks, *(_spread(_on_paper(axes, line)) for line in (*lines, *edges))])
+    # where lines crowd, their points are not counted twice, so that each name takes about as long as the first
+    obstacles = np.unique(np.round(obstacles / _ALIKE), axis=0) * _ALIKE
     placed: list[Box] = []
     for (name, x, y), mark in zip(points, marks, strict=True):
         half = np.array([0.31 * _SIZE * len(name) + 0.8, 0.5 * _SIZE])
@@ -78,18 +71,36 @@ def _best_shift(
     mark: Array, half: Array, placed: Sequence[Box], obstacles: Array, others: Array, frame: Array
 ) -> Array:
     """Return where the middle of a name goes, from its mark: clear first, then near. [pt]"""
-    shifts = np.concatenate([_DIRECTIONS * (reach + np.abs(_DIRECTIONS) * (half - half.min())) for reach in _REACHES])
-    centres = mark + shifts
-    near = obstacles[np.all(np.abs(obstacles - mark) < _REACHES[-1] + 2 * half + 4, axis=1)]
+    room = _REACHES[-1] + 2 * half + 4
+    near = obstacles[np.all(np.abs(obstacles - mark) < room, axis=1)]
+    others = others[np.all(np.abs(others - mark) < 3 * _REACHES[-1] + 2 * half, axis=1)]
+    middles, halves = (np.array(one).reshape(-1, 2) for one in (zip(*placed, strict=True) if placed else ((), ())))
+    close = np.all(np.abs(middles - mark) < room + halves, axis=1)
+    names = middles[close], halves[close]
+    best, least = np.zeros(2), np.inf
+    for reach in _REACHES:
+        # a place further away costs more, however clear it is
+        if reach >= least:
+            break
+        shifts = _DIRECTIONS * (reach + np.abs(_DIRECTIONS) * (half - half.min()))
+        cost = reach + 0.1 * np.arange(len(shifts)) + _hidden(mark, shifts, half, names, near)
+        cost += 12.0 * _is_misleading(mark, shifts, others)
+        low, high = mark + shifts - half, mark + shifts + half
+        cost += 200.0 * np.any((low < frame[0]) | (high > frame[1]), axis=1)
+        at = int(np.argmin(cost))
+        if cost[at] < least:
+            best, least = shifts[at], float(cost[at])
+    return best
+
+
+def _hidden(mark: Array, shifts: Array, half: Array, names: Box, near: Array) -> Array:
+    """Return what lines and other names under each place of a name cost, and names under the line to it."""
+    centres, (middles, halves) = mark + shifts, names
     cost = 10.0 * np.all(np.abs(centres[:, None] - near) < half + 1.0, axis=2).sum(axis=1)
-    cost += np.repeat(_REACHES, len(_DIRECTIONS)) + 0.1 * np.tile(np.arange(len(_DIRECTIONS)), len(_REACHES))
-    cost += 12.0 * _is_misleading(mark, shifts, others)
-    towards = mark + shifts[:, None] * np.linspace(0.1, 1.0, 10)[:, None]
-    for centre, other in placed:
-        cost += 500.0 * np.all(np.abs(centres - centre) < half + other + 0.5, axis=1)
-        cost += 40.0 * np.any(np.all(np.abs(towards - centre) < other, axis=2), axis=1)
-    outside = np.any((centres - half < frame[0]) | (centres + half > frame[1]), axis=1)
-    return np.asarray(shifts[np.argmin(cost + 200.0 * outside)])
+    cost += 500.0 * np.all(np.abs(centres[:, None] - middles) < half + halves + 0.5, axis=2).sum(axis=1)
+    towards = mark + shifts[:, None, None] * np.linspace(0.1, 1.0, 10)[:, None, None]
+    crossed = np.any(np.all(np.abs(towards - middles) < halves, axis=3), axis=1)
+    return np.asarray(cost + 40.0 * crossed.sum(axis=1))
 
 
 def _on_paper(axes: Axes, line: Line) -> Array:
@@ -114,7 +125,7 @@ def _merged(axes: Axes, points: Sequence[tuple[str, float, float]]) -> list[tupl
         same = [i for i, place in enumerate(places) if np.hypot(*(place - here)) < 1.0]
         if same:
             first, *place = result[same[0]]
-            result[same[0]] = (f"{first}, {text}", place[0], place[1])
+            result[same[0]] = (", ".join(dict.fromkeys([*first.split(", "), text])), place[0], place[1])
         else:
             result.append((text, x, y))
             places.append(here)

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
+import os
+import sys
 from collections.abc import Sequence
+from types import ModuleType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array
-from crankwork.quantities import LANGUAGES, QUANTITIES, Language
+from crankwork.analysis import Array
+from crankwork.errors import MissingExtraError
+from crankwork.quantities import QUANTITIES, Language
 from crankwork.report.language import key_unit, number, unit_name
 
 if TYPE_CHECKING:
@@ -45,12 +50,6 @@ LOOK: Any = {
 
 # what would mean something in mathtext, where a name is the user's own
 _MATH_SIGNS = frozenset(r"$#\{}%^_~&")
-_WORDS = {
-    "orders": ("I, II – parts of first and second order", "I, II – составляющие первого и второго порядков",
-               "I, II – thành phần cấp một và cấp hai"),
-    "tdc": ("TDC", "ВМТ", "ĐCT"),
-    "bdc": ("BDC", "НМТ", "ĐCD"),
-}  # fmt: skip
 
 
 class Curve(NamedTuple):
@@ -62,23 +61,43 @@ class Curve(NamedTuple):
     style: Style = SOLID
 
 
-def figure_word(key: str, language: Language) -> str:
-    """Return a word that only figures use."""
-    return _WORDS[key][LANGUAGES.index(language)]
+def drawing_library() -> ModuleType:
+    """Return matplotlib, imported even where the environment asks for a way to show figures that is not installed.
+
+    Raises
+    ------
+    MissingExtraError
+        If matplotlib is not installed.
+    """
+    known = "matplotlib" in sys.modules
+    # matplotlib does not load at all where a notebook has left its own way to the programs that it starts
+    shown_by = None if known else os.environ.pop("MPLBACKEND", None)
+    try:
+        import matplotlib as mpl  # noqa: PLC0415 - an optional part
+    except ImportError:
+        raise MissingExtraError("drawing figures", "figures") from None
+    finally:
+        if shown_by is not None:
+            os.environ["MPLBACKEND"] = shown_by
+    if shown_by:
+        with contextlib.suppress(ValueError):
+            mpl.rcParams["backend"] = shown_by
+    return mpl
+
+
+def plain(text: str) -> str:
+    r"""Return a text with names of the user's own as matplotlib takes it for that.
+
+    Examples
+    --------
+    >>> print(plain("force at the joint, $x^$"))
+    force at the joint, \$x^\$
+    """
+    return text.replace("$", r"\$")
 
 
 def math_symbol(symbol: str) -> str:
     r"""Return a symbol `base_subscript` as mathtext, its subscript upright.
-
-    Parameters
-    ----------
-    symbol : str
-        As the table of quantities writes it.
-
-    Returns
-    -------
-    str
-        Mathtext between dollar signs.
 
     Examples
     --------
@@ -87,7 +106,7 @@ def math_symbol(symbol: str) -> str:
     """
     base, _, subscript = symbol.partition("_")
     if not _MATH_SIGNS.isdisjoint(subscript):
-        return f"{base} {subscript}".replace("$", r"\$")
+        return plain(f"{base} {subscript}")
     return rf"${base}_{{\text{{{subscript}}}}}$" if subscript else f"${base}$"
 
 
@@ -100,7 +119,7 @@ def with_unit(text: str, key: str, language: Language, *, per_area: bool = False
 def quantity_title(key: str, language: Language, *, per_area: bool = False) -> str:
     """Return the axis title of a quantity: name, symbol, unit."""
     row = QUANTITIES[key]
-    name = f"{row.label(language)} {math_symbol(row.symbol(language))}"
+    name = f"{plain(row.label(language))} {math_symbol(row.symbol(language))}"
     return with_unit(name, key, language, per_area=per_area)
 
 
@@ -187,7 +206,7 @@ def through_zero(axes: Axes, *values: Array) -> None:
 def draw_curves(axes: Axes, x: Array, curves: Sequence[Curve], *, one_row: bool = False) -> None:
     """Draw curves, and a legend above the axes that names them; one row of symbols suffices beside axis titles."""
     for curve in curves:
-        name = math_symbol(curve.symbol) if one_row else f"{math_symbol(curve.symbol)} – {curve.label}"
+        name = math_symbol(curve.symbol) if one_row else f"{math_symbol(curve.symbol)} – {plain(curve.label)}"
         axes.plot(x, curve.values, color="black", linestyle=curve.style, label=name)
     if len(curves) > 1 or not one_row:
         legend_above(axes, columns=len(curves) if one_row else 1)
@@ -202,19 +221,7 @@ def legend_above(axes: Axes, *, columns: int = 1, offset: float = 1.0) -> None:
 
 
 def svg(figure: Figure, title: str, method: str, remark: str = "") -> bytes:
-    """Return a figure as SVG, the same bytes every time.
-
-    Parameters
-    ----------
-    figure : Figure
-        What is drawn.
-    title : str
-        For readers who cannot see it.
-    method : str
-        How the numbers were made, printed at the lower right.
-    remark : str
-        Printed at the lower left.
-    """
+    """Return a figure as SVG, the same bytes every time."""
     height = figure.get_size_inches()[1]
     figure.text(0.985, 0.07 / height, method, color=GREY, size=7, ha="right", va="bottom")
     figure.text(0.02, 0.07 / height, remark, color=GREY, size=7, va="bottom")

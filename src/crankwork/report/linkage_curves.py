@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from crankwork.analysis import Array
 from crankwork.errors import CrankworkError
-from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.quantities import Quantity
 from crankwork.report.figure_look import (
     BOTTOM,
@@ -43,20 +43,18 @@ _LONG = 20
 
 
 def curves(
-    grid: CrankGrid,
+    degrees: Array,
     columns: Mapping[str, Array],
     panels: Sequence[str | Sequence[str]],
     title: str,
     style: Style = PLAIN,
-    *,
-    rows: Mapping[str, Quantity] | None = None,
 ) -> bytes:
     """Return quantities over the crank angle, one panel below the other.
 
     Parameters
     ----------
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
+    degrees : array, shape (n,)
+        Crank angles. [deg]
     columns : mapping of str to array, shape (n,)
         Values in SI by key, `joint_force.A` for what belongs to a point or link.
     panels : sequence of str or sequence of str
@@ -65,20 +63,13 @@ def curves(
         For readers who cannot see it.
     style : Style
         Language, and how the numbers were made.
-    rows : mapping of str to Quantity, optional
-        Name, symbol and unit of keys that the table of quantities lacks.
-
-    Returns
-    -------
-    bytes
-        SVG.
 
     Raises
     ------
     CrankworkError
         If a key is not known, has no column, or its unit differs from that of its panel.
     """
-    sets = [_panel((one,) if isinstance(one, str) else tuple(one), columns, rows or {}) for one in panels]
+    sets = [_panel((one,) if isinstance(one, str) else tuple(one), columns) for one in panels]
     if not sets:
         raise CrankworkError("curves need at least one key")
     legends = [_LEGEND_ROW * len(one) + 0.06 if _has_legend(one, style) else 0.0 for one in sets]
@@ -88,7 +79,7 @@ def curves(
         foot = BOTTOM
         for count, (quantities, legend) in enumerate(zip(reversed(sets), reversed(legends), strict=True)):
             axes = add_axes(figure, style.language, foot, tall)
-            _draw(axes, grid, [(row, columns[row.key]) for row in quantities], style)
+            _draw(axes, degrees, [(row, columns[row.key]) for row in quantities], style)
             if count:
                 axes.set_xlabel("")
                 axes.tick_params(labelbottom=False)
@@ -96,12 +87,12 @@ def curves(
         return svg(figure, title, style.method)
 
 
-def _panel(keys: tuple[str, ...], columns: Mapping[str, Array], rows: Mapping[str, Quantity]) -> list[Quantity]:
+def _panel(keys: tuple[str, ...], columns: Mapping[str, Array]) -> list[Quantity]:
     """Return the quantities of a panel."""
     missing = [key for key in keys if key not in columns]
     if missing:
         raise CrankworkError(f"there is no column {missing[0]}; there is {', '.join(columns)}")
-    found = [quantity_of(key, rows)._replace(key=key) for key in keys]
+    found = [quantity_of(key) for key in keys]
     units = {row.unit for row in found}
     if len(units) > 1:
         raise CrankworkError(f"{', '.join(keys)} have different units; give each a panel of its own")
@@ -113,7 +104,7 @@ def _has_legend(quantities: Sequence[Quantity], style: Style) -> bool:
     return len(quantities) > 1 or len(quantities[0].label(style.language)) > _LONG
 
 
-def _draw(axes: Axes, grid: CrankGrid, values: Sequence[tuple[Quantity, Array]], style: Style) -> None:
+def _draw(axes: Axes, degrees: Array, values: Sequence[tuple[Quantity, Array]], style: Style) -> None:
     lines = [
         Curve(row.symbol(style.language), row.label(style.language), displayed_values(row, column), _STYLES[i % 4])
         for i, (row, column) in enumerate(values)
@@ -121,8 +112,8 @@ def _draw(axes: Axes, grid: CrankGrid, values: Sequence[tuple[Quantity, Array]],
     first = values[0][0]
     unit = unit_name(first.unit, style.language)
     has_legend = _has_legend([row for row, _ in values], style)
-    draw_curves(axes, grid.degrees, lines, one_row=not has_legend)
-    over_drive_angle(axes, float(grid.degrees[-1]), style.language)
+    draw_curves(axes, degrees, lines, one_row=not has_legend)
+    over_drive_angle(axes, float(degrees[-1]), style.language)
     through_zero(axes, *(one.values for one in lines))
     if not has_legend:
         axes.set_ylabel(axis_title(first, style.language).replace(" $", "\n$", 1))

@@ -6,37 +6,23 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.motion import Motion
+from crankwork.analysis import Array
+from crankwork.analysis.moving import Moving
+from crankwork.analysis.skeleton import Skeleton
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.report import drawing_parts as parts
 from crankwork.report.drawing_parts import Box, Stage
 from crankwork.report.linkage_labels import Label, labels
 from crankwork.report.linkage_scene import SLOT, Rail, Scene, Slot, scene
-from crankwork.report.linkage_skeleton import Skeleton
 
 _SIZE = 420.0
 _DOWN = np.array([1.0, -1.0])
 
 
 def linkage_drawing(
-    mechanism: Mechanism, shape: Skeleton, moving: Motion, duration: str, still: int
+    mechanism: Mechanism, shape: Skeleton, moving: Moving, duration: str, still: int
 ) -> tuple[list[str], Box, float]:
-    """Return the parts of the drawing, the box that holds them at all angles, and the scale in pixels per metre.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        What is drawn.
-    shape : Skeleton
-        Its links, points and letters.
-    moving : Motion
-        Its motion over one revolution.
-    duration : str
-        Time of a revolution, as SVG writes it.
-    still : int
-        The frame that is shown where nothing moves.
-    """
+    """Return the parts of the drawing, the box that holds them at all angles, and the scale in pixels per metre."""
     drawn, scale = scene(shape, moving, _SIZE)
     stage = Stage(scale, duration, still)
     paths = [drawn.points[name] for name in (mechanism.crank.pin, *shape.coupler_points)]

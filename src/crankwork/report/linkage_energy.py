@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.analysis import Array
+from crankwork.analysis.diagrams import Fluctuation, Tangents, tangents
+from crankwork.locale import say
 from crankwork.quantities import QUANTITIES, Language
 from crankwork.report.figure_labels import Line, label_points
 from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED, single_axes, svg
@@ -21,61 +23,9 @@ from crankwork.report.linkage_look import (
     over_drive_angle,
     quantity_of,
 )
-from crankwork.shaft.flywheel import wittenbauer_slope_largest, wittenbauer_slope_least
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-
-class Fluctuation(NamedTuple):
-    """How evenly the crank turns: mean angular speed [rad/s] and its coefficient of fluctuation [-]."""
-
-    mean: float
-    delta: float
-
-
-class Tangents(NamedTuple):
-    """The tangents of the energy-mass curve at largest and smallest speed, y = slope x + foot. [J], [kg m2]
-
-    `flywheel` is the reduced inertia that has to be added: where they meet, counted to the left.
-    """
-
-    slope_max: float
-    slope_min: float
-    foot_max: float
-    foot_min: float
-    touch_max: int
-    touch_min: int
-
-    @property
-    def flywheel(self) -> float:
-        """Reduced moment of inertia that keeps the speed within its limits. [kg m2]"""
-        return (self.foot_max - self.foot_min) / (self.slope_max - self.slope_min)
-
-
-def tangents(inertia: Array, energy: Array, wanted: Fluctuation) -> Tangents:
-    """Return the two tangents of the energy-mass curve.
-
-    Parameters
-    ----------
-    inertia, energy : array, shape (n,)
-        Reduced moment of inertia [kg m2] and change of the kinetic energy [J] over one cycle.
-    wanted : Fluctuation
-        Mean speed and coefficient.
-
-    Notes
-    -----
-    tan psi = w^2 (1 +- delta) / 2; the upper tangent touches the curve from above, the lower one from below.
-
-    References
-    ----------
-    artobolevsky_1988
-    """
-    high = float(wittenbauer_slope_largest(wanted.mean, wanted.delta))
-    low = float(wittenbauer_slope_least(wanted.mean, wanted.delta))
-    above, below = energy - high * inertia, energy - low * inertia
-    i, j = int(np.argmax(above)), int(np.argmin(below))
-    return Tangents(high, low, float(above[i]), float(below[j]), i, j)
 
 
 def wittenbauer(inertia: Array, energy: Array, wanted: Fluctuation, degrees: Array, style: Style = PLAIN) -> bytes:
@@ -91,11 +41,6 @@ def wittenbauer(inertia: Array, energy: Array, wanted: Fluctuation, degrees: Arr
         Crank angles; every thirtieth degree is marked. [deg]
     style : Style
         Language, and how the numbers were made.
-
-    Returns
-    -------
-    bytes
-        SVG.
     """
     found, language = tangents(inertia, energy, wanted), style.language
     with figure_look():
@@ -104,7 +49,7 @@ def wittenbauer(inertia: Array, energy: Array, wanted: Fluctuation, degrees: Arr
         axes.set_xlabel(_title("reduced_inertia", language))
         axes.set_ylabel(_title("kinetic_energy_change", language))
         axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=1, handlelength=3.2, borderpad=0.2)
-        flywheel = {"en": "flywheel", "ru": "маховик", "vi": "bánh đà"}[language]
+        flywheel = say("drawing.flywheel", language)
         shown = f"{number(found.flywheel, language, digits=4)} {unit_name('kg*m2', language)}"
         slopes = r"\tan ψ_{\text{max}} - \tan ψ_{\text{min}}"
         return svg(
@@ -144,29 +89,29 @@ def _angle(axes: Axes, slope: float, name: str, language: Language) -> str:
     """Return the angle of a tangent on paper, in words of the legend."""
     (left, right), (bottom, top), box = axes.get_xlim(), axes.get_ylim(), axes.get_window_extent()
     angle = math.degrees(math.atan(slope * (right - left) / box.width * box.height / (top - bottom)))
-    words = {"en": "slope", "ru": "наклон", "vi": "hệ số góc"}[language]
+    words = say("drawing.slope", language)
     unit = f"{unit_name('J', language)}/({unit_name('kg*m2', language)})"
     shown = f"{words} {number(slope, language, digits=4)} {unit}"
     return f"$ψ_{{\\text{{{name}}}}}$ = {number(angle, language, digits=4)}°; {shown}"
 
 
-def speed_curve(grid: CrankGrid, speed: Array, style: Style = PLAIN) -> bytes:
+def speed_curve(degrees: Array, speed: Array, style: Style = PLAIN) -> bytes:
     """Return the angular speed of the crank over one cycle, with its largest, mean and smallest value.
 
     Parameters
     ----------
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
+    degrees : array, shape (n,)
+        Crank angles. [deg]
     speed : array, shape (n,)
         Angular speed. [rad/s]
     style : Style
         Language, and how the numbers were made.
     """
-    language, row = style.language, quantity_of("speed", {})
+    language, row = style.language, quantity_of("speed")
     low, high = float(np.min(speed)), float(np.max(speed))
     with figure_look():
         figure, axes = single_axes(language, 1)
-        axes.plot(grid.degrees, speed, color="black")
+        axes.plot(degrees, speed, color="black")
         sign = symbol("speed", language)
         for value, name, line in ((high, "max", DOTTED), ((low + high) / 2, "m", DASHED), (low, "min", DOTTED)):
             text = f"${sign}_{{\\text{{{name}}}}}$ = {number(value, language, digits=5)}"
@@ -178,6 +123,6 @@ def speed_curve(grid: CrankGrid, speed: Array, style: Style = PLAIN) -> bytes:
         )
         spare = 0.08 * (high - low) or 0.01 * high
         axes.set_ylim(low - spare, high + spare)
-        over_drive_angle(axes, float(grid.degrees[-1]), language)
+        over_drive_angle(axes, float(degrees[-1]), language)
         axes.set_ylabel(axis_title(row, language))
         return svg(figure, linkage_title("speed", language), style.method)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.kinematics.motion import Motion
+from crankwork.analysis.moving import Moving
 from crankwork.machine import Cylinder
 from crankwork.mechanism.dyads import RRP
 from crankwork.mechanism.mechanism import Mechanism
@@ -28,17 +28,7 @@ class Gear(NamedTuple):
 
 
 def crank_gear(mechanism: Mechanism, cylinder: Cylinder | None = None, *, has_gas: bool = False) -> Gear | None:
-    """Return the crank gear that a mechanism is, or None if it is another linkage.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A crank and groups.
-    cylinder : Cylinder, optional
-        Its bore and clearance, if known, give the cylinder.
-    has_gas : bool
-        Whether the cylinder has a head.
-    """
+    """Return the crank gear that a mechanism is, or None if it is another linkage."""
     rods = tuple(one for one in mechanism.dyads if isinstance(one, RRP))
     is_gear = len(rods) == len(mechanism.dyads) and not mechanism.points
     if is_gear and all(one.joint == mechanism.crank.pin and not one.guide_link for one in rods):
@@ -46,20 +36,8 @@ def crank_gear(mechanism: Mechanism, cylinder: Cylinder | None = None, *, has_ga
     return None
 
 
-def engine_drawing(gear: Gear, moving: Motion, duration: str, still: int) -> tuple[list[str], Box, float]:
-    """Return the parts of the drawing, the box that holds them at all angles, and the scale in pixels per metre.
-
-    Parameters
-    ----------
-    gear : Gear
-        What is drawn.
-    moving : Motion
-        Its motion over one revolution.
-    duration : str
-        Time of a revolution, as SVG writes it.
-    still : int
-        The frame that is shown where nothing moves.
-    """
+def engine_drawing(gear: Gear, moving: Moving, duration: str, still: int) -> tuple[list[str], Box, float]:
+    """Return the parts of the drawing, the box that holds them at all angles, and the scale in pixels per metre."""
     stage = Stage(_scale(moving, gear), duration, still)
     sliders = [_slider(gear, dyad, moving, stage) for dyad in gear.rods]
     body = [
@@ -81,18 +59,16 @@ class _Slider(NamedTuple):
     is_closed: bool
 
 
-def _scale(moving: Motion, gear: Gear) -> float:
+def _scale(moving: Moving, gear: Gear) -> float:
     """Return how many pixels a metre takes."""
-    pivot_x, pivot_y = gear.mechanism.crank.pivot
     bore = gear.cylinder.bore if gear.cylinder else 0.0
-    across = np.concatenate([[pivot_x], *(point.x.position for point in moving.points.values())])
-    upward = np.concatenate([[pivot_y], *(point.y.position for point in moving.points.values())])
-    return float(_SIZE / max(np.ptp(across), np.ptp(upward), 1.5 * bore))
+    places = np.vstack([gear.mechanism.crank.pivot, *(point.place for point in moving.points.values())])
+    return float(_SIZE / max(*np.ptp(places, axis=0), 1.5 * bore))
 
 
-def _slider(gear: Gear, dyad: RRP, moving: Motion, stage: Stage) -> _Slider:
+def _slider(gear: Gear, dyad: RRP, moving: Moving, stage: Stage) -> _Slider:
     """Return block and guide of a slider; the guide of a cylinder ends at the head, the clearance above the piston."""
-    along = moving.sliders[dyad.piece].position
+    along = moving.sliders[dyad.piece]
     low, high = float(np.min(along)) * stage.scale, float(np.max(along)) * stage.scale
     stroke, cylinder = high - low, gear.cylinder
     half_width = max(stage.scale * cylinder.bore / 2 if cylinder else 0.4 * stroke, 24.0)
@@ -106,7 +82,7 @@ def _slider(gear: Gear, dyad: RRP, moving: Motion, stage: Stage) -> _Slider:
     return _Slider(dyad, half_width, half_height, low - 0.4 * half_height, end, gear.has_gas)
 
 
-def _reach(gear: Gear, moving: Motion, stage: Stage, sliders: list[_Slider]) -> Box:
+def _reach(gear: Gear, moving: Moving, stage: Stage, sliders: list[_Slider]) -> Box:
     """Return the corners of a box that nothing leaves at any angle. [px]"""
     pivot = stage.fixed(gear.mechanism.crank.pivot)
     reach = [pivot + np.array(parts.GROUND_REACH)]
@@ -120,7 +96,7 @@ def _reach(gear: Gear, moving: Motion, stage: Stage, sliders: list[_Slider]) -> 
     return Box(left, top, right, bottom)
 
 
-def _fixed(gear: Gear, moving: Motion, stage: Stage, sliders: list[_Slider]) -> list[str]:
+def _fixed(gear: Gear, moving: Moving, stage: Stage, sliders: list[_Slider]) -> list[str]:
     """Draw what stands still: centre lines, the path of the crank pin, guides and the pivot."""
     crank = gear.mechanism.crank
     pivot, arm = stage.fixed(crank.pivot), crank.radius * stage.scale + 16
@@ -139,7 +115,7 @@ def _fixed(gear: Gear, moving: Motion, stage: Stage, sliders: list[_Slider]) -> 
     return [*drawn, parts.ground_pivot(pivot)]
 
 
-def _links(gear: Gear, moving: Motion, stage: Stage, sliders: list[_Slider]) -> list[str]:
+def _links(gear: Gear, moving: Moving, stage: Stage, sliders: list[_Slider]) -> list[str]:
     """Draw what moves: blocks, links between their points, and joints upon them."""
     crank = gear.mechanism.crank
     at = {name: stage.points(point) for name, point in moving.points.items()}
@@ -150,7 +126,7 @@ def _links(gear: Gear, moving: Motion, stage: Stage, sliders: list[_Slider]) -> 
     return [*drawn, *(parts.joint(stage, place) for place in (pivot, *at.values()))]
 
 
-def _names(gear: Gear, moving: Motion, stage: Stage, sliders: list[_Slider]) -> list[str]:
+def _names(gear: Gear, moving: Moving, stage: Stage, sliders: list[_Slider]) -> list[str]:
     """Write letters at the points and numbers at the links: 0 the frame, 1 the crank, then dyad by dyad."""
     crank = gear.mechanism.crank
     at = {name: stage.points(point) for name, point in moving.points.items()}

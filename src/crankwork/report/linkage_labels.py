@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array
+from crankwork.analysis import Array
 from crankwork.report.linkage_scene import SLOT, Scene
 
 _TURNS = np.radians([45, 135, 315, 225, 90, 0, 180, 270, 20, 70, 110, 160, 200, 250, 290, 340])
@@ -32,17 +32,7 @@ class Label(NamedTuple):
 
 
 def labels(drawn: Scene, fixed: Sequence[Array] = (), *, every: int = _EVERY) -> list[Label]:
-    """Return the names of points and the numbers of links.
-
-    Parameters
-    ----------
-    drawn : Scene
-        The parts.
-    fixed : sequence of array, shape (k, 2)
-        Further places to keep clear of.
-    every : int
-        Look at every so many positions.
-    """
+    """Return the names of points and the numbers of links."""
     obstacles = _samples(drawn, every)
     still = np.vstack([*fixed, np.zeros((0, 2))])
     count = obstacles.shape[0]
@@ -59,22 +49,36 @@ def _cheapest(
 ) -> Label:
     """Return the label that costs least; one that costs more at least than another does is not looked at."""
     best, found = np.inf, 0
+    obstacles = _reachable([label for label, _ in ways], obstacles, every)
+    names = np.array([one.places[::every] for one in placed]), np.array([[one.half] for one in placed])
     for at in sorted(range(len(ways)), key=lambda one: ways[one][1]):
         label, extra = ways[at]
         if extra > best:
             break
-        cost = _cost(label, extra, obstacles, placed, every)
+        cost = _cost(label, extra, obstacles, names, every)
         best, found = min((best, found), (cost, at))
     return ways[found][0]
 
 
-def _cost(label: Label, extra: float, obstacles: tuple[Array, Array], placed: Sequence[Label], every: int) -> float:
+def _reachable(ways: Sequence[Label], obstacles: tuple[Array, Array], every: int) -> tuple[Array, Array]:
+    """Return the obstacles that a label could cover at one place or another."""
+    places = np.array([one.places[::every] for one in ways])
+    half = np.max([one.half for one in ways], axis=0)
+    low, high = places.min(axis=0) - half, places.max(axis=0) + half
+    x, y = obstacles
+    near = (x > low[:, :1]) & (x < high[:, :1]) & (y > low[:, 1:]) & (y < high[:, 1:])
+    kept = near.any(axis=0)
+    return np.ascontiguousarray(x[:, kept]), np.ascontiguousarray(y[:, kept])
+
+
+def _cost(label: Label, extra: float, obstacles: tuple[Array, Array], names: tuple[Array, Array], every: int) -> float:
     centre, half = label.places[::every, None], label.half
     near = [np.abs(one - centre[..., axis]) < half[axis] for axis, one in enumerate(obstacles)]
     cost = extra + 10.0 * float(np.count_nonzero(near[0] & near[1])) / len(centre)
-    for other in placed:
-        apart = np.abs(other.places[::every, None] - centre)
-        cost += 60.0 * float(np.mean(np.all(apart < half + other.half + (7.0, 1.0), axis=2)))
+    middles, halves = names
+    if len(middles):
+        covered = np.all(np.abs(middles - label.places[::every]) < half + halves + (7.0, 1.0), axis=2)
+        cost += 60.0 * float(covered.mean(axis=1).sum())
     return cost
 
 

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, NamedTuple
 
-from crankwork.errors import CrankworkError, MissingExtraError
-from crankwork.kinematics.crank_grid import Array
-from crankwork.quantities import LANGUAGES, QUANTITIES, Language, Quantity
-from crankwork.report.figure_look import LOOK, math_symbol, over_crank_angle
+from crankwork.analysis import Array
+from crankwork.errors import CrankworkError
+from crankwork.locale import say
+from crankwork.quantities import QUANTITIES, Language, Quantity
+from crankwork.report.figure_look import LOOK, drawing_library, math_symbol, over_crank_angle, plain
 from crankwork.report.language import number, unit_name
 from crankwork.units import from_si
 
@@ -18,20 +19,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 POINTS_PER_MM = 72 / 25.4
-_TITLES = {
-    "position_plans": ("Position plans of the mechanism", "Планы положений механизма", "Họa đồ vị trí của cơ cấu"),
-    "velocity_plan": ("Velocity plan", "План скоростей", "Họa đồ vận tốc"),
-    "acceleration_plan": ("Acceleration plan", "План ускорений", "Họa đồ gia tốc"),
-    "wittenbauer": ("Energy–mass diagram (Wittenbauer)", "Диаграмма энергомасс (Виттенбауэра)",
-                    "Đồ thị Wittenbauer"),
-    "speed": ("Angular speed of the crank over one cycle", "Угловая скорость кривошипа за цикл",
-              "Vận tốc góc của khâu dẫn trong một chu kỳ"),
-}  # fmt: skip
-
-# a linkage has a crank, no crankshaft
-_CRANK_ANGLE = QUANTITIES["crank_angle"]._replace(
-    labels=("crank angle", "угол поворота кривошипа", "góc quay của tay quay")
-)
 
 
 class Style(NamedTuple):
@@ -46,16 +33,8 @@ PLAIN = Style()
 
 
 def linkage_title(name: str, language: Language) -> str:
-    """Return what a figure of a linkage shows, for its caption.
-
-    Parameters
-    ----------
-    name : str
-        `position_plans`, `velocity_plan`, `acceleration_plan`, `wittenbauer` or `speed`.
-    language : str
-        Language of the title.
-    """
-    return _TITLES[name][LANGUAGES.index(language)]
+    """Return what a figure of a linkage shows, for its caption."""
+    return say(f"figures.{name}", language)
 
 
 @contextmanager
@@ -67,41 +46,25 @@ def figure_look() -> Iterator[None]:
     MissingExtraError
         If matplotlib is not installed.
     """
-    try:
-        import matplotlib as mpl  # noqa: PLC0415 - an optional part
-    except ImportError:
-        raise MissingExtraError("drawing figures", "figures") from None
+    mpl = drawing_library()
     with mpl.rc_context():
         mpl.rcdefaults()
         mpl.rcParams.update(LOOK)
         yield
 
 
-def quantity_of(key: str, rows: Mapping[str, Quantity]) -> Quantity:
-    """Return name, symbol and unit of a key; those of `joint_force.A` are those of `joint_force`, with A added.
-
-    Parameters
-    ----------
-    key : str
-        A key of the table of quantities, alone or followed by a dot and the name of a point or link.
-    rows : mapping of str to Quantity
-        Further rows; they go before the table.
+def quantity_of(key: str) -> Quantity:
+    """Return the quantity of a key; that of `joint_force.A` is `joint_force`, with A added to name and symbol.
 
     Raises
     ------
     CrankworkError
-        If neither holds the key.
+        If the table has no such key.
     """
-    base, _, name = key.partition(".")
-    row = rows.get(key) or rows.get(base) or QUANTITIES.get(base)
-    if row is None:
-        raise CrankworkError(f"{base} is not a quantity that figures know; give its row")
-    if not name or key in rows:
-        return row
-    shown = name.replace("_", " ")
-    one, two, three = (f"{text}{',' if '_' in text else '_'}{shown}" for text in row.symbols)
-    en, ru, vi = (f"{text}, {shown}" for text in row.labels)
-    return row._replace(key=key, symbols=(one, two, three), labels=(en, ru, vi))
+    base = key.partition(".")[0]
+    if base not in QUANTITIES:
+        raise CrankworkError(f"{base} is not a quantity that figures know")
+    return QUANTITIES[base]._replace(key=key)
 
 
 def displayed_values(row: Quantity, values: Array) -> Array:
@@ -112,13 +75,15 @@ def displayed_values(row: Quantity, values: Array) -> Array:
 def axis_title(row: Quantity, language: Language) -> str:
     """Return the axis title of a quantity: name, symbol, unit."""
     unit = unit_name(row.unit, language)
-    return f"{row.label(language)} {math_symbol(row.symbol(language))}" + (f", {unit}" if unit else "")
+    return f"{plain(row.label(language))} {math_symbol(row.symbol(language))}" + (f", {unit}" if unit else "")
 
 
 def over_drive_angle(axes: Axes, end: float, language: Language) -> None:
     """Make the horizontal axis the angle of the crank of a linkage from 0 to `end`. [deg]"""
     over_crank_angle(axes, end, language)
-    axes.set_xlabel(axis_title(_CRANK_ANGLE, language))
+    # a linkage has a crank, no crankshaft
+    sign = math_symbol(QUANTITIES["crank_angle"].symbol(language))
+    axes.set_xlabel(f"{say('drawing.angle_of_crank', language)} {sign}, °")
 
 
 def round_scale(least: float) -> float:

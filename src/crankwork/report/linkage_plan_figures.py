@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from crankwork.kinematics.motion import Motion
+from crankwork.analysis.moving import Moving
+from crankwork.analysis.plans import Kind, Plan, Vector, accelerations, velocities
+from crankwork.locale import say
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.quantities import Language
 from crankwork.report.figure_labels import Line, label_points
@@ -21,7 +23,6 @@ from crankwork.report.linkage_look import (
     round_scale,
     scale_text,
 )
-from crankwork.report.linkage_plans import Kind, Plan, Vector, accelerations, velocities
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -48,34 +49,29 @@ class _Kind(NamedTuple):
     pole: str
 
 
-def velocity_plan(mechanism: Mechanism, moving: Motion, index: int, speed: float, style: Style = PLAIN) -> bytes:
+def velocity_plan(mechanism: Mechanism, moving: Moving, index: int, speed: float, style: Style = PLAIN) -> bytes:
     """Return the velocity plan of a linkage at one crank angle.
 
     Parameters
     ----------
     mechanism : Mechanism
         A crank and groups.
-    moving : Motion
-        Its exact motion.
+    moving : Moving
+        Where it is.
     index : int
         Which of the crank angles.
     speed : float
         Of the crank. [rad/s]
     style : Style
         Language, order of the links.
-
-    Returns
-    -------
-    bytes
-        SVG; vectors from the pole p bold, between points of one link or along a slot thin.
     """
     kind = _Kind("velocity_plan", "v", "m/s", symbol("speed", style.language), "rad/s", "p")
-    return _figure(velocities(mechanism, moving, index, speed, style.links), kind, moving.grid.degrees[index], style)
+    return _figure(velocities(mechanism, moving, index, speed, style.links), kind, moving.degrees[index], style)
 
 
 def acceleration_plan(
     mechanism: Mechanism,
-    moving: Motion,
+    moving: Moving,
     index: int,
     speed: float,
     angular_acceleration: float = 0.0,
@@ -87,24 +83,19 @@ def acceleration_plan(
     ----------
     mechanism : Mechanism
         A crank and groups.
-    moving : Motion
-        Its exact motion.
+    moving : Moving
+        Where it is.
     index : int
         Which of the crank angles.
     speed, angular_acceleration : float
         Of the crank. [rad/s], [rad/s2]
     style : Style
         Language, order of the links.
-
-    Returns
-    -------
-    bytes
-        SVG; vectors from the pole bold, normal parts dashed, Coriolis parts dash-dotted.
     """
     plan = accelerations(mechanism, moving, index, speed, angular_acceleration, style.links)
     pole = "q" if style.language == "en" else "π"
     kind = _Kind("acceleration_plan", "a", "m/s2", symbol("angular_acceleration", style.language), "rad/s2", pole)
-    return _figure(plan, kind, moving.grid.degrees[index], style)
+    return _figure(plan, kind, moving.degrees[index], style)
 
 
 def _figure(plan: Plan, kind: _Kind, degrees: float, style: Style) -> bytes:
@@ -138,22 +129,13 @@ def _figure(plan: Plan, kind: _Kind, degrees: float, style: Style) -> bytes:
 
 def _remark(plan: Plan, kind: _Kind, language: Language) -> str:
     """Return what the sign of turning means, and what a point with the number of a link is."""
-    turning = {
-        "en": "{} > 0 anticlockwise",
-        "ru": "{} > 0 – против часовой стрелки",
-        "vi": "{} > 0: ngược chiều kim đồng hồ",
-    }
-    under = {"en": "{}: points of links {} under {}", "ru": "{} – точки звеньев {}, совпадающие с {}",
-             "vi": "{}: các điểm thuộc khâu {} trùng với {}"}  # fmt: skip
-    remarks = [turning[language].format(kind.turning)]
+    remarks = [say("drawing.anticlockwise", language, symbol=kind.turning)]
     if plan.beneath:
         some = list(plan.beneath.items())[:_UNDER]
-        names = (
-            (_plain(name) for name, _ in some),
-            (str(link) for _, (link, _) in some),
-            (_plain(one) for _, (_, one) in some),
-        )
-        remarks.append(under[language].format(*(", ".join(one) for one in names)))
+        points, links = (_plain(name) for name, _ in some), (str(link) for _, (link, _) in some)
+        others = (_plain(one) for _, (_, one) in some)
+        joined = {"points": ", ".join(points), "links": ", ".join(links), "others": ", ".join(others)}
+        remarks.append(say("drawing.beneath", language, **joined))
     return "; ".join(remarks)
 
 
@@ -167,7 +149,8 @@ def _vectors(axes: Axes, vectors: list[Vector], unit: float) -> None:
 
 def _nodes(axes: Axes, plan: Plan, pole: str, vectors: list[Vector], unit: float) -> None:
     """Name the pole and the ends of the vectors."""
-    points = [(pole, 0.0, 0.0)]
+    taken = {node_name(name) for name in plan.nodes}
+    points = [(next(one for one in (pole, "o", f"{pole}₀") if one not in taken), 0.0, 0.0)]
     points += [(node_name(name), float(at[0] * unit), float(at[1] * unit)) for name, at in plan.nodes.items()
                if np.hypot(*at) * unit > 1.0]  # fmt: skip
     lines: list[Line] = [tuple(np.array([one.start, one.end]).T * unit) for one in vectors]

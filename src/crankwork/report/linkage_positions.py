@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.motion import motion
+from crankwork.analysis import Array
+from crankwork.analysis.moving import moving
+from crankwork.analysis.skeleton import Pose, skeleton
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.report import drawing_parts as parts
 from crankwork.report.figure_labels import Line, label_points
@@ -26,15 +27,16 @@ from crankwork.report.linkage_look import (
     scale_text,
 )
 from crankwork.report.linkage_scene import SLOT, Scene, scene
-from crankwork.report.linkage_skeleton import Pose, skeleton
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _STEP = 2.0
-_MARGIN, _FOOT = 24.0, 34.0
+_MARGIN, _FOOT = 24.0, 50.0
 _TALLEST = 560.0
+# points whose places have the numbers of the plans; of more nobody could tell which number is whose
+_NUMBERED = 6
 _THIN = "0.55"
 # parts are drawn smaller than on a screen: units of the picture in a point of the paper
 _UNITS = 1.5
@@ -66,24 +68,18 @@ def position_plans(
     style : Style
         Language, order of the links.
 
-    Returns
-    -------
-    bytes
-        SVG; lengths to the scale written on it, blocks and pivots of their own size.
-
     Raises
     ------
     GeometryError
         If the mechanism cannot turn.
     """
     shape = skeleton(mechanism, style.links)
-    grid = CrankGrid.steps(_STEP, 360.0, special=tuple(degrees))
-    plans = [int(np.argmin(np.abs(grid.degrees - one))) for one in degrees]
-    moving = motion(mechanism, grid)
+    moved = moving(mechanism, np.union1d(np.arange(0.0, 360.0 + _STEP, _STEP), degrees))
+    plans = [int(np.argmin(np.abs(moved.degrees - one))) for one in degrees]
     room = _UNITS * (WIDTH * 72 - 2 * _MARGIN)
-    drawn, scale = scene(shape, moving, room)
+    drawn, scale = scene(shape, moved, room)
     paper = round_scale(_least_scale(drawn, scale))
-    drawn, _ = scene(shape, moving, room * _UNITS * POINTS_PER_MM * 1e3 / paper / scale)
+    drawn, _ = scene(shape, moved, room * _UNITS * POINTS_PER_MM * 1e3 / paper / scale)
     with figure_look():
         sheet = _sheet(drawn, plans, main)
         _ground(sheet)
@@ -92,7 +88,7 @@ def position_plans(
         _paths(sheet, shape.coupler_points)
         _texts(sheet)
         at: Any = {"size": 9, "transform": sheet.axes.transAxes, "va": "bottom"}
-        foot = 10 / 72 / sheet.figure.get_size_inches()[1]
+        foot = 17 / 72 / sheet.figure.get_size_inches()[1]
         sheet.axes.text(0.03, foot, scale_text("μ_l", paper, "mm", style.language), **at)
         shown = (
             f"${symbol('crank_angle', style.language)}_{{{main}}}$ = {number(float(degrees[main]), style.language)}°"
@@ -194,8 +190,9 @@ def _texts(sheet: _Sheet) -> None:
         lines.append((nodes[:, 0], nodes[:, 1]))
     lines += [_line(*wall) for rail in drawn.rails for wall in walls(rail)]
     lines += [_line(*wall) for rail in drawn.rails for wall in walls(rail._replace(half=rail.half + 5))]
-    numbered = [drawn.skeleton.crank.points[1], *drawn.skeleton.coupler_points]
+    numbered = [drawn.skeleton.crank.points[1]]
     numbered += [one.points[0] for one in drawn.skeleton.members if one.guide and not one.guide.link and one.points]
+    numbered += drawn.skeleton.coupler_points[: max(_NUMBERED - len(numbered), 0)]
     points = [
         (str(count), float(drawn.points[name][plan, 0]), float(drawn.points[name][plan, 1]))
         for name in dict.fromkeys(numbered)

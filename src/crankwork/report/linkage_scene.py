@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.motion import Motion
-from crankwork.report.linkage_skeleton import Member, Pose, Skeleton, guide_pose, pose, tracks
+from crankwork.analysis import Array
+from crankwork.analysis.moving import Moving
+from crankwork.analysis.skeleton import Member, Pose, Skeleton, guide_pose, tracks
 
 BLOCK = (14.0, 8.0)
 RAM = (22.0, 13.0)
@@ -67,18 +67,8 @@ class Scene(NamedTuple):
         return next((one for one in self.bars if one.name == name), None)
 
 
-def scene(shape: Skeleton, moving: Motion, size: float) -> tuple[Scene, float]:
-    """Return the parts of a linkage and the scale, units of the picture per metre.
-
-    Parameters
-    ----------
-    shape : Skeleton
-        Its links, points and letters.
-    moving : Motion
-        Where everything is.
-    size : float
-        The longer side of the room that points and rods sweep.
-    """
+def scene(shape: Skeleton, moving: Moving, size: float) -> tuple[Scene, float]:
+    """Return the parts of a linkage and the scale, units of the picture per metre."""
     metres = tracks(shape, moving)
     slides = _slides(shape, moving, metres)
     reach = [*metres.values(), *(one.anchor for one in slides)]
@@ -111,14 +101,14 @@ class _Slide(NamedTuple):
         return self._replace(line=line, anchor=self.anchor * scale, along=self.along * scale)
 
 
-def _slides(shape: Skeleton, moving: Motion, metres: dict[str, Array]) -> list[_Slide]:
+def _slides(shape: Skeleton, moving: Moving, metres: dict[str, Array]) -> list[_Slide]:
     found = []
     middle = np.mean([np.mean(place, axis=0) for place in metres.values()], axis=0)
     for member in shape.members:
         if member.guide is None:
             continue
         line = guide_pose(member.guide, moving)
-        anchor = pose(moving.frames[member.name], len(moving.grid)).origin
+        anchor = moving.frames[member.name].origin.place
         if member.points:
             seen = line.seen(metres[member.points[0]])
             if np.max(np.abs(seen[:, 1])) < 1e-6 * max(np.ptp(seen[:, 0]), 1e-6):

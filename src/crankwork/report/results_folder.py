@@ -6,15 +6,26 @@ import contextlib
 from collections.abc import Iterator
 
 from crankwork.analysis import Results
-from crankwork.errors import GeometryError
+from crankwork.errors import GeometryError, MissingExtraError, missing_extras
 from crankwork.linkage_machine import TabulatedMachine
 from crankwork.quantities import Language
 from crankwork.report.drawing import moving_drawing
 from crankwork.report.figures import figures
 from crankwork.report.tables import csv_of_sheet, sheets, workbook
 
-# What a results folder may hold, so that a run that overwrites leaves nothing of another machine.
-OUTPUTS = ("tables/*.csv", "tables.xlsx", "machine.svg", "figures/*.svg")
+# What some files of the folder need that the base installation lacks: extra by module.
+_WORKBOOK, _FIGURES = {"xlsxwriter": "tables"}, {"matplotlib": "figures"}
+
+
+def left_out(*, with_figures: bool = True) -> MissingExtraError | None:
+    """Return what to install for the files that a results folder goes without, if there are any."""
+    wanted = {"tables.xlsx": _WORKBOOK} | ({"figures": _FIGURES} if with_figures else {})
+    missing = {name: extras for name, modules in wanted.items() if (extras := missing_extras(modules))}
+    if not missing:
+        return None
+    return MissingExtraError(
+        f"writing {' and '.join(missing)}", *(extra for extras in missing.values() for extra in extras)
+    )
 
 
 def results_folder(
@@ -25,35 +36,17 @@ def results_folder(
     for_excel: bool = False,
     with_figures: bool = True,
 ) -> Iterator[dict[str, bytes]]:
-    """Yield the files of a results folder in steps, so that progress can be shown.
-
-    Parameters
-    ----------
-    results : Results
-        The results.
-    language : str
-        Language of headings and labels.
-    per_area : bool
-        Divide forces by the piston area.
-    for_excel : bool
-        CSV for Russian and Vietnamese Excel.
-    with_figures : bool
-        Draw figures too.
-
-    Yields
-    ------
-    dict of str to bytes
-        Data by path within the folder.
-    """
+    """Yield the files of a results folder in steps, so that progress can be shown; `left_out` says what is not made."""
     yield {
         f"tables/{name}.csv": csv_of_sheet(sheet, per_area=per_area, for_excel=for_excel)
         for name, sheet in sheets(results, per_area=per_area).items()
     }
-    yield {"tables.xlsx": workbook(results, language=language, per_area=per_area)}
+    if not missing_extras(_WORKBOOK):
+        yield {"tables.xlsx": workbook(results, language=language, per_area=per_area)}
     if not isinstance(results.machine, TabulatedMachine):
         # a linkage that cannot turn fully has a notice that says so, and no moving drawing
         with contextlib.suppress(GeometryError):
             yield {"machine.svg": moving_drawing(results.machine, language=language).encode()}
-    if with_figures:
+    if with_figures and not missing_extras(_FIGURES):
         drawn = figures(results, language=language, per_area=per_area)
         yield {f"figures/{name}.svg": data for name, data in drawn.items()}

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Mapping
-from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from crankwork.analysis import Results
+from crankwork.locale import say
 from crankwork.machine import Machine
 from crankwork.quantities import Language
 from crankwork.report.language import (
@@ -19,7 +18,6 @@ from crankwork.report.language import (
     rounded,
     symbol,
     unit_name,
-    word,
 )
 from crankwork.report.notices import notice_text
 
@@ -27,20 +25,8 @@ if TYPE_CHECKING:
     from crankwork.linkage_machine import AnyMachine
 
 
-# A residual above this is more than rounding.
-_MET = 1e-7
-
-
 def summary_data(results: Results, *, per_area: bool = False) -> dict[str, Any]:
-    """Return the summary as plain data: method, value and unit by key, checks and notices.
-
-    Parameters
-    ----------
-    results : Results
-        The results.
-    per_area : bool
-        Divide forces by the piston area.
-    """
+    """Return the summary as plain data: method, value and unit by key, checks and notices."""
     area = results.summary["piston_area"] if per_area else None
     return {
         "method": results.method.name,
@@ -50,27 +36,19 @@ def summary_data(results: Results, *, per_area: bool = False) -> dict[str, Any]:
             for key, value in results.summary.items()
         },
         "checks": dict(results.checks),
+        "allowed": dict(results.allowed),
+        "not_met": list(results.unmet),
         "notices": [notice_text(notice.code, notice.values, "en") for notice in results.notices],
     }
 
 
 def summary_text(results: Results, *, language: Language = "en", per_area: bool = False) -> str:
-    """Return the summary as aligned text.
-
-    Parameters
-    ----------
-    results : Results
-        The results.
-    language : str
-        Its language.
-    per_area : bool
-        Divide forces by the piston area.
-    """
+    """Return the summary as aligned text."""
     area = results.summary["piston_area"] if per_area else None
     lines = [results.machine.title] if results.machine.title else []
-    lines.append(f"{word('method', language)}: {results_method(results, language)}")
+    lines.append(f"{say('report.method', language)}: {results_method(results, language)}")
     if per_area:
-        lines.append(word("per_area", language))
+        lines.append(say("report.per_area", language))
     rows = [
         (
             label(key, language),
@@ -82,18 +60,26 @@ def summary_text(results: Results, *, language: Language = "en", per_area: bool 
     ]
     lines += ["", *aligned(rows)]
     if results.checks:
-        lines += ["", word("checks", language)]
-        checks = results.checks.items()
+        lines += ["", say("report.checks", language)]
         lines += aligned(
             [
-                (word(key, language), "", number(value, language, digits=2), word("not_met", language) * (value > _MET))
-                for key, value in checks
+                (say(f"report.{key}", language), "", number(value, language, digits=2), _met(results, key, language))
+                for key, value in results.checks.items()
             ]
         )
     if results.notices:
-        lines += ["", word("notices", language)]
+        lines += ["", say("report.notices", language)]
         lines += [f"  {notice_text(one.code, one.values, language)}" for one in results.notices]
     return "\n".join(lines)
+
+
+def _met(results: Results, key: str, language: Language) -> str:
+    """Return what is to be said of a check: that it is not met, or that an approximate method explains its residual."""
+    if key in results.unmet:
+        return say("report.not_met", language)
+    if key not in results.allowed:
+        return ""
+    return say("report.within_error", language, error=number(results.allowed[key], language, digits=2))
 
 
 def aligned(rows: list[tuple[str, str, str, str]]) -> list[str]:
@@ -110,54 +96,59 @@ def aligned(rows: list[tuple[str, str, str, str]]) -> list[str]:
 def results_method(results: Results, language: Language) -> str:
     """Return how results were made, in words."""
     if not isinstance(results.machine, Machine):
-        return str(_linkages().method_words(results.machine, language))
+        # an engine starts faster without these words
+        from crankwork.report.linkage_summary import method_words  # noqa: PLC0415 - loaded where it is needed
+
+        return method_words(results.machine, language)
     method = results.method
     return method_name(method.kinematics, method.order, method.rod, language)
 
 
-def _linkages() -> ModuleType:
-    """Return the words for linkages, loaded when there is one: an engine starts faster without them."""
-    return importlib.import_module("crankwork.report.linkage_summary")
+def warning_text(results: Results, language: Language = "en") -> str:
+    """Return in a sentence why results are not to be used as they are, or nothing."""
+    if results.unmet:
+        names = ", ".join(say(f"report.{key}", language) for key in results.unmet)
+        counts = {"count": len(results.unmet), "all": len(results.checks)}
+        return say("check.unmet", language, names=names, **counts)
+    partial = next((one for one in results.notices if one.code == "partial"), None)
+    if partial is None:
+        return ""
+    notice = notice_text(partial.code, partial.values, language).partition(": ")[0]
+    return say("check.partial", language, notice=notice)
 
 
-def description_text(machine: AnyMachine, results: Results) -> str:
-    """Return what a machine file describes, in a few lines of English.
-
-    Parameters
-    ----------
-    machine : Machine, LinkageMachine or TabulatedMachine
-        The machine.
-    results : Results
-        Its results, for the derived lengths and volumes.
-    """
+def description_text(machine: AnyMachine, results: Results, language: Language = "en") -> str:
+    """Return what a machine file describes, in a few lines."""
     summary = results.summary
     keys = [key for key in summary if not any(part in key for part in ("_max", "_min")) and not key.endswith("_error")]
     rows = [
         (
-            label(key, "en"),
-            symbol(key, "en"),
-            number(displayed(key, summary[key]), "en"),
-            unit_name(key_unit(key), "en"),
+            label(key, language),
+            symbol(key, language),
+            number(displayed(key, summary[key]), language),
+            unit_name(key_unit(key), language),
         )
         for key in keys
     ]
-    return "\n".join([*_headline(machine, summary), *aligned(rows)])
+    return "\n".join([*_headline(machine, summary, language), *aligned(rows)])
 
 
-def _headline(machine: AnyMachine, summary: Mapping[str, float]) -> list[str]:
+def _headline(machine: AnyMachine, summary: Mapping[str, float], language: Language) -> list[str]:
     if not isinstance(machine, Machine):
-        return list(_linkages().headline(machine))
-    parts = ["slider-crank" if not summary.get("offset") else "offset slider-crank"]
-    if machine.gas:
-        source = "measured pressure" if machine.gas.measured else f"{len(machine.gas.pieces)} pieces of gas pressure"
-        if machine.gas.calculated is not None:
-            source = "calculated pressure"
-        parts.append(f"{source} over {machine.gas.cycle:g} deg")
-    parts.append("with masses" if machine.masses else "motion only")
+        from crankwork.report.linkage_summary import headline  # noqa: PLC0415 - loaded where it is needed
+
+        return headline(machine, language)
+    parts = [say("check.offset_slider_crank" if summary.get("offset") else "check.slider_crank", language)]
+    gas = machine.gas
+    if gas:
+        source = "measured_gas" if gas.measured else "pieces_of_gas" if gas.calculated is None else "calculated_gas"
+        parts.append(say(f"check.{source}", language, count=len(gas.pieces), cycle=f"{gas.cycle:g}"))
+    parts.append(say("check.with_masses" if machine.masses else "check.motion_only", language))
     lines = [", ".join(parts)]
     if machine.engine is not None:
         layout = machine.engine.layout
-        order = "-".join(map(str, layout.firing_order))
-        count = len(layout.places)
-        lines.append(f"{layout.kind} engine of {count} cylinder{'s' * (count > 1)}, firing order {order}")
+        count, order = len(layout.places), "-".join(map(str, layout.firing_order))
+        kind = layout.kind if language == "en" else say(f"kinds.{layout.kind}", language)
+        key = "check.engine" if count > 1 else "check.engine_of_one"
+        lines.append(say(key, language, kind=kind, count=count, order=order))
     return lines

@@ -8,31 +8,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.analysis import Results
+from crankwork.analysis import Array, Results
 from crankwork.errors import MissingExtraError
-from crankwork.kinematics.crank_grid import Array
+from crankwork.locale import say
 from crankwork.quantities import QUANTITIES, Language, base_key
-from crankwork.report.language import key_unit, label, unit_name, word
+from crankwork.report.language import key_unit, label, unit_name
 from crankwork.units import from_si
+
+# kinds of rows whose number is an order
+_BY_ORDER = ("reciprocating", "balance_shafts", "residual")
 
 
 def table_column(results: Results, key: str, *, per_area: bool = False) -> Array:
-    """Return a column in its display unit.
-
-    Parameters
-    ----------
-    results : Results
-        The results.
-    key : str
-        Key of the column.
-    per_area : bool
-        Divide forces by the piston area.
-
-    Returns
-    -------
-    array, shape (n,)
-        Values in the unit that `language.key_unit` names.
-    """
+    """Return a column in its display unit."""
     if key == "crank_angle":
         return results.grid.degrees
     values = results.columns[key]
@@ -50,20 +38,7 @@ class Sheet(NamedTuple):
 
 
 def sheets(results: Results, *, per_area: bool = False) -> dict[str, Sheet]:
-    """Return every table by name: those over the crank angle, and the listings.
-
-    Parameters
-    ----------
-    results : Results
-        The results.
-    per_area : bool
-        Divide forces by the piston area.
-
-    Returns
-    -------
-    dict of str to Sheet
-        Columns in the units that `language.key_unit` names.
-    """
+    """Return every table by name: those over the crank angle, and the listings."""
     tables = {
         name: Sheet((), {key: table_column(results, key, per_area=per_area) for key in keys})
         for name, keys in results.tables.items()
@@ -84,28 +59,14 @@ def _displayed(key: str, values: Array, area: float | None) -> Array:
 def row_name(name: str, language: Language) -> str:
     """Return what a row of a listing is called: `crankpin.1` is crankpin 1."""
     kind, _, number = name.partition(".")
-    return f"{word(kind, language)} {number}".rstrip()
+    what = say(f"report.{kind}", language)
+    if kind in _BY_ORDER:
+        return f"{what}, {say('report.order', language, order=number)}"
+    return f"{what} {number}".rstrip()
 
 
 def csv_table(results: Results, name: str, *, per_area: bool = False, for_excel: bool = False) -> bytes:
-    """Return a table as CSV, all digits, one heading line `key [unit]`.
-
-    Parameters
-    ----------
-    results : Results
-        The results.
-    name : str
-        A name of `sheets`.
-    per_area : bool
-        Divide forces by the piston area.
-    for_excel : bool
-        Semicolons, decimal commas and a byte order mark, as Russian and Vietnamese Excel expect.
-
-    Returns
-    -------
-    bytes
-        UTF-8 text.
-    """
+    """Return a table as CSV, all digits, one heading line `key [unit]`."""
     return csv_of_sheet(sheets(results, per_area=per_area)[name], per_area=per_area, for_excel=for_excel)
 
 
@@ -138,20 +99,6 @@ def _quoted(heading: str) -> str:
 def workbook(results: Results, *, language: Language = "en", per_area: bool = False) -> bytes:
     """Return all tables and the summary as an XLSX workbook.
 
-    Parameters
-    ----------
-    results : Results
-        The results.
-    language : str
-        Language of headings and sheet names.
-    per_area : bool
-        Divide forces by the piston area.
-
-    Returns
-    -------
-    bytes
-        The workbook; numbers keep all digits, the display is rounded.
-
     Raises
     ------
     MissingExtraError
@@ -167,12 +114,12 @@ def workbook(results: Results, *, language: Language = "en", per_area: bool = Fa
         decimals = book.add_format({"num_format": "0.0000"})
         taken: set[str] = set()
         for name, table in sheets(results, per_area=per_area).items():
-            sheet = book.add_worksheet(_sheet_name(word(name, language), taken))
+            sheet = book.add_worksheet(_sheet_name(say(f"tables.{name}", language), taken))
             sheet.freeze_panes(1, 1)
             first = 1 if table.names else 0
             sheet.set_column(0, first + len(table.columns) - 1, 16, decimals)
             if table.names:
-                sheet.write_string(0, 0, word("row", language), heading)
+                sheet.write_string(0, 0, say("report.row", language), heading)
                 sheet.write_column(1, 0, [row_name(one, language) for one in table.names])
             for number, (key, values) in enumerate(table.columns.items(), start=first):
                 unit = unit_name(key_unit(key, per_area=per_area), language)

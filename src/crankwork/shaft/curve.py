@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple, Self
@@ -17,6 +18,18 @@ from crankwork.loads.monotone import monotone_slopes
 _PARTS = 8
 _BISECTIONS = 100
 _NODES = (np.polynomial.legendre.leggauss(8)[0] + 1) / 2
+
+
+def _powers(count: int) -> Array:
+    """Return the coefficients of Legendre polynomials of 2 u - 1 by ascending powers of u, a row for each degree."""
+    rows = np.zeros((count, count))
+    for n in range(count):
+        for k in range(n + 1):
+            rows[n, k] = (-1) ** (n + k) * math.comb(n, k) * math.comb(n + k, k)
+    return rows
+
+
+_POWERS = _powers(16)
 
 
 class Extremes(NamedTuple):
@@ -130,6 +143,26 @@ class Curve:
         values = function((angle[:-1, None] + steps[:, None] * _NODES).ravel()).reshape(steps.size, _NODES.size)
         scaled = np.linalg.solve(np.vander(_NODES, increasing=True), values.T)
         return cls(angle, scaled / steps ** np.arange(_NODES.size)[:, None])
+
+    @classmethod
+    def legendre(cls, angle: ArrayLike, coefficients: ArrayLike) -> Self:
+        """Return the curve of Legendre polynomials, each over its own interval.
+
+        Parameters
+        ----------
+        angle : array, shape (n + 1,)
+            Ascending angles over one whole cycle. [rad]
+        coefficients : array, shape (n, k)
+            Coefficients of ascending degrees on each interval. [its unit]
+
+        Examples
+        --------
+        >>> float(Curve.legendre([0.0, 2.0], [[1.0, 1.0]])(0.5))
+        0.5
+        """
+        angle, coefficients = np.asarray(angle, dtype=float), np.asarray(coefficients, dtype=float)
+        k = coefficients.shape[1]
+        return cls(angle, (coefficients @ _POWERS[:k, :k]).T / np.diff(angle) ** np.arange(k)[:, None])
 
     @classmethod
     def constant(cls, value: float, cycle: float = 2 * np.pi) -> Self:
@@ -290,6 +323,17 @@ class Curve:
         angles, values = angles[order], values[order]
         low, high = int(np.argmin(values)), int(np.argmax(values))
         return Extremes(float(values[low]), float(angles[low]), float(values[high]), float(angles[high]))
+
+
+@dataclass(frozen=True)
+class AtDegrees:
+    """A curve as a table over the crank angle in degrees."""
+
+    curve: Curve
+
+    def __call__(self, degrees: Array) -> Array:
+        """Return the values at crank angles."""
+        return self.curve(np.radians(degrees))
 
 
 def _checked(angle: ArrayLike, value: ArrayLike) -> tuple[Array, Array]:

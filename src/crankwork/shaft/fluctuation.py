@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from crankwork.dynamics.reduction import kinetic_energy
 from crankwork.errors import MethodError
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
 from crankwork.kinematics.crank_grid import Array
 from crankwork.shaft.curve import Curve, Extremes
 
@@ -20,70 +20,25 @@ _STEPS = 60
 
 @formula("speed", "artobolevsky_1988, ch. 16")
 def speed_of_energy(E_k: Value, J: Value) -> Value:
-    """Speed of the crank, from the kinetic energy of the machine.
-
-    Parameters
-    ----------
-    E_k, J : float or array, shape (..., n)
-        Kinetic energy, reduced moment of inertia. [J], [kg m2]
-
-    Returns
-    -------
-    float or array, shape (..., n)
-        Speed. [rad/s]
-    """
+    """Speed of the crank, from the kinetic energy of the machine."""
     return np.sqrt(2 * E_k / J)
 
 
 @formula("angular_acceleration", "artobolevsky_1988, ch. 16")
 def acceleration_of_crank(M_sum: Value, w: Value, J: Value, J_1: Value) -> Value:
-    """Angular acceleration of the crank: the equation of motion of a machine with one degree of freedom.
-
-    Parameters
-    ----------
-    M_sum, w, J, J_1 : float or array, shape (..., n)
-        Sum of the reduced torques, speed, reduced moment of inertia, its derivative. [N m], [rad/s], [kg m2],
-        [kg m2/rad]
-
-    Returns
-    -------
-    float or array, shape (..., n)
-        Acceleration. [rad/s2]
-    """
+    """Angular acceleration of the crank: the equation of motion of a machine with one degree of freedom."""
     return (M_sum - w**2 * J_1 / 2) / J
 
 
 @formula("speed_fluctuation", "khurmi_gupta_2005, ch. 16")
 def fluctuation_of_inertia(L_exc: Value, J: Value, w: Value) -> Value:
-    """Fluctuation of the speed of a constant moment of inertia.
-
-    Parameters
-    ----------
-    L_exc, J, w : float
-        Excess work, moment of inertia, mean speed. [J], [kg m2], [rad/s]
-
-    Returns
-    -------
-    float
-        Largest less least speed, over the mean of the two. [-]
-    """
+    """Fluctuation of the speed of a constant moment of inertia."""
     return L_exc / (J * w**2)
 
 
 @formula("energy_fluctuation", "khurmi_gupta_2005, ch. 16")
 def fluctuation_of_energy(L_exc: Value, W_c: Value) -> Value:
-    """Coefficient of fluctuation of energy.
-
-    Parameters
-    ----------
-    L_exc, W_c : float
-        Excess work, work per cycle. [J], [J]
-
-    Returns
-    -------
-    float
-        Their ratio. [-]
-    """
+    """Coefficient of fluctuation of energy."""
     return L_exc / W_c
 
 

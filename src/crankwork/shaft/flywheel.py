@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from crankwork.errors import MethodError
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import TrueSpeed, excess_work, true_speed
 
@@ -16,86 +16,31 @@ WAYS: tuple[Way, ...] = ("energy", "mertsalov", "wittenbauer", "exact")
 
 @formula("flywheel_inertia", "artobolevsky_1988, ch. 16")
 def inertia_for_fluctuation(L_exc: Value, delta: Value, w: Value) -> Value:
-    """Moment of inertia that keeps the speed within a fluctuation.
-
-    Parameters
-    ----------
-    L_exc, delta, w : float
-        Excess work, fluctuation of the speed, mean speed. [J], [-], [rad/s]
-
-    Returns
-    -------
-    float
-        Moment of inertia. [kg m2]
-    """
+    """Moment of inertia that keeps the speed within a fluctuation."""
     return L_exc / (delta * w**2)
 
 
-@formula("wittenbauer_slope", "wittenbauer_1923")
+@formula("wittenbauer_slope", "wittenbauer_1923", unit="J/(kg*m2)")
 def wittenbauer_slope_largest(w: Value, delta: Value) -> Value:
-    """Slope of the upper tangent of the mass-energy curve, with the square of delta left out.
-
-    Parameters
-    ----------
-    w, delta : float
-        Mean speed, fluctuation. [rad/s], [-]
-
-    Returns
-    -------
-    float
-        Half the square of the greatest speed. [J/(kg m2)]
-    """
+    """Slope of the upper tangent of the mass-energy curve, with the square of delta left out."""
     return w**2 / 2 * (1 + delta)
 
 
-@formula("wittenbauer_slope", "wittenbauer_1923")
+@formula("wittenbauer_slope", "wittenbauer_1923", unit="J/(kg*m2)")
 def wittenbauer_slope_least(w: Value, delta: Value) -> Value:
-    """Slope of the lower tangent of the mass-energy curve, with the square of delta left out.
-
-    Parameters
-    ----------
-    w, delta : float
-        Mean speed, fluctuation. [rad/s], [-]
-
-    Returns
-    -------
-    float
-        Half the square of the least speed. [J/(kg m2)]
-    """
+    """Slope of the lower tangent of the mass-energy curve, with the square of delta left out."""
     return w**2 / 2 * (1 - delta)
 
 
-@formula("wittenbauer_slope", "artobolevsky_1988, ch. 16")
+@formula("wittenbauer_slope", "artobolevsky_1988, ch. 16", unit="J/(kg*m2)")
 def slope_largest(w: Value, delta: Value) -> Value:
-    """Slope of the upper tangent of the mass-energy curve, exact.
-
-    Parameters
-    ----------
-    w, delta : float
-        Mean speed, fluctuation. [rad/s], [-]
-
-    Returns
-    -------
-    float
-        Half the square of the greatest speed. [J/(kg m2)]
-    """
+    """Slope of the upper tangent of the mass-energy curve, exact."""
     return w**2 / 2 * (1 + delta / 2) ** 2
 
 
-@formula("wittenbauer_slope", "artobolevsky_1988, ch. 16")
+@formula("wittenbauer_slope", "artobolevsky_1988, ch. 16", unit="J/(kg*m2)")
 def slope_least(w: Value, delta: Value) -> Value:
-    """Slope of the lower tangent of the mass-energy curve, exact.
-
-    Parameters
-    ----------
-    w, delta : float
-        Mean speed, fluctuation. [rad/s], [-]
-
-    Returns
-    -------
-    float
-        Half the square of the least speed. [J/(kg m2)]
-    """
+    """Slope of the lower tangent of the mass-energy curve, exact."""
     return w**2 / 2 * (1 - delta / 2) ** 2
 
 
@@ -241,11 +186,7 @@ def flywheel(
     ----------
     artobolevsky_1988, ch. 16; wittenbauer_1923.
     """
-    if not 0 < fluctuation < 2 or mean_speed <= 0:
-        raise MethodError(
-            f"no flywheel gives a speed fluctuation of {fluctuation:g} at {mean_speed:g} rad/s; "
-            "take a fluctuation between 0 and 2, usually 0.002 to 0.2, and a speed above zero"
-        )
+    check_fluctuation(fluctuation, mean_speed)
     excess = excess_work(torque)
     if way == "energy":
         found, upper, lower = excess.work, excess.at_largest, excess.at_least
@@ -259,6 +200,26 @@ def flywheel(
     size = float(inertia_for_fluctuation(found, fluctuation, mean_speed)) - less
     got = _fluctuation_with(inertia + size, torque, mean_speed)
     return Flywheel(way, size, found, lower, upper, got, got - fluctuation)
+
+
+def check_fluctuation(fluctuation: float, mean_speed: float) -> None:
+    """Raise if no flywheel can give a fluctuation of the speed.
+
+    Parameters
+    ----------
+    fluctuation, mean_speed : float
+        Greatest less least speed over the mean; the mean. [-], [rad/s]
+
+    Raises
+    ------
+    MethodError
+        If the fluctuation is not between 0 and 2, or there is no speed.
+    """
+    if not 0 < fluctuation < 2 or mean_speed <= 0:
+        raise MethodError(
+            f"no flywheel gives a speed fluctuation of {fluctuation:g} at {mean_speed:g} rad/s; "
+            "take a fluctuation between 0 and 2, usually 0.002 to 0.2, and a speed above zero"
+        )
 
 
 def _slopes(way: Way, w: float, delta: float) -> tuple[float, float]:

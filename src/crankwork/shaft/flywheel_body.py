@@ -5,57 +5,24 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
 
 
 @formula("flywheel_mass", "khurmi_gupta_2005, ch. 16")
 def rim_mass(J_f: Value, k_g: Value) -> Value:
-    """Mass of a flywheel from its moment of inertia.
-
-    Parameters
-    ----------
-    J_f, k_g : float
-        Moment of inertia, radius of gyration. [kg m2], [m]
-
-    Returns
-    -------
-    float
-        Mass. [kg]
-    """
+    """Mass of a flywheel from its moment of inertia."""
     return J_f / k_g**2
 
 
 @formula("rim_stress", "khurmi_gupta_2005, ch. 16")
 def rim_stress(rho_m: Value, v_r: Value) -> Value:
-    """Hoop stress of a thin rim that turns, without the help of its arms.
-
-    Parameters
-    ----------
-    rho_m, v_r : float
-        Density, speed of the rim at its mean radius. [kg/m3], [m/s]
-
-    Returns
-    -------
-    float
-        Stress. [Pa]
-    """
+    """Hoop stress of a thin rim that turns, without the help of its arms."""
     return rho_m * v_r**2
 
 
 @formula("inertia_on_crank", "artobolevsky_1988, ch. 16")
 def inertia_on_other_shaft(J_f: Value, i_g: Value) -> Value:
-    """Moment of inertia that acts on the crank like a body on a shaft that turns i times as fast.
-
-    Parameters
-    ----------
-    J_f, i_g : float
-        Moment of inertia on its own shaft, speed of that shaft over the speed of the crank. [kg m2], [-]
-
-    Returns
-    -------
-    float
-        Moment of inertia. [kg m2]
-    """
+    """Moment of inertia that acts on the crank like a body on a shaft that turns i times as fast."""
     return J_f * i_g**2
 
 

@@ -2,38 +2,16 @@
 
 from __future__ import annotations
 
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
 
 
 @formula("work_per_cycle", "khurmi_gupta_2005, ch. 16")
 def work_of_mean_torque(M_mean: Value, phi_c: Value) -> Value:
-    """Work of a torque over a cycle.
-
-    Parameters
-    ----------
-    M_mean, phi_c : float
-        Mean torque, crank angle of the cycle. [N m], [rad]
-
-    Returns
-    -------
-    float
-        Work. [J]
-    """
+    """Work of a torque over a cycle."""
     return M_mean * phi_c
 
 
 @formula("flywheel_inertia", "artobolevsky_1988, ch. 16")
 def flywheel_beside_machine(J_sum: Value, J: Value) -> Value:
-    """Moment of inertia that the flywheel has to add to that of the machine.
-
-    Parameters
-    ----------
-    J_sum, J : float
-        Inertia that the fluctuation needs in all, reduced inertia of the machine. [kg m2]
-
-    Returns
-    -------
-    float
-        Moment of inertia. [kg m2]
-    """
+    """Moment of inertia that the flywheel has to add to that of the machine."""
     return J_sum - J

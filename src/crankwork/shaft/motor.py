@@ -10,78 +10,32 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crankwork.errors import MethodError
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
 from crankwork.kinematics.crank_grid import Array
 
 
 @formula("synchronous_speed", "chilikin_sandler_1981, ch. 2")
 def synchronous_speed(f_m: Value, p_pairs: Value, pi: Value) -> Value:
-    """Synchronous speed of an alternating-current motor, 60 f / p in revolutions per minute.
-
-    Parameters
-    ----------
-    f_m, p_pairs, pi : float
-        Frequency of the mains [Hz], pairs of poles [-], the ratio of circumference to diameter [-].
-
-    Returns
-    -------
-    float
-        Speed. [rad/s]
-    """
+    """Synchronous speed of an alternating-current motor, 60 f / p in revolutions per minute."""
     return 2 * pi * f_m / p_pairs
 
 
 @formula("breakdown_slip", "chilikin_sandler_1981, ch. 2")
 def breakdown_slip(s_n: Value, lam_m: Value) -> Value:
-    """Slip of the greatest torque, from rated slip and overload capacity, stator resistance left out.
-
-    Parameters
-    ----------
-    s_n, lam_m : float
-        Rated slip, greatest over rated torque. [-]
-
-    Returns
-    -------
-    float
-        Slip. [-]
-    """
+    """Slip of the greatest torque, from rated slip and overload capacity, stator resistance left out."""
     return s_n * (lam_m + np.sqrt(lam_m**2 - 1))
 
 
 @formula("breakdown_slip", "chilikin_sandler_1981, ch. 2")
 def breakdown_slip_full(s_n: Value, lam_m: Value, a_r: Value) -> Value:
-    """Slip of the greatest torque, with the resistance of the stator.
-
-    Parameters
-    ----------
-    s_n, lam_m, a_r : float
-        Rated slip, greatest over rated torque, resistance of stator over that of rotor. [-]
-
-    Returns
-    -------
-    float
-        The larger root of 2 lam_m (1 + a s_k) = s_n / s_k + s_k / s_n + 2 a s_k. [-]
-    """
+    """Slip of the greatest torque, with the resistance of the stator."""
     d = 2 * a_r * s_n * (lam_m - 1)
     return s_n * (lam_m + np.sqrt(lam_m**2 - 1 + d)) / (1 - d)
 
 
 @formula("motor_torque", "chilikin_sandler_1981, ch. 2")
 def kloss_torque(M_k: Value, s_k: Value, a_r: Value, slip: Value) -> Value:
-    """Torque of an asynchronous motor by the full Kloss formula; with a_r zero it is the simplified one.
-
-    Parameters
-    ----------
-    M_k, s_k, a_r : float
-        Breakdown torque [N m], its slip [-], resistance of stator over that of rotor [-].
-    slip : array, shape (..., n)
-        Slip. [-]
-
-    Returns
-    -------
-    array, shape (..., n)
-        2 M_k (1 + a s_k) / (s / s_k + s_k / s + 2 a s_k), written so that it holds at zero slip. [N m]
-    """
+    """Torque of an asynchronous motor by the full Kloss formula; with a_r zero it is the simplified one."""
     return 2 * M_k * (1 + a_r * s_k) * slip * s_k / (slip**2 + s_k**2 + 2 * a_r * s_k**2 * slip)
 
 

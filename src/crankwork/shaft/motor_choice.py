@@ -9,25 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from crankwork.errors import MethodError
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
 from crankwork.shaft.curve import Curve
 
 
 @formula("motor_power", "artobolevsky_1988, ch. 14")
 def needed_power(k_s: Value, M_d: Value, w: Value, eta: Value) -> Value:
-    """Power of the motor for a torque at the crank.
-
-    Parameters
-    ----------
-    k_s, M_d, w, eta : float
-        Safety factor [-], mean or rms torque at the crank [N m], speed of the crank [rad/s], efficiency of the
-        transmission [-].
-
-    Returns
-    -------
-    float
-        Power. [W]
-    """
+    """Power of the motor for a torque at the crank."""
     return k_s * M_d * w / eta
 
 

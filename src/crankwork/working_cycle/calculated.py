@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import NamedTuple, Protocol
 
+from crankwork.formula.known import Known, Total, Use, in_order
+from crankwork.formula.lines import Moment
+from crankwork.formula.steps import AnyStep
+from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.loads.indicator import IndicatorDiagram, VolumeAt
-from crankwork.steps import Step
-from crankwork.working_cycle.calculated_cycle import Corners
 
 
 class Calculated(NamedTuple):
@@ -17,24 +19,37 @@ class Calculated(NamedTuple):
     ----------
     diagram : IndicatorDiagram
         Absolute pressure over the cycle.
-    values : mapping of str to float
-        Single values by key of the table of quantities. [SI]
-    steps : tuple of Step
-        How they came about, in order.
+    memory : mapping of str to Known
+        Single values by key of the table of quantities, in the order in which they were found.
     notices : tuple of (str, mapping)
         What the reader should know: code and values.
     theoretical : IndicatorDiagram or None
         The diagram before its corners were rounded.
-    corners : Corners or None
-        What that is drawn from.
+    peak : mapping of str to Known
+        What stands behind the greatest pressure of a release of heat, by key.
     """
 
     diagram: IndicatorDiagram
-    values: Mapping[str, float]
-    steps: tuple[Step, ...]
+    memory: Mapping[str, Known]
     notices: tuple[tuple[str, Mapping[str, float | str]], ...]
     theoretical: IndicatorDiagram | None = None
-    corners: Corners | None = None
+    peak: Mapping[str, Known] = {}
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Single values by key. [SI]"""
+        return {key: one.value for key, one in self.memory.items()}
+
+    @property
+    def steps(self) -> tuple[AnyStep, ...]:
+        """How they came about, in order."""
+        knowns = {**self.peak, **self.memory}
+        worked = [
+            one
+            for one in in_order(knowns.values())
+            if isinstance(one.node, Use | Total) and (one.key in knowns or "." in one.key)
+        ]
+        return tuple(Moment(CrankGrid.from_degrees, 0.0).steps(worked))
 
 
 class CalculatedPressure(Protocol):

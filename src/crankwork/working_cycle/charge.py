@@ -4,91 +4,36 @@ from __future__ import annotations
 
 import numpy as np
 
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
 
 
 @formula("compressor_temperature", "kolchin_demidov_2008, ch. 3")
 def compressor_temperature(T_amb: Value, p_k: Value, p_0: Value, n_k: Value) -> Value:
-    """Temperature behind the compressor.
-
-    Parameters
-    ----------
-    T_amb, p_k, p_0, n_k : float
-        Ambient temperature, charge and ambient pressure, exponent of the compressor. [K], [Pa], [Pa], [-]
-
-    Returns
-    -------
-    float
-        Temperature. [K]
-    """
+    """Temperature behind the compressor."""
     return T_amb * np.power(p_k / p_0, (n_k - 1) / n_k)
 
 
 @formula("charge_temperature", "kolchin_demidov_2008, ch. 3")
 def cooled_charge_temperature(T_comp: Value, dT_cool: Value) -> Value:
-    """Temperature behind the cooler.
-
-    Parameters
-    ----------
-    T_comp, dT_cool : float
-        Temperature behind the compressor, drop in the cooler. [K]
-
-    Returns
-    -------
-    float
-        Temperature. [K]
-    """
+    """Temperature behind the cooler."""
     return T_comp - dT_cool
 
 
 @formula("charge_density", "kolchin_demidov_2008, ch. 3")
 def charge_density(p_k: Value, R_gas: Value, T_k: Value) -> Value:
-    """Density before the intake.
-
-    Parameters
-    ----------
-    p_k, R_gas, T_k : float
-        Pressure, gas constant of air, temperature. [Pa], [J/(kg K)], [K]
-
-    Returns
-    -------
-    float
-        Density. [kg/m3]
-    """
+    """Density before the intake."""
     return p_k / (R_gas * T_k)
 
 
 @formula("intake_pressure_loss", "kolchin_demidov_2008, ch. 3")
 def intake_pressure_loss(xi_in: Value, w_in: Value, rho_k: Value) -> Value:
-    """Pressure loss of the intake.
-
-    Parameters
-    ----------
-    xi_in, w_in, rho_k : float
-        Square of the slowing of the charge plus resistance, speed in the intake, density. [-], [m/s], [kg/m3]
-
-    Returns
-    -------
-    float
-        Loss. [Pa]
-    """
+    """Pressure loss of the intake."""
     return xi_in * w_in**2 / 2 * rho_k
 
 
 @formula("intake_pressure", "kolchin_demidov_2008, ch. 3")
 def intake_pressure(p_k: Value, dp_a: Value) -> Value:
-    """Pressure at the end of intake.
-
-    Parameters
-    ----------
-    p_k, dp_a : float
-        Pressure before the intake, its loss. [Pa]
-
-    Returns
-    -------
-    float
-        Pressure. [Pa]
-    """
+    """Pressure at the end of intake."""
     return p_k - dp_a
 
 
@@ -96,37 +41,13 @@ def intake_pressure(p_k: Value, dp_a: Value) -> Value:
 def residual_fraction(  # noqa: PLR0913 - one argument per symbol
     T_k: Value, dT_heat: Value, T_r: Value, phi_sc: Value, p_r: Value, r_c: Value, phi_ch: Value, p_a: Value
 ) -> Value:
-    """Residual gas over fresh charge.
-
-    Parameters
-    ----------
-    T_k, dT_heat, T_r, phi_sc, p_r, r_c, phi_ch, p_a : float
-        Temperature before the intake, heating, temperature of the residual gas, scavenging, its pressure,
-        compression ratio, charging after the dead centre, pressure at the end of intake.
-        [K], [K], [K], [-], [Pa], [-], [-], [Pa]
-
-    Returns
-    -------
-    float
-        Ratio of amounts. [-]
-    """
+    """Residual gas over fresh charge."""
     return (T_k + dT_heat) / T_r * (phi_sc * p_r) / (r_c * phi_ch * p_a - phi_sc * p_r)
 
 
 @formula("intake_temperature", "kolchin_demidov_2008, ch. 3")
 def intake_temperature(T_k: Value, dT_heat: Value, gamma_r: Value, T_r: Value) -> Value:
-    """Temperature at the end of intake.
-
-    Parameters
-    ----------
-    T_k, dT_heat, gamma_r, T_r : float
-        Temperature before the intake, heating, residual gas fraction and its temperature. [K], [K], [-], [K]
-
-    Returns
-    -------
-    float
-        Temperature. [K]
-    """
+    """Temperature at the end of intake."""
     return (T_k + dT_heat + gamma_r * T_r) / (1 + gamma_r)
 
 
@@ -134,20 +55,7 @@ def intake_temperature(T_k: Value, dT_heat: Value, gamma_r: Value, T_r: Value) -
 def volumetric_efficiency(  # noqa: PLR0913 - one argument per symbol
     T_k: Value, dT_heat: Value, r_c: Value, p_k: Value, phi_ch: Value, p_a: Value, phi_sc: Value, p_r: Value
 ) -> Value:
-    """Volumetric efficiency.
-
-    Parameters
-    ----------
-    T_k, dT_heat, r_c, p_k, phi_ch, p_a, phi_sc, p_r : float
-        Temperature before the intake, heating, compression ratio, pressure before the intake, charging after the
-        dead centre, pressure at the end of intake, scavenging, pressure of the residual gas.
-        [K], [K], [-], [Pa], [-], [Pa], [-], [Pa]
-
-    Returns
-    -------
-    float
-        Charge over that of the swept volume, or of the part of it that the ports leave. [-]
-    """
+    """Volumetric efficiency."""
     return T_k / (T_k + dT_heat) / ((r_c - 1) * p_k) * (phi_ch * r_c * p_a - phi_sc * p_r)
 
 
@@ -164,20 +72,7 @@ def residual_fraction_vietnamese(  # noqa: PLR0913 - one argument per symbol
     lam_t: Value,
     m_exh: Value,
 ) -> Value:
-    """Residual gas over fresh charge, the residual gas expanding to the pressure of the intake.
-
-    Parameters
-    ----------
-    phi_sc, T_k, dT_heat, T_r, p_r, p_a, r_c, phi_ch, lam_t, m_exh : float
-        Scavenging, temperature before the intake, heating, temperature of the residual gas, its pressure, pressure
-        at the end of intake, compression ratio, charging after the dead centre, correction of the heats, exponent
-        of the expansion. [-], [K], [K], [K], [Pa], [Pa], [-], [-], [-], [-]
-
-    Returns
-    -------
-    float
-        Ratio of amounts. [-]
-    """
+    """Residual gas over fresh charge, the residual gas expanding to the pressure of the intake."""
     expanded = lam_t * phi_sc * np.power(p_r / p_a, 1 / m_exh)
     return phi_sc * (T_k + dT_heat) / T_r * (p_r / p_a) / (r_c * phi_ch - expanded)
 
@@ -186,20 +81,7 @@ def residual_fraction_vietnamese(  # noqa: PLR0913 - one argument per symbol
 def intake_temperature_vietnamese(  # noqa: PLR0913 - one argument per symbol
     T_k: Value, dT_heat: Value, lam_t: Value, gamma_r: Value, T_r: Value, p_a: Value, p_r: Value, m_exh: Value
 ) -> Value:
-    """Temperature at the end of intake, the residual gas expanding to the pressure of the intake.
-
-    Parameters
-    ----------
-    T_k, dT_heat, lam_t, gamma_r, T_r, p_a, p_r, m_exh : float
-        Temperature before the intake, heating, correction of the heats, residual gas fraction and its temperature,
-        pressure at the end of intake, of the residual gas, exponent of its expansion.
-        [K], [K], [-], [-], [K], [Pa], [Pa], [-]
-
-    Returns
-    -------
-    float
-        Temperature. [K]
-    """
+    """Temperature at the end of intake, the residual gas expanding to the pressure of the intake."""
     return (T_k + dT_heat + lam_t * gamma_r * T_r * np.power(p_a / p_r, (m_exh - 1) / m_exh)) / (1 + gamma_r)
 
 
@@ -216,87 +98,30 @@ def volumetric_efficiency_vietnamese(  # noqa: PLR0913 - one argument per symbol
     p_r: Value,
     m_exh: Value,
 ) -> Value:
-    """Volumetric efficiency, the residual gas expanding to the pressure of the intake.
-
-    Parameters
-    ----------
-    r_c, T_k, dT_heat, p_a, p_k, phi_ch, lam_t, phi_sc, p_r, m_exh : float
-        Compression ratio, temperature before the intake, heating, pressures at the end of intake and before it,
-        charging after the dead centre, correction of the heats, scavenging, pressure of the residual gas, exponent
-        of its expansion. [-], [K], [K], [Pa], [Pa], [-], [-], [-], [Pa], [-]
-
-    Returns
-    -------
-    float
-        Charge over that of the swept volume, or of the part of it that the ports leave. [-]
-    """
+    """Volumetric efficiency, the residual gas expanding to the pressure of the intake."""
     expanded = lam_t * phi_sc * np.power(p_r / p_a, 1 / m_exh)
     return 1 / (r_c - 1) * T_k / (T_k + dT_heat) * p_a / p_k * (r_c * phi_ch - expanded)
 
 
 @formula("geometric_compression_ratio", "kolchin_demidov_2008, ch. 3")
 def geometric_compression_ratio(r_c: Value, psi_lost: Value) -> Value:
-    """Compression ratio of the whole stroke, from the one that begins with shut ports.
-
-    Parameters
-    ----------
-    r_c, psi_lost : float
-        Compression ratio with shut ports, share of the stroke lost to the ports. [-]
-
-    Returns
-    -------
-    float
-        Ratio. [-]
-    """
+    """Compression ratio of the whole stroke, from the one that begins with shut ports."""
     return (r_c - psi_lost) / (1 - psi_lost)
 
 
 @formula("compression_pressure", "kolchin_demidov_2008, ch. 3")
 def compression_pressure(p_a: Value, r_c: Value, n_1: Value) -> Value:
-    """Pressure at the end of compression.
-
-    Parameters
-    ----------
-    p_a, r_c, n_1 : float
-        Pressure at the end of intake, compression ratio, exponent. [Pa], [-], [-]
-
-    Returns
-    -------
-    float
-        Pressure. [Pa]
-    """
+    """Pressure at the end of compression."""
     return p_a * np.power(r_c, n_1)
 
 
 @formula("compression_temperature", "kolchin_demidov_2008, ch. 3")
 def compression_temperature(T_a: Value, r_c: Value, n_1: Value) -> Value:
-    """Temperature at the end of compression.
-
-    Parameters
-    ----------
-    T_a, r_c, n_1 : float
-        Temperature at the end of intake, compression ratio, exponent. [K], [-], [-]
-
-    Returns
-    -------
-    float
-        Temperature. [K]
-    """
+    """Temperature at the end of compression."""
     return T_a * np.power(r_c, n_1 - 1)
 
 
-@formula("compression_celsius", "kolchin_demidov_2008, ch. 3")
-def compression_celsius(T_c: Value) -> Value:
-    """Temperature at the end of compression in degrees Celsius.
-
-    Parameters
-    ----------
-    T_c : float
-        Absolute temperature. [K]
-
-    Returns
-    -------
-    float
-        Temperature. [degC]
-    """
-    return T_c - 273.15
+@formula("compression_celsius", "kolchin_demidov_2008, ch. 3", unit="degC")
+def compression_celsius(T_c: Value, T_zero: Value) -> Value:
+    """Temperature in degrees Celsius, at the end of compression or of another gas."""
+    return T_c - T_zero

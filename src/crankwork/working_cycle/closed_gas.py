@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 
@@ -9,12 +10,19 @@ import numpy as np
 import numpy.typing as npt
 
 from crankwork.errors import CrankworkError, MissingExtraError
+from crankwork.formula.known import Found, Known, given
+from crankwork.formula.worked import Worked
 from crankwork.kinematics.crank_grid import Array
+from crankwork.kinematics.lengths import mean_piston_speed
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.indicator import VolumeAt
-from crankwork.steps import Worked
 from crankwork.working_cycle import first_law, wiebe, woschni
 from crankwork.working_cycle.heat_data import HeatReleaseData, Stage, check_heat_release, stages
+
+# a cycle of an engine takes one or two thousand
+_MOST_LOOKS = 10_000
+# of hydrogen with oxygen alone 13 MJ/kg are released
+_MOST_HEAT = 2e7
 
 Flags = npt.NDArray[np.bool_]
 
@@ -140,21 +148,33 @@ class ClosedGas:
         sizes = np.array([self.data.shut_pressure, 1.0, 1.0])
         sizes[1:] = self.data.shut_pressure * self.shut_volume + self.heat
 
-        def right_side(angle: float, state: Array) -> Array:
-            return np.radians(self.rates(np.array([angle]), state[:1], stage)[:, 0])
+        looks = itertools.count()
 
-        solution = solve_ivp(
-            right_side,
-            (stage.start, stage.end),
-            [pressure, 0.0, 0.0],
-            method="DOP853",
-            dense_output=True,
-            rtol=relative,
-            atol=absolute * sizes,
-        )
-        if not solution.success or solution.sol is None:
-            raise CrankworkError(f"the first law could not be integrated: {solution.message}")
+        def right_side(angle: float, state: Array) -> Array:
+            if next(looks) > _MOST_LOOKS:
+                raise self._not_followed(stage, angle)
+            # a trial step that falls below vacuum is taken again, shorter
+            return np.radians(self.rates(np.array([angle]), state[:1], stage)[:, 0]) if state[0] > 0 else state * np.nan
+
+        with np.errstate(all="ignore"):
+            solution = solve_ivp(
+                right_side,
+                (stage.start, stage.end),
+                [pressure, 0.0, 0.0],
+                method="DOP853",
+                dense_output=True,
+                rtol=relative,
+                atol=absolute * sizes,
+            )
+        if not solution.success or solution.sol is None or not np.isfinite(solution.y).all():
+            raise self._not_followed(stage, float(solution.t[-1]))
         return solution.sol, solution.y[:, -1]
+
+    def _not_followed(self, stage: Stage, angle: float) -> CrankworkError:
+        return CrankworkError(
+            f"the pressure cannot be followed from {stage.start:g} to {stage.end:g} deg: at {angle:g} deg it changes "
+            "too fast; correct speed, bore, wall_temperature or cycle_heat, which do not suit each other"
+        )
 
     def energy_change(self, temperature: float) -> float:
         """Return the change of internal energy since intake closing, at a temperature [K]. [J]"""
@@ -171,7 +191,7 @@ def closed_gas(
     dead_centres: tuple[float, float],
     worked: Worked,
 ) -> ClosedGas:
-    """Return the gas enclosed at intake closing, its constants worked out step by step.
+    """Return the gas enclosed at intake closing, its constants worked out.
 
     Parameters
     ----------
@@ -182,7 +202,7 @@ def closed_gas(
     dead_centres : tuple of float
         Top and bottom dead centre within one revolution. [deg]
     worked : Worked
-        Where the steps are kept.
+        Where they are kept.
 
     Returns
     -------
@@ -197,12 +217,27 @@ def closed_gas(
     check_heat_release(data)
     shut, begin, end = (one.start for one in stages(data, dead_centres))
     clearance, largest, shut_volume = (float(one) for one in volume_at(np.array([*dead_centres, shut])))
+    _give(worked, data)
     area = float(gas_formulas.piston_area(math.pi, data.bore))
-    stroke = (largest - clearance) / area
-    heat = data.heat
-    if heat is None:
-        heat = worked(wiebe.fuel_heat, data.fuel_per_cycle, data.heating_value, data.burning_efficiency)
-    state = (data.shut_pressure, shut_volume, data.gas_constant, data.shut_temperature)
+    cylinder = {
+        "clearance_volume": clearance,
+        "swept_volume": largest - clearance,
+        "piston_area": area,
+        "mean_piston_speed": float(mean_piston_speed((largest - clearance) / area, data.rotational_speed)),
+    }
+    worked.known |= {key: Known(Found(value, "value"), key) for key, value in cylinder.items()}
+    worked.known["V_1"] = Known(Found(shut_volume, "value", at=shut), "cylinder_volume")
+    worked.given("burning_start", math.radians(begin))
+    for key in ("head_area", "crown_area"):
+        worked.known.setdefault(key, worked["piston_area"])
+    if data.heat is None:
+        worked(wiebe.fuel_heat)
+    mass, heat = worked(first_law.gas_mass).value, worked["fuel_heat"].value
+    if heat > _MOST_HEAT * mass:
+        raise CrankworkError(
+            f"the heat, {heat:.4g} J, is {heat / mass / 1e6:.3g} MJ/kg of gas, more than any "
+            "fuel gives; write less cycle_heat, or a larger cylinder"
+        )
     return ClosedGas(
         data=data,
         volume_at=volume_at,
@@ -210,13 +245,43 @@ def closed_gas(
         clearance=clearance,
         swept=largest - clearance,
         shut_volume=shut_volume,
-        mass=worked(first_law.gas_mass, *state),
+        mass=mass,
         heat=heat,
-        piston_speed=stroke * data.rotational_speed / 30,
-        areas=(
-            area if data.head_area is None else data.head_area,
-            area if data.crown_area is None else data.crown_area,
-        ),
+        piston_speed=cylinder["mean_piston_speed"],
+        areas=(worked["head_area"].value, worked["crown_area"].value),
         burning=(begin, end),
         first=shut,
     )
+
+
+def _give(worked: Worked, data: HeatReleaseData) -> None:
+    """Take the data as they are stated."""
+    for name, key, path in (
+        ("bore", "bore", "cylinder.bore"),
+        ("rotational_speed", "rotational_speed", "crank.speed"),
+        ("heat", "fuel_heat", "cycle.cycle_heat"),
+        ("fuel_per_cycle", "fuel_per_cycle", ""),
+        ("heating_value", "fuel_heating_value", ""),
+        ("burning_efficiency", "burning_efficiency", ""),
+        ("burning_shape", "burning_shape", "cycle.shape"),
+        ("heat_ratio_slope", "gas_heat_ratio_slope", ""),
+        ("gas_constant", "specific_gas_constant", ""),
+        ("wall_temperature", "wall_temperature", "cycle.wall_temperature"),
+        ("head_area", "head_area", ""),
+        ("crown_area", "crown_area", ""),
+        ("exhaust_pressure", "residual_pressure", "cycle.residual_pressure"),
+        ("intake_pressure", "intake_pressure", "cycle.intake_pressure"),
+    ):
+        value = getattr(data, name)
+        if value is not None:
+            worked.given(key, value, path)
+    if not data.heat_ratio_slope:
+        worked.absent("gas_heat_ratio_slope")
+    worked.given("burning_duration", math.radians(data.burning_duration), "cycle.combustion_duration")
+    # states of a quantity that varies go by the argument that stands for them
+    worked.known |= {
+        "p_shut": given("cylinder_pressure", data.shut_pressure, "cycle.intake_pressure"),
+        "T_shut": given("cylinder_temperature", data.shut_temperature, "cycle.intake_temperature"),
+        "gamma_cyl_0": given("gas_heat_ratio", data.heat_ratio, "cycle.adiabatic_exponent"),
+        "n_p": given("polytropic_exponent", data.motored_exponent),
+    }

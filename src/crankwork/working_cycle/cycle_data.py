@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, fields, replace
 from typing import Literal
 
+from crankwork.formula.known import absent, given
+from crankwork.formula.worked import Worked
 from crankwork.working_cycle.fuels import FUELS, CycleError, Fuel
-from crankwork.working_cycle.heat_capacities import HeatLaw
+from crankwork.working_cycle.heat_capacities import HeatLaw, law_zero
 from crankwork.working_cycle.performance import MECHANICAL_LOSSES
 
 
@@ -184,6 +187,57 @@ def _losses(key: str) -> tuple[float, float]:
     if key not in MECHANICAL_LOSSES:
         raise CycleError(f'no mechanical losses are known for "{key}"; write one of {", ".join(MECHANICAL_LOSSES)}')
     return MECHANICAL_LOSSES[key]
+
+
+# fields that stand elsewhere in a machine file, or as a quantity of another name
+_PLACES = {
+    "compression_ratio": "cylinder.compression_ratio", "rotational_speed": "crank.speed", "bore": "cylinder.bore",
+    "cylinders": "engine.cylinders",
+}  # fmt: skip
+_QUANTITIES = {
+    "heating": "charge_heating", "pressure_ratio": "pressure_rise_ratio", "filling": "filling_factor",
+    "strokes": "strokes_per_cycle", "cylinders": "cylinder_count", "gas_constant": "molar_gas_constant",
+    "air_gas_constant": "specific_gas_constant",
+}  # fmt: skip
+_LEFT_OUT = {"power", "stroke", "pi"}
+
+
+def what_is_given(data: GrinevetskyData, full: GrinevetskyData) -> Worked:
+    """Return the calculation before its first step: every number of the data as a known.
+
+    Parameters
+    ----------
+    data, full : GrinevetskyData
+        What was given, and the same with what is usual where nothing was.
+    """
+    worked = Worked()
+    for one in fields(data):
+        value, key = getattr(full, one.name), _QUANTITIES.get(one.name, one.name)
+        if not isinstance(value, float | int) or one.name in _LEFT_OUT:
+            continue
+        if one.name == "lost_stroke" and not value:
+            worked.absent(key)
+            continue
+        is_stated = getattr(data, one.name) not in (None, one.default)
+        worked.given(key, value, _PLACES.get(one.name, f"cycle.{one.name}") * is_stated)
+    fuel, path = full.fuel or FUELS[full.kind], "cycle.fuel" * (data.fuel is not None)
+    for name in ("carbon", "hydrogen", "oxygen", "molar_mass", "heating_value"):
+        value = getattr(fuel, name)
+        if value is not None:
+            worked.given(f"fuel_{name}", value, path)
+    if fuel.molar_mass is None:
+        # the share of a vapour without mass in the charge is none
+        worked.absent("fuel_molar_mass", math.inf)
+    if full.kind == "petrol":
+        worked.absent("cut_off", 1.0)
+    zero = law_zero(full.heat_capacities)
+    worked.known["T_zero"] = given("", zero) if zero else absent("")
+    if isinstance(full.mechanical_loss, tuple):
+        path = "cycle.mechanical_loss" * isinstance(data.mechanical_loss, tuple)
+        worked.known |= {
+            name: given("", one, path) for name, one in zip(("a_loss", "b_loss"), full.mechanical_loss, strict=True)
+        }
+    return worked
 
 
 _ANY_SIGN = {"heating", "cooler_drop"}

@@ -4,57 +4,24 @@ from __future__ import annotations
 
 import numpy as np
 
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
 
 
 @formula("gas_mass", "heywood_1988, ch. 3")
 def gas_mass(p_shut: Value, V_1: Value, R_gas: Value, T_shut: Value) -> Value:
-    """Mass of the gas enclosed at intake closing.
-
-    Parameters
-    ----------
-    p_shut, V_1, R_gas, T_shut : array
-        Pressure, volume, specific gas constant, temperature. [Pa], [m3], [J/(kg*K)], [K]
-
-    Returns
-    -------
-    array
-        Mass. [kg]
-    """
+    """Mass of the gas enclosed at intake closing."""
     return p_shut * V_1 / (R_gas * T_shut)
 
 
 @formula("cylinder_temperature", "heywood_1988, ch. 3")
 def gas_temperature(p_cyl: Value, V: Value, m_gas: Value, R_gas: Value) -> Value:
-    """Mean temperature of the enclosed gas.
-
-    Parameters
-    ----------
-    p_cyl, V, m_gas, R_gas : array
-        Pressure, volume, mass, specific gas constant. [Pa], [m3], [kg], [J/(kg*K)]
-
-    Returns
-    -------
-    array
-        Temperature. [K]
-    """
+    """Mean temperature of the enclosed gas."""
     return p_cyl * V / (m_gas * R_gas)
 
 
 @formula("gas_heat_ratio", "heywood_1988, ch. 9")
 def gas_heat_ratio(gamma_cyl_0: Value, gamma_cyl_T: Value, T_cyl: Value) -> Value:
-    """Ratio of specific heats, linear in temperature.
-
-    Parameters
-    ----------
-    gamma_cyl_0, gamma_cyl_T, T_cyl : array
-        Value extrapolated to 0 K, change with temperature, temperature. [-], [1/K], [K]
-
-    Returns
-    -------
-    array
-        Ratio. [-]
-    """
+    """Ratio of specific heats, linear in temperature."""
     return gamma_cyl_0 + gamma_cyl_T * T_cyl
 
 
@@ -62,19 +29,7 @@ def gas_heat_ratio(gamma_cyl_0: Value, gamma_cyl_T: Value, T_cyl: Value) -> Valu
 def pressure_rise(  # noqa: PLR0913 - one argument per symbol
     gamma_cyl: Value, V: Value, Q_fuel: Value, x_burn_1: Value, Q_wall_1: Value, p_cyl: Value, V_phi: Value
 ) -> Value:
-    """Pressure rise of the enclosed gas by the first law.
-
-    Parameters
-    ----------
-    gamma_cyl, V, Q_fuel, x_burn_1, Q_wall_1, p_cyl, V_phi : array
-        Ratio of specific heats, volume, heat of the fuel, rate of burning, heat to the walls by crank angle,
-        pressure, volume by crank angle. [-], [m3], [J], [1/rad], [J/rad], [Pa], [m3/rad]
-
-    Returns
-    -------
-    array
-        Pressure by crank angle. [Pa/rad]
-    """
+    """Pressure rise of the enclosed gas by the first law."""
     return (gamma_cyl - 1) / V * (Q_fuel * x_burn_1 - Q_wall_1) - gamma_cyl * p_cyl / V * V_phi
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from crankwork.errors import CrankworkError
-from crankwork.expressions import Value, formula
-from crankwork.steps import Worked
+from crankwork.formula.expression import Value, formula
+from crankwork.formula.worked import Worked
 
 
 class CycleError(CrankworkError):
@@ -36,79 +36,33 @@ class Fuel(NamedTuple):
 FUELS = {"petrol": Fuel(0.855, 0.145, 0.0, 115.0), "diesel": Fuel(0.870, 0.126, 0.004, 190.0)}
 
 
-@formula("fuel_heating_value", "kolchin_demidov_2008, ch. 1")
+@formula("fuel_heating_value", "kolchin_demidov_2008, ch. 1", constants="heat of each element in J/kg")
 def lower_heating_value(C_f: Value, H_f: Value, O_f: Value) -> Value:
-    """Lower heating value of a liquid fuel, by Mendeleev.
-
-    Parameters
-    ----------
-    C_f, H_f, O_f : float
-        Carbon, hydrogen and oxygen in the fuel. [-]
-
-    Returns
-    -------
-    float
-        Heating value. [J/kg]
-    """
+    """Lower heating value of a liquid fuel, by Mendeleev."""
     return 33.91e6 * C_f + 125.6e6 * H_f - 10.89e6 * O_f - 2.51e6 * 9 * H_f
 
 
 @formula("air_mass_needed", "kolchin_demidov_2008, ch. 1")
 def air_mass_needed(C_f: Value, H_f: Value, O_f: Value) -> Value:
-    """Mass of air that burns 1 kg of fuel, 0.23 of it oxygen.
-
-    Parameters
-    ----------
-    C_f, H_f, O_f : float
-        Carbon, hydrogen and oxygen in the fuel. [-]
-
-    Returns
-    -------
-    float
-        Mass of air over mass of fuel. [-]
-    """
+    """Mass of air that burns 1 kg of fuel, 0.23 of it oxygen."""
     return (8 * C_f / 3 + 8 * H_f - O_f) / 0.23
 
 
-@formula("air_amount_needed", "kolchin_demidov_2008, ch. 1")
+@formula("air_amount_needed", "kolchin_demidov_2008, ch. 1", constants="molar masses in kg/kmol")
 def air_amount_needed(C_f: Value, H_f: Value, O_f: Value) -> Value:
-    """Amount of air that burns 1 kg of fuel, 0.208 of it oxygen.
-
-    Parameters
-    ----------
-    C_f, H_f, O_f : float
-        Carbon, hydrogen and oxygen in the fuel. [-]
-
-    Returns
-    -------
-    float
-        Amount of air per mass of fuel. [kmol/kg]
-    """
+    """Amount of air that burns 1 kg of fuel, 0.208 of it oxygen."""
     return (C_f / 12 + H_f / 4 - O_f / 32) / 0.208
 
 
-class Burning(NamedTuple):
-    """What 1 kg of fuel gives and needs: heat [J/kg], air by mass [-] and by amount [kmol/kg]."""
-
-    heating_value: float
-    air_mass: float
-    air_amount: float
-
-
-def burning(worked: Worked, fuel: Fuel) -> Burning:
-    """Return the heat and the air of a fuel, worked step by step.
+def burning(worked: Worked, fuel: Fuel) -> None:
+    """Work the heat that 1 kg of fuel gives and the air that it needs.
 
     Parameters
     ----------
     worked : Worked
-        Where the steps are kept.
+        Where it is kept.
     fuel : Fuel
         The fuel; its heating value is calculated unless it is given.
-
-    Returns
-    -------
-    Burning
-        Heat and air.
 
     Raises
     ------
@@ -121,5 +75,7 @@ def burning(worked: Worked, fuel: Fuel) -> Burning:
             f"carbon {fuel.carbon:g}, hydrogen {fuel.hydrogen:g} and oxygen {fuel.oxygen:g} of 1 kg of fuel are shares "
             "that sum to 1; write for example 0.855, 0.145 and 0"
         )
-    heat = worked(lower_heating_value, *elements) if fuel.heating_value is None else fuel.heating_value
-    return Burning(heat, worked(air_mass_needed, *elements), worked(air_amount_needed, *elements))
+    if fuel.heating_value is None:
+        worked(lower_heating_value)
+    worked(air_mass_needed)
+    worked(air_amount_needed)

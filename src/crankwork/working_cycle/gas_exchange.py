@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from crankwork.formula.known import Known
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.indicator import Segment
 from crankwork.loads.monotone import hermite, hermite_slope
@@ -49,20 +50,24 @@ def passage(start: Knot, end: Knot) -> Segment:
     )
 
 
-def constant_pressure(start: float, end: float, pressure: float) -> Segment:
+def constant_pressure(start: float, end: float, pressure: Known) -> Segment:
     """Return a segment of constant pressure.
 
     Parameters
     ----------
-    start, end, pressure : float
-        Crank angles and pressure. [deg], [deg], [Pa]
+    start, end : float
+        Crank angles. [deg]
+    pressure : Known
+        The pressure. [Pa]
 
     Returns
     -------
     Segment
         A constant segment.
     """
-    return Segment(start, end, "constant", np.array([start, end]), np.full(2, pressure), np.zeros(2))
+    return Segment(
+        start, end, "constant", np.array([start, end]), np.full(2, pressure.value), np.zeros(2), of=(pressure,)
+    )
 
 
 def clipped(segment: Segment, start: float, end: float) -> Segment:

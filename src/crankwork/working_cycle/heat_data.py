@@ -155,10 +155,10 @@ def check_heat_release(data: HeatReleaseData) -> None:
     """
     wrong = [name for name in _POSITIVE if not getattr(data, name) > 0]
     if wrong:
-        raise CrankworkError(f"{', '.join(wrong)}: write a number above zero")
+        raise CrankworkError(f"{', '.join(wrong)} must be above zero; write such a number")
     wrong = [name for name in _NOT_NEGATIVE if not getattr(data, name) >= 0]
     if wrong or (data.heat is not None and data.heat < 0):
-        raise CrankworkError(f"{', '.join(wrong) or 'heat'}: write zero or a number above it")
+        raise CrankworkError(f"{', '.join(wrong) or 'heat'} must not be negative; write zero or a number above it")
     if data.cycle not in (360.0, 720.0):
         raise CrankworkError(f"a cycle of {data.cycle:g} deg is neither 720 (four strokes) nor 360 (two strokes)")
     if data.heat_ratio + data.heat_ratio_slope * data.shut_temperature <= 1:

@@ -53,7 +53,7 @@ def heat_notices(data: HeatReleaseData, gas: ClosedGas, values: Mapping[str, flo
     if steepest > _ROUGH:
         code = "heat_knock" if steepest > _KNOCK else "heat_rough"
         limit = _KNOCK if steepest > _KNOCK else _ROUGH
-        angle = values["pressure_rise_max_angle"]
+        angle = math.degrees(values["pressure_rise_max_angle"])
         found.append((code, {"rise": steepest / 1e6, "angle": angle, "limit": limit / 1e6}))
     return tuple(found)
 

@@ -5,12 +5,15 @@ From intake closing to exhaust opening the gas is one zone of constant mass; the
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
+from crankwork.formula.known import Found, Known, absent
+from crankwork.formula.worked import Worked
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank
@@ -18,8 +21,10 @@ from crankwork.loads import gas as gas_formulas
 from crankwork.loads.cycle import quadrature
 from crankwork.loads.indicator import IndicatorDiagram, Segment, VolumeAt
 from crankwork.loads.monotone import hermite
+from crankwork.loads.pressure import remembered_pressure
 from crankwork.method import EXACT, Method
-from crankwork.steps import Step, Worked
+from crankwork.working_cycle import wiebe
+from crankwork.working_cycle.calculated import Calculated
 from crankwork.working_cycle.closed_gas import ClosedGas, closed_gas
 from crankwork.working_cycle.gas_exchange import constant_pressure, from_before_zero, passage, within_cycle
 from crankwork.working_cycle.heat_data import HeatReleaseData, Stage, stages
@@ -30,8 +35,6 @@ _STEP, _LEAST_STEPS, _DOUBLINGS = 0.5, 40, 5
 _AGREEMENT = 1e-9
 _FINE = 2001
 _RELATIVE, _ABSOLUTE = 1e-11, 1e-12
-
-Notices = tuple[tuple[str, Mapping[str, float | str]], ...]
 
 
 class HeatReleaseTrace(NamedTuple):
@@ -53,15 +56,19 @@ class HeatReleaseTrace(NamedTuple):
 class HeatReleaseResult:
     """A cycle computed from the heat released.
 
-    `values` are by key of the table of quantities, with `closed_work_quadrature`, `wall_heat_quadrature` (the same
-    integrals taken from the diagram), `first_law_residual` and `first_law_residual_quadrature`. [SI]
+    Parameters
+    ----------
+    calculated : Calculated
+        Diagram, single values, notices.
+    trace : HeatReleaseTrace
+        The closed period point by point.
+    again : mapping of str to float
+        Work and heat to the walls taken once more from the diagram, and what the first law leaves with them. [J]
     """
 
-    diagram: IndicatorDiagram
+    calculated: Calculated
     trace: HeatReleaseTrace
-    values: Mapping[str, float]
-    steps: tuple[Step, ...]
-    notices: Notices
+    again: Mapping[str, float]
 
 
 def cylinder_volumes(
@@ -112,7 +119,7 @@ def heat_release(
     Returns
     -------
     HeatReleaseResult
-        The closed diagram, energies, extremes, steps and notices.
+        The closed diagram, energies, extremes and notices.
 
     Raises
     ------
@@ -129,33 +136,34 @@ def heat_release(
     worked = Worked()
     gas = closed_gas(data, volume_at, volume_rate_at, dead_centres, worked)
     periods = [one for one in stages(data, dead_centres) if one.end > one.start]
-    solved = _solved(gas, periods)
+    solved = _solved(gas, periods, tuple(worked.known.values()))
     segments = [one for one, _ in solved]
     trace = _trace(gas, solved)
+    # a curve that was integrated needs no volume
+    pressure = remembered_pressure(IndicatorDiagram(tuple(segments), {}), absent("cylinder_volume"))
     work, wall = (float(sum(change[i] for _, change in solved)) for i in (1, 2))
-    released = gas.heat * float(gas.burnt(np.array([periods[-1].end]))[0])
-    values = {
-        "fuel_heat": gas.heat,
-        "heat_released": released,
-        "wall_heat": wall,
-        "closed_work": work,
-        "internal_energy_change": gas.energy_change(trace.temperature[-1]),
+    stored = gas.energy_change(trace.temperature[-1])
+    # burning ends before the exhaust opens
+    burnt = wiebe.wiebe_burnt_fraction(1.0, worked["burning_shape"]).named("burnt_fraction.exhaust")
+    diagram = _diagram(data, segments, dead_centres, (worked["residual_pressure"], worked["intake_pressure"]))
+    memory = {"fuel_heat": worked["fuel_heat"], "heat_released": (worked["fuel_heat"] * burnt).named("heat_released")}
+    memory |= {
+        key: Known(Found(value, "integral", (pressure,)), key)
+        for key, value in (("wall_heat", wall), ("closed_work", work), ("internal_energy_change", stored))
     }
-    stored = values["internal_energy_change"]
-    values["first_law_residual"] = released - wall - work - stored
+    left = memory["heat_released"] - memory["wall_heat"] - memory["closed_work"] - memory["internal_energy_change"]
+    memory["first_law_residual"] = left.named("first_law_residual")
+    memory |= _extremes(gas, periods, segments, trace, pressure)
+    memory["indicated_work"] = Known(Found(diagram.work(volume_at), "integral", (pressure,)), "indicated_work")
     again = _by_quadrature(gas, periods, segments)
-    values |= again
-    values["first_law_residual_quadrature"] = (
-        released - again["wall_heat_quadrature"] - again["closed_work_quadrature"] - stored
-    )
-    values |= _extremes(gas, periods, segments, trace)
-    diagram = _diagram(data, segments, dead_centres)
-    values["indicated_work"] = diagram.work(volume_at)
-    work_peak(gas, values, worked)
-    return HeatReleaseResult(diagram, trace, values, tuple(worked.steps), heat_notices(data, gas, values))
+    again["first_law_residual"] = memory["heat_released"].value - again["wall_heat"] - again["closed_work"] - stored
+    work_peak(gas, memory, worked)
+    peak = {key: one for key, one in worked.found.items() if key not in memory}
+    found = Calculated(diagram, memory, (), peak=peak)
+    return HeatReleaseResult(found._replace(notices=heat_notices(data, gas, found.values)), trace, again)
 
 
-def _solved(gas: ClosedGas, periods: list[Stage]) -> list[tuple[Segment, Array]]:
+def _solved(gas: ClosedGas, periods: list[Stage], of: tuple[Known, ...]) -> list[tuple[Segment, Array]]:
     """Return for each period the curve of the pressure and the changes of pressure, work and heat to the walls."""
     results = []
     pressure = gas.data.shut_pressure
@@ -169,7 +177,7 @@ def _solved(gas: ClosedGas, periods: list[Stage]) -> list[tuple[Segment, Array]]
             if abs(segment.work(gas.volume_at) - final[1]) <= _AGREEMENT * scale:
                 break
             count *= 2
-        results.append((segment, final - start))
+        results.append((replace(segment, of=of), final - start))
         pressure = float(final[0])
     return results
 
@@ -205,13 +213,13 @@ def _by_quadrature(gas: ClosedGas, periods: list[Stage], segments: list[Segment]
         pressure = hermite(segment.knots, segment.pressures, segment.slopes, nodes)
         work += segment.work(gas.volume_at)
         wall += float(weights @ gas.wall_rate(nodes, pressure, np.full(len(nodes), period.has_burnt)))
-    return {"closed_work_quadrature": work, "wall_heat_quadrature": wall}
+    return {"closed_work": work, "wall_heat": wall}
 
 
 def _extremes(
-    gas: ClosedGas, periods: list[Stage], segments: list[Segment], trace: HeatReleaseTrace
-) -> dict[str, float]:
-    """Return the greatest pressure, temperature and pressure rise, and where they are. [SI], angles in [deg]"""
+    gas: ClosedGas, periods: list[Stage], segments: list[Segment], trace: HeatReleaseTrace, column: Known
+) -> dict[str, Known]:
+    """Return the greatest pressure, temperature and pressure rise, and where they are."""
     whole = IndicatorDiagram(tuple(segments), {})
 
     def pressure(degrees: Array) -> Array:
@@ -220,36 +228,42 @@ def _extremes(
     def temperature(degrees: Array) -> Array:
         return gas.temperature(degrees, pressure(degrees))
 
-    found: dict[str, float] = {}
+    found: dict[str, Known] = {}
     for key, function, values in (
         ("cylinder_pressure", pressure, trace.pressure),
         ("cylinder_temperature", temperature, trace.temperature),
     ):
         top = int(np.argmax(values))
-        near = trace.degrees[max(top - 1, 0)], trace.degrees[min(top + 1, len(values) - 1)]
-        found |= _greatest(key, np.linspace(*near, _FINE), function, cycle=gas.data.cycle)
+        fine = np.linspace(trace.degrees[max(top - 1, 0)], trace.degrees[min(top + 1, len(values) - 1)], _FINE)
+        found |= _greatest(key, [(fine, function(fine))], column, gas.data.cycle)
     steepest = []
     for period, segment in zip(periods, segments, strict=True):
         top = int(np.argmax(segment.slopes))
         fine = np.linspace(segment.knots[max(top - 1, 0)], segment.knots[min(top + 1, len(segment.knots) - 1)], _FINE)
         rise = gas.rates(fine, hermite(segment.knots, segment.pressures, segment.slopes, fine), period)[0]
-        steepest.append((float(np.max(rise)), float(fine[int(np.argmax(rise))]) % gas.data.cycle))
-    found["pressure_rise_max"], found["pressure_rise_max_angle"] = max(steepest)
-    return found
+        steepest.append((fine, rise))
+    return found | _greatest("pressure_rise", steepest, column, gas.data.cycle)
 
 
-def _greatest(key: str, degrees: Array, function: VolumeAt, *, cycle: float) -> dict[str, float]:
-    values = function(degrees)
-    at = int(np.argmax(values))
-    return {f"{key}_max": float(values[at]), f"{key}_max_angle": float(degrees[at]) % cycle}
+def _greatest(key: str, stretches: list[tuple[Array, Array]], column: Known, cycle: float) -> dict[str, Known]:
+    """Return the largest of the values at crank angles, and where it stands."""
+    tops = [(float(values[at]), float(degrees[at])) for degrees, values in stretches for at in [int(np.argmax(values))]]
+    value, degrees = max(tops)
+    at = degrees % cycle
+    return {
+        f"{key}_max": Known(Found(value, "max", (column,), at), f"{key}_max"),
+        f"{key}_max_angle": Known(Found(math.radians(at), "max_angle", (column,), at), f"{key}_max_angle"),
+    }
 
 
-def _diagram(data: HeatReleaseData, closed: list[Segment], dead_centres: tuple[float, float]) -> IndicatorDiagram:
+def _diagram(
+    data: HeatReleaseData, closed: list[Segment], dead_centres: tuple[float, float], exchange: tuple[Known, Known]
+) -> IndicatorDiagram:
     """Return the diagram of the whole cycle, the exchange of gas simplified."""
     top, bottom = dead_centres
     first, last = closed[0], closed[-1]
     opens, closes = last.end, first.start + data.cycle
-    exhaust, intake = data.exhaust_pressure, data.intake_pressure
+    exhaust, intake = exchange
     segments = list(closed)
     centre = bottom + 360.0
     if data.cycle > 360:
@@ -257,17 +271,17 @@ def _diagram(data: HeatReleaseData, closed: list[Segment], dead_centres: tuple[f
     else:
         blown, change, changed = centre - data.intake_opens, centre, centre
         intake = exhaust
-    low = (blown, exhaust, 0.0)
+    low = (blown, exhaust.value, 0.0)
     if blown > opens:
         segments.append(passage((opens, float(last.pressures[-1]), float(last.slopes[-1])), low))
     segments.append(constant_pressure(blown, change, exhaust))
     if changed > change:
-        segments.append(passage((change, exhaust, 0.0), (changed, intake, 0.0)))
+        segments.append(passage((change, exhaust.value, 0.0), (changed, intake.value, 0.0)))
     end = (closes, data.shut_pressure, float(first.slopes[0]))
     charged = centre + data.cycle - 360.0
     segments.append(constant_pressure(changed, min(charged, closes), intake))
     if closes > charged:
-        segments.append(passage((charged, intake, 0.0), end))
+        segments.append(passage((charged, intake.value, 0.0), end))
     named = {
         "a": (first.start, data.shut_pressure),
         "b": (opens, float(last.pressures[-1])),

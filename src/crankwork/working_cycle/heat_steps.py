@@ -7,46 +7,60 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from crankwork.formula.known import Found, Known
+from crankwork.formula.worked import Worked
 from crankwork.loads import gas as gas_formulas
-from crankwork.steps import Worked
 from crankwork.working_cycle import first_law, wiebe, woschni
 from crankwork.working_cycle.closed_gas import ClosedGas
 
 
-def work_peak(gas: ClosedGas, values: Mapping[str, float], worked: Worked) -> None:
+def work_peak(gas: ClosedGas, memory: Mapping[str, Known], worked: Worked) -> None:
     """Work out burning, heat to the walls and pressure rise at the greatest pressure.
 
     Parameters
     ----------
     gas : ClosedGas
         The enclosed gas.
-    values : mapping of str to float
-        With the greatest pressure and its crank angle. [SI]
+    memory : mapping of str to Known
+        With the greatest pressure and its crank angle.
     worked : Worked
-        Where the steps are kept.
+        Where it is kept.
     """
     data, (start, end) = gas.data, gas.burning
-    degrees = values["cylinder_pressure_max_angle"]
+    pressure = memory["cylinder_pressure_max"].named("cylinder_pressure")
+    degrees = math.degrees(memory["cylinder_pressure_max_angle"].value)
     degrees += data.cycle if degrees < gas.first else 0.0
-    pressure = values["cylinder_pressure_max"]
-    at = np.array([degrees])
-    volume, growth = float(gas.volume_at(at)[0]), float(gas.volume_rate_at(at)[0])
-    rate = 0.0
+    volume, growth = (
+        Known(Found(float(one(np.array([degrees]))[0]), "value", at=degrees), key)
+        for one, key in ((gas.volume_at, "cylinder_volume"), (gas.volume_rate_at, ""))
+    )
+    worked.known |= {"cylinder_pressure": pressure, "cylinder_volume": volume}
+    worked.known["crank_angle"] = Known(Found(math.radians(degrees), "max_angle", (pressure,), degrees), "crank_angle")
     if start < degrees < end:
-        progress = worked(wiebe.burning_progress, *(math.radians(one) for one in (degrees, start, end - start)))
-        worked(wiebe.wiebe_burnt_fraction, progress, data.burning_shape)
-        rate = worked(wiebe.wiebe_burning_rate, progress, data.burning_shape, math.radians(end - start))
-    temperature = worked(first_law.gas_temperature, pressure, volume, gas.mass, data.gas_constant)
-    ratio = worked(first_law.gas_heat_ratio, data.heat_ratio, data.heat_ratio_slope, temperature)
-    wall = 0.0
+        worked(wiebe.burning_progress)
+        worked(wiebe.wiebe_burnt_fraction)
+        worked(wiebe.wiebe_burning_rate)
+    else:
+        worked.absent("burning_rate")
+    worked(first_law.gas_temperature)
+    if worked["gas_heat_ratio_slope"].is_absent:
+        worked.known["gas_heat_ratio"] = worked["gamma_cyl_0"]
+    else:
+        worked(first_law.gas_heat_ratio)
     if data.has_wall_loss:
-        factor = woschni.EXPANSION if degrees > start else woschni.COMPRESSION
-        shut = (data.shut_pressure, gas.shut_volume)
-        motored = worked(gas_formulas.polytropic_pressure, *shut, volume, data.motored_exponent, key="motored_pressure")
-        state = (factor.piston, gas.piston_speed, factor.burning, gas.swept, data.shut_temperature, *shut)
-        speed = worked(woschni.woschni_gas_speed, *state, max(pressure, motored), motored)
-        coefficient = worked(woschni.woschni_coefficient, data.bore, pressure, temperature, speed)
-        x = (volume - gas.clearance) / float(gas_formulas.piston_area(math.pi, data.bore))
-        area = worked(woschni.wall_area, *gas.areas, math.pi, data.bore, x)
-        wall = worked(woschni.wall_heat_rate, coefficient, area, temperature, data.wall_temperature, gas.speed)
-    worked(first_law.pressure_rise, ratio, volume, gas.heat, rate, wall, pressure, growth)
+        _work_walls(gas, pressure, worked, woschni.EXPANSION if degrees > start else woschni.COMPRESSION)
+    else:
+        worked.absent("wall_heat_rate")
+    worked(first_law.pressure_rise, V_phi=growth)
+
+
+def _work_walls(gas: ClosedGas, pressure: Known, worked: Worked, factor: woschni.GasSpeedFactors) -> None:
+    """Work out the heat to the walls."""
+    motored = worked(gas_formulas.polytropic_pressure, "motored_pressure", p_1=worked["p_shut"])
+    higher = pressure if pressure.value > motored.value else motored
+    worked(woschni.woschni_gas_speed, C_speed=factor.piston, C_burn=factor.burning, p_cyl=higher)
+    worked(woschni.woschni_coefficient)
+    below_head = worked["cylinder_volume"] - worked["clearance_volume"]
+    x = (below_head / worked["piston_area"]).named("piston_displacement")
+    worked(woschni.wall_area, pi=math.pi, x=x)
+    worked(woschni.wall_heat_rate, w=Known(Found(gas.speed, "value"), "speed"))

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import Any, Literal
 
-from crankwork.steps import Worked
+from crankwork.formula.expression import FORMULAS
+from crankwork.formula.known import Known
+from crankwork.formula.worked import Worked
+from crankwork.notation import ARGUMENTS
 from crankwork.working_cycle import ideal_formulas as formulas
 from crankwork.working_cycle.calculated_cycle import CalculatedCycle, Corners
 from crankwork.working_cycle.fuels import CycleError
@@ -51,18 +55,8 @@ class IdealData:
     angle: float = 720.0
 
 
-class _Heated(NamedTuple):
-    """Highest pressure [Pa] and temperature [K], that before constant pressure [K], pressure and cut-off ratio [-]."""
-
-    pressure: float
-    hottest: float
-    between: float
-    ratio: float
-    cut_off: float
-
-
 def ideal_cycle(data: IdealData) -> CalculatedCycle:
-    """Return an ideal cycle, every value a worked step.
+    """Return an ideal cycle.
 
     Parameters
     ----------
@@ -85,117 +79,132 @@ def ideal_cycle(data: IdealData) -> CalculatedCycle:
     cengel_boles_2015, ch. 9; kolchin_demidov_2008, ch. 2.
     """
     _check(data)
-    worked = Worked()
-    ratio, exponent = data.compression_ratio, data.adiabatic_exponent
-    capacity = worked(formulas.isochoric_heat, data.gas_constant, exponent)
-    cold = worked(formulas.compressed_temperature, data.temperature, ratio, exponent, key="state_temperature.2")
-    pressure = worked(formulas.compressed_pressure, data.pressure, ratio, exponent, key="state_pressure.2")
-    heated = _HEATINGS[data.kind](worked, data, cold, pressure, capacity)
-    if not (heated.hottest > cold and heated.ratio >= 1 and 1 <= heated.cut_off < ratio):
+    worked = _given(data)
+    worked(formulas.isochoric_heat)
+    # 1 and 2 are before and after compression; heat leads to 3, in a dual cycle over 3 to 4
+    cold = _work(worked, formulas.compressed_temperature, "state_temperature.2")
+    compressed = _work(worked, formulas.compressed_pressure, "state_pressure.2")
+    _HEATINGS[data.kind](worked, data)
+    last = 5 if data.kind == "dual" else 4
+    hot, heated = f"state_temperature.{last - 1}", f"state_pressure.{last - 1}"
+    rise, cut_off = worked["pressure_rise_ratio"], worked["cut_off"]
+    if not (worked[hot].value > cold.value and rise.value >= 1 and 1 <= cut_off.value < data.compression_ratio):
         raise CycleError(
-            f"the heat leads from {cold:g} K after compression to {heated.hottest:g} K with a pressure ratio of "
-            f"{heated.ratio:g} and a cut-off ratio of {heated.cut_off:g}; heat must raise the temperature, and the "
-            f"cut-off lie between 1 and the compression ratio {ratio:g}"
+            f"the heat leads from {cold.value:g} K after compression to {worked[hot].value:g} K with a pressure ratio "
+            f"of {rise.value:g} and a cut-off ratio of {cut_off.value:g}; heat must raise the temperature, and the "
+            f"cut-off lie between 1 and the compression ratio {data.compression_ratio:g}"
         )
-    last = _results(worked, data, heated, cold, capacity)
-    corners = Corners(
-        data.pressure, data.pressure, pressure, heated.pressure, last, heated.cut_off, exponent, exponent, ratio
-    )
-    hottest = "4" if data.kind == "dual" else "3"
-    values = {
-        "compression_ratio": ratio,
-        "state_pressure.1": data.pressure,
-        "state_temperature.1": data.temperature,
-        f"state_pressure.{hottest}": heated.pressure,
-        f"state_temperature.{hottest}": heated.hottest,
-        "gas_heat_ratio": exponent,
-        "specific_gas_constant": data.gas_constant,
-        "pressure_rise_ratio": heated.ratio,
-        "cut_off": heated.cut_off,
-    } | ({"heat_added": data.heat} if data.heat else {})
-    return CalculatedCycle(data.kind, data.angle, corners, tuple(worked.steps), values | worked.values)
+    _results(worked, data, last)
+    ratio, exponent = worked["compression_ratio"], worked["gas_heat_ratio"]
+    first, peak, end = (worked[one] for one in ("state_pressure.1", heated, f"state_pressure.{last}"))
+    corners = Corners(first, first, compressed, peak, end, cut_off, exponent, exponent, ratio)
+    shown = (
+        "compression_ratio", "state_pressure.1", "state_temperature.1", heated, hot, "gas_heat_ratio",
+        "specific_gas_constant", "pressure_rise_ratio", "cut_off", "heat_added",
+    )  # fmt: skip
+    return CalculatedCycle(data.kind, data.angle, corners, {key: worked[key] for key in shown} | worked.found)
 
 
-def _otto(worked: Worked, data: IdealData, cold: float, pressure: float, capacity: float) -> _Heated:
-    hot = data.peak_temperature
+def _given(data: IdealData) -> Worked:
+    """Return the calculation before its first step."""
+    worked = Worked()
+    worked.given("compression_ratio", data.compression_ratio, "cylinder.compression_ratio")
+    worked.given("gas_heat_ratio", data.adiabatic_exponent, "cycle.adiabatic_exponent")
+    worked.given("specific_gas_constant", data.gas_constant)
+    worked.given("state_pressure.1", data.pressure, "cycle.intake_pressure")
+    worked.given("state_temperature.1", data.temperature, "cycle.intake_temperature")
+    for key, value, name in (
+        ("heat_added", data.heat, "heat"),
+        ("pressure_rise_ratio", data.pressure_ratio, "pressure_ratio"),
+        ("cut_off", data.cut_off, "cut_off"),
+    ):
+        if value is not None:
+            worked.given(key, value, f"cycle.{name}")
+    hottest = "state_temperature.4" if data.kind == "dual" else "state_temperature.3"
+    if data.peak_temperature is not None:
+        worked.given(hottest, data.peak_temperature, "cycle.peak_temperature")
+    return worked
+
+
+def _work(worked: Worked, function: Callable[..., Any], key: str = "", *, later: int = 0, **others: Known) -> Known:
+    """Work a formula whose arguments are numbered states, those as many points later."""
+    states = {
+        name: worked[f"{ARGUMENTS[name].quantity}.{int(name[-1]) + later}"]
+        for name in FORMULAS[function.__name__].arguments
+        if name.startswith(("T_st", "p_st")) and name not in others
+    }
+    return worked(function, key, **states, **others)
+
+
+def _otto(worked: Worked, data: IdealData) -> None:
+    worked.absent("cut_off", 1.0)
     if data.heat is not None:
-        hot = worked(formulas.isochorically_heated, cold, data.heat, capacity, key="state_temperature.3")
+        _work(worked, formulas.isochorically_heated, "state_temperature.3")
     if data.pressure_ratio is not None:
-        ratio = data.pressure_ratio
-        hot = worked(formulas.raised_temperature, ratio, cold, key="state_temperature.3")
-    elif hot is not None:
-        ratio = worked(formulas.pressure_ratio_of_heat, hot, cold)
+        _work(worked, formulas.raised_temperature, "state_temperature.3")
+    elif "state_temperature.3" in worked.known:
+        _work(worked, formulas.temperature_ratio)
     else:
-        raise CycleError("an Otto cycle needs heat, peak_temperature or pressure_ratio")
-    highest = worked(formulas.raised_pressure, ratio, pressure, key="state_pressure.3")
-    return _Heated(highest, hot, hot, ratio, 1.0)
+        raise CycleError(
+            "an Otto cycle does not say how much heat it takes; write heat, peak_temperature or pressure_ratio"
+        )
+    _work(worked, formulas.raised_pressure, "state_pressure.3")
 
 
-def _diesel(worked: Worked, data: IdealData, cold: float, pressure: float, capacity: float) -> _Heated:
-    hot, exponent = data.peak_temperature, data.adiabatic_exponent
+def _diesel(worked: Worked, data: IdealData) -> None:
+    worked.absent("pressure_rise_ratio", 1.0)
+    worked.known["state_pressure.3"] = worked["state_pressure.2"].named("state_pressure.3")
     if data.heat is not None:
-        hot = worked(formulas.isobarically_heated, cold, data.heat, exponent, capacity, key="state_temperature.3")
+        _work(worked, formulas.isobarically_heated, "state_temperature.3")
     if data.cut_off is not None:
-        cut = data.cut_off
-        hot = worked(formulas.cut_off_temperature, cut, cold, key="state_temperature.3")
-    elif hot is not None:
-        cut = worked(formulas.diesel_cut_off, hot, cold)
+        _work(worked, formulas.raised_temperature, "state_temperature.3", lam_p=worked["cut_off"])
+    elif "state_temperature.3" in worked.known:
+        _work(worked, formulas.temperature_ratio, "cut_off")
     else:
-        raise CycleError("a Diesel cycle needs heat, peak_temperature or cut_off")
-    return _Heated(pressure, hot, cold, 1.0, cut)
+        raise CycleError("a Diesel cycle does not say how much heat it takes; write heat, peak_temperature or cut_off")
 
 
-def _dual(worked: Worked, data: IdealData, cold: float, pressure: float, capacity: float) -> _Heated:
+def _dual(worked: Worked, data: IdealData) -> None:
     if data.pressure_ratio is None:
-        raise CycleError("a dual cycle needs pressure_ratio, and heat, peak_temperature or cut_off")
-    ratio, hot, exponent = data.pressure_ratio, data.peak_temperature, data.adiabatic_exponent
-    between = worked(formulas.raised_temperature, ratio, cold, key="state_temperature.3")
-    highest = worked(formulas.raised_pressure, ratio, pressure, key="state_pressure.3")
+        raise CycleError(
+            "a dual cycle has no rise of pressure; write pressure_ratio, and heat, peak_temperature or cut_off"
+        )
+    _work(worked, formulas.raised_temperature, "state_temperature.3")
+    raised = _work(worked, formulas.raised_pressure, "state_pressure.3")
+    worked.known["state_pressure.4"] = raised.named("state_pressure.4")
     if data.heat is not None:
-        numbers = (between, data.heat, capacity, cold, exponent)
-        hot = worked(formulas.dually_heated, *numbers, key="state_temperature.4")
+        _work(worked, formulas.dually_heated, "state_temperature.4")
     if data.cut_off is not None:
-        cut = data.cut_off
-        hot = worked(formulas.dual_cut_off_temperature, cut, between, key="state_temperature.4")
-    elif hot is not None:
-        cut = worked(formulas.dual_cut_off, hot, between)
+        _work(worked, formulas.raised_temperature, "state_temperature.4", later=1, lam_p=worked["cut_off"])
+    elif "state_temperature.4" in worked.known:
+        _work(worked, formulas.temperature_ratio, "cut_off", later=1)
     else:
-        raise CycleError("a dual cycle needs heat, peak_temperature or cut_off besides pressure_ratio")
-    return _Heated(highest, hot, between, ratio, cut)
+        raise CycleError(
+            "a dual cycle does not say how much heat it takes; write heat, peak_temperature or cut_off as well"
+        )
 
 
 _HEATINGS = {"otto": _otto, "ideal-diesel": _diesel, "dual": _dual}
+_HEATS: dict[str, Callable[..., Any]] = {
+    "otto": formulas.heat_at_constant_volume,
+    "ideal-diesel": formulas.isobaric_heat_added,
+    "dual": formulas.dual_heat_added,
+}
 
 
-def _results(worked: Worked, data: IdealData, heated: _Heated, cold: float, capacity: float) -> float:
-    """Work expansion, heats, work, efficiency and mean pressure; return the pressure after expansion. [Pa]"""
-    ratio, exponent, dual = data.compression_ratio, data.adiabatic_exponent, data.kind == "dual"
-    point = "5" if dual else "4"
-    last = worked(
-        formulas.dual_expanded_temperature if dual else formulas.expanded_temperature,
-        heated.hottest, heated.cut_off, ratio, exponent, key=f"state_temperature.{point}",
-    )  # fmt: skip
-    pressure = worked(
-        formulas.expanded_pressure,
-        heated.pressure, heated.cut_off, ratio, exponent, key=f"state_pressure.{point}",
-    )  # fmt: skip
-    added = data.heat
-    if added is None and data.kind == "otto":
-        added = worked(formulas.isochoric_heat_added, capacity, heated.hottest, cold)
-    elif added is None and data.kind == "ideal-diesel":
-        added = worked(formulas.isobaric_heat_added, exponent, capacity, heated.hottest, cold)
-    elif added is None:
-        added = worked(formulas.dual_heat_added, capacity, heated.between, cold, exponent, heated.hottest)
-    rejected = worked(formulas.dual_heat_rejected if dual else formulas.heat_rejected, capacity, last, data.temperature)
-    work = worked(formulas.ideal_work, added, rejected)
-    worked(formulas.thermal_efficiency, work, added)
-    closed = "thermal_efficiency.closed"
-    if data.kind == "otto":
-        worked(formulas.otto_efficiency, ratio, exponent, key=closed)
-    else:
-        worked(formulas.dual_efficiency, ratio, exponent, heated.ratio, heated.cut_off, key=closed)
-    worked(formulas.ideal_mean_pressure, work, data.pressure, ratio, data.gas_constant, data.temperature)
-    return pressure
+def _results(worked: Worked, data: IdealData, last: int) -> None:
+    """Work expansion, heats, work, efficiency and mean pressure."""
+    _work(worked, formulas.expanded_temperature, f"state_temperature.{last}", later=last - 4)
+    _work(worked, formulas.expanded_pressure, f"state_pressure.{last}", later=last - 4)
+    if data.heat is None:
+        _work(worked, _HEATS[data.kind])
+    warm, cold = worked[f"state_temperature.{last}"], worked["state_temperature.1"]
+    worked(formulas.heat_at_constant_volume, "heat_rejected", T_st3=warm, T_st2=cold)
+    worked(formulas.ideal_work)
+    worked(formulas.thermal_efficiency)
+    closed = formulas.otto_efficiency if data.kind == "otto" else formulas.dual_efficiency
+    worked(closed, "thermal_efficiency.closed")
+    _work(worked, formulas.ideal_mean_pressure)
 
 
 def _check(data: IdealData) -> None:
@@ -214,4 +223,5 @@ def _check(data: IdealData) -> None:
     if sum(way is not None for way in ways) > 1:
         raise CycleError("say once how hot the cycle becomes: by heat, by peak temperature, or by one ratio")
     if (data.kind == "otto" and data.cut_off) or (data.kind == "ideal-diesel" and data.pressure_ratio):
-        raise CycleError(f"a cycle of kind {data.kind} has no " + ("cut_off" if data.cut_off else "pressure_ratio"))
+        wrong = "cut_off" if data.cut_off else "pressure_ratio"
+        raise CycleError(f"a cycle of kind {data.kind} has no {wrong}; leave it out, or write another kind")

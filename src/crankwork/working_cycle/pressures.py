@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from crankwork.loads.indicator import VolumeAt, solve_diagram
+from crankwork.formula.known import Found, Known
+from crankwork.loads.indicator import IndicatorDiagram, Segment, VolumeAt, solve_diagram
 from crankwork.working_cycle.calculated import Calculated
-from crankwork.working_cycle.calculated_cycle import CalculatedCycle
+from crankwork.working_cycle.calculated_cycle import CalculatedCycle, Corners
 from crankwork.working_cycle.heat_data import HeatReleaseData
 from crankwork.working_cycle.heat_release import HeatReleaseResult, heat_release
 from crankwork.working_cycle.rounding import Rounding, Timing, rounded_diagram
@@ -54,19 +54,34 @@ class CornerPressure:
         cycle = self.cycle
         points, pieces = theoretical_diagram(cycle.corners, cycle.angle, volume_at, dead_centres)
         sharp = solve_diagram(points, pieces, cycle.angle, volume_at, dead_centres=dead_centres)
+        sharp = _remembering(sharp, cycle.corners)
+        notices = (*cycle.notices, ("cycle_speed", {}))
         if self.timing is None:
-            return Calculated(sharp, cycle.values, cycle.steps, cycle.notices, sharp, cycle.corners)
-        corners = cycle.corners
-        theory = {
-            "p_r": corners.p_r, "p_a": corners.p_a, "p_c": corners.p_c, "p_z": corners.p_z, "p_b": corners.p_b,
-            "epsilon": corners.epsilon, "n1": corners.n1, "n2": corners.n2,
-        }  # fmt: skip
-        if corners.rho > 1:
-            theory["rho"] = corners.rho
+            return Calculated(sharp, cycle.memory, notices, sharp)
+        theory = {name: one.value for name, one in cycle.corners._asdict().items() if name != "rho" or one.value > 1}
         found = rounded_diagram(theory, self.timing, self.rounding, volume_at, dead_centres)
-        values = {**cycle.values, "filling_factor.diagram": found.filling_factor}
-        notices = (*cycle.notices, *found.notices)
-        return Calculated(found.diagram, values, cycle.steps, notices, sharp, corners)
+        key = "filling_factor.diagram"
+        memory = {**cycle.memory, key: Known(Found(found.filling_factor, "integral", cycle.corners), key)}
+        rounded = _remembering(found.diagram, cycle.corners)
+        return Calculated(rounded, memory, (*notices, *found.notices), sharp)
+
+
+def _remembering(diagram: IndicatorDiagram, corners: Corners) -> IndicatorDiagram:
+    """Return a diagram whose segments know the pressures and exponents of the calculation."""
+    lines = {"a": (corners.p_a, corners.n1, corners.psi), "z": (corners.p_z, corners.n2, corners.rho)}
+    constants = {one.value: (one,) for one in (corners.p_z, corners.p_r, corners.p_a)}
+
+    def remembering(segment: Segment) -> Segment:
+        if segment.law == "polytropic":
+            origin = _ORIGINS.get(segment.origin, segment.origin)
+            return replace(segment, origin=origin, of=lines[origin])
+        return replace(segment, of=constants.get(segment.pressures[0], ()) if segment.law == "constant" else ())
+
+    return replace(diagram, segments=tuple(remembering(one) for one in diagram.segments))
+
+
+# the points of the calculation by the states that rounded diagrams begin their polytropes with
+_ORIGINS = {"~start": "a", "~burnt": "z"}
 
 
 @dataclass(frozen=True)
@@ -91,13 +106,7 @@ class HeatReleasePressure:
         dead_centres : tuple of float
             Top and bottom dead centre within one revolution. [deg]
         """
-        found = self._solved(volume_at, volume_rate_at, dead_centres)
-        values = {
-            key: math.radians(value) if key.endswith("_angle") else value
-            for key, value in found.values.items()
-            if "quadrature" not in key
-        }
-        return Calculated(found.diagram, values, found.steps, found.notices)
+        return self._solved(volume_at, volume_rate_at, dead_centres).calculated
 
     def _solved(
         self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]

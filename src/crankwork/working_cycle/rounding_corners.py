@@ -12,6 +12,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from crankwork.errors import CrankworkError
+from crankwork.kinematics.extremes import reached
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import VolumeAt
 from crankwork.working_cycle.gas_exchange import from_before_zero
@@ -58,12 +59,7 @@ class RoundedCorners(NamedTuple):
 
     def angle_of_volume(self, volume: float) -> float:
         """Return where the expansion reaches a volume. [deg]"""
-        low, high = self.top, self.bottom
-        for _ in range(60):
-            middle = (low + high) / 2
-            is_below = float(self.volume_at(np.array([middle]))[0]) < volume
-            low, high = (middle, high) if is_below else (low, middle)
-        return high
+        return reached(self.volume_at, volume, self.top, self.bottom)
 
 
 def corners_of(

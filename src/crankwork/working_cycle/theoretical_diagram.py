@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from crankwork.kinematics.extremes import reached
 from crankwork.loads.indicator import DiagramPoint, Piece, VolumeAt
 from crankwork.working_cycle.calculated_cycle import Corners
 from crankwork.working_cycle.fuels import CycleError
@@ -67,18 +68,18 @@ def theoretical_diagram(
 def _four_strokes(corners: Corners, top: float, bottom: float, angle_of: _AngleOf) -> tuple[Points, list[Piece]]:
     firing = top + 360
     points = {
-        "r": DiagramPoint(top, corners.p_r),
-        "d": DiagramPoint(top, corners.p_a),
-        "a": DiagramPoint(bottom, corners.p_a),
-        "b": DiagramPoint(bottom + 360, corners.p_b),
-        "e": DiagramPoint(bottom + 360, corners.p_r),
-        "r'": DiagramPoint(top + 720, corners.p_r),
+        "r": DiagramPoint(top, corners.p_r.value),
+        "d": DiagramPoint(top, corners.p_a.value),
+        "a": DiagramPoint(bottom, corners.p_a.value),
+        "b": DiagramPoint(bottom + 360, corners.p_b.value),
+        "e": DiagramPoint(bottom + 360, corners.p_r.value),
+        "r'": DiagramPoint(top + 720, corners.p_r.value),
     }
     burning_points, burning = _burning(corners, firing, bottom + 360, angle_of)
     pieces = [
         Piece("rounded", ("r", "d")),
         Piece("constant", ("d", "a")),
-        Piece("polytropic", ("a", "c"), corners.n1),
+        Piece("polytropic", ("a", "c"), corners.n1.value),
         *burning,
         Piece("rounded", ("b", "e")),
         Piece("constant", ("e", "r'")),
@@ -88,34 +89,34 @@ def _four_strokes(corners: Corners, top: float, bottom: float, angle_of: _AngleO
 
 def _two_strokes(corners: Corners, top: float, bottom: float, angle_of: _AngleOf) -> tuple[Points, list[Piece]]:
     opens, shuts = bottom, bottom
-    if corners.psi:
-        opens = angle_of(corners.epsilon, top, bottom)
-        shuts = angle_of(corners.epsilon, top + 360, bottom)
+    if corners.psi.value:
+        opens = angle_of(corners.epsilon.value, top, bottom)
+        shuts = angle_of(corners.epsilon.value, top + 360, bottom)
     points = {
-        "b": DiagramPoint(opens, corners.p_b),
-        "e": DiagramPoint(opens, corners.p_a),
-        "a": DiagramPoint(shuts, corners.p_a),
-        "c'": DiagramPoint(top + 360, corners.p_c),
+        "b": DiagramPoint(opens, corners.p_b.value),
+        "e": DiagramPoint(opens, corners.p_a.value),
+        "a": DiagramPoint(shuts, corners.p_a.value),
+        "c'": DiagramPoint(top + 360, corners.p_c.value),
     }
     burning_points, burning = _burning(corners, top, opens, angle_of)
     pieces = [
         *burning,
         Piece("rounded", ("b", "e")),
         Piece("constant", ("e", "a")),
-        Piece("polytropic", ("a", "c'"), corners.n1),
+        Piece("polytropic", ("a", "c'"), corners.n1.value),
     ]
     return points | burning_points, pieces
 
 
 def _burning(corners: Corners, firing: float, end: float, angle_of: _AngleOf) -> tuple[Points, list[Piece]]:
     """Return points and pieces from c over z to b."""
-    points = {"c": DiagramPoint(firing, corners.p_c), "z": DiagramPoint(firing, corners.p_z)}
+    points = {"c": DiagramPoint(firing, corners.p_c.value), "z": DiagramPoint(firing, corners.p_z.value)}
     pieces = [Piece("rounded", ("c", "z"))]
-    if corners.rho > 1:
+    if corners.rho.value > 1:
         points["z'"] = points["z"]
-        points["z"] = DiagramPoint(angle_of(corners.rho, firing, end), corners.p_z)
+        points["z"] = DiagramPoint(angle_of(corners.rho.value, firing, end), corners.p_z.value)
         pieces = [Piece("rounded", ("c", "z'")), Piece("constant", ("z'", "z"))]
-    return points, [*pieces, Piece("polytropic", ("z", "b"), corners.n2)]
+    return points, [*pieces, Piece("polytropic", ("z", "b"), corners.n2.value)]
 
 
 def _angle_of_volume(volume_at: VolumeAt, wanted: float, small: float, large: float) -> float:
@@ -127,13 +128,7 @@ def _angle_of_volume(volume_at: VolumeAt, wanted: float, small: float, large: fl
             f"a point of the cycle needs {wanted * 1e6:g} cm3, but the piston sweeps from {ends[0] * 1e6:g} to "
             f"{ends[1] * 1e6:g} cm3 there; check the compression ratio of the cylinder and of the cycle"
         )
-    for _ in range(100):
-        middle = (low + high) / 2
-        if float(volume_at(np.array([middle]))[0]) < wanted:
-            low = middle
-        else:
-            high = middle
-    return (low + high) / 2
+    return reached(volume_at, wanted, low, high)
 
 
 def _from_zero(points: Points, pieces: list[Piece], cycle: float) -> tuple[Points, tuple[Piece, ...]]:

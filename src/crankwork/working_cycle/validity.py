@@ -100,9 +100,6 @@ def _spark(values: Mapping[str, float]) -> list[Notice]:
 
 def _heat_table(values: Mapping[str, float]) -> list[Notice]:
     found: list[Notice] = []
-    compressed = values["compression_temperature"] - ZERO_CELSIUS
-    if not 0 <= compressed <= LOW_LIMIT:
-        found.append(("cycle_heat_low", {"value": compressed, "high": LOW_LIMIT}))
     burnt = values["combustion_temperature"] - ZERO_CELSIUS
     if not LOW_LIMIT <= burnt <= HIGH_LIMIT:
         found.append(("cycle_heat_high", {"value": burnt, "low": LOW_LIMIT, "high": HIGH_LIMIT}))

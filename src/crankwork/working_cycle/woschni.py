@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from crankwork.expressions import Value, formula
+from crankwork.formula.expression import Value, formula
 
 
 class GasSpeedFactors(NamedTuple):
@@ -36,47 +36,17 @@ def woschni_gas_speed(  # noqa: PLR0913 - one argument per symbol
     p_cyl: Value,
     p_mot: Value,
 ) -> Value:
-    """Gas speed at the walls.
-
-    Parameters
-    ----------
-    C_speed, S_pm, C_burn, V_d : array
-        Factor of the piston speed, mean piston speed, factor of burning, swept volume.
-        [-], [m/s], [m/(s*K)], [m3]
-    T_shut, p_shut, V_1 : array
-        Temperature, pressure and volume at intake closing. [K], [Pa], [m3]
-    p_cyl, p_mot : array
-        Pressure in the cylinder, and without burning at the same angle. [Pa]
-
-    Returns
-    -------
-    array
-        Gas speed. [m/s]
-
-    References
-    ----------
-    heywood_1988, ch. 12.
-    """
+    """Gas speed at the walls."""
     return C_speed * S_pm + C_burn * V_d * T_shut / (p_shut * V_1) * (p_cyl - p_mot)
 
 
-@formula("heat_transfer_coefficient", "woschni_1967")
+@formula("heat_transfer_coefficient", "woschni_1967", constants="kPa, m, m/s, K")
 def woschni_coefficient(D: Value, p_cyl: Value, T_cyl: Value, w_gas: Value) -> Value:
     """Heat transfer coefficient from gas to walls.
 
-    Parameters
-    ----------
-    D, p_cyl, T_cyl, w_gas : array
-        Bore, pressure, temperature, gas speed at the walls. [m], [Pa], [K], [m/s]
-
-    Returns
-    -------
-    array
-        Coefficient. [W/(m2*K)]
-
-    References
-    ----------
-    heywood_1988, ch. 12; the exponent of the bore is 0.2, that of the temperature 0.75 - 1.62 * 0.8 = -0.546,
+    Notes
+    -----
+    The exponent of the bore is 0.2, that of the temperature 0.75 - 1.62 * 0.8 = -0.546,
     rounded to -0.55.
     """
     return 3.26 * (p_cyl / 1000) ** 0.8 * w_gas**0.8 / (D**0.2 * T_cyl**0.55)
@@ -84,35 +54,11 @@ def woschni_coefficient(D: Value, p_cyl: Value, T_cyl: Value, w_gas: Value) -> V
 
 @formula("wall_area", "heywood_1988, ch. 2")
 def wall_area(A_head: Value, A_crown: Value, pi: Value, D: Value, x: Value) -> Value:
-    """Area of the walls around the gas.
-
-    Parameters
-    ----------
-    A_head, A_crown, pi, D, x : array
-        Areas of head and crown, pi, bore, distance of the piston from top dead centre.
-        [m2], [m2], [-], [m], [m]
-
-    Returns
-    -------
-    array
-        Area. [m2]
-    """
+    """Area of the walls around the gas."""
     return A_head + A_crown + pi * D * x
 
 
-@formula("wall_heat_rate", "heywood_1988, ch. 12")
+@formula("wall_heat_rate", "heywood_1988, ch. 12", unit="J/rad")
 def wall_heat_rate(h_wall: Value, A_wall: Value, T_cyl: Value, T_wall: Value, w: Value) -> Value:
-    """Heat to the walls by crank angle.
-
-    Parameters
-    ----------
-    h_wall, A_wall, T_cyl, T_wall, w : array
-        Heat transfer coefficient, wall area, gas and wall temperatures, angular speed of the crank.
-        [W/(m2*K)], [m2], [K], [K], [rad/s]
-
-    Returns
-    -------
-    array
-        Heat per crank angle. [J/rad]
-    """
+    """Heat to the walls by crank angle."""
     return h_wall * A_wall * (T_cyl - T_wall) / w

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import io
 from typing import Any
 
@@ -39,32 +38,24 @@ _SPARE = 1.5
 def sheet_dxf(sheet: Sheet) -> bytes:
     """Return a sheet as DXF in model space, a drawing unit for a millimetre.
 
-    Parameters
-    ----------
-    sheet : Sheet
-        What is drawn.
-
-    Returns
-    -------
-    bytes
-        DXF, UTF-8; a layer for each kind of line, and layers TEXT and HATCH.
-
     Raises
     ------
     MissingExtraError
         If ezdxf is not installed.
     """
     try:
-        ezdxf: Any = importlib.import_module("ezdxf")
+        import ezdxf  # noqa: PLC0415 - an optional part
     except ImportError:
         raise MissingExtraError("writing DXF", "report") from None
-    was_fixed = ezdxf.options.write_fixed_meta_data_for_testing
+    # it gives away more than it declares
+    library: Any = ezdxf
+    was_fixed = library.options.write_fixed_meta_data_for_testing
     try:
         # otherwise every file has its own time and number
-        ezdxf.options.write_fixed_meta_data_for_testing = True
-        return _written(ezdxf.new("R2010", setup=False, units=_MILLIMETRES), sheet)
+        library.options.write_fixed_meta_data_for_testing = True
+        return _written(library.new("R2010", setup=False, units=_MILLIMETRES), sheet)
     finally:
-        ezdxf.options.write_fixed_meta_data_for_testing = was_fixed
+        library.options.write_fixed_meta_data_for_testing = was_fixed
 
 
 def _written(document: Any, sheet: Sheet) -> bytes:  # noqa: ANN401 - a document of ezdxf

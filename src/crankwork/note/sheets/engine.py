@@ -6,9 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from crankwork.analysis import Results
+from crankwork.analysis import Array, Results
 from crankwork.errors import CrankworkError
-from crankwork.kinematics.crank_grid import Array
 from crankwork.machine import Machine
 from crankwork.note.sheets import engine_forces as loads
 from crankwork.note.sheets import engine_gas as gas
@@ -57,12 +56,8 @@ def engine_sheets(
         and `crankpin_load_mean`; `crankpin_tangential` and `crankpin_radial` [N], the forces of all its rods, from
         whose origin the pole is `crankpin_inertia` [N] away, that of `crankpin_rods` rods; `crankpin`, its number;
         `wear_sums` [N], the sum of loads on each ray of the crankpin, and `wear_angle` [rad], where the rays are,
-        from the outer side of the pin with the rotation, evenly around it without it.
-
-    Returns
-    -------
-    tuple of Sheet
-        `engine-motion`, and `engine-forces` where forces are known.
+        from the outer side of the pin with the rotation, evenly around it without it; `oil_hole_angle` [rad], where
+        the oil hole is, on the ray of the least sum without it.
 
     Raises
     ------

@@ -7,9 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.dynamics.piston_forces import rotating_inertia_force
+from crankwork.analysis import Array
+from crankwork.analysis.engine_diagrams import CrankpinLoad, crankpin_of_one
 from crankwork.errors import CrankworkError
-from crankwork.kinematics.crank_grid import Array
+from crankwork.locale import Language, say
 from crankwork.note.sheets.engine_gas import angle_side, value_side
 from crankwork.note.sheets.graph import Curve, Graph, Side, graph
 from crankwork.note.sheets.placing import Named, lines_of, names_beside
@@ -18,6 +19,7 @@ from crankwork.note.sheets.words import Words
 from crankwork.report.figure_data import Drawn
 from crankwork.report.language import displayed
 from crankwork.report.linkage_look import round_scale
+from crankwork.report.tables import row_name
 
 MARKS = 30.0
 _LINES: dict[str, dict[str, LineKind]] = {
@@ -66,9 +68,9 @@ def over_cycle(drawn: Drawn, extra: Mapping[str, Array | float], key: str, kind:
     return OverCycle(degrees, values * displayed(kind, 1.0, per_area=drawn.area))
 
 
-def crankpin_number(extra: Mapping[str, Array | float]) -> str:
-    """Return the number of the crankpin that is shown, nothing where all are alike."""
-    return f"{float(extra['crankpin']):g}" if "crankpin" in extra else ""
+def crankpin_name(extra: Mapping[str, Array | float], language: Language) -> str:
+    """Return which crankpin is shown, nothing where all are alike."""
+    return row_name(f"crankpin.{float(extra['crankpin']):g}", language) if "crankpin" in extra else ""
 
 
 def forces(drawn: Drawn, name: str, box: Box, words: Words) -> Graph:
@@ -91,7 +93,7 @@ def forces(drawn: Drawn, name: str, box: Box, words: Words) -> Graph:
         for key, kind in kinds.items()
     ]
     side = value_side("piston_force", [one.y for one in curves], words)._replace(
-        symbol=_common(curves), mark=words.say("force")
+        symbol=_common(curves), mark=say("marks.force", words.language)
     )
     return graph(name, box, (angle_side(drawn, words), side), curves, words)
 
@@ -121,27 +123,21 @@ def torque(drawn: Drawn, extra: Mapping[str, Array | float], box: Box, words: Wo
     mean = displayed("mean_torque", drawn.results.summary["mean_torque"])
     if total is not None:
         curves.append(
-            Curve("total_torque", f"Σ{sign}", words.say("total_torque"), total.degrees, total.values, "thick")
+            Curve("total_torque", f"Σ{sign}", words.label("total_torque"), total.degrees, total.values, "thick")
         )
         mean = float(np.asarray(extra.get("total_torque_mean", total.mean)))
     if abs(mean) < 1e-6 * float(np.max(np.abs(curves[-1].y))):
         mean = 0.0
     shown = f"{words.say('mean')} {words.number(mean, 6)} {unit}"
-    mark = indexed(f"{'Σ' if total is not None else ''}M_{words.say('mean_mark')}")
+    mark = indexed(f"{'Σ' if total is not None else ''}M_{say('symbols.sheet_mean', words.language)}")
     ends = np.array([0.0, float(drawn.results.machine.cycle)])
     curves.append(Curve("mean_torque", mark, shown, ends, np.full(2, mean), "dash_dot"))
     side = value_side("crank_torque", [one.y for one in curves], words)
     return graph("torque", box, (angle_side(drawn, words), side), curves, words)
 
 
-def big_end_inertia(drawn: Drawn) -> float:
-    """Return the inertia force of the rod mass at the crankpin, along the crank arm, never positive. [display unit]"""
-    solved = drawn.results.solved
-    masses = solved.machine.masses
-    if masses is None or not masses.rod_big_end:
-        return 0.0
-    force = rotating_inertia_force(masses.rod_big_end, solved.lengths.crank_radius, solved.speed)
-    return displayed("rotating_inertia_force", float(force), per_area=drawn.area)
+def _of_one(drawn: Drawn) -> CrankpinLoad:
+    return crankpin_of_one(drawn.results, drawn.degrees, drawn.columns)
 
 
 class _Pin(NamedTuple):
@@ -157,10 +153,10 @@ class _Pin(NamedTuple):
 def _pin(drawn: Drawn, extra: Mapping[str, Array | float], words: Words) -> _Pin:
     """Return the forces on the crankpin of all its rods, where they are known, or of the one rod."""
     across, along = (over_cycle(drawn, extra, f"crankpin_{one}", "piston_force") for one in ("tangential", "radial"))
-    sign = indexed(words.say("big_end"))
+    sign = indexed(say("symbols.sheet_big_end", words.language))
     if across is None or along is None:
-        forces = drawn.values("tangential_force"), drawn.values("radial_force")
-        return _Pin(drawn.degrees, *forces, big_end_inertia(drawn), sign)
+        one, unit = _of_one(drawn), displayed("piston_force", 1.0, per_area=drawn.area)
+        return _Pin(drawn.degrees, one.polar.across * unit, one.polar.down * unit, one.inertia * unit, sign)
     rods = round(float(extra.get("crankpin_rods", 1.0)))
     inertia = displayed("rotating_inertia_force", float(extra.get("crankpin_inertia", 0.0)), per_area=drawn.area)
     return _Pin(across.degrees, across.values, along.values, inertia, f"{rods}{sign}" if rods > 1 else sign)
@@ -179,12 +175,6 @@ def polar(drawn: Drawn, extra: Mapping[str, Array | float], box: Box, words: Wor
         Where. [mm]
     words : Words
         Language.
-
-    Returns
-    -------
-    Graph
-        The curve from the origin O, and the pole from which the load is measured, shifted from it by the inertia
-        force of the rod mass at the crankpin.
     """
     degrees, across, along, inertia, sign = _pin(drawn, extra, words)
     reach = np.append(along, [0.0, -inertia])
@@ -195,7 +185,7 @@ def polar(drawn: Drawn, extra: Mapping[str, Array | float], box: Box, words: Wor
             unit,
             min(0.0, float(across.min())),
             max(0.0, float(across.max())),
-            mark=words.say("force"),
+            mark=say("marks.force", words.language),
         ),
         Side(
             words.symbol("radial_force"),
@@ -203,12 +193,12 @@ def polar(drawn: Drawn, extra: Mapping[str, Array | float], box: Box, words: Wor
             float(reach.min()),
             float(reach.max()),
             is_down=True,
-            mark=words.say("force"),
+            mark=say("marks.force", words.language),
         ),
         box,
     )
     curve = Curve("crankpin_load", "R", "", across, along)
-    shown = graph("polar", box, sides, [curve], words, of=crankpin_number(extra))
+    shown = graph("polar", box, sides, [curve], words, of=crankpin_name(extra, words.language))
     items: list[Item] = []
     if inertia:
         pole, origin = shown.point(0.0, -inertia), shown.point(0.0, 0.0)
@@ -248,20 +238,23 @@ def unrolled(drawn: Drawn, extra: Mapping[str, Array | float], box: Box, words: 
     """
     load = over_cycle(drawn, extra, "crankpin_load", "piston_force")
     if load is None:
-        along = drawn.values("radial_force") + big_end_inertia(drawn)
-        load = OverCycle(drawn.degrees, np.hypot(drawn.values("tangential_force"), along))
-    sign = indexed(words.say("load_symbol"))
-    base = words.say("load_symbol").partition("_")[0]
+        load = OverCycle(drawn.degrees, _of_one(drawn).size * displayed("piston_force", 1.0, per_area=drawn.area))
+    sign = indexed(say("symbols.sheet_load", words.language))
+    base = say("symbols.sheet_load", words.language).partition("_")[0]
     unit = words.unit(words.unit_of("piston_force"))
     level = load.mean
     if "crankpin_load_mean" in extra:
         level = displayed("piston_force", float(extra["crankpin_load_mean"]), per_area=drawn.area)
     shown = f"{words.say('mean')} {words.number(level, 6)} {unit}"
-    mean = indexed(f"{base}_{words.say('mean_mark')}")
+    mean = indexed(f"{base}_{say('symbols.sheet_mean', words.language)}")
     ends = load.degrees[[0, -1]]
     curves = [
         Curve("crankpin_load", sign, "", load.degrees, load.values),
         Curve("crankpin_load_mean", mean, shown, ends, np.full(2, level), "dashed"),
     ]
-    side = value_side("piston_force", [load.values], words)._replace(symbol=sign, mark=words.say("force"))
-    return graph("unrolled", box, (angle_side(drawn, words), side), curves, words, of=crankpin_number(extra))
+    side = value_side("piston_force", [load.values], words)._replace(
+        symbol=sign, mark=say("marks.force", words.language)
+    )
+    return graph(
+        "unrolled", box, (angle_side(drawn, words), side), curves, words, of=crankpin_name(extra, words.language)
+    )

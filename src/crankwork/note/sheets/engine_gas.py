@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array
+from crankwork.analysis import Array
+from crankwork.analysis.diagrams import brix_points
 from crankwork.note.sheets.graph import Axis, Curve, Graph, Side, graph, heading
 from crankwork.note.sheets.placing import Named, lines_of, names_beside
 from crankwork.note.sheets.scene import SMALL, Arc, Box, Circle, Item, Text, line, printable
@@ -178,11 +179,6 @@ def brix(drawn: Drawn, box: Box, words: Words, scale: float, at: float) -> Graph
     at : float
         Where top dead centre is along the sheet. [mm]
 
-    Returns
-    -------
-    Graph
-        Rays every 30 degrees; the pole is moved by r lambda / 2 towards bottom dead centre.
-
     References
     ----------
     kolchin_demidov_2008, ch. 6.
@@ -201,9 +197,10 @@ def brix(drawn: Drawn, box: Box, words: Words, scale: float, at: float) -> Graph
         line((at + radius, base + 3), (at + radius, base - radius), "axis"),
     ]
     items += [line((x, low + 17), (x, box.top), "axis") for x in (at, at + 2 * radius)]
-    points = []
-    for degrees in np.arange(0.0, 181.0, RAYS):
-        foot = middle + brix_point(radius, shift, degrees)
+    points, angles = [], np.arange(0.0, 181.0, RAYS)
+    found = brix_points(lengths, angles)
+    # the axis of the engine lies, its top on the left
+    for degrees, foot in zip(angles, middle - radius * np.column_stack([found.up, found.across]), strict=True):
         items += [line(pole, foot), line(foot, (foot[0], base), "net")]
         items.append(line((foot[0], base - 1.2), (foot[0], base + 1.2)))
         if not 0 < degrees < 180:
@@ -224,18 +221,3 @@ def brix(drawn: Drawn, box: Box, words: Words, scale: float, at: float) -> Graph
     lower.append(Text((box.left + 1.5, low + 2.0), words.scale(x.symbol, scale, "mm")))
     lower.append(Text((box.right - 1.5, low + 2.0), shown, anchor="end"))
     return Graph("brix", box, x, y, (*items, *points, *lower))
-
-
-def brix_point(radius: float, shift: float, degrees: float) -> Array:
-    """Return where a ray from the shifted pole meets the semicircle, from its middle, shape (2,). [mm]
-
-    Parameters
-    ----------
-    radius, shift : float
-        Of the semicircle; of the pole towards bottom dead centre. [mm]
-    degrees : float
-        Crank angle. [deg]
-    """
-    phi = np.radians(degrees)
-    length = shift * np.cos(phi) + np.sqrt(radius**2 - (shift * np.sin(phi)) ** 2)
-    return np.array([shift - length * np.cos(phi), -length * np.sin(phi)])

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array
+from crankwork.analysis import Array
+from crankwork.analysis.diagrams import tangent_ends, tolle_points
 from crankwork.note.sheets.engine_gas import angle_side, value_side
 from crankwork.note.sheets.graph import KINDS, Curve, Graph, Side, graph
 from crankwork.note.sheets.scene import SMALL, Box, Circle, Item, Text, line
 from crankwork.note.sheets.words import Words
 from crankwork.report.figure_data import Drawn
 from crankwork.report.language import displayed
-
-_PARTS = 6
 
 
 def motion_graph(drawn: Drawn, noun: str, box: Box, words: Words) -> Graph:
@@ -75,11 +74,6 @@ def tolle(drawn: Drawn, box: Box, words: Words, scale: float, at: float) -> Grap
 def tolle_corners(drawn: Drawn) -> Array:
     """Return the points C, E, F and D of the construction: displacement and acceleration, shape (4, 2).
 
-    Parameters
-    ----------
-    drawn : Drawn
-        What the graphs share.
-
     Returns
     -------
     array, shape (4, 2)
@@ -89,10 +83,9 @@ def tolle_corners(drawn: Drawn) -> Array:
     solved = drawn.results.solved
     r, ratio = solved.lengths.crank_radius, solved.lengths.rod_ratio
     unit = displayed("piston_acceleration", r * solved.speed**2)
-    stroke = displayed("piston_displacement", 2 * r)
-    largest, least = unit * (1 + ratio), -unit * (1 - ratio)
-    cut = stroke * largest / (largest - least)
-    return np.array([[0.0, largest], [cut, 0.0], [cut, -3 * ratio * unit], [stroke, least]])
+    radius = displayed("piston_displacement", r)
+    found = tolle_points(ratio)
+    return np.array([found.c, found.e, found.f, found.d]) * [radius, unit]
 
 
 def _envelope(shown: Graph, corners: Array) -> list[Item]:
@@ -100,8 +93,8 @@ def _envelope(shown: Graph, corners: Array) -> list[Item]:
     c, e, f, d = (np.array(shown.point(*one)) for one in corners)
     a, b = (np.array(shown.point(x, 0.0)) for x in (corners[0, 0], corners[3, 0]))
     items: list[Item] = [line(one, other) for one, other in ((a, c), (b, d), (c, d), (e, f), (c, f), (f, d))]
-    for part in range(1, _PARTS):
-        first, second = c + (f - c) * part / _PARTS, f + (d - f) * part / _PARTS
+    for part, ends in enumerate(tangent_ends(c, f, d), start=1):
+        first, second = ends[:2], ends[2:]
         items.append(line(first, second))
         items += [Circle((float(one[0]), float(one[1])), 0.4, "thin", 0.0) for one in (first, second)]
         items.append(Text((float(first[0] - 1.2), float(first[1] - 2.6)), str(part), SMALL, "end"))

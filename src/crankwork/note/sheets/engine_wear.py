@@ -7,9 +7,10 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from crankwork.analysis import Array
 from crankwork.errors import CrankworkError
-from crankwork.kinematics.crank_grid import Array
-from crankwork.note.sheets.engine_forces import crankpin_number
+from crankwork.locale import say
+from crankwork.note.sheets.engine_forces import crankpin_name
 from crankwork.note.sheets.graph import Axis, Graph, heading, titled
 from crankwork.note.sheets.scene import SMALL, TEXT, Box, Circle, Hatch, Item, Polyline, Text, line
 from crankwork.note.sheets.words import Words
@@ -44,14 +45,15 @@ def wear(drawn: Drawn, extra: Mapping[str, Array | float], box: Box, words: Word
     radius = min(box.width / 2 - 16.0, (box.height - 20.0) / 2 - 10.5)
     scale = round_scale(float(np.max(sums)) / (_DEEPEST * radius))
     centre = np.array([box.left + box.width / 2, box.bottom + 12.0 + radius])
-    sign = "Σ" + words.say("load_symbol").partition("_")[0]
+    sign = "Σ" + say("symbols.sheet_load", words.language).partition("_")[0]
     depth = Axis(sign, words.unit_of("piston_force"), scale, 0.0, 0.0, radius)
     items = _ring(sums, angles, centre, (radius, scale))
     items += _rays(angles, centre, radius)
-    at = angles[int(np.argmin(sums))]
+    at = float(extra.get("oil_hole_angle", angles[int(np.argmin(sums))]))
     hole = centre + (radius - 3.0) * _towards(at)
     items.append(Circle((float(hole[0]), float(hole[1])), 2.0, "medium", 1.0))
-    items += heading(titled(words.say("wear"), crankpin_number(extra)), [words.scale(sign, scale, depth.unit)], [], box)
+    title = titled(words.say("wear"), crankpin_name(extra, words.language))
+    items += heading(title, [words.scale(sign, scale, depth.unit)], [], box)
     items.append(Circle((box.left + 3.0, box.bottom + 3.0), 1.4, "medium", 1.0))
     items.append(Text((box.left + 6.0, box.bottom + 3.0 - TEXT / 2), words.say("oil_hole")))
     ends = "; ".join(

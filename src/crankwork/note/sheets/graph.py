@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array
+from crankwork.analysis import Array
 from crankwork.note.sheets.scene import (
     SMALL,
     TEXT,
@@ -243,7 +243,7 @@ def _axes(x: Axis, y: Axis, words: Words) -> list[Item]:
 
 def titled(title: str, of: str) -> str:
     """Return a title that says which of several things a graph shows, if that is to be said."""
-    return f"{title} {of}" if of else title
+    return f"{title}, {of}" if of else title
 
 
 def heading(title: str, scales: Sequence[str], curves: Sequence[Curve], box: Box) -> list[Item]:

@@ -6,13 +6,14 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from crankwork.analysis import Results
-from crankwork.analysis.linkage import linkage_columns, reachable
-from crankwork.analysis.linkage_speed import speed_columns
+from crankwork.analysis import Array, Results
+from crankwork.analysis.diagrams import Fluctuation
+from crankwork.analysis.moving import moving, reached_angles
+from crankwork.analysis.plans import accelerations, velocities
+from crankwork.analysis.skeleton import skeleton
 from crankwork.errors import CrankworkError
-from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.motion import linkage_motion
 from crankwork.linkage_machine import LinkageMachine
+from crankwork.locale import say
 from crankwork.machine import Machine
 from crankwork.mechanism.structure import structure
 from crankwork.note.sheets.graph import Graph
@@ -23,9 +24,6 @@ from crankwork.note.sheets.scene import SMALL, TEXT, Text, printable
 from crankwork.note.sheets.sheet import Paper, Sheet
 from crankwork.note.sheets.words import Words
 from crankwork.quantities import Language
-from crankwork.report.linkage_energy import Fluctuation
-from crankwork.report.linkage_plans import accelerations, velocities
-from crankwork.report.linkage_skeleton import skeleton
 from crankwork.report.summary import results_method
 
 _DENSE_STEP = 1.0
@@ -48,20 +46,6 @@ _TORQUES = ("static_torque", "dynamic_torque", "driving_torque")
 def linkage_sheets(results: Results, language: Language = "en", *, paper: Paper = PLAIN) -> tuple[Sheet, ...]:
     """Return the sheets of a linkage, or of a table of transfer functions; what is not known is left out.
 
-    Parameters
-    ----------
-    results : Results
-        The results of a linkage; curves are computed afresh, finer than their table.
-    language : str
-        Language of names, units and numbers.
-    paper : Paper
-        Size, grid, frame and title block.
-
-    Returns
-    -------
-    tuple of Sheet
-        `linkage-kinematics` of a linkage, and `linkage-dynamics` where torques or energies are known.
-
     Raises
     ------
     CrankworkError
@@ -72,13 +56,12 @@ def linkage_sheets(results: Results, language: Language = "en", *, paper: Paper 
         raise CrankworkError("sheets of a linkage need a linkage; take engine_sheets for this machine")
     machine, wanted = results.machine, None
     if isinstance(machine, LinkageMachine):
-        grid, notices = reachable(machine, CrankGrid.steps(_DENSE_STEP, 360.0))
-        known = linkage_columns(results.solved, grid)
-        sheets = [_kinematics(results, machine, grid, known, paper, words)]
-        if not notices and machine.drive.fluctuation is not None and "reduced_inertia" in known:
-            known |= speed_columns(machine, results.solved.speed, known, grid.angle)
+        degrees, _ = reached_angles(machine, _DENSE_STEP)
+        known = results.columns_at(degrees)
+        sheets = [_kinematics(results, machine, degrees, known, paper, words)]
+        if machine.drive.fluctuation is not None and "crank_speed" in known:
             wanted = Fluctuation(results.solved.speed, machine.drive.fluctuation)
-        graphs = _dynamics(wanted, grid.degrees, known, paper, words)
+        graphs = _dynamics(wanted, degrees, known, paper, words)
     else:
         sheets, graphs = [], _dynamics(wanted, results.grid.degrees, results.columns, paper, words)
     if graphs:
@@ -92,26 +75,26 @@ def linkage_sheets(results: Results, language: Language = "en", *, paper: Paper 
 
 
 def _kinematics(
-    results: Results, machine: LinkageMachine, grid: CrankGrid, known: Mapping[str, Array], paper: Paper, words: Words
+    results: Results, machine: LinkageMachine, degrees: Array, known: Mapping[str, Array], paper: Paper, words: Words
 ) -> Sheet:
     """Return the sheet of plans, and below them the motion of sliders, or of links where nothing slides."""
     mechanism, speed = machine.mechanism, results.solved.speed
     found, _ = structure(machine.linkage)
     links = found.links if found is not None else ()
-    moving = linkage_motion(mechanism, grid)
-    indices = [int(np.argmin(np.abs(grid.degrees - one))) for one in _POSITIONS]
-    shown = [at for at, one in zip(indices, _POSITIONS, strict=True) if abs(grid.degrees[at] - one) < _DENSE_STEP]
+    moved = moving(mechanism, degrees)
+    indices = [int(np.argmin(np.abs(degrees - one))) for one in _POSITIONS]
+    shown = [at for at, one in zip(indices, _POSITIONS, strict=True) if abs(degrees[at] - one) < _DENSE_STEP]
     main = min(_MAIN, len(shown) - 1)
     shape = skeleton(mechanism, links)
-    graphs = [position_plans(shape, moving, shown, main, paper.part(0, 190, 400, 390), words)]
-    by_velocity = [Numbered(i, velocities(mechanism, moving, at, speed, links)) for i, at in enumerate(shown)]
+    graphs = [position_plans(shape, moved, shown, main, paper.part(0, 190, 400, 390), words)]
+    by_velocity = [Numbered(i, velocities(mechanism, moved, at, speed, links)) for i, at in enumerate(shown)]
     polygons, heads = vector_plans("velocity_plans", by_velocity, paper.part(400, 316, 416, 264), 4, words)
     eps = machine.angular_acceleration
     chosen = [i for i in _ACCELERATIONS if i < len(shown)] or [0]
-    by_acceleration = [Numbered(i, accelerations(mechanism, moving, shown[i], speed, eps, links)) for i in chosen]
+    by_acceleration = [Numbered(i, accelerations(mechanism, moved, shown[i], speed, eps, links)) for i in chosen]
     box = paper.part(400, 190, 416, 124)
     further, further_heads = vector_plans("acceleration_plans", by_acceleration, box, 3, words)
-    graphs += [*polygons, *further, *_motion(grid.degrees, known, paper, words)]
+    graphs += [*polygons, *further, *_motion(degrees, known, paper, words)]
     remarks = _remarks(results, by_velocity[main], words)
     box = paper.part(632, 62, 184, 126)
     more = [*heads, *further_heads, Text((box.left + 1.5, box.top - 6.5), words.say("data"), 5.0)]
@@ -147,7 +130,9 @@ def _remarks(results: Results, main: Numbered, words: Words) -> list[str]:
     rows += [f"{'; '.join(turning[at : at + 4])} {words.unit('rad/s')}" for at in range(0, len(turning), 4)]
     rows.append(f"({words.say('position')} {main.position}; {words.say('anticlockwise')})")
     for under, (link, over) in list(main.plan.beneath.items())[:_MOST_REMARKS]:
-        rows.append(words.say("beneath").format(printable(under, 8), link, printable(over, 8)))
+        rows.append(
+            say("sheets.beneath", words.language, point=printable(under, 8), link=link, other=printable(over, 8))
+        )
     return rows
 
 

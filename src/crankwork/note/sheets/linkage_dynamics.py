@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array
+from crankwork.analysis import Array
+from crankwork.analysis.diagrams import Fluctuation, tangents
 from crankwork.note.sheets.graph import KINDS, Curve, Graph, Side, graph
 from crankwork.note.sheets.placing import Named, lines_of, names_beside
 from crankwork.note.sheets.scene import Box, Item, Polyline, Text, indexed, line, printable
 from crankwork.note.sheets.words import Words
-from crankwork.report.linkage_energy import Fluctuation, tangents
 from crankwork.report.linkage_look import displayed_values, quantity_of
 
 MOST = len(KINDS)
@@ -45,7 +45,7 @@ def over_angle(
         return None
     curves, language = [], words.language
     for key, kind in zip(present, KINDS, strict=False):
-        row = quantity_of(key, {})
+        row = quantity_of(key)
         symbol = indexed(printable(row.symbol(language)))
         text = printable(row.label(language), 60) if len(present) > 1 else ""
         curves.append(Curve(key, symbol, text, degrees, displayed_values(row, known[key]), kind))
@@ -53,7 +53,7 @@ def over_angle(
         # a table of a whole turn ends before the angle at which it starts again
         curves = [one._replace(x=np.append(one.x, 360.0), y=np.append(one.y, one.y[0])) for one in curves]
     low, high = _reach(name, curves)
-    first = quantity_of(present[0], {})
+    first = quantity_of(present[0])
     symbols = ", ".join(dict.fromkeys(one.symbol for one in curves)) if len(curves) < 4 else curves[0].symbol[:1]
     side = Side(symbols, first.unit, low, high)
     return graph(name, box, (_angles(curves, words), side), curves, words)

@@ -7,13 +7,13 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from crankwork.analysis.plans import Kind, Plan
 from crankwork.note.sheets.graph import Axis, Graph, heading
 from crankwork.note.sheets.placing import Named, lines_of, names_beside
 from crankwork.note.sheets.scene import SMALL, Box, Circle, Item, LineKind, Polyline, Text, arrow, printable
 from crankwork.note.sheets.words import Words
 from crankwork.report.linkage_look import round_scale
 from crankwork.report.linkage_plan_figures import node_name
-from crankwork.report.linkage_plans import Kind, Plan
 
 _KINDS: dict[Kind, LineKind] = {
     "absolute": "medium", "relative": "thin", "tangential": "thin", "sliding": "thin", "normal": "dashed",
@@ -47,11 +47,6 @@ def vector_plans(
         How many plans stand in a row.
     words : Words
         Language.
-
-    Returns
-    -------
-    tuple of list of Graph and list of Item
-        `velocity_plans.1` and so on, by position; the heading of them all.
     """
     rows = -(-len(plans) // columns)
     width, height = box.width / columns, (box.height - _HEAD) / rows

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.motion import Motion
+from crankwork.analysis import Array
+from crankwork.analysis.moving import Moving
+from crankwork.analysis.skeleton import Pose, Skeleton
 from crankwork.note.sheets.graph import Axis, Graph, heading
 from crankwork.note.sheets.placing import Named, lines_of, names_beside
 from crankwork.note.sheets.scene import SMALL, TEXT, Box, Circle, Item, LineKind, Polyline, line, printable
@@ -14,22 +15,21 @@ from crankwork.report.drawing_parts import HATCH
 from crankwork.report.linkage_drawing import corners, slot_middle, walls
 from crankwork.report.linkage_look import round_scale
 from crankwork.report.linkage_scene import SLOT, Scene, scene
-from crankwork.report.linkage_skeleton import Pose, Skeleton
 
 # millimetres of the sheet in a unit in which blocks and pivots are sized
 _UNIT = 0.3
 _HEAD = 15.0
 
 
-def position_plans(shape: Skeleton, moving: Motion, plans: list[int], main: int, box: Box, words: Words) -> Graph:
+def position_plans(shape: Skeleton, moving: Moving, plans: list[int], main: int, box: Box, words: Words) -> Graph:
     """Return the position plans.
 
     Parameters
     ----------
     shape : Skeleton
         The mechanism as it is drawn.
-    moving : Motion
-        Its exact motion over a revolution.
+    moving : Moving
+        Where it is over a revolution.
     plans : list of int
         Which crank angles are drawn, numbered from 0.
     main : int
@@ -38,11 +38,6 @@ def position_plans(shape: Skeleton, moving: Motion, plans: list[int], main: int,
         Where. [mm]
     words : Words
         Language.
-
-    Returns
-    -------
-    Graph
-        Lengths to the scale written on it, in metres per millimetre of paper; blocks and pivots of their own size.
     """
     room = box.inset(6.0, 6.0, 6.0, _HEAD + 4.0)
     drawn, scale = _to_scale(shape, moving, room)
@@ -63,7 +58,7 @@ def position_plans(shape: Skeleton, moving: Motion, plans: list[int], main: int,
     return Graph("position_plans", box, x, y, tuple(items))
 
 
-def _to_scale(shape: Skeleton, moving: Motion, room: Box) -> tuple[Scene, float]:
+def _to_scale(shape: Skeleton, moving: Moving, room: Box) -> tuple[Scene, float]:
     """Return the parts to the largest round scale at which they fit into a room, and the scale. [m/mm]"""
     drawn, units = scene(shape, moving, room.width / _UNIT)
     metres = room.width / _UNIT / units

@@ -17,16 +17,6 @@ _PAGE = """#let data = sys.inputs
 def sheet_pdf(sheet: Sheet) -> bytes:
     """Return a sheet as PDF, in true millimetres, the same bytes every time.
 
-    Parameters
-    ----------
-    sheet : Sheet
-        What is drawn.
-
-    Returns
-    -------
-    bytes
-        PDF of one page.
-
     Raises
     ------
     MissingExtraError

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array
+from crankwork.analysis import Array
 from crankwork.note.sheets.scene import SMALL, Box, Circle, Item, Polyline, Text, line, text_width
 
 _REACHES = np.array([2.6, 3.6, 5.0, 7.0, 9.5, 12.5, 16.0])

@@ -8,7 +8,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.kinematics.crank_grid import Array
+from crankwork.analysis import Array
 
 LineKind = Literal["thick", "medium", "thin", "dashed", "dash_dot", "dotted", "axis", "net", "grid", "grid_bold"]
 Anchor = Literal["start", "middle", "end"]
@@ -150,11 +150,6 @@ _MARKED = re.compile(r"([_^])\{([^{}]*)\}")
 
 def runs(text: str) -> list[Run]:
     """Return the parts of a text, indices and exponents apart.
-
-    Parameters
-    ----------
-    text : str
-        Text with `_{index}` and `^{exponent}`.
 
     Examples
     --------

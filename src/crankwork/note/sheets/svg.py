@@ -6,7 +6,7 @@ import html
 from collections.abc import Iterator
 from itertools import groupby
 
-from crankwork.kinematics.crank_grid import Array
+from crankwork.analysis import Array
 from crankwork.note.sheets.scene import (
     CAP_HEIGHT,
     INDEX,
@@ -28,18 +28,7 @@ FONTS = "Libertinus Serif, Times New Roman, Liberation Serif, DejaVu Serif, seri
 
 
 def sheet_svg(sheet: Sheet) -> bytes:
-    """Return a sheet as SVG whose user unit is a millimetre of the paper.
-
-    Parameters
-    ----------
-    sheet : Sheet
-        What is drawn.
-
-    Returns
-    -------
-    bytes
-        SVG with width and height in millimetres; the lines that show a quantity have its key as their class.
-    """
+    """Return a sheet as SVG whose user unit is a millimetre of the paper."""
     box = sheet.paper.box
     writer = _Writer(box.height)
     size = f'width="{box.width:g}mm" height="{box.height:g}mm" viewBox="0 0 {box.width:g} {box.height:g}"'

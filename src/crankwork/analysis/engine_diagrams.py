@@ -1,0 +1,242 @@
+"""Curves and diagrams of a whole engine that figures and sheets draw, each computed once, when asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.analysis.cylinders import WholeEngine, whole_engine
+from crankwork.analysis.engine_balance import EngineBalance, engine_balance
+from crankwork.analysis.engine_bearings import BearingLoads, bearing_loads
+from crankwork.analysis.engine_torque import EngineTorque, engine_torque
+from crankwork.analysis.results import Results
+from crankwork.analysis.whole_engine import whole_memory
+from crankwork.cylinders.bearings import big_end_inertia_force
+from crankwork.cylinders.ellipse import Ellipse, balance_sum
+from crankwork.cylinders.load_statistics import PolarDiagram, polar_diagram
+from crankwork.cylinders.load_vectors import BearingLoad
+from crankwork.cylinders.torque import torques_along_shaft
+from crankwork.cylinders.torque_harmonics import PhaseStar, phase_star
+from crankwork.cylinders.wear import OilHole, oil_hole
+from crankwork.formula.known import Found, breaks_of
+from crankwork.kinematics.crank_grid import Array
+
+__all__ = ["CrankpinLoad", "EngineDiagrams", "Locus", "PolarDiagram", "WearRing", "crankpin_of_one", "wear_rings"]
+
+# Behind a corner of the pressure, where there may be a jump. [deg]
+_AFTER = 1e-6
+_ROUNDING = 1e-9
+_STAR_ORDERS = 6
+# Loci are of the orders up to this one; higher ones are small.
+_LOCI = 2
+
+
+class CrankpinLoad(NamedTuple):
+    """Load of the rods on a crankpin.
+
+    Parameters
+    ----------
+    size : array, shape (n,)
+        Of the whole load. [N]
+    polar : PolarDiagram
+        Tangential to the right, radial downward.
+    inertia : float
+        Inertia force of all rod masses at the crankpin, never positive. [N]
+    rods : int
+        How many turn on it.
+    """
+
+    size: Array
+    polar: PolarDiagram
+    inertia: float
+    rods: int
+
+
+class Locus(NamedTuple):
+    """Closed curve in which a free force of one order runs: its longest [N], its ends across and up [N], shape (n,)."""
+
+    largest: float
+    across: Array
+    up: Array
+
+
+class WearRing(NamedTuple):
+    """Sums of loads on the rays of a journal [N], shape (rays,), and where its oil hole should be."""
+
+    sums: Array
+    hole: OilHole
+
+
+def crankpin_of_one(results: Results, degrees: Array, columns: Mapping[str, Array]) -> CrankpinLoad:
+    """Return the load of the one rod of a crank gear on its crankpin; the machine may have no engine.
+
+    Parameters
+    ----------
+    results : Results
+        Of a slider-crank with forces.
+    degrees : array, shape (n,)
+        Crank angles over the cycle. [deg]
+    columns : mapping of str to array, shape (n,)
+        With `radial_force` and `tangential_force`. [N]
+    """
+    inertia = _rod_inertia(results)
+    load = BearingLoad(-columns["radial_force"] - inertia, columns["tangential_force"])
+    return CrankpinLoad(load.resultant, polar_diagram(load, degrees, results.machine.cycle, inertia), inertia, 1)
+
+
+def _rod_inertia(results: Results) -> float:
+    """Return the inertia force of the mass of one rod at the crankpin, never positive. [N]"""
+    solved = results.solved
+    mass = solved.machine.masses.rod_big_end if solved.machine.masses is not None else 0.0
+    return float(big_end_inertia_force(mass, solved.lengths.crank_radius, solved.speed))
+
+
+def wear_rings(results: Results, listing: str) -> tuple[Array, dict[str, WearRing]]:
+    """Return the angles of the rays of wear diagrams [deg], and the rings by number of the journal.
+
+    Parameters
+    ----------
+    results : Results
+        Of an engine, with the listing.
+    listing : str
+        `crankpin_wear` or `main_wear`.
+    """
+    columns = dict(results.listings[listing].columns)
+    angles = np.degrees(columns.pop("wear_ray_angle"))
+    return angles, {key.partition(".")[2]: WearRing(one, oil_hole(one)) for key, one in columns.items()}
+
+
+@dataclass(frozen=True)
+class EngineDiagrams:
+    """Curves and diagrams of a whole engine.
+
+    Parameters
+    ----------
+    results : Results
+        Of a machine with an engine whose forces are known.
+    """
+
+    results: Results
+
+    @property
+    def cycle(self) -> float:
+        """Length of the cycle. [deg]"""
+        return self.results.machine.cycle
+
+    @cached_property
+    def whole(self) -> WholeEngine:
+        """The engine."""
+        return whole_engine(self.results.solved)
+
+    @property
+    def count(self) -> int:
+        """How many cylinders it has."""
+        return len(self.whole.cylinders)
+
+    @property
+    def has_throws(self) -> bool:
+        """Whether its crankshaft has more than one throw."""
+        return len({place.throw for place in self.whole.layout.places}) > 1
+
+    @property
+    def is_spread(self) -> bool:
+        """Whether cylinders stand side by side along the shaft."""
+        return len({place.position for place in self.whole.layout.places}) > 1
+
+    @cached_property
+    def torque(self) -> EngineTorque:
+        """Torque of one cylinder and of all, excess work and speed."""
+        return engine_torque(self.whole, *whole_memory(self.whole))
+
+    @cached_property
+    def degrees(self) -> Array:
+        """Crank angles of the torques, on both sides of every corner of the pressure. [deg]"""
+        corners = breaks_of([self.results.memory["total_torque"]], self.cycle)
+        angles = np.concatenate([np.arange(0.0, self.cycle + 0.5), corners, corners[:-1] + _AFTER])
+        return np.unique(angles)
+
+    @cached_property
+    def torques(self) -> Array:
+        """Torque of every cylinder at `degrees`, shape (cylinders, n). [N m]"""
+        return self.whole.each("crank_torque", self.degrees)
+
+    @property
+    def journal_torques(self) -> Array:
+        """Torque on every main journal that carries some, from the second on, at `degrees`. [N m]"""
+        return np.asarray(torques_along_shaft(list(self.torques), self.whole.layout).journals[1:])
+
+    @cached_property
+    def loads(self) -> tuple[Array, BearingLoads]:
+        """Crank angles of the loads, those of the extremes and of corners among them [deg], and the loads there. [N]"""
+        memory = self.results.memory
+        extremes = [
+            one.node.at
+            for key, one in memory.items()
+            if key.startswith("bearing_load_m") and isinstance(one.node, Found) and one.node.at is not None
+        ]
+        degrees = np.unique(np.concatenate([self.degrees[:-1], np.mod(extremes, self.cycle)]))
+        return degrees, bearing_loads(self.whole, memory, degrees)
+
+    def crankpin(self, pin: int, degrees: Array | None = None) -> CrankpinLoad:
+        """Return the load of all rods on a crankpin.
+
+        Parameters
+        ----------
+        pin : int
+            Its number, one of those in `loads`.
+        degrees : array, shape (n,), optional
+            Crank angles over the cycle; those of `loads` otherwise. [deg]
+        """
+        degrees, loads = (
+            self.loads if degrees is None else (degrees, bearing_loads(self.whole, self.results.memory, degrees))
+        )
+        load, rods = loads.crankpins[pin], len(self.whole.on_pin[pin - 1])
+        inertia = rods * _rod_inertia(self.results)
+        return CrankpinLoad(load.resultant, polar_diagram(load, degrees, self.cycle, inertia), inertia, rods)
+
+    @property
+    def rod_bearings(self) -> dict[str, PolarDiagram]:
+        """Polar diagrams of `big_end_load` and `small_end_load`, in the frame of the rod. [N]"""
+        degrees, loads = self.loads
+        ends = {"big_end_load": loads.big_end, "small_end_load": loads.small_end}
+        return {key: polar_diagram(load, degrees, self.cycle) for key, load in ends.items()}
+
+    @property
+    def mains(self) -> tuple[PolarDiagram, ...]:
+        """Polar diagrams of all main journals, in the frame of the shaft. [N]"""
+        degrees, loads = self.loads
+        return tuple(polar_diagram(one, degrees, self.cycle, 0.0, 90.0) for one in loads.mains)
+
+    @cached_property
+    def balance(self) -> EngineBalance:
+        """Free forces and moments."""
+        return engine_balance(self.whole)
+
+    @cached_property
+    def loci(self) -> dict[int, tuple[Locus, Locus]]:
+        """The forces of each order of cylinders and cranks, and of all, where either is not nothing."""
+        balance = self.balance
+        before = {one.order: one.force for one in balance_sum((*balance.reciprocating, balance.rotating))}
+        after = {one.order: one.force for one in balance.residual}
+        least = _ROUNDING * self.whole.masses.reciprocating * self.whole.master.lengths.crank_radius
+        least *= self.whole.master.speed**2
+        return {
+            order: (_locus(one), _locus(after[order]))
+            for order, one in before.items()
+            if order <= _LOCI and max(one.largest, after[order].largest) > least
+        }
+
+    @property
+    def phase_stars(self) -> list[PhaseStar]:
+        """The phase stars of the orders up to 6."""
+        step = 360 / self.cycle
+        return [phase_star(self.whole.layout, step * at) for at in range(1, round(_STAR_ORDERS / step) + 1)]
+
+
+def _locus(ellipse: Ellipse) -> Locus:
+    points = ellipse.outline()
+    return Locus(ellipse.largest, points.imag, points.real)

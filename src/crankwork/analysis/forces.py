@@ -1,0 +1,164 @@
+"""The forces from the gas to the crankshaft of one cylinder, remembered."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+
+from crankwork.analysis.gas import gas_memory, space_memory
+from crankwork.analysis.motion import (
+    KINEMATICS,
+    MovingCylinder,
+    harmonic_memory,
+    inertia_acceleration,
+    moving_cylinder,
+)
+from crankwork.analysis.solved import Solved
+from crankwork.cylinders.articulated_forces import slave_forces
+from crankwork.dynamics import piston_forces as forces
+from crankwork.dynamics.masses import CrankGearMasses, reciprocating_mass, rotating_mass
+from crankwork.formula.known import Known, absent, given
+from crankwork.formula.replay import Program
+from crankwork.kinematics import rod_functions
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+
+FORCES = (
+    "gas_pressure", "gas_force", "inertia_acceleration", "inertia_force", "weight_force", "transverse_weight",
+    "piston_force", "side_force", "rod_force",
+    "rod_transverse_force", "radial_force", "tangential_force", "rotating_inertia_force", "rotating_torque",
+    "crank_torque", "overturning_moment",
+)  # fmt: skip
+COLUMNS = ("crank_angle", *KINEMATICS, "cylinder_volume", *FORCES, "knuckle_side_force", "knuckle_couple")
+
+
+def cylinder_memory(solved: Solved) -> dict[str, Known]:
+    """Return everything about one cylinder by key: motion, gas and forces, each remembering how it came about.
+
+    Parameters
+    ----------
+    solved : Solved
+        Machine and method.
+
+    References
+    ----------
+    kolchin_demidov_2008, ch. 6 and 7.
+    """
+    moving = moving_cylinder(solved)
+    memory = moving.memory
+    memory |= space_memory(solved, moving)
+    memory |= harmonic_memory(solved, moving)
+    if solved.space is not None:
+        memory |= gas_memory(solved, solved.space, moving)
+    if solved.machine.masses is not None:
+        memory |= _by_key(_masses(solved.machine.masses))
+    if solved.machine.masses is not None or solved.space is not None:
+        memory |= _by_key(_axial_forces(solved, moving))
+        memory |= _by_key(_slave_forces(solved, moving) if solved.slave is not None else _rod_forces(solved, moving))
+    return memory
+
+
+def columns(solved: Solved, grid: CrankGrid, keys: Iterable[str] = COLUMNS) -> dict[str, Array]:
+    """Return columns of one cylinder at crank angles within one cycle.
+
+    Parameters
+    ----------
+    solved : Solved
+        Machine and method.
+    grid : CrankGrid, shape (n,)
+        Crank angles. [rad]
+    keys : iterable of str
+        Which; those that the machine does not have are left out.
+
+    Returns
+    -------
+    dict of str to array, shape (n,)
+        Columns by key. [SI]
+    """
+    return Program({key: solved.memory[key] for key in keys if key in solved.memory})(grid)
+
+
+def _by_key(found: Iterable[Known]) -> dict[str, Known]:
+    return {one.key: one for one in found}
+
+
+def _masses(masses: CrankGearMasses) -> Iterator[Known]:
+    piston, crank = given("piston_mass", masses.piston, "piston.mass"), given("crank_mass", masses.crank, "crank.mass")
+    small = given("rod_small_end_mass", masses.rod_small_end, "rod")
+    big = given("rod_big_end_mass", masses.rod_big_end, "rod")
+    yield from (piston, small, crank, big, reciprocating_mass(piston, small), rotating_mass(crank, big))
+
+
+def _axial_forces(solved: Solved, moving: MovingCylinder) -> Iterator[Known]:
+    """Yield inertia, weight and, with the gas, their sum along the cylinder axis."""
+    machine, memory = solved.machine, moving.memory
+    inertia, weight = absent("inertia_force"), absent("weight_force")
+    if machine.masses is not None:
+        mass, acceleration = memory["reciprocating_mass"], inertia_acceleration(solved, moving)
+        if acceleration is not memory["piston_acceleration"]:
+            yield acceleration
+        inertia = forces.inertia_force(mass, acceleration)
+        yield inertia
+        if machine.has_gravity:
+            g, lean = given("", solved.method.gravity, "method.gravity"), _inclination(solved)
+            weight = forces.weight_force(mass, g, math.cos(lean))
+            yield weight
+            across = forces.transverse_weight(mass, g, math.sin(lean))
+            if across.value:
+                yield across
+    yield forces.piston_force(memory.get("gas_force", absent("gas_force")), inertia, weight)
+
+
+def _rod_forces(solved: Solved, moving: MovingCylinder) -> Iterator[Known]:
+    """Yield what the rod passes on, alone or with the correction couple that makes it a rigid rod, and the torque."""
+    memory, (r, l, e), angle = moving.memory, moving.lengths, moving.angle  # noqa: E741
+    P, swing, masses = memory["piston_force"], moving.motion.swing, solved.machine.masses
+    dN = absent("side_force.couple")
+    if masses is not None and masses.rod_inertia_excess and solved.method.rod == "rigid":
+        excess = given("rod_inertia_excess", masses.rod_inertia_excess, "rod.inertia")
+        couple = forces.correction_couple(excess, memory["rod_angular_acceleration"])
+        dN = forces.side_force_of_couple(couple, l, swing.cos).named("side_force.couple")
+        yield from (excess, couple, forces.rod_transverse_force(couple, l), dN)
+    across = memory.get("transverse_weight", absent("transverse_weight"))
+    rod = forces.rod_forces(P, angle, swing, dN=dN, F_wn=across)
+    yield from rod
+    yield rod_functions.side_factor(swing.sin, swing.cos)
+    yield rod_functions.rod_factor(swing.cos)
+    yield rod_functions.radial_factor(swing.cos_sum, swing.cos)
+    yield rod_functions.tangential_factor(swing.sin_sum, swing.cos)
+    rotating = list(_rotating(solved, moving))
+    yield from rotating
+    weight = next((one for one in rotating if one.key == "rotating_torque"), absent("rotating_torque"))
+    yield forces.crank_torque(rod.tangential, r, weight)
+    yield forces.overturning_moment(rod.side, memory["pin_distance"], P, e)
+
+
+def _rotating(solved: Solved, moving: MovingCylinder) -> Iterator[Known]:
+    """Yield the inertia force of the rotating mass, and its torque where it has one."""
+    machine, memory, angle = solved.machine, moving.memory, moving.angle
+    if machine.masses is None:
+        return
+    mass, r = memory["rotating_mass"], moving.lengths.crank_radius
+    yield forces.rotating_inertia_force(mass, r, moving.speed)
+    if machine.has_gravity or machine.angular_acceleration:
+        g = given("", solved.method.gravity, "method.gravity") if machine.has_gravity else absent("")
+        cos, sin = math.cos(_inclination(solved)), math.sin(_inclination(solved))
+        yield forces.rotating_torque(mass, r, g, angle.sin, cos, angle.cos, sin, moving.angular_acceleration)
+
+
+def _slave_forces(solved: Solved, moving: MovingCylinder) -> Iterator[Known]:
+    """Yield the forces of a cylinder whose rod hangs on the master rod; those on the crankpin come through that."""
+    if solved.slave is None or moving.slave is None:
+        return
+    found = slave_forces(moving.memory["piston_force"], moving.lengths, solved.slave, moving.angle, moving.slave)
+    yield from (found.side.named("side_force"), found.along.named("rod_force"))
+    yield from (found.radial.named("radial_force"), found.tangential.named("tangential_force"))
+    yield from (found.couple.named("knuckle_couple"), found.master_side.named("knuckle_side_force"))
+    torque = forces.crank_torque(found.tangential.named("tangential_force"), moving.lengths.crank_radius, absent(""))
+    yield from (torque, (-torque).named("overturning_moment"))
+    if solved.machine.masses is not None:
+        mass = moving.memory["rotating_mass"]
+        yield forces.rotating_inertia_force(mass, moving.lengths.crank_radius, moving.speed)
+
+
+def _inclination(solved: Solved) -> float:
+    return solved.machine.cylinder.inclination if solved.machine.cylinder is not None else 0.0

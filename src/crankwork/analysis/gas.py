@@ -1,0 +1,97 @@
+"""The pressure in a cylinder and its force on the piston, remembered."""
+
+from __future__ import annotations
+
+from crankwork.analysis.motion import MovingCylinder
+from crankwork.analysis.solved import Solved, WorkingSpace
+from crankwork.formula.known import Known, absent, given
+from crankwork.loads import gas
+from crankwork.loads.gauge import gauge_pressure
+from crankwork.loads.pressure import at_angle, polytrope_origin, remembered_pressure
+
+
+def space_memory(solved: Solved, moving: MovingCylinder) -> dict[str, Known]:
+    """Return areas and volumes of the cylinder, as far as they are known.
+
+    Parameters
+    ----------
+    solved : Solved
+        Machine and method.
+    moving : MovingCylinder
+        The motion.
+
+    References
+    ----------
+    kolchin_demidov_2008, ch. 5.
+    """
+    cylinder, space = solved.machine.cylinder, solved.space
+    if cylinder is None:
+        return {}
+    area = gas.piston_area(solved.method.pi, given("bore", cylinder.bore, "cylinder.bore"))
+    found = [given("bore", cylinder.bore, "cylinder.bore"), area]
+    if space is not None:
+        stroke = solved.remembered_stroke(moving.lengths)
+        swept = gas.swept_volume(area, stroke)
+        if cylinder.clearance_volume is not None:
+            clearance = given("clearance_volume", space.clearance, "cylinder.clearance_volume")
+        elif cylinder.compression_ratio is not None:
+            ratio = given("compression_ratio", cylinder.compression_ratio, "cylinder.compression_ratio")
+            clearance = gas.clearance_volume(swept, ratio)
+        else:
+            clearance = given("clearance_volume", space.clearance)
+        found += [stroke, swept, clearance, gas.compression_ratio(swept, clearance)]
+    return {one.key: one for one in found}
+
+
+def gas_memory(solved: Solved, space: WorkingSpace, moving: MovingCylinder) -> dict[str, Known]:
+    """Return volume, pressure and force of the gas.
+
+    Parameters
+    ----------
+    solved : Solved
+        Machine and method.
+    space : WorkingSpace
+        The cylinder as solved.
+    moving : MovingCylinder
+        The motion, with areas and volumes in its memory.
+
+    References
+    ----------
+    kolchin_demidov_2008, ch. 5 and 7.
+    """
+    memory = moving.memory
+    area = memory["piston_area"]
+    volume = gas.cylinder_volume(memory["clearance_volume"], area, memory["piston_displacement"])
+    read = remembered_pressure(space.diagram, volume)
+    pressure = read.named("gas_pressure")
+    if space.ambient:
+        pressure = gauge_pressure(read, given("ambient_pressure", space.ambient, "gas.ambient"))
+    back, rod_area = absent(""), absent("")
+    if space.rod_area:
+        diameter = given("", _rod_diameter(solved), "cylinder.piston_rod_diameter")
+        rod_area = gas.piston_area(solved.method.pi, diameter).named("piston_area.rod")
+        back = given("", space.back_pressure, "gas.back_pressure")
+    force = gas.gas_force(pressure, area, back, rod_area)
+    return {one.key: one for one in (volume, read, pressure, force)} | _ends_of_polytropes(solved, space, volume)
+
+
+def _rod_diameter(solved: Solved) -> float:
+    return solved.machine.cylinder.piston_rod_diameter if solved.machine.cylinder is not None else 0.0
+
+
+def _ends_of_polytropes(solved: Solved, space: WorkingSpace, volume: Known) -> dict[str, Known]:
+    """Return volume and pressure at the ends of each polytrope of a diagram that was given by its points."""
+    given_gas, found = solved.machine.gas, dict[str, Known]()
+    if given_gas is None or given_gas.measured is not None or given_gas.calculated is not None:
+        return found
+    for segment in space.diagram.segments:
+        if segment.law != "polytropic" or not segment.origin:
+            continue
+        p_1, V_1, exponent = polytrope_origin(space.diagram, segment, volume)
+        found |= {p_1.key: p_1, V_1.key: V_1}
+        for name, (degrees, _) in space.diagram.named.items():
+            if name != segment.origin and degrees in (segment.start, segment.end):
+                V = at_angle(volume, degrees, f"cylinder_volume.{name}")
+                end = gas.polytropic_pressure(p_1, V_1, V, exponent).named(f"diagram_pressure.{name}")
+                found |= {V.key: V, end.key: end}
+    return found

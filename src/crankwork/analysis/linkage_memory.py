@@ -1,0 +1,138 @@
+"""Every column of a linkage as a known: motion, reduction to the crank, torques, forces in joints."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor
+from crankwork.dynamics.force_parts import balancing_torque_of_parts
+from crankwork.dynamics.joint_forces import joint_forces
+from crankwork.dynamics.link_loads import link_angular_acceleration
+from crankwork.dynamics.piston_forces import angular_speed
+from crankwork.dynamics.reaction import JointForces
+from crankwork.dynamics.reduction import dynamic_torque, kinetic_energy, reduced_inertia, reduced_torque, static_torque
+from crankwork.dynamics.running import Running
+from crankwork.formula.known import Known, Pieces, absent, given
+from crankwork.kinematics import transfer_rates as rates
+from crankwork.kinematics.memory import angle_of, course_of, given_mechanism, remembered_motion
+from crankwork.kinematics.motion import Motion
+from crankwork.linkage_machine import LinkageMachine, TabulatedMachine
+from crankwork.loads.load import applied_loads
+
+
+def linkage_memory(machine: LinkageMachine, moved: Motion) -> dict[str, Known]:
+    """Return all columns of a linkage.
+
+    Parameters
+    ----------
+    machine : LinkageMachine
+        What to compute.
+    moved : Motion
+        Its motion in numbers, over the crank angles that it reaches.
+
+    Returns
+    -------
+    dict of str to Known
+        Columns by key; those of points, links, sliders and joints are `key.NAME`.
+
+    References
+    ----------
+    artobolevsky_1988, ch. 13-16.
+    """
+    motion = remembered_motion(machine.mechanism, moved)
+    w, eps = speed_of(machine), _stated("angular_acceleration", machine.angular_acceleration)
+    columns: dict[str, Known] = {"crank_angle": angle_of(motion.grid), **dict(_moving(machine, motion, w, eps))}
+    if machine.mechanism.bodies or machine.loads or machine.drive.inertia:
+        columns |= _at_work(machine, motion, w, eps)
+    return {key: one.named(key) for key, one in columns.items()}
+
+
+def speed_of(machine: LinkageMachine | TabulatedMachine) -> Known:
+    """Return the angular speed of the crank, with the method's own pi.
+
+    Parameters
+    ----------
+    machine : LinkageMachine or TabulatedMachine
+        Whose crank.
+    """
+    if machine.method.pi == math.pi:
+        return given("speed", machine.speed, "crank.speed")
+    turns = given("rotational_speed", machine.speed * 30 / math.pi, "crank.speed")
+    found: Known = angular_speed(machine.method.pi, turns)
+    return found
+
+
+def _stated(key: str, value: float, neutral: float = 0.0) -> Known:
+    return absent(key, neutral) if value == neutral else given(key, value)
+
+
+def _moving(machine: LinkageMachine, motion: Motion, w: Known, eps: Known) -> Iterator[tuple[str, Known]]:
+    """Yield positions, velocities and accelerations of everything that moves."""
+    for name, (x, y) in motion.points.items():
+        if name in machine.mechanism.ground:
+            continue
+        yield f"point_x.{name}", x.position
+        yield f"point_y.{name}", y.position
+        yield f"point_velocity.{name}", rates.point_velocity(x.position_1, y.position_1, w)
+        second = rates.point_acceleration(x.position_2, w, x.position_1, eps, y.position_2, y.position_1)
+        yield f"point_acceleration.{name}", second
+    for name, one in motion.links.items():
+        if name != machine.mechanism.crank.link:
+            yield f"link_angle.{name}", one.position
+            yield f"link_angular_velocity.{name}", rates.link_angular_velocity(one.position_1, w)
+            turning = link_angular_acceleration(one.position_2, w, one.position_1, eps)
+            yield f"link_angular_acceleration.{name}", turning
+    for name, one in motion.sliders.items():
+        yield f"slider_displacement.{name}", one.position
+        yield f"slider_velocity.{name}", rates.slider_velocity(one.position_1, w)
+        yield f"slider_acceleration.{name}", rates.slider_acceleration(one.position_2, w, one.position_1, eps)
+
+
+def _at_work(machine: LinkageMachine, motion: Motion, w: Known, eps: Known) -> dict[str, Known]:
+    """Return reduction, torques and forces in joints."""
+    mechanism = given_mechanism(machine.mechanism)
+    loads = applied_loads(mechanism, motion, machine.loads)
+    beside = _stated("reduced_inertia.drive", machine.drive.inertia)
+    inertia = reduced_inertia(mechanism, motion, beside)
+    reduced: Known = reduced_torque(motion, loads)
+    static: Known = absent("static_torque") if reduced.is_absent else static_torque(reduced)
+    dynamic: Known = dynamic_torque(w, inertia.inertia_1, inertia.inertia, eps)
+    static, dynamic = static.named("static_torque"), dynamic.named("dynamic_torque")
+    balancing: Known = balancing_torque_of_parts(static, dynamic)
+    columns = {
+        "reduced_inertia": inertia.inertia,
+        "reduced_inertia_1": inertia.inertia_1,
+        "kinetic_energy": kinetic_energy(inertia.inertia, w),
+        "static_torque": static,
+        "dynamic_torque": dynamic,
+        "balancing_torque": balancing,
+        "driving_torque": _driving(static, dynamic, balancing, machine.drive.efficiency, motion),
+        **dict(_forces(machine, joint_forces(Running(mechanism, motion, w, loads, eps)))),
+    }
+    return columns if reduced.is_absent else columns | {"reduced_torque": reduced}
+
+
+def _driving(static: Known, dynamic: Known, balancing: Known, efficiency: float, motion: Motion) -> Known:
+    """Return the torque of the motor, which drives where it is positive and brakes where it is negative."""
+    eta = _stated("efficiency", efficiency, 1.0)
+    motor: Known = driving_torque_as_motor(static, dynamic, eta)
+    if eta.is_absent or not balancing.varies:
+        return motor
+    ends, is_brake = course_of(motion.grid)({"": balancing}).stretches("")
+    brake: Known = driving_torque_as_brake(static, dynamic, eta)
+    return Known(Pieces(ends, tuple(brake if one else motor for one in is_brake)), "driving_torque")
+
+
+def _forces(machine: LinkageMachine, found: JointForces) -> Iterator[tuple[str, Known]]:
+    """Yield the forces in joints and guides; the joint of crank and ground has the name of its fixed point."""
+    crank = machine.mechanism.crank
+    pivot = next((name for name, place in machine.mechanism.ground.items() if place == crank.pivot), "")
+    for joint, pin in found.pins.items():
+        name = pivot if pivot and joint == f"{crank.link}_pivot" else joint
+        yield f"joint_force_x.{name}", pin.x
+        yield f"joint_force_y.{name}", pin.y
+        yield f"joint_force.{name}", pin.resultant
+    for name, guide in found.guides.items():
+        yield f"normal_force.{name}", guide.normal
+        yield f"normal_moment.{name}", guide.moment

@@ -1,0 +1,154 @@
+"""The motion of piston and rod of one cylinder, remembered from the lengths on."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from crankwork.analysis.solved import Solved
+from crankwork.cylinders.articulated import ArticulatedMotion, articulated_motion
+from crankwork.dynamics.piston_forces import angular_speed, piston_acceleration, piston_velocity
+from crankwork.formula.expression import Value
+from crankwork.formula.known import Known, KnownAngle, absent, given
+from crankwork.kinematics.piston import PistonMotion, piston_motion, textbook_piston
+from crankwork.kinematics.rod_functions import pin_distance, rod_angular_acceleration, rod_angular_velocity
+from crankwork.kinematics.series import acceleration_harmonics, order_terms, remembered_order
+from crankwork.kinematics.slider_crank import SliderCrank
+from crankwork.kinematics.transfer import Transfer
+
+KINEMATICS = (
+    "piston_displacement", "piston_velocity", "piston_acceleration",
+    "rod_angle", "rod_angular_velocity", "rod_angular_acceleration",
+)  # fmt: skip
+HARMONICS = tuple(
+    f"piston_{noun}_{order}_order"
+    for noun in ("displacement", "velocity", "acceleration")
+    for order in ("first", "second")
+)
+
+
+class MovingCylinder(NamedTuple):
+    """A cylinder in motion: what is given, what moves, and everything by key so far."""
+
+    angle: Value
+    lengths: SliderCrank
+    speed: Known
+    angular_acceleration: Known
+    motion: PistonMotion
+    memory: dict[str, Known]
+    slave: ArticulatedMotion | None = None
+
+
+def moving_cylinder(solved: Solved) -> MovingCylinder:
+    """Return the motion of a cylinder by its method, remembered.
+
+    Parameters
+    ----------
+    solved : Solved
+        Machine and method.
+
+    References
+    ----------
+    kolchin_demidov_2008, ch. 6.
+    """
+    machine = solved.machine
+    angle: Value = KnownAngle()
+    r, l, e = (float(one) for one in solved.lengths)  # noqa: E741
+    lengths = SliderCrank(
+        given("crank_radius", r, "crank.radius"),
+        given("rod_length", l, "rod"),
+        given("offset", e, "cylinder.offset") if e else absent("offset"),
+    )
+    speed = angular_speed(solved.method.pi, given("", solved.revolutions, "crank.speed"))
+    rate = machine.angular_acceleration
+    eps = given("angular_acceleration", rate, "crank.angular_acceleration") if rate else absent("angular_acceleration")
+    if solved.slave is None:
+        slave, motion = None, piston_motion(lengths, angle, solved.method)
+    else:
+        slave = articulated_motion(lengths, solved.slave, angle)
+        motion = PistonMotion(slave.piston, slave.rod, slave.swing)
+    memory = {one.key: one for one in (lengths.crank_radius, lengths.rod_length, lengths.offset, speed)}
+    return MovingCylinder(
+        angle, lengths, speed, eps, motion, memory | _motion(motion, speed, eps, angle, lengths), slave
+    )
+
+
+def _motion(motion: PistonMotion, w: Known, eps: Known, angle: Value, lengths: SliderCrank) -> dict[str, Known]:
+    (x, x_1, x_2), (beta, beta_1, beta_2), swing = motion
+    found = [
+        angle.angle.named("crank_angle"),
+        *(one.named(key) for one, key in zip(swing, _SWING, strict=True)),
+        *(one.named(key) for one, key in zip((x, x_1, x_2), _PISTON, strict=True)),
+        beta.named("rod_angle"), beta_1.named("rod_transfer_1"), beta_2.named("rod_transfer_2"),
+        piston_velocity(x_1, w), piston_acceleration(x_2, w, x_1, eps),
+        rod_angular_velocity(beta_1, w), rod_angular_acceleration(beta_2, w, beta_1, eps),
+        pin_distance(lengths.crank_radius, angle.cos, lengths.rod_length, swing.cos),
+    ]  # fmt: skip
+    return {one.key: one for one in found}
+
+
+_SWING = ("rod_sine", "rod_cosine", "crank_rod_sine", "crank_rod_cosine")
+_PISTON = ("piston_displacement", "piston_transfer_1", "piston_transfer_2")
+
+
+def inertia_acceleration(solved: Solved, moving: MovingCylinder) -> Known:
+    """Return the acceleration behind the inertia force, with its own rod ratio where a document has one.
+
+    Parameters
+    ----------
+    solved : Solved
+        Machine and method.
+    moving : MovingCylinder
+        The motion.
+    """
+    ratio = solved.method.inertia_rod_ratio
+    if ratio is None or ratio == solved.lengths.rod_ratio or solved.method.is_exact:
+        return moving.memory["piston_acceleration"]
+    (r, _, e), lam = moving.lengths, given("rod_ratio.inertia", ratio, "method.inertia_rod_ratio")
+    own = SliderCrank(r, (r / lam).named("rod_length.inertia"), e)
+    if solved.method.kinematics == "textbook":
+        found = textbook_piston(own, moving.angle, lam)
+    else:
+        found = piston_motion(own, moving.angle, solved.method).piston
+    _, x_1, x_2 = (one.named(f"{key}.inertia") for one, key in zip(found, _PISTON, strict=True))
+    acceleration: Known = piston_acceleration(x_2, moving.speed, x_1, moving.angular_acceleration)
+    return acceleration.named("inertia_acceleration")
+
+
+def harmonic_memory(solved: Solved, moving: MovingCylinder) -> dict[str, Known]:
+    """Return the first- and second-order parts of piston displacement, velocity and acceleration.
+
+    Parameters
+    ----------
+    solved : Solved
+        Machine and method; the textbook has its own two terms, the other methods true harmonics.
+    moving : MovingCylinder
+        The motion.
+
+    References
+    ----------
+    kolchin_demidov_2008, ch. 6; taylor_1985, vol. 2, ch. 8.
+    """
+    lengths, found = moving.lengths, dict[str, Known]()
+    for order, word in ((1, "first_order"), (2, "second_order")):
+        x, x_1, x_2 = _order(solved, lengths, moving.angle, order)
+        x_1, x_2 = x_1.named(f"piston_transfer_1_{word}"), x_2.named(f"piston_transfer_2_{word}")
+        found |= {
+            x_1.key: x_1,
+            x_2.key: x_2,
+            f"piston_displacement_{word}": x.named(f"piston_displacement_{word}"),
+            f"piston_velocity_{word}": piston_velocity(x_1, moving.speed).named(f"piston_velocity_{word}"),
+            f"piston_acceleration_{word}": piston_acceleration(
+                x_2, moving.speed, x_1, moving.angular_acceleration
+            ).named(f"piston_acceleration_{word}"),
+        }
+    return found
+
+
+def _order(solved: Solved, lengths: SliderCrank, angle: Value, order: int) -> Transfer:
+    if solved.method.kinematics == "textbook" and lengths.offset.is_absent:
+        first = lengths.crank_radius
+        coefficient = first if order == 1 else first * lengths.rod_ratio
+        return order_terms(angle, order, coefficient, absent(""), (absent("", 1.0), absent("")))
+    cosine, sine = acceleration_harmonics(solved.lengths, order)
+    a_k, b_k, start = remembered_order(lengths, float(cosine[-1]), float(sine[-1]), (1.0, 0.0))
+    return order_terms(angle, order, a_k, b_k, start)

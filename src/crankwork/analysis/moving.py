@@ -1,0 +1,156 @@
+"""Where a linkage is over the crank angle, as plain arrays: what plans and drawings are made of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crankwork.analysis.linkage import reachable
+from crankwork.cylinders.throw import throw_mechanism
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.motion import linkage_motion
+from crankwork.kinematics.piston import as_slider_crank
+from crankwork.kinematics.transfer import PointMotion
+from crankwork.linkage_machine import LinkageMachine
+from crankwork.machine import Machine
+from crankwork.mechanism.mechanism import Mechanism
+
+
+class Track(NamedTuple):
+    """Places of a point and their first and second derivative by the crank angle, arrays of shape (n, 2). [m]"""
+
+    place: Array
+    place_1: Array
+    place_2: Array
+
+
+class Frame(NamedTuple):
+    """A link that moves: its origin, the direction of its x axis, shape (n, 2), and the derivatives of its angle."""
+
+    origin: Track
+    along: Array
+    angle_1: Array
+    angle_2: Array
+
+
+class Moving(NamedTuple):
+    """A linkage at crank angles.
+
+    Parameters
+    ----------
+    degrees : array, shape (n,)
+        Crank angles. [deg]
+    points : mapping of str to Track
+        Points by name. [m]
+    frames : mapping of str to Frame
+        Links and sliding pieces by name.
+    sliders : mapping of str to array, shape (n,)
+        Distance of each slider along its guide. [m]
+    """
+
+    degrees: Array
+    points: Mapping[str, Track]
+    frames: Mapping[str, Frame]
+    sliders: Mapping[str, Array]
+
+
+def moving(mechanism: Mechanism, degrees: ArrayLike) -> Moving:
+    """Return a linkage at crank angles.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A crank and groups.
+    degrees : array, shape (n,)
+        Ascending crank angles. [deg]
+
+    Raises
+    ------
+    GeometryError
+        If the mechanism cannot be assembled at some angle.
+    """
+    found = linkage_motion(mechanism, CrankGrid.from_degrees(degrees))
+    count = len(found.grid)
+
+    def stacked(pair: Iterable[Array]) -> Array:
+        return np.column_stack([np.broadcast_to(one, count) for one in pair])
+
+    def track(point: PointMotion) -> Track:
+        return Track(*(stacked(pair) for pair in zip(*point, strict=True)))
+
+    frames = {
+        name: Frame(
+            track(one.origin),
+            stacked((one.cos, one.sin)),
+            np.broadcast_to(one.angle_1, count),
+            np.broadcast_to(one.angle_2, count),
+        )
+        for name, one in found.frames.items()
+    }
+    points = {name: track(one) for name, one in found.points.items()}
+    sliders = {name: np.broadcast_to(one.position, count) for name, one in found.sliders.items()}
+    return Moving(found.grid.degrees, points, frames, sliders)
+
+
+def transfer_ratios(mechanism: Mechanism, degrees: ArrayLike) -> dict[str, Array]:
+    """Return velocities of points and sliders and angular velocities of links, over that of the crank.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A crank and groups.
+    degrees : array, shape (n,)
+        Ascending crank angles. [deg]
+
+    Returns
+    -------
+    dict of str to array, shape (n,)
+        `velocity_ratio.NAME` of points, `rotation_ratio.NAME` of links, `velocity_ratio.NAME` of sliders. [m], [-]
+
+    Raises
+    ------
+    GeometryError
+        If the mechanism cannot be assembled at some angle.
+    """
+    found = linkage_motion(mechanism, CrankGrid.from_degrees(degrees))
+    points = {name: np.hypot(x.position_1, y.position_1) for name, (x, y) in found.points.items()}
+    ratios = {f"velocity_ratio.{name}": one for name, one in points.items() if name not in mechanism.ground}
+    links = {name: one.position_1 for name, one in found.links.items() if name != mechanism.crank.link}
+    ratios |= {f"rotation_ratio.{name}": one for name, one in links.items()}
+    return ratios | {f"velocity_ratio.{name}": one.position_1 for name, one in found.sliders.items()}
+
+
+def reached_angles(machine: LinkageMachine, step: float) -> tuple[Array, bool]:
+    """Return crank angles of a revolution as far as a linkage reaches them [deg], and whether it reaches all.
+
+    Parameters
+    ----------
+    machine : LinkageMachine
+        The linkage.
+    step : float
+        Step. [deg]
+
+    Raises
+    ------
+    GeometryError
+        If it can be assembled nowhere.
+    """
+    grid, notices = reachable(machine, CrankGrid.steps(step, 360.0))
+    return grid.degrees, not notices
+
+
+def drawn_mechanism(machine: Machine | LinkageMachine) -> Mechanism:
+    """Return the mechanism to draw: of an engine with several rods on a crankpin, all of these.
+
+    Parameters
+    ----------
+    machine : Machine or LinkageMachine
+        What is drawn.
+    """
+    lengths = as_slider_crank(machine.mechanism) if isinstance(machine, Machine) else None
+    if not isinstance(machine, Machine) or machine.engine is None or lengths is None:
+        return machine.mechanism
+    return throw_mechanism(machine.engine.layout, lengths, machine.engine.slaves)

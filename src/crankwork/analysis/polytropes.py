@@ -1,0 +1,93 @@
+"""The polytropes of an indicator diagram as tables give them: pressure over multiples of the clearance volume."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.analysis.results import Results
+from crankwork.kinematics.crank_grid import Array
+from crankwork.loads.gas import polytropic_pressure
+from crankwork.loads.indicator import IndicatorDiagram, Segment
+
+_HALF = 360.0
+_ROWS = 12
+
+
+class Polytropes(NamedTuple):
+    """Polytropes of compression and expansion, as far as a diagram has them.
+
+    Parameters
+    ----------
+    exponents : mapping of str to float
+        Exponents of `compression` and `expansion`. [-]
+    multiples, volumes : array, shape (n,)
+        Volumes in multiples of the clearance volume, and themselves. [-], [m3]
+    pressures : mapping of str to array, shape (n,)
+        Pressures of `compression` and `expansion`, not a number beyond their ends. [Pa]
+    """
+
+    exponents: Mapping[str, float]
+    multiples: Array
+    volumes: Array
+    pressures: Mapping[str, Array]
+
+
+def polytropes(results: Results) -> Polytropes | None:
+    """Return the polytropes of a diagram, of a calculated cycle before its corners were rounded; None without any.
+
+    Parameters
+    ----------
+    results : Results
+        Of an engine with gas.
+    """
+    space = results.solved.space
+    diagram: IndicatorDiagram = space.theoretical or space.diagram
+    found = _by_stroke(diagram, results.machine.cycle)
+    if not found:
+        return None
+    spans = {name: _span(results, diagram, one) for name, one in found.items()}
+    ratio = 1 + space.swept / space.clearance
+    step = max(1.0, math.ceil(ratio / _ROWS))
+    multiples = np.array([*np.arange(1.0, ratio - 1e-9, step), ratio])
+    ends = [end / space.clearance for span in spans.values() for end in span]
+    # an end beside a whole multiple is that multiple
+    ends = [one for one in ends if not np.any(np.isclose(one, multiples, rtol=1e-6))]
+    volumes = np.unique(np.round([*multiples, *ends], 9)) * space.clearance
+    within = {name: _is_within(volumes, *span) for name, span in spans.items()}
+    kept = np.logical_or.reduce(list(within.values()))
+    pressures = {}
+    for name, segment in found.items():
+        pressure, reference, exponent = segment.state
+        values = np.asarray(polytropic_pressure(pressure, reference, volumes[kept], exponent))
+        pressures[name] = np.where(within[name][kept], values, np.nan)
+    exponents = {name: one.state[2] for name, one in found.items()}
+    return Polytropes(exponents, volumes[kept] / space.clearance, volumes[kept], pressures)
+
+
+def _by_stroke(diagram: IndicatorDiagram, cycle: float) -> dict[str, Segment]:
+    """Return the polytropes of compression and expansion; the first of each half of the cycle."""
+    half = min(cycle / 2, _HALF)
+    found: dict[str, Segment] = {}
+    for one in diagram.segments:
+        if one.law == "polytropic":
+            is_compression = one.start < half if cycle > _HALF else one.start >= half
+            found.setdefault("compression" if is_compression else "expansion", one)
+    return {name: found[name] for name in ("compression", "expansion") if name in found}
+
+
+def _span(results: Results, diagram: IndicatorDiagram, segment: Segment) -> tuple[float, float]:
+    """Return the least and the largest volume of a polytrope, with that of the state it passes through. [m3]"""
+    same = [one for one in diagram.segments if one.law == "polytropic" and one.state == segment.state]
+    degrees = [angle for one in same for angle in (one.start, one.end)]
+    volumes = results.columns_at(degrees, ("cylinder_volume",))["cylinder_volume"]
+    reference = segment.state[1]
+    return min(float(volumes.min()), reference), max(float(volumes.max()), reference)
+
+
+def _is_within(volumes: Array, least: float, largest: float) -> Array:
+    """Return which volumes a polytrope has, its ends included."""
+    return np.asarray((volumes >= least * (1 - 1e-6)) & (volumes <= largest * (1 + 1e-6)))

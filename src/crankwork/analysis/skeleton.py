@@ -1,0 +1,198 @@
+"""What a drawing needs to know of a mechanism: its links with their points, what slides where, letters, numbers."""
+
+from __future__ import annotations
+
+import string
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.analysis.moving import Frame, Moving
+from crankwork.kinematics.crank_grid import Array
+from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide, Point
+from crankwork.mechanism.mechanism import Mechanism
+
+PIVOT = "crank pivot"
+_CATALOG = frozenset((
+    "crank_pin", "piston_pin", "coupler_pin", "coupler_point", "rocker_pin", "rocker_pivot", "second_pin",
+    "output_pin", "output_pivot", "lever_pivot", "upper_pivot", "tip", "ram_pin", "knee", "punch_pin",
+    "rod_centre", "rocker_centre",
+))  # fmt: skip
+_LETTERS = "ABCDEFGHIJKLMNPQRTUVWXYZ" + string.ascii_lowercase
+
+
+class Member(NamedTuple):
+    """A moving link: name, number, its points that are joints or coupler points, and the guide it slides on."""
+
+    name: str
+    number: int
+    points: tuple[str, ...]
+    guide: Guide | None = None
+    has_rod: bool = False
+
+
+class Skeleton(NamedTuple):
+    """A mechanism as it is drawn.
+
+    Parameters
+    ----------
+    members : tuple of Member
+        Moving links, the crank first.
+    pivots : mapping of str to tuple of float
+        Joints with the ground, that of the crank first. [m]
+    coupler_points, centres : tuple of str
+        Points that are no joints: those that draw a path, and centres of mass.
+    letters : mapping of str to str
+        What is written at a point.
+    """
+
+    members: tuple[Member, ...]
+    pivots: Mapping[str, Point]
+    coupler_points: tuple[str, ...]
+    centres: tuple[str, ...]
+    letters: Mapping[str, str]
+
+    @property
+    def crank(self) -> Member:
+        """The driving link."""
+        return self.members[0]
+
+    def member(self, name: str) -> Member:
+        """Return the moving link of a name."""
+        return next(one for one in self.members if one.name == name)
+
+
+def skeleton(mechanism: Mechanism, links: Sequence[str] = ()) -> Skeleton:
+    """Return a mechanism as it is drawn.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A crank and groups.
+    links : sequence of str
+        The moving links in the order of their numbers, as `Structure.links` gives them; group after group
+        where it is left out.
+    """
+    found = [one for group in mechanism.dyads for one in _members_of(group)]
+    pivot = next((name for name, at in mechanism.ground.items() if at == mechanism.crank.pivot), PIVOT)
+    crank = Member(mechanism.crank.link, 1, (pivot, mechanism.crank.pin))
+    numbers = {name: count for count, name in enumerate(links or [crank.name, *(one.name for one in found)], 1)}
+    further = {one.name: [p.name for p in mechanism.points if p.link == one.name] for one in (crank, *found)}
+    members = tuple(
+        one._replace(number=numbers.get(one.name, 0), points=tuple(dict.fromkeys([*one.points, *further[one.name]])))
+        for one in (crank, *found)
+    )
+    owners = {name: sum(name in one.points for one in members) for one in members for name in one.points}
+    fixed = {pivot: mechanism.crank.pivot, **{name: at for name, at in mechanism.ground.items() if name in owners}}
+    massive = {one.start for one in mechanism.bodies if one.start == one.end}
+    slides = {one.points[0] for one in members if one.guide and one.points}
+    free = [name for name, count in owners.items() if count == 1 and name not in fixed and name not in slides]
+    free = [name for name in free if name != mechanism.crank.pin]
+    centres = tuple(name for name in free if name in massive)
+    members = tuple(one._replace(points=tuple(p for p in one.points if p not in centres)) for one in members)
+    couplers = tuple(name for name in free if name not in massive)
+    return Skeleton(members, fixed, couplers, centres, point_letters(mechanism, members, centres))
+
+
+def _members_of(group: Dyad | Chain) -> Iterator[Member]:
+    """Yield the links of a group with the points and guides that the group itself gives them."""
+    match group:
+        case RRR():
+            yield Member(group.link_a, 0, (group.joint_a, group.point))
+            yield Member(group.link_b, 0, (group.joint_b, group.point))
+        case RRP():
+            yield Member(group.link, 0, (group.joint, group.slider))
+            yield Member(group.piece, 0, (group.slider,), group.guide)
+        case RPR():
+            yield Member(group.link, 0, (group.pivot,))
+            yield Member(group.block, 0, (group.joint,), _slot(group.slot, group.link))
+        case PRP():
+            yield Member(group.block_a, 0, (group.point,), group.guide_a, has_rod=not group.guide_a.link)
+            yield Member(group.block_b, 0, (group.point,), group.guide_b, has_rod=not group.guide_b.link)
+        case RPP():
+            yield Member(group.link, 0, (), group.guide, has_rod=not group.guide.link)
+            yield Member(group.block, 0, (group.joint,), _slot(group.slot, group.link))
+        case chain:
+            guides = {one.link: one.guide for one in chain.slides}
+            carriers = {guide.link for guide in guides.values()}
+            for link in chain.links:
+                guide = guides.get(link.name)
+                rod = guide is not None and not guide.link and link.name in carriers
+                yield Member(link.name, 0, tuple(link.points), guide, has_rod=rod)
+
+
+def _slot(slot: Guide, link: str) -> Guide:
+    """Return a slot as a guide that a link carries."""
+    return Guide(slot.point, slot.angle, link)
+
+
+def point_letters(mechanism: Mechanism, members: Sequence[Member], centres: Sequence[str]) -> dict[str, str]:
+    """Return what is written at each point: the owner's name, a letter where the catalog has named the point.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What is drawn.
+    members : sequence of Member
+        Its moving links.
+    centres : sequence of str
+        Points that are centres of mass; S and the number of their link.
+    """
+    names = list(dict.fromkeys(name for one in members for name in one.points))
+    own = {name for name in (*names, *centres) if name not in _CATALOG and name != PIVOT}
+    free = (letter for letter in _LETTERS if letter not in own)
+    letters = {}
+    for name in names:
+        if name == PIVOT:
+            letters[name] = next(one for one in ("O", "O1", "O2", "O′") if one not in own)
+        else:
+            letters[name] = name if name in own else next(free, name)
+    numbers = {p.name: one.number for one in members for p in mechanism.points if p.link == one.name}
+    for name in centres:
+        letters[name] = name if name in own and "." not in name else f"S{numbers.get(name, '')}"
+    return letters
+
+
+def tracks(shape: Skeleton, moving: Moving) -> dict[str, Array]:
+    """Return where every point is, arrays of shape (n, 2). [m]"""
+    count = len(moving.degrees)
+    found = {name: np.tile(np.array(at, dtype=float), (count, 1)) for name, at in shape.pivots.items()}
+    return found | {name: point.place for name, point in moving.points.items() if name not in found}
+
+
+class Pose(NamedTuple):
+    """A frame that moves: origin and direction of its x axis, arrays of shape (n, 2). [m], [-]"""
+
+    origin: Array
+    along: Array
+
+    @property
+    def left(self) -> Array:
+        """The direction of its y axis."""
+        return np.column_stack([-self.along[:, 1], self.along[:, 0]])
+
+    def place(self, u: float | Array, v: float | Array = 0.0) -> Array:
+        """Return where a point of the frame is. [m]"""
+        u, v = np.reshape(u, (-1, 1)), np.reshape(v, (-1, 1))
+        return np.asarray(self.origin + u * self.along + v * self.left)
+
+    def seen(self, places: Array) -> Array:
+        """Return the coordinates of places in the frame, shape (n, 2). [m]"""
+        apart = places - self.origin
+        return np.column_stack([np.sum(apart * self.along, axis=1), np.sum(apart * self.left, axis=1)])
+
+
+def pose(link: Frame | None, count: int) -> Pose:
+    """Return the frame of a link at each angle; that of the ground for None."""
+    if link is None:
+        return Pose(np.zeros((count, 2)), np.tile([1.0, 0.0], (count, 1)))
+    return Pose(link.origin.place, link.along)
+
+
+def guide_pose(guide: Guide, moving: Moving) -> Pose:
+    """Return the line of a guide as a frame, its x axis on the line."""
+    base = pose(moving.frames[guide.link] if guide.link else None, len(moving.degrees))
+    cos, sin = np.cos(guide.angle), np.sin(guide.angle)
+    return Pose(base.place(*guide.point), cos * base.along + sin * base.left)

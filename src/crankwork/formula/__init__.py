@@ -1,0 +1,1 @@
+"""A formula computes, remembers, prints and differentiates."""

@@ -1,0 +1,150 @@
+"""The memory of one value as a list: all that it is made of, in the order of calculation, down to what is given."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
+
+from crankwork.formula.known import (
+    Arithmetic,
+    Component,
+    Delayed,
+    Found,
+    Given,
+    HalfTurns,
+    Known,
+    Pieces,
+    Root,
+    Table,
+    Total,
+    Use,
+)
+from crankwork.formula.lines import Moment
+from crankwork.formula.replay import Angles
+from crankwork.formula.steps import Step
+
+
+class Explained(NamedTuple):
+    """One value of an explanation.
+
+    Parameters
+    ----------
+    known : Known
+        The value under the name it has here; of pieces the law that holds.
+    argument : str
+        The argument of a formula that it stands for; a value without a name has its symbol.
+    degrees : float or None
+        The crank angle, if it varies. [deg]
+    value : float
+        The value. [SI, or the unit of the argument]
+    stretch : tuple of float or None
+        Where the law holds, of pieces. [deg]
+    residual : bool
+        Whether it must vanish: an equation that unknowns are found from.
+    """
+
+    known: Known
+    argument: str
+    degrees: float | None
+    value: float
+    stretch: tuple[float, float] | None = None
+    residual: bool = False
+
+
+class Explanation:
+    """What a value is made of at one crank angle.
+
+    Parameters
+    ----------
+    known : Known
+        The value.
+    degrees : float
+        The crank angle. [deg]
+    angles_at : callable
+        The grid of crank angles. [deg]
+    """
+
+    def __init__(self, known: Known, degrees: float, angles_at: Callable[[Any], Angles]) -> None:
+        self._angles_at, self._asked = angles_at, (known, degrees)
+        self._moments: dict[float, Moment] = {}
+        self._same = Moment(angles_at, degrees)
+
+    def moment(self, degrees: float | None) -> Moment:
+        """Return the lines of one crank angle. [deg]"""
+        degrees = self._asked[1] if degrees is None else degrees
+        return self._moments.setdefault(degrees, Moment(self._angles_at, degrees))
+
+    def __iter__(self) -> Iterator[Explained]:
+        """Yield what the value is made of, operands before what is made of them, each once."""
+        done: set[tuple[object, str, float | None, bool]] = set()
+        stack = [(*self._asked, "", False, False)]
+        while stack:
+            known, degrees, argument, residual, is_open = stack.pop()
+            law = self.moment(degrees).law(known)
+            at = degrees if law.varies else None
+            if is_open:
+                yield self._explained(known, law, argument, at, residual=residual)
+                continue
+            mark = (self._same.same(law), known.key or argument, at, residual)
+            if mark in done or law.is_absent:
+                continue
+            done.add(mark)
+            if law.varies:
+                # once and for all that it is made of
+                self.moment(degrees).value(law)
+            is_inlined = isinstance(law.node, Arithmetic) and not known.key
+            if not is_inlined:
+                stack.append((known, degrees, argument, residual, True))
+            stack.extend((*one, False) for one in reversed(list(self._made_of(law, degrees))))
+
+    def _made_of(self, known: Known, degrees: float) -> Iterator[tuple[Known, float, str, bool]]:
+        """Yield what a value is made of: the known, its crank angle, its argument, whether it must vanish."""
+        if not isinstance(known.node, Use):
+            yield from _made_of(known, degrees)
+            return
+        # what the line does without, as a factor of nothing, is not followed
+        line = self.moment(degrees).step(known)
+        shown = {name.partition(".")[0] for name in line.values} if isinstance(line, Step) else set()
+        for name, one in zip(known.node.formula.arguments, known.node.inputs, strict=True):
+            if isinstance(one, Known) and name in shown:
+                yield one, degrees, name, False
+
+    def _explained(self, known: Known, law: Known, argument: str, at: float | None, *, residual: bool) -> Explained:
+        node, stretch = known.node, None
+        if isinstance(node, Pieces) and at is not None:
+            ends = [None, *node.ends.tolist()]
+            end = next((k for k, one in enumerate(ends) if one is not None and at <= one), len(ends) - 1)
+            stretch = (0.0 if ends[end - 1] is None else ends[end - 1], ends[end])
+        return Explained(law, argument, at, self.moment(at).value(law), stretch, residual)
+
+
+def _made_of(known: Known, degrees: float) -> Iterator[tuple[Known, float, str, bool]]:
+    """Yield what a value is made of that no formula gives."""
+    match known.node:
+        case Arithmetic(operands=parts) | Total(operands=parts) | HalfTurns(operands=parts):
+            yield from ((one, degrees, "", False) for one in parts)
+        case Delayed(of=of, by=by, cycle=cycle):
+            yield of, (degrees - by) % cycle, "", False
+        case Component(operands=(root,)):
+            yield from _of_root(root, degrees)
+        case Found(operands=parts, at=at):
+            yield from ((one, degrees if at is None else at, "", False) for one in parts if _stands(one, at))
+        case Table(by=by, operands=parts):
+            yield from ((one, degrees, "", False) for one in parts if not one.varies or one is by)
+
+
+def _stands(one: Known, at: float | None) -> bool:
+    """Return whether what a procedure took is a value: a whole column is none."""
+    return at is not None or not one.varies
+
+
+def _of_root(root: Known, degrees: float) -> Iterator[tuple[Known, float, str, bool]]:
+    """Yield what a root was found from, and the equations of which it is the root."""
+    yield from ((one, degrees, "", False) for one in root.node.operands)
+    if isinstance(root.node, Root):
+        yield from ((one, degrees, "", True) for one in root.node.residuals)
+
+
+def is_given(one: Explained) -> bool:
+    """Return whether a value is given and not calculated."""
+    return isinstance(one.known.node, Given)

@@ -1,0 +1,484 @@
+"""Values that remember how they came about.
+
+A known is a node of the calculation and the name it goes by where it is used. Formulas make knowns of knowns; outside
+formulas a known takes part in plain sums, products and quotients only and refuses everything else, because what is
+not remembered could neither be explained nor replayed. What does not vary with the crank angle has its value at once;
+a column is replayed at whatever angles are asked for.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from crankwork.formula.expression import Formula
+
+Array = NDArray[np.float64]
+
+
+class Node:
+    """What a known remembers: its operands, and its value, None where that varies with the crank angle."""
+
+    __slots__ = ("operands", "value")
+
+    def __init__(self, value: float | None, operands: Iterable[Known] = ()) -> None:
+        self.value, self.operands = value, tuple(operands)
+
+
+class Given(Node):
+    """A value of the description, at `path` in the file; an absent one is a neutral number that nobody stated."""
+
+    __slots__ = ("is_absent", "path")
+
+    def __init__(self, value: float, path: str = "", *, is_absent: bool = False) -> None:
+        super().__init__(float(value))
+        self.path, self.is_absent = path, is_absent
+
+
+class OfAngle(Node):
+    """A function of a whole multiple of the crank angle, counted from elsewhere: an attribute of its grid. [deg]"""
+
+    __slots__ = ("function", "multiple", "shift")
+
+    def __init__(self, function: str, multiple: int = 1, shift: float = 0.0) -> None:
+        super().__init__(None)
+        self.function, self.multiple, self.shift = function, multiple, shift
+
+
+class Use(Node):
+    """A formula with its operands; plain numbers among them are constants of the analysis."""
+
+    __slots__ = ("formula", "inputs")
+
+    def __init__(self, formula: Formula, inputs: tuple[Known | float, ...]) -> None:
+        super().__init__(_value(formula.function, inputs), _knowns(inputs))
+        self.formula, self.inputs = formula, inputs
+
+
+class Arithmetic(Node):
+    """A sum, difference, product or quotient, printed where it stands."""
+
+    __slots__ = ("function", "inputs")
+
+    def __init__(self, function: Callable[..., Any], inputs: tuple[Known | float, ...]) -> None:
+        super().__init__(_value(function, inputs), _knowns(inputs))
+        self.function, self.inputs = function, inputs
+
+
+class Total(Node):
+    """The sum of its operands, added in order."""
+
+    __slots__ = ()
+
+    def __init__(self, terms: tuple[Known, ...]) -> None:
+        super().__init__(_value(lambda *values: sum(values), terms), terms)
+
+
+class Delayed(Node):
+    """The same column at another crank angle: every value later by `by`, the cycle closed. [deg]"""
+
+    __slots__ = ("by", "cycle", "of")
+
+    def __init__(self, of: Known, by: float, cycle: float) -> None:
+        super().__init__(of.node.value, (of,))
+        self.of, self.by, self.cycle = of, by, cycle
+
+
+class Pieces(Node):
+    """Laws that follow one another over the crank angle; each owns its end and not its start. [deg]
+
+    A law is a formula of columns that stand beside the pieces, a table, or a value. `knots` are further angles where
+    the column is not smooth.
+    """
+
+    __slots__ = ("ends", "knots")
+
+    def __init__(self, ends: Iterable[float], laws: tuple[Known, ...], knots: Iterable[float] = ()) -> None:
+        super().__init__(None, laws)
+        self.ends = np.array(list(ends), dtype=float)
+        self.knots = (*self.ends.tolist(), *knots)
+
+
+class Table(Node):
+    """What is defined on rows of its own: measured, integrated or counted. `knots` are where it is not smooth. [deg]
+
+    `word` says what kind of table it is, `operands` what it was made from. It is read at the crank angle [deg], or
+    `by` another column.
+    """
+
+    __slots__ = ("by", "function", "knots", "word")
+
+    def __init__(
+        self,
+        function: Callable[[Array], Array],
+        word: str,
+        knots: Iterable[float] = (),
+        of: Iterable[Known] = (),
+        by: Known | None = None,
+    ) -> None:
+        super().__init__(None, of if by is None else (by, *of))
+        self.function, self.word, self.knots, self.by = function, word, tuple(knots), by
+
+
+class Root(Node):
+    """Unknowns at which residuals vanish, on one circuit: `solve` gives them and their derivatives, shape (k, n).
+
+    It takes the crank angles, or the columns that the unknowns follow `of`. `residuals` are what must vanish; they
+    are made of components of the root.
+    """
+
+    __slots__ = ("residuals", "solve")
+
+    def __init__(self, solve: Callable[[Any], Array], of: Iterable[Known] = ()) -> None:
+        super().__init__(None, of)
+        self.solve: Callable[[Any], Array] = solve
+        self.residuals: tuple[Known, ...] = ()
+
+
+class Component(Node):
+    """One of the unknowns of a root, or of their derivatives, shape (n,)."""
+
+    __slots__ = ("at",)
+
+    def __init__(self, root: Root, at: int) -> None:
+        super().__init__(None, (Known(root),))
+        self.at = at
+
+
+class HalfTurns(Node):
+    """How many half turns a direction is ahead of the arc tangent of its slope, so that it never jumps.
+
+    `near` is roughly the direction at crank angles, operands are its sine and cosine. [deg] -> [rad]
+    """
+
+    __slots__ = ("near",)
+
+    def __init__(self, sin: Known, cos: Known, near: Callable[[Array], Array]) -> None:
+        super().__init__(None, (sin, cos))
+        self.near = near
+
+
+class Found(Node):
+    """A single value that a procedure found: the largest of a column, its mean, a root, an angle.
+
+    `word` names the procedure, `operands` are what it was applied to, `at` is the crank angle where the value stands,
+    if it stands at one. [deg]
+    """
+
+    __slots__ = ("at", "word")
+
+    def __init__(self, value: float, word: str, of: Iterable[Known] = (), at: float | None = None) -> None:
+        super().__init__(float(value), of)
+        self.word, self.at = word, at
+
+
+def _knowns(inputs: Iterable[Known | float]) -> Iterator[Known]:
+    return (one for one in inputs if isinstance(one, Known))
+
+
+class Known:
+    """A value that remembers how it came about, under the name it has here.
+
+    Parameters
+    ----------
+    node : Node
+        How it came about.
+    key : str
+        Key of the quantity, with what tells it from others of that quantity after a point: `joint_force.A`.
+
+    Examples
+    --------
+    >>> r, w = given("crank_radius", 0.05), given("speed", 100.0)
+    >>> (r * w).value
+    5.0
+    """
+
+    __slots__ = ("key", "node")
+    __array_ufunc__ = None
+
+    def __init__(self, node: Node, key: str = "") -> None:
+        self.node, self.key = node, key
+
+    @property
+    def value(self) -> float:
+        """The value, where it does not vary with the crank angle. [SI]"""
+        if self.node.value is None:
+            raise TypeError(f"{self!r} varies with the crank angle; replay it at the angles wanted")
+        return self.node.value
+
+    @property
+    def varies(self) -> bool:
+        """Whether it varies with the crank angle."""
+        return self.node.value is None
+
+    @property
+    def is_absent(self) -> bool:
+        """Whether nobody stated it."""
+        return isinstance(self.node, Given) and self.node.is_absent
+
+    def named(self, key: str) -> Known:
+        """Return the same memory under another name."""
+        return Known(self.node, key)
+
+    def __repr__(self) -> str:
+        return f"<known {self.key or type(self.node).__name__}>"
+
+    def __add__(self, other: Known | float) -> Known:
+        return Known(Arithmetic(operator.add, (self, other)))
+
+    def __radd__(self, other: float) -> Known:
+        return Known(Arithmetic(operator.add, (other, self)))
+
+    def __sub__(self, other: Known | float) -> Known:
+        return Known(Arithmetic(operator.sub, (self, other)))
+
+    def __rsub__(self, other: float) -> Known:
+        return Known(Arithmetic(operator.sub, (other, self)))
+
+    def __mul__(self, other: Known | float) -> Known:
+        return Known(Arithmetic(operator.mul, (self, other)))
+
+    def __rmul__(self, other: float) -> Known:
+        return Known(Arithmetic(operator.mul, (other, self)))
+
+    def __truediv__(self, other: Known | float) -> Known:
+        return Known(Arithmetic(operator.truediv, (self, other)))
+
+    def __rtruediv__(self, other: float) -> Known:
+        return Known(Arithmetic(operator.truediv, (other, self)))
+
+    def __neg__(self) -> Known:
+        return Known(Arithmetic(operator.neg, (self,)))
+
+    def _refuse(self, *_: object, **__: object) -> NoReturn:
+        raise TypeError(f"{self!r} is remembered: only formulas, sums, products and quotients may take it")
+
+    # a number taken out of the memory would be lost to notes, checks and replay
+    __bool__ = __float__ = __int__ = __complex__ = __len__ = __iter__ = __getitem__ = __pow__ = __rpow__ = _refuse
+    __lt__ = __le__ = __gt__ = __ge__ = __abs__ = __round__ = __array__ = __array_function__ = _refuse
+    __hash__ = object.__hash__
+
+    def __eq__(self, other: object) -> bool:
+        return self is other or self._refuse()
+
+
+class KnownAngle:
+    """The crank angle as a known: what `CrankGrid` has as arrays."""
+
+    def __init__(self, multiple: int = 1, shift: float = 0.0) -> None:
+        self._multiple, self._shift = multiple, shift
+        self._made: dict[object, Any] = {}
+
+    def _function(self, name: str) -> Known:
+        if name not in self._made:
+            self._made[name] = Known(OfAngle(name, self._multiple, self._shift))
+        known: Known = self._made[name]
+        return known
+
+    angle = property(lambda self: self._function("angle"))
+    sin = property(lambda self: self._function("sin"))
+    cos = property(lambda self: self._function("cos"))
+    sin_2 = property(lambda self: self.multiple(2).sin)
+    cos_2 = property(lambda self: self.multiple(2).cos)
+    one_minus_sin = property(lambda self: self._function("one_minus_sin"))
+    one_plus_sin = property(lambda self: self._function("one_plus_sin"))
+
+    def multiple(self, order: int) -> KnownAngle:
+        """Return a whole multiple of the angle."""
+        made: KnownAngle = self._made.setdefault(order, KnownAngle(order * self._multiple, order * self._shift))
+        return self if order == 1 else made
+
+    def shifted(self, degrees: float) -> KnownAngle:
+        """Return the angle counted from elsewhere, larger by some degrees."""
+        made: KnownAngle = self._made.setdefault(("shift", degrees), KnownAngle(self._multiple, self._shift + degrees))
+        return made if degrees else self
+
+
+def given(key: str, value: float, path: str = "") -> Known:
+    """Return a stated value. [SI]
+
+    Parameters
+    ----------
+    key : str
+        Key of the quantity.
+    value : float
+        The value. [SI]
+    path : str
+        Where the file states it, `crank.radius`.
+    """
+    return Known(Given(value, path), key)
+
+
+def absent(key: str, neutral: float = 0.0) -> Known:
+    """Return what nobody stated: the neutral number, whose terms are not printed.
+
+    Parameters
+    ----------
+    key : str
+        Key of the quantity.
+    neutral : float
+        What it counts as. [SI]
+    """
+    return Known(Given(neutral, is_absent=True), key)
+
+
+def named(value: Any, key: str) -> Any:  # noqa: ANN401 - a number stays what it is
+    """Return a known under a name; a number as it is, so that the same code serves both.
+
+    Parameters
+    ----------
+    value : Known, float or array
+        The value.
+    key : str
+        Its key.
+    """
+    return value.named(key) if type(value) is Known else value
+
+
+def total(key: str, terms: Iterable[Known]) -> Known:
+    """Return the sum of terms; of one term, that term under the name of the sum.
+
+    Parameters
+    ----------
+    key : str
+        Key of the sum.
+    terms : iterable of Known
+        What is added, in order.
+    """
+    terms = tuple(terms)
+    return terms[0].named(key) if len(terms) == 1 else Known(Total(terms), key)
+
+
+def added(key: str, terms: Sequence[Any]) -> Any:  # noqa: ANN401 - numbers give numbers, knowns a known
+    """Return the sum of terms in order, remembered under a key if they are knowns.
+
+    Parameters
+    ----------
+    key : str
+        Key of the sum.
+    terms : sequence of array or of Known
+        What is added.
+    """
+    return total(key, terms) if is_known(*terms) else sum(terms)
+
+
+def called(value: Any, key: str) -> Any:  # noqa: ANN401 - numbers have no name
+    """Return a value under a name, if it is a known."""
+    return value.named(key) if isinstance(value, Known) else value
+
+
+def plain(value: Any) -> Any:  # noqa: ANN401 - whatever number it is
+    """Return the number behind a value that may be a known, for procedures that are not remembered."""
+    return value.value if isinstance(value, Known) else value
+
+
+def delayed(known: Known, by: float, cycle: float, key: str) -> Known:
+    """Return a column every value of which comes later by an angle, the cycle closed.
+
+    Parameters
+    ----------
+    known : Known
+        The column.
+    by, cycle : float
+        How much later; length of the cycle. [deg]
+    key : str
+        Its key.
+    """
+    return Known(Delayed(known, by % cycle, cycle), key) if by % cycle else known.named(key)
+
+
+def is_known(*values: object) -> bool:
+    """Return whether any of the values remembers."""
+    return any(type(one) is Known for one in values)
+
+
+def in_order(knowns: Iterable[Known], *, into: Callable[[Node], tuple[Known, ...]] | None = None) -> Iterator[Known]:
+    """Yield everything that knowns are made of, operands before what is made of them, each node once.
+
+    Parameters
+    ----------
+    knowns : iterable of Known
+        Where to begin.
+    into : callable, optional
+        What of a node to look into; its operands otherwise.
+    """
+    done: set[int] = set()
+    stack = [(known, False) for known in reversed(tuple(knowns))]
+    while stack:
+        known, is_open = stack.pop()
+        if is_open:
+            yield known
+            continue
+        if id(known.node) in done:
+            continue
+        done.add(id(known.node))
+        stack.append((known, True))
+        operands = known.node.operands if into is None else into(known.node)
+        stack.extend((one, False) for one in reversed(operands))
+
+
+def breaks_of(knowns: Iterable[Known], cycle: float, start: float = 0.0) -> Array:
+    """Return the crank angles where columns are not smooth, from start to end of the cycle. [deg]
+
+    Parameters
+    ----------
+    knowns : iterable of Known
+        The columns.
+    cycle, start : float
+        Length and beginning of the cycle. [deg]
+    """
+    found = _breaks(tuple(knowns), {})
+    inside = start + np.mod(np.array(sorted(found), dtype=float) - start, cycle)
+    edges = distinct(np.concatenate([[start], inside, [start + cycle]]))
+    # corners that only rounding has set apart are one
+    kept = edges[np.append(np.diff(edges) > _SAME_ANGLE, True)]
+    kept[0] = start
+    return np.asarray(kept)
+
+
+_SAME_ANGLE = 1e-7
+
+
+def distinct(values: Array) -> Array:
+    """Return the different ones of some numbers, ascending; `numpy.unique` would load masked arrays for it."""
+    ordered = np.sort(values)
+    return np.asarray(ordered[np.append(True, np.diff(ordered) > 0)]) if ordered.size else ordered
+
+
+def _breaks(knowns: tuple[Known, ...], memo: dict[int, frozenset[float]]) -> frozenset[float]:
+    for known in in_order(knowns, into=_varying):
+        node = known.node
+        # operands mostly share their breaks: a set as it is, joined only to what is not in it
+        found: frozenset[float] = frozenset()
+        for one in _varying(node):
+            others = memo[id(one.node)]
+            found = others if not found else found if others <= found else found | others
+        if isinstance(node, Pieces | Table):
+            found |= frozenset(node.knots)
+        elif isinstance(node, Delayed):
+            found = frozenset((one + node.by) % node.cycle for one in found)
+        memo[id(node)] = found if known.varies else frozenset()
+    return frozenset().union(*(memo[id(one.node)] for one in knowns))
+
+
+def _varying(node: Node) -> tuple[Known, ...]:
+    return tuple(one for one in node.operands if one.varies)
+
+
+def _value(function: Callable[..., Any], inputs: Sequence[Known | float]) -> float | None:
+    """Return the value of what does not vary with the crank angle, at once."""
+    numbers: list[float] = []
+    for one in inputs:
+        number = one.node.value if isinstance(one, Known) else one
+        if number is None:
+            return None
+        numbers.append(number)
+    return float(function(*numbers))
+
+
+Memory = Mapping[str, Known]

@@ -1,0 +1,247 @@
+"""The memory as lines that can be followed by hand: symbols, then numbers, then the value.
+
+A line stands for one formula at one crank angle. Terms of what nobody stated are folded away, plain arithmetic stands
+where it was written, and an operand has the symbol of the name it goes by here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
+
+import numpy as np
+
+from crankwork.formula.expression import Expression, Formula, Number, Operation, Symbol, fold, record
+from crankwork.formula.known import (
+    Arithmetic,
+    Delayed,
+    Found,
+    Known,
+    Node,
+    OfAngle,
+    Pieces,
+    Root,
+    Total,
+    Use,
+    in_order,
+)
+from crankwork.formula.replay import Angles, Program
+from crankwork.formula.steps import AnyStep, Given, Step, SumStep
+from crankwork.notation import ARGUMENTS
+
+# what stands at an angle is the column itself there
+_AT_AN_ANGLE = ("at", "max", "min")
+
+
+class Moment:
+    """Everything that knowns are made of, at one crank angle.
+
+    Parameters
+    ----------
+    angles_at : callable
+        The grid of crank angles. [deg]
+    degrees : float
+        The crank angle. [deg]
+    """
+
+    def __init__(self, angles_at: Callable[[Any], Angles], degrees: float) -> None:
+        self._angles_at, self.degrees = angles_at, degrees
+        self._values: dict[int, tuple[Node, float]] = {}
+        self._marks: dict[int, tuple[Node, object]] = {}
+        self._first: dict[object, object] = {}
+
+    def value(self, known: Known) -> float:
+        """Return the value of a known at this crank angle. [SI]"""
+        known = self.law(known)
+        if known.node.value is not None:
+            return known.node.value
+        if id(known.node) not in self._values:
+            made = {str(id(one.node)): one for one in self._made_of(known)}
+            columns = Program(made)(self._angles_at(np.array([self.degrees])))
+            self._values |= {id(one.node): (one.node, float(columns[key][0])) for key, one in made.items()}
+        return self._values[id(known.node)][1]
+
+    def law(self, known: Known) -> Known:
+        """Return a known as it is here: of pieces the law of this crank angle, under the same name."""
+        node = known.node
+        while isinstance(node, Pieces):
+            at = min(int(np.searchsorted(node.ends, self.degrees, side="left")), len(node.operands) - 1)
+            node = node.operands[at].node
+        return Known(node, known.key)
+
+    def steps(self, knowns: Iterable[Known]) -> Iterator[AnyStep]:
+        """Yield the lines of knowns, each after the lines of what it is made of, each once.
+
+        Parameters
+        ----------
+        knowns : iterable of Known
+            What is to be followed.
+        """
+        done: set[tuple[object, str]] = set()
+        stack = [(self.law(one), False) for one in reversed(tuple(knowns))]
+        while stack:
+            known, is_open = stack.pop()
+            mark = (self.same(known), known.key)
+            if is_open:
+                if not isinstance(known.node, Arithmetic) or known.key:
+                    yield self.step(known)
+                continue
+            if mark in done:
+                continue
+            done.add(mark)
+            stack.append((known, True))
+            if isinstance(known.node, Use | Arithmetic | Total):
+                stack.extend((self.law(one), False) for one in reversed(known.node.operands) if _is_made(one))
+
+    def same(self, known: Known) -> object:
+        """Return what a known shares with others that were made of the same in the same way."""
+        if id(known.node) in self._marks:
+            return self._marks[id(known.node)][1]
+        for one in in_order([known]):
+            node, mark = one.node, object()
+            if id(node) in self._marks:
+                continue
+            if isinstance(node, Use | Arithmetic):
+                made_by = node.formula.name if isinstance(node, Use) else node.function.__name__
+                made_of = tuple(
+                    self._marks[id(part.node)][1] if isinstance(part, Known) else part for part in node.inputs
+                )
+                mark = self._first.setdefault((made_by, made_of), mark)
+            self._marks[id(node)] = (node, mark)
+        return self._marks[id(known.node)][1]
+
+    def step(self, known: Known) -> AnyStep:
+        """Return the line of one known.
+
+        Parameters
+        ----------
+        known : Known
+            A use of a formula, a sum, or a value without a formula.
+        """
+        known = self.law(known)
+        match known.node:
+            case Use(formula=formula, inputs=inputs):
+                taken = dict(zip(formula.arguments, inputs, strict=True))
+                return self._step(known, record(formula.shown), taken)
+            case Arithmetic() if known.key:
+                return self._step(known, Symbol("_"), {"_": Known(known.node)})
+            case Total(operands=terms):
+                shown = tuple(Given(one.key, self.value(one)) for one in terms if not one.is_absent)
+                return SumStep(known.key, shown, self.value(known))
+            case Found(word=word, at=at, operands=(column,)) if at is not None and word in _AT_AN_ANGLE:
+                return Moment(self._angles_at, at).step(column.named(known.key))
+        return Given(known.key, self.value(known))
+
+    def _step(self, known: Known, tree: Expression, taken: dict[str, Known | float]) -> Step:
+        inlined = _Inlined(taken)
+        tree = fold(inlined.tree(tree))
+        used = symbols_of(tree)
+        values = {name: one if not isinstance(one, Known) else self.value(one) for name, one in inlined.taken.items()}
+        named = tuple(
+            (name, one.key)
+            for name, one in inlined.taken.items()
+            if isinstance(one, Known) and name in used and _is_renamed(name, one)
+        )
+        formula = known.node.formula if isinstance(known.node, Use) else _written_in_place(known)
+        shown = {name: values[name] for name in used}
+        return Step(known.key, formula, shown, self.value(known), named, tree)
+
+    def _made_of(self, known: Known) -> Iterator[Known]:
+        """Yield what can be replayed at this crank angle of all that a known is made of."""
+        stack, done = [known], set()
+        while stack:
+            one = self.law(stack.pop())
+            if id(one.node) in done or not one.varies:
+                continue
+            done.add(id(one.node))
+            if isinstance(one.node, Root):
+                continue
+            yield one
+            if not isinstance(one.node, Delayed):
+                stack.extend(one.node.operands)
+
+
+class _Inlined:
+    """The arguments of a formula with plain arithmetic written out, and what takes the place of each symbol."""
+
+    def __init__(self, taken: dict[str, Known | float]) -> None:
+        self.taken: dict[str, Known | float] = {}
+        self._trees = {name: self._tree_of(name, one) for name, one in taken.items()}
+
+    def tree(self, tree: Expression) -> Expression:
+        """Return a recorded formula with the operands it has here."""
+        match tree:
+            case Symbol(name):
+                return self._trees[name]
+            case Operation(function, operands):
+                return Operation(function, tuple(self.tree(one) for one in operands))
+        return tree
+
+    def _tree_of(self, name: str, operand: Known | float) -> Expression:
+        if not isinstance(operand, Known):
+            if name in ARGUMENTS:
+                self.taken[name] = operand
+                return Symbol(name)
+            return Number(operand)
+        if operand.is_absent:
+            return Number(operand.value)
+        if isinstance(operand.node, Arithmetic) and (not operand.key or name == "_"):
+            parts = operand.node.inputs
+            return Operation(
+                operand.node.function, tuple(self._tree_of(f"{name}.{i}", one) for i, one in enumerate(parts))
+            )
+        if isinstance(operand.node, OfAngle) and name not in ARGUMENTS:
+            # no argument gives a symbol here
+            operand = operand.named(f"crank_{operand.node.function}")
+        name = _OF_ORDER.get((name, getattr(operand.node, "multiple", 0)), name)
+        self.taken[name] = operand
+        return Symbol(name)
+
+
+# the first two orders are written out, where books write cos and cos 2
+_OF_ORDER = {
+    ("cos_kphi", 1): "cos_phi",
+    ("sin_kphi", 1): "sin_phi",
+    ("cos_kphi", 2): "cos_2phi",
+    ("sin_kphi", 2): "sin_2phi",
+}
+
+
+def _written_in_place(known: Known) -> Formula:
+    """Return plain arithmetic under the name of a quantity as a formula that nobody is quoted for."""
+    return Formula(lambda one: one, known.key.partition(".")[0], "")
+
+
+def _is_made(known: Known) -> bool:
+    return isinstance(known.node, Use | Arithmetic | Total | Pieces)
+
+
+def _is_renamed(name: str, operand: Known) -> bool:
+    """Return whether an operand prints the symbol of its own key and not that of the argument."""
+    if not operand.key:
+        return False
+    entry = ARGUMENTS.get(name)
+    if isinstance(operand.node, OfAngle) and entry is not None:
+        return entry.quantity != "crank_angle"
+    if entry is None or not entry.quantity or "." in operand.key:
+        return True
+    return entry.pattern == "{}" and entry.quantity != operand.key
+
+
+def symbols_of(tree: Expression) -> tuple[str, ...]:
+    """Return the names of the symbols of a tree, in order, each once.
+
+    Parameters
+    ----------
+    tree : Expression
+        A recorded formula.
+    """
+    found: dict[str, None] = {}
+    stack = [tree]
+    while stack:
+        one = stack.pop()
+        if isinstance(one, Symbol):
+            found[one.name] = None
+        elif isinstance(one, Operation):
+            stack.extend(reversed(one.operands))
+    return tuple(found)

@@ -1,0 +1,55 @@
+"""Formulas drawn from experience hold in a range; what was put in from outside it is told."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+
+import numpy as np
+
+from crankwork.formula.known import Array, Known, Use, in_order
+from crankwork.formula.replay import Angles, replay
+
+CODE = "formula_range"
+
+
+def range_notices(
+    knowns: Iterable[Known], angles: Angles | None = None
+) -> Iterator[tuple[str, Mapping[str, float | str]]]:
+    """Yield where formulas that knowns are made of are used outside the range that their source vouches for.
+
+    Parameters
+    ----------
+    knowns : iterable of Known
+        What was calculated.
+    angles : CrankGrid, optional
+        Where to look at operands that vary with the crank angle; without it they are not looked at. [rad]
+
+    Yields
+    ------
+    tuple of (str, mapping)
+        Of each formula and argument at most one notice, about the value farthest outside, in the unit of the argument.
+    """
+    farthest: dict[tuple[str, str], tuple[float, Mapping[str, float | str]]] = {}
+    for node in (one.node for one in in_order(knowns)):
+        if not isinstance(node, Use):
+            continue
+        for name, operand in zip(node.formula.arguments, node.inputs, strict=True):
+            if name not in node.formula.valid:
+                continue
+            low, high = node.formula.valid[name]
+            values = _values(operand, angles)
+            outside = np.maximum(low - values, values - high)
+            at = int(np.argmax(outside)) if values.size else 0
+            key = (node.formula.name, name)
+            if values.size and outside[at] > max(0.0, farthest.get(key, (0.0, {}))[0]):
+                about: dict[str, float | str] = {"quantity": node.formula.quantity, "argument": name}
+                farthest[key] = float(outside[at]), about | {"value": float(values[at]), "low": low, "high": high}
+    yield from ((CODE, said) for _, said in farthest.values())
+
+
+def _values(operand: Known | float, angles: Angles | None) -> Array:
+    if not isinstance(operand, Known):
+        return np.array([operand])
+    if not operand.varies:
+        return np.array([operand.value])
+    return np.empty(0) if angles is None else replay(operand, angles)

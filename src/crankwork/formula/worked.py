@@ -1,0 +1,106 @@
+"""A calculation step by step: what is known so far, and what formulas make of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any, Self
+
+import numpy as np
+
+from crankwork.errors import CrankworkError
+from crankwork.formula.expression import FORMULAS, Formula
+from crankwork.formula.known import Known, absent, given
+from crankwork.notation import ARGUMENTS
+
+
+class Worked:
+    """Works formulas on what is known so far and keeps what they give, in order.
+
+    An argument of a formula is what is named in the call, else what is known by its name, else the known quantity that
+    notation says it stands for.
+
+    Parameters
+    ----------
+    mark : str
+        What follows the key of everything worked here, to tell it from what is worked again later.
+
+    Examples
+    --------
+    >>> from crankwork.kinematics.lengths import mean_piston_speed
+    >>> worked = Worked()
+    >>> _ = worked.given("stroke", 0.09), worked.given("rotational_speed", 3000.0)
+    >>> worked(mean_piston_speed).value
+    9.0
+    >>> list(worked.found)
+    ['mean_piston_speed']
+    """
+
+    def __init__(self, mark: str = "") -> None:
+        self.known: dict[str, Known] = {}
+        self.found: dict[str, Known] = {}
+        self._mark = mark
+
+    def __call__(self, function: Callable[..., Any], key: str = "", /, **others: Known | float) -> Known:
+        """Return what a registered formula gives, kept under its quantity or a key.
+
+        Parameters
+        ----------
+        function : callable
+            The formula.
+        key : str
+            Key of the value; by default the quantity that the formula gives.
+        **others : Known or float
+            Arguments that stand for something else than the quantity known so far. [as the formula takes them]
+
+        Raises
+        ------
+        CrankworkError
+            If no finite number comes out.
+        """
+        formula = FORMULAS[function.__name__]
+        taken = {name: others[name] if name in others else self._operand(name) for name in formula.arguments}
+        try:
+            with np.errstate(all="ignore"):
+                found: Known = function(*taken.values())
+        except ArithmeticError:
+            raise _no_number(formula, taken) from None
+        if not found.varies and not math.isfinite(found.value):
+            raise _no_number(formula, taken)
+        return self.keep(found.named(key or formula.quantity))
+
+    def _operand(self, name: str) -> Known:
+        return self.known[name] if name in self.known else self.known[ARGUMENTS[name].quantity]
+
+    def __getitem__(self, key: str) -> Known:
+        return self.known[key]
+
+    def keep(self, known: Known) -> Known:
+        """Keep a result under its key; what is worked from now on takes it for its quantity."""
+        marked = known.named(f"{known.key}{self._mark}")
+        self.known[known.key] = self.found[known.key] = marked
+        return marked
+
+    def given(self, key: str, value: float, path: str = "") -> Known:
+        """Take a stated value, in the unit that formulas take it in."""
+        self.known[key] = given(key, value, path)
+        return self.known[key]
+
+    def absent(self, key: str, neutral: float = 0.0) -> Known:
+        """Take a quantity that there is none of here."""
+        self.known[key] = absent(key, neutral)
+        return self.known[key]
+
+    def again(self, mark: str) -> Self:
+        """Return a calculation that begins with what is known here and marks what it works."""
+        other = type(self)(mark)
+        other.known = dict(self.known)
+        return other
+
+
+def _no_number(formula: Formula, taken: Mapping[str, Known | float]) -> CrankworkError:
+    """Return the refusal of operands from which no number follows, by the names that they have."""
+    named = {name: one for name, one in taken.items() if isinstance(one, Known) and not one.is_absent}
+    made_of = ", ".join(f"{(one.key or name).replace('_', ' ')} {one.value:g}" for name, one in named.items())
+    quantity = formula.quantity.replace("_", " ")
+    return CrankworkError(f"no {quantity} follows from {made_of}; correct what these are calculated from")

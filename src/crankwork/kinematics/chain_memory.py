@@ -1,0 +1,88 @@
+"""A chain that is solved numerically, remembered: its coordinates are the root of its closing equations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from crankwork.formula.known import Component, Known, Root, given
+from crankwork.kinematics.dyads import LinkMotion, guide_on_link, named_link, named_point, point_on_link, seen_from
+from crankwork.kinematics.loops import ChainMotion, Surroundings
+from crankwork.kinematics.plane_motion import cosine_of_direction, sine_of_direction, sine_of_turned
+from crankwork.kinematics.transfer import PointMotion, Transfer
+from crankwork.mechanism.chain import Chain
+
+_KEYS = ("point_x", "point_y", "link_angle")
+
+
+def remembered_chain(chain: Chain, around: Surroundings, root: Root) -> ChainMotion:
+    """Return the motion of a chain of links as knowns.
+
+    Parameters
+    ----------
+    chain : Chain
+        The links.
+    around : Surroundings
+        What it hangs on, in knowns.
+    root : Root
+        Gives the coordinates of all links and their derivatives; its equations are noted here.
+
+    Returns
+    -------
+    ChainMotion
+        Points, frames and distances by the same formulas as those of any link.
+    """
+    count = 3 * len(chain.links)
+
+    def coordinate(link: int, which: int) -> Transfer:
+        keys = (f"{_KEYS[which]}{order}.{chain.links[link].name}" for order in ("", "_1", "_2"))
+        return Transfer(*(Known(Component(root, 3 * link + which + k * count), key) for k, key in enumerate(keys)))
+
+    frames: dict[str, LinkMotion] = {}
+    for k, link in enumerate(chain.links):
+        angle = coordinate(k, 2)
+        cos, sin = cosine_of_direction(angle.position), sine_of_direction(angle.position)
+        frame = LinkMotion(PointMotion(coordinate(k, 0), coordinate(k, 1)), cos, sin, *angle[1:])
+        frames[link.name] = named_link(frame, link.name)
+    places = {
+        (link.name, name): named_point(_point(frames[link.name], name, place), name)
+        for link in chain.links
+        for name, place in link.points.items()
+    }
+    points: dict[str, PointMotion] = {}
+    for (_, name), place in places.items():
+        points.setdefault(name, place)
+    lines = {
+        one.link: guide_on_link(frames[one.guide.link], one.guide)
+        if one.guide.link in frames
+        else around.guide(one.guide)
+        for one in chain.slides
+    }
+    root.residuals = (
+        *_pins(chain, places, points | {name: around.points[name] for name in chain.known}),
+        *_slides(chain, frames, lines),
+    )
+    sliders = {link: seen_from(line, frames[link].origin).x for link, line in lines.items()}
+    own = {name: one for name, one in points.items() if name not in chain.known}
+    return ChainMotion(own, frames, sliders, None)
+
+
+def _point(frame: LinkMotion, name: str, place: tuple[float, float]) -> PointMotion:
+    along, across = place
+    return point_on_link(frame, given(f"point_along.{name}", along), given(f"point_across.{name}", across), name)
+
+
+def _pins(chain: Chain, places: dict[tuple[str, str], PointMotion], anchors: dict[str, PointMotion]) -> Iterator[Known]:
+    """Yield what is left open at the pins, along x and y."""
+    for (_, name), place in places.items():
+        shared = name in chain.known or place is not anchors[name]
+        for axis, end, anchor in zip("xy", place, anchors[name], strict=True):
+            if shared:
+                yield (end.position - anchor.position).named(f"distance_{axis}.{name}")
+
+
+def _slides(chain: Chain, frames: dict[str, LinkMotion], lines: dict[str, LinkMotion]) -> Iterator[Known]:
+    """Yield how far pieces are from their guides, and the sines of the angles between them."""
+    for one in chain.slides:
+        frame, line = frames[one.link], lines[one.link]
+        yield seen_from(line, frame.origin).y.position.named(f"guide_across.{one.link}")
+        yield sine_of_turned(frame.sin, line.cos, -frame.cos, line.sin).named(f"guide_sine.{one.link}")

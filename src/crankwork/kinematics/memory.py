@@ -1,0 +1,207 @@
+"""The motion of a mechanism as knowns: its lengths are given values, and everything else remembers them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from crankwork.formula.known import HalfTurns, Known, OfAngle, absent, given
+from crankwork.formula.over_cycle import OverCycle
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.motion import Motion
+from crankwork.kinematics.placement import place
+from crankwork.kinematics.plane_motion import direction_of_slope
+from crankwork.kinematics.transfer import Transfer
+from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide
+from crankwork.mechanism.mechanism import Body, LinkPoint, Mechanism
+from crankwork.method import EXACT
+
+
+class CrankAngle(NamedTuple):
+    """The crank angle and its functions, as a grid has them, and how far the crank gets. [deg]"""
+
+    angle: Known = Known(OfAngle("angle"), "crank_angle")
+    sin: Known = Known(OfAngle("sin"), "crank_sin")
+    cos: Known = Known(OfAngle("cos"), "crank_cos")
+    start: float = 0.0
+    end: float = 360.0
+
+    def over(self, knowns: Mapping[str, Known]) -> OverCycle:
+        """Follow columns from the first to the last crank angle that is reached."""
+        return OverCycle(knowns, CrankGrid.from_degrees, self.end - self.start, self.start)
+
+
+@dataclass(frozen=True)
+class Near:
+    """Directions at some crank angles, and straight lines between them. [deg], [rad]"""
+
+    degrees: Array
+    angle: Array
+
+    def __call__(self, degrees: Array) -> Array:
+        """Return roughly the direction at crank angles."""
+        return np.asarray(np.interp(degrees, self.degrees, self.angle))
+
+
+def remembered_motion(mechanism: Mechanism, moved: Motion) -> Motion:
+    """Return the motion of a mechanism as knowns.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A crank and groups.
+    moved : Motion
+        Its motion in numbers, which says how many turns its links make.
+
+    Returns
+    -------
+    Motion
+        The same, each value a known that remembers how it follows from lengths and crank angle.
+    """
+    crank, reached = mechanism.crank, (float(moved.grid.degrees[0]), float(moved.grid.degrees[-1]))
+    grid = _untyped(CrankAngle(start=reached[0], end=reached[1]))
+    placed = place(given_mechanism(mechanism), grid, plain=mechanism)
+    links = {}
+    for name, frame in placed.links.items():
+        if name == crank.link:
+            links[name] = Transfer(crank.start + crank.direction * grid.angle, frame.angle_1, frame.angle_2)
+        elif name not in placed.sliders:
+            near = Near(moved.grid.degrees, moved.links[name].position)
+            turns = Known(HalfTurns(frame.sin, frame.cos, near), f"half_turns.{name}")
+            angle = direction_of_slope(frame.sin, frame.cos, turns).named(f"link_angle.{name}")
+            links[name] = Transfer(angle, frame.angle_1, frame.angle_2)
+    return Motion(grid, placed.points, links, placed.sliders, EXACT, placed.links)
+
+
+def course_of(grid: Any) -> Callable[[Mapping[str, Known]], OverCycle]:  # noqa: ANN401 - typed as a grid
+    """Return what follows columns over the crank angles of a remembered motion.
+
+    Parameters
+    ----------
+    grid : CrankAngle
+        Of the motion.
+    """
+    course: Callable[[Mapping[str, Known]], OverCycle] = grid.over
+    return course
+
+
+def angle_of(grid: Any) -> Known:  # noqa: ANN401 - typed as a grid
+    """Return the crank angle of a remembered motion.
+
+    Parameters
+    ----------
+    grid : CrankAngle
+        Of the motion.
+    """
+    angle: Known = grid.angle
+    return angle
+
+
+def given_mechanism(mechanism: Mechanism) -> Mechanism:
+    """Return a mechanism whose lengths, angles and masses are given values; what is zero is absent.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The same in numbers.
+    """
+    crank: Any = mechanism.crank
+    ground: dict[str, Any] = {name: _point(name, at, f"fixed_points.{name}") for name, at in mechanism.ground.items()}
+    pivot = next((name for name, at in mechanism.ground.items() if at == crank.pivot), "")
+    return replace(
+        mechanism,
+        crank=replace(
+            crank,
+            radius=given("crank_radius", crank.radius, "crank.radius"),
+            pivot=ground[pivot] if pivot else _point(f"{crank.link}_pivot", crank.pivot, "crank.pivot"),
+            start=_stated("line_angle.crank", crank.start, "crank.start"),
+        ),
+        dyads=tuple(one if isinstance(one, Chain) else _dyad(one) for one in mechanism.dyads),
+        bodies=tuple(_body(one) for one in mechanism.bodies),
+        ground=ground,
+        points=tuple(_link_point(one) for one in mechanism.points),
+    )
+
+
+def _stated(key: str, value: float, path: str) -> Any:  # noqa: ANN401 - a known where a number is typed
+    return given(key, value, path) if value else absent(key)
+
+
+def _branch(name: str, branch: int) -> Any:  # noqa: ANN401 - a known where a number is typed
+    return absent("branch", 1.0) if branch == 1 else given(f"branch.{name}", -1.0, f"branch.{name}")
+
+
+def _point(name: str, at: tuple[float, float], path: str) -> Any:  # noqa: ANN401 - knowns where numbers are typed
+    return tuple(given(f"point_{axis}.{name}", one, path) for axis, one in zip("xy", at, strict=True))
+
+
+def _guide(name: str, guide: Guide) -> Guide:
+    """Return a guide; what is zero of a fixed one is given, of a carried one absent."""
+    path = f"guides.{name}"
+    if not guide.link:
+        at: Any = _point(f"{name}_guide", guide.point, path)
+        return Guide(at, _untyped(given(f"link_angle.{name}_guide", guide.angle, path)))
+    return replace(_slot(f"{name}_guide", guide), link=guide.link)
+
+
+def _slot(name: str, slot: Guide) -> Guide:
+    path = f"guides.{name}"
+    keys = (f"point_along.{name}", f"point_across.{name}")
+    at: Any = tuple(_stated(key, one, path) for key, one in zip(keys, slot.point, strict=True))
+    return Guide(at, _stated(f"line_angle.{name}", slot.angle, path), slot.link)
+
+
+def _untyped(known: Known | CrankAngle) -> Any:  # noqa: ANN401 - a known where a number is typed
+    return known
+
+
+def _length(link: str, length: float) -> Any:  # noqa: ANN401 - a known where a number is typed
+    return given(f"link_length.{link}", length, f"links.{link}")
+
+
+def _dyad(dyad: Dyad) -> Dyad:
+    match dyad:
+        case RRR():
+            return replace(
+                dyad,
+                length_a=_length(dyad.link_a, dyad.length_a),
+                length_b=_length(dyad.link_b, dyad.length_b),
+                branch=_branch(dyad.point, dyad.branch),
+            )
+        case RRP():
+            guide = _guide(dyad.piece, dyad.guide)
+            return replace(
+                dyad,
+                length=_length(dyad.link, dyad.length),
+                guide_point=guide.point,
+                guide_angle=guide.angle,
+                branch=_branch(dyad.slider, dyad.branch),
+            )
+        case RPR():
+            return replace(dyad, slot=_slot(dyad.block, dyad.slot), branch=_branch(dyad.link, dyad.branch))
+        case PRP():
+            return replace(dyad, guide_a=_guide(dyad.block_a, dyad.guide_a), guide_b=_guide(dyad.block_b, dyad.guide_b))
+        case RPP():
+            return replace(dyad, slot=_slot(dyad.block, dyad.slot), guide=_guide(dyad.link, dyad.guide))
+
+
+def _body(body: Body) -> Body:
+    path = f"links.{body.link}"
+    return replace(
+        body,
+        mass=_stated(f"body_mass.{body.link}", body.mass, f"{path}.mass"),
+        inertia=_stated(f"body_inertia.{body.link}", body.inertia, f"{path}.inertia"),
+    )
+
+
+def _link_point(point: LinkPoint) -> LinkPoint:
+    path = f"links.{point.link}.points.{point.name}"
+    return replace(
+        point,
+        along=_stated(f"point_along.{point.name}", point.along, path),
+        across=_stated(f"point_across.{point.name}", point.across, path),
+    )

@@ -1,0 +1,83 @@
+"""The pressure of an indicator diagram over the crank angle, remembered piece by piece."""
+
+from __future__ import annotations
+
+import math
+
+from crankwork.formula.known import Found, Known, Pieces, Table, given
+from crankwork.formula.replay import replay
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.loads.gas import polytropic_pressure
+from crankwork.loads.indicator import IndicatorDiagram, Segment
+
+# What a document prints for a volume may be the computed one but for rounding.
+_SAME_VOLUME = 1e-12
+
+
+def remembered_pressure(diagram: IndicatorDiagram, volume: Known) -> Known:
+    """Return the pressure of a diagram as the laws that follow one another.
+
+    Parameters
+    ----------
+    diagram : IndicatorDiagram
+        The solved diagram.
+    volume : Known
+        Volume of the cylinder over the crank angle. [m3]
+    """
+    laws = tuple(_law(diagram, segment, volume) for segment in diagram.segments)
+    ends = [segment.end for segment in diagram.segments]
+    return Known(Pieces(ends, laws, diagram.breaks.tolist()), "diagram_pressure")
+
+
+def at_angle(column: Known, degrees: float, key: str) -> Known:
+    """Return what a column amounts to at one crank angle, under a name of its own.
+
+    Parameters
+    ----------
+    column : Known
+        The column.
+    degrees : float
+        The crank angle. [deg]
+    key : str
+        The name.
+    """
+    value = float(replay(column, CrankGrid.from_degrees([degrees]))[0])
+    return Known(Found(value, "at", (column,), degrees), key)
+
+
+def polytrope_origin(diagram: IndicatorDiagram, segment: Segment, volume: Known) -> tuple[Known, Known, Known]:
+    """Return pressure and volume of the state that a polytrope passes through, and its exponent.
+
+    Parameters
+    ----------
+    diagram : IndicatorDiagram
+        The solved diagram.
+    segment : Segment
+        One of its polytropes.
+    volume : Known
+        Volume of the cylinder over the crank angle. [m3]
+    """
+    pressure, state_volume, exponent = segment.state
+    name = segment.origin
+    if segment.of:
+        p_1, n_p, *others = segment.of
+        at = diagram.named.get(name, (None, 0.0))[0]
+        return p_1, Known(Found(state_volume, "at", (volume, *others), at), f"cylinder_volume.{name}"), n_p
+    p_1 = given(f"diagram_pressure.{name}" if name else "", pressure, f"gas.points.{name}")
+    V_1 = given(f"cylinder_volume.{name}" if name else "", state_volume, f"gas.points.{name}.volume")
+    if name in diagram.named:
+        computed = at_angle(volume, diagram.named[name][0], V_1.key)
+        if math.isclose(computed.value, state_volume, rel_tol=_SAME_VOLUME):
+            V_1 = computed
+    return p_1, V_1, given("polytropic_exponent", exponent, "gas.pieces")
+
+
+def _law(diagram: IndicatorDiagram, segment: Segment, volume: Known) -> Known:
+    match segment.law:
+        case "constant":
+            return segment.of[0] if segment.of else given("diagram_pressure", float(segment.pressures[0]))
+        case "polytropic":
+            p_1, V_1, exponent = polytrope_origin(diagram, segment, volume)
+            return polytropic_pressure(p_1, V_1, volume, exponent)  # type: ignore[no-any-return]
+    word = "first_law" if segment.of else "rounded"
+    return Known(Table(segment.rounded, word, segment.knots.tolist(), segment.of), "diagram_pressure")

@@ -1,0 +1,94 @@
+"""Loads given as curves, as columns that remember where they are not smooth."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from crankwork.formula.known import Known, Pieces, Table, absent, given
+from crankwork.formula.over_cycle import OverCycle
+from crankwork.kinematics.crank_grid import Array
+from crankwork.loads.table import Curve
+from crankwork.loads.table import Table as LoadTable
+
+_SPARE = 1e-12
+
+Course = Callable[[Mapping[str, Known]], OverCycle]
+
+
+@dataclass(frozen=True)
+class Within:
+    """A curve that goes on level beyond its ends, which rounding may pass."""
+
+    curve: Curve
+    low: float
+    high: float
+
+    def __call__(self, at: Array) -> Array:
+        """Return the values at some abscissas."""
+        return self.curve(np.clip(at, self.low, self.high))
+
+
+def by_angle(curve: Curve, angle: Known, key: str) -> Known:
+    """Return a curve over the crank angle. [rad]
+
+    Parameters
+    ----------
+    curve : callable
+        What is given; a table says where it has corners, and so does whatever has `corners`. [rad]
+    angle : Known
+        The crank angle.
+    key : str
+        Key of the load.
+    """
+    corners = [math.degrees(one) for one in _corners(curve)]
+    if isinstance(curve, LoadTable) and not _varies(curve):
+        return given(key, curve.values[0], "loads")
+    return Known(Table(curve, "given", corners, by=angle), key)
+
+
+def by_column(curve: Curve, column: Known, course: Course, key: str) -> Known:
+    """Return a curve over a column, with its corners at the crank angles where the column passes them.
+
+    Parameters
+    ----------
+    curve : callable
+        What is given.
+    column : Known
+        What it is read at.
+    course : callable
+        Follows columns over the cycle.
+    key : str
+        Key of the load.
+    """
+    if isinstance(curve, LoadTable) and not _varies(curve):
+        return given(key, curve.values[0], "loads")
+    over, corners = course({"": column}), _corners(curve)
+    passed = [one for corner in corners for one in over.crossings("", corner).tolist()]
+    if not isinstance(curve, LoadTable):
+        return Known(Table(curve, "given", passed, by=column), key)
+    low, high = curve.at[0], curve.at[-1]
+    law = Known(Table(Within(curve, low, high), "given", passed, by=column), key)
+    spare = _SPARE * max(abs(low), abs(high))
+    ends = sorted([*over.crossings("", low - spare).tolist(), *over.crossings("", high + spare).tolist()])
+    ends = [*ends, float(over.edges[-1])]
+    middles = (np.array([over.edges[0], *ends[:-1]]) + np.array(ends)) / 2
+    at = over.at("", middles)
+    is_inside = (at > low - spare) & (at < high + spare)
+    if is_inside.all():
+        return law
+    return Known(Pieces(ends, tuple(law if one else absent(key) for one in is_inside)), key)
+
+
+def _corners(curve: Curve) -> tuple[float, ...]:
+    return curve.at if isinstance(curve, LoadTable) else tuple(getattr(curve, "corners", ()))
+
+
+def _varies(table: LoadTable) -> bool:
+    return len(set(table.values)) > 1 or not (table.at[0] < -_ANYWHERE and table.at[-1] > _ANYWHERE)
+
+
+_ANYWHERE = 100.0

@@ -1,0 +1,81 @@
+"""How many digits the numbers of a line need, so that a pocket calculator gives the value printed after them."""
+
+from __future__ import annotations
+
+import math
+import operator
+from collections.abc import Iterator
+
+import numpy as np
+
+from crankwork.formula.expression import Expression, Operation, evaluate
+from crankwork.formula.steps import AnyStep, Given, ProductStep, Step, SumStep
+
+RESULT_DIGITS = 6
+_MOST_DIGITS = 12
+_UNITS = 2
+_SUMS = (operator.add, operator.sub)
+
+
+def enough_digits(step: AnyStep) -> int:
+    """Return the significant digits of the numbers put in: six, and more where the value needs them.
+
+    Put in as printed they give the printed value within two units of its last place; where no digits do, as in a
+    difference of equal numbers, within two units of the last place of the largest term.
+    """
+    printed = as_printed(step.value)
+    if isinstance(step, Given):
+        return RESULT_DIGITS
+    reached = []
+    for digits in range(RESULT_DIGITS, _MOST_DIGITS + 1):
+        terms = _terms(step, digits)
+        if not all(map(math.isfinite, terms)):
+            return RESULT_DIGITS
+        missed = abs((math.prod(terms) if isinstance(step, ProductStep) else sum(terms)) - printed)
+        if missed <= _UNITS * last_place(printed):
+            return digits
+        reached.append((digits, missed, max(map(abs, (*terms, printed)))))
+    return next((digits for digits, missed, one in reached if missed <= _UNITS * last_place(one)), _MOST_DIGITS)
+
+
+def _terms(step: Step | SumStep | ProductStep, digits: int) -> list[float]:
+    """Return the terms of a line from its printed numbers."""
+    if isinstance(step, SumStep | ProductStep):
+        return [as_printed(one.value, digits) for one in step.terms]
+    put_in = {
+        name: math.pi if is_exact_pi(name, value) else as_printed(value, digits) for name, value in step.values.items()
+    }
+    with np.errstate(all="ignore"):
+        try:
+            return [sign * float(evaluate(one, put_in)) for one, sign in terms_of(step.expression)]
+        except ZeroDivisionError:
+            return [math.nan]
+
+
+def terms_of(tree: Expression) -> Iterator[tuple[Expression, int]]:
+    """Yield the terms of a sum with their signs; what is no sum is one term."""
+    match tree:
+        case Operation(function, (left, right)) if function in _SUMS:
+            yield from terms_of(left)
+            yield from ((one, sign if function is operator.add else -sign) for one, sign in terms_of(right))
+        case Operation(operator.neg, (one,)):
+            yield from ((term, -sign) for term, sign in terms_of(one))
+        case _:
+            yield tree, 1
+
+
+def is_exact_pi(name: str, value: float) -> bool:
+    """Return whether an argument is π itself, which is printed as π; a document's 3.14 is a number."""
+    return name == "pi" and value == math.pi
+
+
+def as_printed(value: float, digits: int = RESULT_DIGITS) -> float:
+    """Return a number as it is read when printed with some significant digits."""
+    return float(f"{value:.{digits}g}")
+
+
+def last_place(value: float, digits: int = RESULT_DIGITS) -> float:
+    """Return one unit of the last place of a printed number."""
+    if not value or not math.isfinite(value):
+        return 0.0
+    return float(10.0 ** (math.floor(math.log10(abs(value))) - digits + 1))

@@ -1,0 +1,261 @@
+"""One value explained as text: the value, every line of its calculation in order, and what was given."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator
+
+from crankwork.analysis.results import Results
+from crankwork.description.machine_file import Origin
+from crankwork.formula.explained import Explained, Explanation, is_given
+from crankwork.formula.expression import symbol
+from crankwork.formula.known import (
+    Arithmetic,
+    Component,
+    Delayed,
+    Found,
+    Given,
+    HalfTurns,
+    Known,
+    OfAngle,
+    Table,
+    Total,
+    Use,
+)
+from crankwork.formula.steps import Given as GivenStep
+from crankwork.formula.steps import Step
+from crankwork.locale import capital, say
+from crankwork.notation import ARGUMENTS, argument_unit
+from crankwork.note.definitions import definition_text
+from crankwork.note.equations import line_parts, shown_values, value_symbol, value_text
+from crankwork.note.numbering import Numbering
+from crankwork.quantities import QUANTITIES, Language, base_key
+from crankwork.report.language import label, number
+from crankwork.sources import cite
+
+_FENCES = re.compile(r"[() ]")
+
+
+def explanation(
+    results: Results, key: str, at: float | None = None, language: Language = "en", place: Callable[[str], str] = str
+) -> str:
+    """Return how a value came about, down to what is given.
+
+    Parameters
+    ----------
+    results : Results
+        Of any machine.
+    key : str
+        Key of a column, of a single value, or of what lies between them.
+    at : float, optional
+        Crank angle of what varies. [deg]
+    language : str
+        Language of words, symbols and the decimal mark.
+    place : callable
+        Says where the machine file states a path.
+
+    Raises
+    ------
+    CrankworkError
+        As `Results.value` does.
+    """
+    value = results.value(key, at)
+    known = results.memory.get(key)
+    degrees = 0.0 if at is None else float(at)
+    asked = known is not None and not known.varies
+    where = "" if at is None or asked else f"({_angle(degrees, language)})"
+    shown = " = ".join([f"{value_symbol(key, language)}{where}", *_values(key, value, language)])
+    head = [f"{capital(label(key, language)) if _has_label(key) else key}: {shown}"]
+    if known is None:
+        return "\n".join([*head, "", say("explain.no_memory", language)]) + "\n"
+    return (
+        "\n".join([*head, *_Printed(Explanation(known, degrees, type(results.grid).from_degrees), language, place)])
+        + "\n"
+    )
+
+
+def key_lines(results: Results, language: Language = "en") -> list[str]:
+    """Return the keys of results, each with its name; a column has its sign of varying with the crank angle."""
+    keys = [*results.columns, *results.summary]
+    wide = max(map(len, keys))
+    phi = QUANTITIES["crank_angle"].symbol(language)
+    return [
+        f"{key:<{wide}}  {f'({phi})' if key in results.columns else '   '}  {label(key, language)}".rstrip()
+        for key in keys
+    ]
+
+
+def place_text(origin: Origin, language: Language) -> str:
+    """Return where the machine file states a value, in words."""
+    return say(f"explain.{origin.kind}", language, path=origin.path, line=origin.line)
+
+
+def _has_label(key: str) -> bool:
+    return base_key(key) in QUANTITIES
+
+
+def _angle(degrees: float, language: Language) -> str:
+    return f"{number(degrees, language, digits=10)}°"
+
+
+def _values(key: str, value: float, language: Language) -> list[str]:
+    """Return a value in SI and in the unit of the tables, where it is that of a quantity."""
+    if base_key(key) not in QUANTITIES:
+        return [number(value, language)]
+    return [value_text(one, unit, language) for one, unit in shown_values(GivenStep(key, value))]
+
+
+class _Printed:
+    """The lines below the value: of what does not vary, of each crank angle, what is given, sources."""
+
+    def __init__(self, explanation: Explanation, language: Language, place: Callable[[str], str]) -> None:
+        self._explanation, self._language, self._place = explanation, language, place
+        self._sources: dict[str, int] = {}
+
+    def __iter__(self) -> Iterator[str]:
+        every = list(self._explanation)
+        made = [one for one in every if not is_given(one)]
+        # what does not vary is known before anything that does
+        steady = [one for one in made if one.degrees is None and not _stands_at(one)]
+        moving = [one for one in made if one.degrees is not None or _stands_at(one)]
+        yield from self._section("explain.steady", steady)
+        here: float | None = None
+        for one in moving:
+            angle = self._angle_of(one)
+            if angle is not None and angle != here:
+                yield from ("", say("explain.at", self._language, angle=_angle(angle, self._language)))
+                here = angle
+            yield from self._lines([one])
+        yield from self._given([one for one in every if is_given(one)])
+        if self._sources:
+            yield from ("", say("explain.sources", self._language))
+            yield from (f"  [{count}] {cite(source)}" for source, count in self._sources.items())
+
+    def _angle_of(self, one: Explained) -> float | None:
+        """Return the crank angle that a line belongs to."""
+        return one.known.node.at if isinstance(one.known.node, Found) else one.degrees
+
+    def _section(self, title: str, some: Iterable[Explained]) -> Iterator[str]:
+        lines = list(self._lines(some))
+        if lines:
+            yield from ("", say(title, self._language), *lines)
+
+    def _lines(self, some: Iterable[Explained]) -> Iterator[str]:
+        for one in some:
+            line = self._line(one)
+            if line:
+                yield f"  {line}"
+
+    def _symbol(self, known: Known, argument: str = "") -> str:
+        match known.node:
+            case OfAngle(function=function, multiple=multiple, shift=shift):
+                return _of_angle(function, multiple, shift, self._language)
+        if known.key:
+            return value_symbol(known.key, self._language)
+        return symbol(argument, self._language) if argument in ARGUMENTS else "?"
+
+    def _line(self, one: Explained) -> str:
+        """Return the line of a value."""
+        known, language = one.known, self._language
+        parts = [self._symbol(known, one.argument)]
+        match known.node:
+            case OfAngle():
+                return " = ".join([*parts, *self._angle_parts(one)])
+            case Use() | Arithmetic() | Total():
+                step = self._explanation.moment(one.degrees).step(known)
+                parts = ["0"] if one.residual else parts
+                found = line_parts(step, language)
+                parts += found[: -len(shown_values(step))] if one.residual else found
+                source = step.formula.source if isinstance(step, Step) else ""
+                return " = ".join(_once(parts)) + self._cited(source) + self._held(one)
+            case Delayed(of=of, by=by, cycle=cycle) if one.degrees is not None:
+                before = _angle((one.degrees - by) % cycle, language)
+                parts = [f"{parts[0]}({_angle(one.degrees, language)})", f"{self._symbol(of)}({before})"]
+            case Found(word="at", operands=of, at=at) if at is not None:
+                parts += [f"{self._symbol(column)}({_angle(at, language)})" for column in of[:1]]
+            case Found(word=word, operands=of, at=at):
+                defined = definition_text(known.key, language) if known.key else ""
+                parts += [defined] if defined else []
+                parts.append(self._found(word, of, at))
+            case Table(word=word):
+                parts.append(say(f"memory.{word}", language))
+            case Component():
+                parts.append(say("explain.root", language))
+            case HalfTurns():
+                parts.append(say("explain.half_turns", language))
+        return " = ".join(_once([*parts, *self._own_values(one)])) + self._held(one)
+
+    def _found(self, word: str, of: tuple[Known, ...], at: float | None) -> str:
+        """Return what was found of what: of columns that are not followed here with the key to ask for."""
+        columns = ", ".join(
+            self._symbol(part) + (f": {part.key}" if at is None else "") for part in of if part.key and part.varies
+        )
+        words = say(f"memory.{word}", self._language)
+        where = "" if at is None else say("explain.where", self._language, angle=_angle(at, self._language))
+        return f"{words}{f' ({columns})' if columns else ''}{where}"
+
+    def _own_values(self, one: Explained) -> list[str]:
+        if one.known.key and base_key(one.known.key) in QUANTITIES:
+            return _values(one.known.key, one.value, self._language)
+        unit = argument_unit(one.argument) if one.argument in ARGUMENTS else ""
+        return [value_text(one.value, unit, self._language)]
+
+    def _angle_parts(self, one: Explained) -> list[str]:
+        node, degrees = one.known.node, one.degrees
+        if not isinstance(node, OfAngle) or degrees is None:
+            return []
+        whole = _angle(node.multiple * degrees + node.shift, self._language)
+        if node.function == "angle":
+            return [whole, value_text(one.value, "rad", self._language)]
+        name = {"one_minus_sin": "1 − sin ", "one_plus_sin": "1 + sin "}.get(node.function, f"{node.function} ")
+        return [f"{name}{whole}", number(one.value, self._language)]
+
+    def _held(self, one: Explained) -> str:
+        if one.stretch is None:
+            return ""
+        start, end = (_angle(edge, self._language) for edge in one.stretch)
+        return f"   ({say('explain.holds', self._language, start=start, end=end)})"
+
+    def _cited(self, source: str) -> str:
+        if not source:
+            return ""
+        self._sources.setdefault(source.partition(",")[0], len(self._sources) + 1)
+        return f"   {Numbering((), {}, self._sources, self._language).citation(source)}"
+
+    def _given(self, some: list[Explained]) -> Iterator[str]:
+        lines = []
+        for one in some:
+            node = one.known.node
+            path = node.path if isinstance(node, Given) else ""
+            where = self._place(path) if path else say("explain.taken", self._language)
+            values = _once([self._symbol(one.known, one.argument), *self._own_values(one)])
+            lines.append(f"  {' = '.join(values)}   {where}")
+        if lines:
+            yield from ("", capital(say("captions.data", self._language)), *dict.fromkeys(lines))
+
+
+def _stands_at(one: Explained) -> bool:
+    """Return whether a value was found of columns at a crank angle."""
+    return isinstance(one.known.node, Found) and one.known.node.at is not None
+
+
+def _once(parts: list[str]) -> list[str]:
+    """Return parts without those that say the same as the one before: sin θ = sin(θ)."""
+    plain = [_FENCES.sub("", part) for part in parts]
+    return [part for at, part in enumerate(parts) if not at or plain[at] != plain[at - 1]]
+
+
+def _of_angle(function: str, multiple: int, shift: float, language: Language) -> str:
+    phi = QUANTITIES["crank_angle"].symbol(language)
+    turned = f"{'' if multiple == 1 else multiple}{phi}"
+    if shift:
+        sign = "+" if shift > 0 else "−"
+        turned = f"({turned} {sign} {_angle(abs(shift), language)})"
+    match function:
+        case "angle":
+            return turned
+        case "one_minus_sin":
+            return f"1 − sin {turned}"
+        case "one_plus_sin":
+            return f"1 + sin {turned}"
+    return f"{function} {turned}"

@@ -1,0 +1,142 @@
+"""Results of a linkage are values of their memory, and single values are exact over the crank angle."""
+
+import math
+import pickle
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from crankwork import analyse, read_machine, template
+from crankwork.analysis.linkage import running_at
+from crankwork.dynamics.routes import ROUTES, by_groups
+from crankwork.formula.expression import FORMULAS
+from crankwork.formula.known import in_order
+from crankwork.formula.lines import Moment
+from crankwork.formula.replay import Program
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.motion import linkage_motion
+from crankwork.loads.process import TorqueOnLink
+from crankwork.loads.table import Table
+
+NAMES = ("four-bar", "crank-shaper", "toggle-press", "scotch-yoke", "whitworth", "press", "stephenson-six-bar")
+FLYWHEEL = """[flywheel]
+fluctuation = {}
+[motor]
+rated_power = "2.2 kW"
+rated_speed = "1430 rpm"
+overload = 2.2
+pole_pairs = 2
+ratio = 24
+[table]"""
+
+
+def loaded(torque, name="four-bar"):
+    """Return the results of a linkage without masses whose crank bears a torque."""
+    machine = read_machine(template(name))
+    crank = machine.mechanism.crank.link
+    bare = replace(machine.mechanism, bodies=())
+    return analyse(replace(machine, mechanism=bare, loads=(TorqueOnLink(crank, torque),)))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_columns_and_single_values_are_those_of_the_memory(name):
+    results = analyse(read_machine(template(name)))
+    assert set(results.memory) == {*results.columns, *results.summary}
+    again = Program({key: results.memory[key] for key in results.columns})(results.grid)
+    for key, column in results.columns.items():
+        assert np.array_equal(again[key], column), key
+    assert {key: results.memory[key].value for key in results.summary} == dict(results.summary)
+
+
+def test_results_can_be_pickled():
+    results = analyse(read_machine(template("toggle-press").replace("[table]", FLYWHEEL.format(0.04))))
+    again = pickle.loads(pickle.dumps(results))  # noqa: S301 - our own bytes
+    grid = CrankGrid.from_degrees([12.3])
+    assert again.columns_at(grid)["crank_speed"] == results.columns_at(grid)["crank_speed"]
+
+
+@pytest.mark.parametrize("step", ["1 deg", "7 deg", "30 deg"])
+def test_no_step_of_the_table_changes_a_single_value(step):
+    text = template("toggle-press").replace('step = "10 deg"', f'step = "{step}"')
+    expected = analyse(read_machine(template("toggle-press"))).summary
+    assert analyse(read_machine(text)).summary == expected
+
+
+def test_the_stroke_of_the_shaper():
+    summary = analyse(read_machine(template("crank-shaper"))).summary
+    assert summary["slider_stroke.ram"] == pytest.approx(0.2, rel=1e-13)
+    assert summary["mean_torque"] == pytest.approx(1200 * 0.2 / math.tau, rel=1e-12)
+
+
+def test_a_torque_over_a_third_of_the_turn_has_a_third_of_it_as_mean():
+    torque = Table(tuple(map(math.radians, (0.0, 120.0, 120.0, 360.0))), (-300.0, -300.0, 0.0, 0.0), period=math.tau)
+    assert loaded(torque).summary["mean_torque"] == pytest.approx(100.0, rel=1e-12)
+
+
+def test_extremes_stand_where_calculus_puts_them():
+    summary = loaded(lambda x: -(5000 + 900 * np.sin(2 * x) - 600 * np.cos(2 * x))).summary
+    assert summary["static_torque_max"] == pytest.approx(5000 + math.hypot(900, 600), rel=1e-13)
+    assert summary["static_torque_max_angle"] == pytest.approx((math.pi - math.atan(900 / 600)) / 2, abs=1e-7)
+    assert summary["static_torque_min_angle"] == pytest.approx(math.pi - math.atan(900 / 600) / 2, abs=1e-7)
+
+
+def test_the_excess_work_of_a_smooth_torque_is_exact():
+    text = template("four-bar").replace("[table]", FLYWHEEL.format(0.04))
+    machine = read_machine(text)
+    loads = (TorqueOnLink(machine.mechanism.crank.link, lambda x: -2000 - 500 * np.sin(x)),)
+    results = analyse(replace(machine, mechanism=replace(machine.mechanism, bodies=()), loads=loads))
+    assert results.summary["excess_work"] == pytest.approx(1000.0, rel=1e-12)
+
+
+def test_no_flywheel_is_told_of_a_machine_that_needs_none():
+    """Of its own the machine runs more evenly than asked: that is what summary, table and check say."""
+    text = template("whitworth").replace("[table]", FLYWHEEL.format(0.04))
+    text = text.replace("[crank]", '[crank]\ninertia = "50 kg*m2"')
+    results = analyse(read_machine(text))
+    assert results.summary["flywheel_inertia.exact"] == 0.0
+    speed = results.columns_at(CrankGrid.steps(0.1, 360.0))["crank_speed"]
+    own = 2 * (speed.max() - speed.min()) / (speed.max() + speed.min())
+    assert own < 0.04
+    assert results.summary["speed_fluctuation"] == pytest.approx(own, rel=1e-5)
+    assert results.checks["flywheel"] == 0.0
+
+
+def test_a_joint_force_is_followed_down_to_masses_and_lengths():
+    results = analyse(read_machine(template("crank-shaper")))
+    force = results.memory["joint_force.B"]
+    keys = {one.key for one in in_order([force])}
+    assert {"crank_radius", "body_mass.lever", "link_length.link", "speed", "link_inertia_force.lever.x"} <= keys
+    moment = Moment(CrankGrid.from_degrees, 100.0)
+    last = list(moment.steps([force]))[-1]
+    assert last.value == pytest.approx(results["joint_force.B"][10], rel=1e-14)
+
+
+def called(route, running):
+    """Return the formulas of the dynamics that a route calls."""
+    formulas = {
+        id(one.function.__code__): name for name, one in FORMULAS.items() if "dynamics" in one.function.__module__
+    }
+    found = set()
+
+    def note(frame, event, _):
+        if event == "call" and id(frame.f_code) in formulas:
+            found.add(formulas[id(frame.f_code)])
+
+    sys.setprofile(note)
+    try:
+        route(running)
+    finally:
+        sys.setprofile(None)
+    return found
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_routes_of_the_checks_share_no_formula_with_the_forces_in_joints(name):
+    results = analyse(read_machine(template(name)))
+    running = running_at(results.solved, linkage_motion(results.machine.mechanism, results.grid))
+    forces = called(by_groups, running)
+    assert len(forces) >= 3
+    assert {name: called(route, running) & forces for name, route in ROUTES.items()} == {key: set() for key in ROUTES}
+    assert len(called(ROUTES["energy"], running)) >= 3

@@ -1,0 +1,70 @@
+"""What results answer when they are asked for one value."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+import crankwork
+from crankwork.errors import CrankworkError, UnknownKeyError
+
+
+@pytest.fixture(scope="module")
+def engine():
+    return crankwork.analyse(crankwork.read("examples/spark-engine.toml", ["method.kinematics=exact"]))
+
+
+@pytest.fixture(scope="module")
+def table():
+    return crankwork.analyse(crankwork.read("examples/press.toml"))
+
+
+def test_a_row_of_the_table_is_the_column(engine):
+    for row in (0, 17, 78, 143):
+        at = float(engine.grid.degrees[row])
+        assert engine.value("crank_torque", at) == engine["crank_torque"][row]
+
+
+def test_between_rows_a_value_is_calculated(engine):
+    at, r, ratio = 33.337, engine.value("crank_radius"), engine.value("rod_ratio")
+    phi = math.radians(at)
+    expected = r * (1 - math.cos(phi)) + r / ratio * (1 - math.sqrt(1 - (ratio * math.sin(phi)) ** 2))
+    assert engine.value("piston_displacement", at) == pytest.approx(expected, rel=1e-14)
+
+
+def test_a_single_value_is_the_same_at_every_angle(engine):
+    assert engine.value("stroke") == engine.value("stroke", 77.0) == engine.summary["stroke"]
+
+
+def test_an_unknown_key_names_the_nearest(engine):
+    for ask in (engine.__getitem__, engine.value):
+        with pytest.raises(UnknownKeyError, match="did you mean crank_torque or") as refused:
+            ask("crank_torqe")
+        assert isinstance(refused.value, KeyError)
+        with pytest.raises(UnknownKeyError, match="there is no result xyz; list them"):
+            ask("xyz")
+
+
+@pytest.mark.parametrize(
+    ("at", "sentence"),
+    [
+        (None, "crank_torque varies with the crank angle; say where, for example at 360 deg: --at 360"),
+        (720.5, "no crank angle of 720.5 deg in the cycle; take one from 0 to 720 deg"),
+        (math.nan, "no crank angle of nan deg"),
+    ],
+)
+def test_a_column_is_asked_for_at_an_angle_of_the_cycle(engine, at, sentence):
+    with pytest.raises(CrankworkError, match=sentence):
+        engine.value("crank_torque", at)
+
+
+def test_positions_of_a_table_have_nothing_between_them(table):
+    assert table.value("reduced_inertia", 30.0) == table["reduced_inertia"][1]
+    with pytest.raises(CrankworkError, match="stands at the angles of the table only, and 33 deg is none of them"):
+        table.value("reduced_inertia", 33.0)
+
+
+def test_keys_are_all_that_has_a_value(engine):
+    assert {*engine.columns, *engine.summary} < set(engine.keys())
+    assert all(math.isfinite(engine.value(key, 390.0)) for key in set(engine.keys()))

@@ -1,0 +1,27 @@
+"""What the package offers by name."""
+
+from __future__ import annotations
+
+import importlib
+
+import pytest
+
+import crankwork
+
+
+@pytest.mark.parametrize("name", crankwork.__all__)
+def test_a_public_name_is_that_of_its_room(name):
+    found, home = getattr(crankwork, name), crankwork._HOMES[name]
+    assert found is getattr(importlib.import_module(f"crankwork.{home}"), name)
+    assert name in dir(crankwork)
+
+
+def test_every_name_has_one_home():
+    assert sorted(crankwork.__all__) == sorted(crankwork._HOMES)
+
+
+def test_what_refuses_can_be_caught_by_name():
+    from crankwork import errors
+
+    kinds = {name for name, one in vars(errors).items() if isinstance(one, type) and issubclass(one, Exception)}
+    assert kinds <= set(crankwork.__all__)

@@ -1,0 +1,83 @@
+"""A small part of the campaign of hostile files (`scripts/hostile`), and that it would notice each kind of fault."""
+
+from __future__ import annotations
+
+import runpy
+import time
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from crankwork.description.machine_file import template
+from crankwork.errors import CrankworkError
+
+CAMPAIGN = runpy.run_path(str(Path(__file__).with_name("campaign.py")))
+FAULTS, hostile_file, outcome = (CAMPAIGN[name] for name in ("FAULTS", "hostile_file", "outcome"))
+RUNS = 10
+
+
+def _divide(*_: object) -> None:
+    raise ZeroDivisionError
+
+
+def _warn(*_: object) -> None:
+    warnings.warn("overflow encountered in multiply", RuntimeWarning, stacklevel=1)
+
+
+def _wait(*_: object) -> None:
+    ends = time.process_time() + 5
+    while time.process_time() < ends:
+        pass
+
+
+def _fill(*_: object) -> None:
+    raise MemoryError
+
+
+def _refuse(*_: object) -> None:
+    raise CrankworkError("that is not possible; write something else")
+
+
+def _say_no_more(*_: object) -> None:
+    raise CrankworkError("my.toml:7: crank.radius: is wrong")
+
+
+@pytest.mark.parametrize("part", range(RUNS))
+def test_hostile_files_are_refused_with_place_and_fix_or_computed(part) -> None:
+    found = {number: outcome(hostile_file(1, number)) for number in range(part, 400, RUNS)}
+    assert {number: one for number, one in found.items() if one.kind in FAULTS} == {}
+    assert {one.kind for one in found.values()} >= {"accepted", "refused"}
+
+
+def test_a_file_of_a_number_is_always_the_same() -> None:
+    again = runpy.run_path(str(Path(__file__).with_name("mutations.py")))["hostile_file"]
+    assert [hostile_file(3, number) for number in range(20)] == [again(3, number) for number in range(20)]
+
+
+@pytest.mark.parametrize(
+    ("fault", "kind"),
+    [
+        (_divide, "traceback"), (_warn, "warning"), (_wait, "hang"), (_fill, "memory"), (_refuse, "message"),
+        (_say_no_more, "message"),
+    ],
+)  # fmt: skip
+def test_each_kind_of_fault_is_noticed(monkeypatch, fault, kind) -> None:
+    text = template("engine")
+    assert outcome(text).kind == "accepted"
+    monkeypatch.setitem(outcome.__globals__, "SECONDS", 0.2 if fault is _wait else 60.0)
+    monkeypatch.setitem(outcome.__globals__, "description_text", fault)
+    assert outcome(text).kind == kind
+
+
+def test_values_that_are_not_finite_are_noticed_where_nothing_is_said_of_them(monkeypatch) -> None:
+    analyse = outcome.__globals__["analyse"]
+
+    def spoilt(machine):
+        results = analyse(machine)
+        results.columns["piston_velocity"][1] = np.inf
+        return results
+
+    monkeypatch.setitem(outcome.__globals__, "analyse", spoilt)
+    assert outcome(template("engine")) == ("silent", "not finite: piston_velocity")

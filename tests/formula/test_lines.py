@@ -1,0 +1,124 @@
+"""The memory as lines: what is absent folds away, arithmetic stands in place, operands go by their own names."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from crankwork.dynamics.efficiency import driving_torque_as_motor
+from crankwork.dynamics.piston_forces import crank_torque, piston_force, tangential_force
+from crankwork.formula.expression import Expression, Number, Operation, Symbol, evaluate, fold, record, text
+from crankwork.formula.known import Known, OfAngle, Pieces, absent, delayed, given, total
+from crankwork.formula.lines import Moment
+from crankwork.formula.steps import Given, Step, SumStep, worked_step
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.series import series_transfer_2_term
+from crankwork.loads.gas import gas_force, polytropic_pressure
+
+SIN = Known(OfAngle("sin"), "crank_angle")
+
+
+def at(degrees: float) -> Moment:
+    return Moment(CrankGrid.from_degrees, degrees)
+
+
+def lines(known: Known, degrees: float = 30.0) -> list[object]:
+    return list(at(degrees).steps([known]))
+
+
+def test_operands_come_before_what_is_made_of_them():
+    force = tangential_force(
+        given("piston_force", 1000.0), SIN, given("rod_cosine", 1.0), absent("side_force.couple"), 1.0
+    )
+    torque = crank_torque(force, given("crank_radius", 0.05), absent("rotating_torque"))
+    found = lines(torque)
+    assert [one.key for one in found] == ["tangential_force", "crank_torque"]
+    assert found[1].values == {"T": found[0].value, "r": 0.05}
+    assert found[1].value == pytest.approx(1000 * 0.5 * 0.05)
+
+
+def test_what_is_absent_is_not_printed():
+    force = piston_force(given("gas_force", 5.0), given("inertia_force", -2.0), absent("weight_force"))
+    (line,) = lines(force)
+    assert text(line.expression) == "F_g + F_j"
+    assert line.value == 3.0
+
+
+def test_arithmetic_stands_where_it_was_written():
+    force = tangential_force(given("gas_force", 5.0) - given("weight_force", 2.0), SIN, 1.0, absent(""), 1.0)
+    (line,) = lines(force)
+    assert line.value == pytest.approx(1.5)
+    assert evaluate(line.expression, line.values) == pytest.approx(1.5)
+    assert dict(line.named) == {"P.0": "gas_force", "P.1": "weight_force"}
+
+
+def test_an_operand_of_several_goes_by_its_own_name():
+    (line,) = lines(
+        crank_torque(given("tangential_force.2", 5.0), given("crank_radius", 0.1), absent("rotating_torque"))
+    )
+    assert dict(line.named) == {"T": "tangential_force.2"}
+
+
+def test_of_pieces_the_law_of_the_angle_is_shown():
+    volume = given("clearance_volume", 2.0) + SIN
+    law = polytropic_pressure(given("p", 1e5), given("V", 1.0), volume, given("n", 1.3))
+    pressure = Known(Pieces([90.0, 360.0], (law, given("p", 7.0))), "gas_pressure")
+    force = gas_force(pressure, given("piston_area", 2.0), absent(""), absent(""))
+    assert [one.key for one in lines(force, 30.0)] == ["gas_pressure", "gas_force"]
+    assert [(one.key, one.value) for one in lines(force, 200.0)] == [("gas_pressure", 7.0), ("gas_force", 14.0)]
+
+
+def test_a_delay_shows_the_value_that_came_earlier():
+    (line,) = lines(delayed(SIN, 20.0, 720.0, "crank_torque.2"), 110.0)
+    assert isinstance(line, Given)
+    assert line.value == pytest.approx(1.0)
+
+
+def test_a_total_shows_its_terms():
+    found = lines(total("total_torque", [given("crank_torque.1", 2.0), given("crank_torque.2", 3.0)]))
+    assert isinstance(found[-1], SumStep)
+    assert [(one.key, one.value) for one in found[-1].terms] == [("crank_torque.1", 2.0), ("crank_torque.2", 3.0)]
+
+
+def test_a_line_evaluates_to_its_value():
+    force = tangential_force(given("piston_force", 1000.0) + SIN, SIN * SIN, 2.0 - SIN, absent(""), 1.0)
+    (line,) = lines(force, 77.0)
+    assert isinstance(line, Step)
+    assert evaluate(line.expression, line.values) == line.value
+    sine = math.sin(math.radians(77))
+    assert line.value == pytest.approx((1000 + sine) * sine**2 / (2 - sine), rel=1e-15)
+
+
+@pytest.mark.parametrize(("order", "shown"), [(1, "a_k·cos φ"), (2, "a_k·cos 2φ"), (3, "a_k·cos kφ")])
+def test_the_first_two_orders_are_written_out(order, shown):
+    cosine = Known(OfAngle("cos", order))
+    (line,) = lines(series_transfer_2_term(2.0, cosine, absent(""), absent("")))
+    assert text(line.expression) == shown
+
+
+def test_folding_keeps_the_numbers_of_a_formula():
+    tree = record(lambda r, l: 2 * r - 0.5 * l)  # noqa: E741
+    assert fold(tree) == tree
+
+
+@pytest.mark.parametrize(("couple", "shown"), [(12.0, "(M_st + M_dyn)/η"), (None, "M_st/η")], ids=["given", "absent"])
+def test_a_step_leaves_out_what_nobody_stated(couple, shown):
+    step = worked_step(driving_torque_as_motor, 30.0, couple, 0.5)
+    assert text(step.expression) == shown
+    assert step.value == 60 + 2 * (couple or 0)
+    assert ("M_dyn" in step.values) == (couple is not None)
+    assert evaluate(step.expression, step.values) == step.value
+
+
+def test_a_difference_of_equals_and_a_quotient_by_infinity_fold_away():
+    tree = record(lambda r, l, e: r * (1 - l) + 1 / e)  # noqa: E741
+    one, infinite = Number(1.0), Number(math.inf)
+    assert text(fold(replaced(tree, {"l": one}))) == "1/e"
+    assert text(fold(replaced(tree, {"e": infinite}))) == "r·(1 − l)"
+
+
+def replaced(tree: Expression, numbers: dict[str, Number]) -> Expression:
+    if isinstance(tree, Operation):
+        return Operation(tree.function, tuple(replaced(one, numbers) for one in tree.operands))
+    return numbers.get(tree.name, tree) if isinstance(tree, Symbol) else tree

@@ -1,0 +1,36 @@
+"""Ranges of formulas: what is put in from outside is told once, at its farthest."""
+
+from __future__ import annotations
+
+from crankwork.formula.known import Known, OfAngle, given
+from crankwork.formula.ranges import range_notices
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.report.notices import notice_text
+from crankwork.working_cycle.heat_capacities import air_heat, mixture_heat
+
+SIN = Known(OfAngle("sin"), "crank_angle")
+
+
+def _heat(celsius: float) -> Known:
+    return air_heat(given("compression_celsius", celsius))
+
+
+def test_a_value_in_the_range_or_at_its_end_is_no_news():
+    assert list(range_notices([_heat(0.0), _heat(700.0), _heat(1500.0)])) == []
+
+
+def test_the_value_farthest_outside_is_told_wherever_the_formula_is_used():
+    mixed = mixture_heat(_heat(1510.0), given("residual_fraction", 0.05), _heat(1700.0))
+    ((code, said),) = range_notices([mixed, _heat(-20.0)])
+    assert said == {"quantity": "fresh_charge_heat", "argument": "t_c", "value": 1700.0, "low": 0.0, "high": 1500.0}
+    assert notice_text(code, said, "en") == (
+        "mean molar heat of the fresh charge: t_c = 1700 °C lies outside 0 to 1500 °C, where its formula holds; "
+        "the formula is used"
+    )
+
+
+def test_what_varies_is_looked_at_over_the_angles():
+    column = air_heat(given("compression_celsius", 1600.0) * SIN)
+    assert list(range_notices([column])) == []
+    ((_, said),) = range_notices([column], CrankGrid.from_degrees([10.0, 90.0, 170.0]))
+    assert said["value"] == 1600.0

@@ -1,0 +1,154 @@
+"""Every text is used, every key has its text, and what is the same in English is one text."""
+
+from __future__ import annotations
+
+import ast
+import pickle
+import re
+from collections import defaultdict
+from pathlib import Path
+
+import pytest
+
+import crankwork
+from crankwork.analysis.results import Notice
+from crankwork.locale import LANGUAGES, Refusal, has_text, say, texts, told
+from crankwork.mechanism import dyads
+from crankwork.notation import ARGUMENTS
+from crankwork.note.captions import _PLACE, _SAME
+from crankwork.note.sheets.words import _SAME as SAME
+from crankwork.quantities import QUANTITIES
+from crankwork.report.notices import notice_text
+from crankwork.units import UNITS
+
+PACKAGE = Path(crankwork.__file__).parent
+ROOMS = sorted({path.stem for path in (PACKAGE / "locale").glob("*/*.toml")})
+# rooms whose names are put together with their room where they are asked for, and the folder whose constants name them
+NAMED_IN = {
+    "captions": "note", "check": "report", "columns": "", "drawing": "report", "explain": "",
+    "figures": "",
+    "headings": "note", "kinds": "",
+    "marks": "", "memory": "", "note": "note", "notices": "", "refusals": "", "report": "", "seen": "note",
+    "sentences": "", "sheets": "note", "tables": "",
+}  # fmt: skip
+# and rooms with one text for each entry of a table
+TABLES = {
+    "arguments": ARGUMENTS,
+    "kinds": (*vars(dyads), "opposed"),
+    "refusals": (*(f"dimension_{one.dimension}" for one in UNITS.values()), "or", "and"),
+    "places": re.findall(r"\w{2,}\.?|p\.", _PLACE.pattern.replace("\\", "")),
+    "quantities": QUANTITIES,
+    "symbols": QUANTITIES,
+    "units": {*UNITS, "kmol", "mol", "h"},
+}
+
+
+# methods of the words of notes and sheets, and the room that they add to their key
+SAYING = {
+    "heading": "headings", "title": "headings", "caption": "captions", "column": "columns", "term": "columns",
+    "sentence": "sentences", "phrase": "sentences", "paragraph": "sentences",
+}  # fmt: skip
+TREES = {path: ast.parse(path.read_text(encoding="utf-8")) for path in PACKAGE.rglob("*.py")}
+
+
+def constants(tree: ast.AST) -> set[str]:
+    """Return the strings of a module, docstrings left out."""
+    said = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+    return {
+        node.value for node in ast.walk(tree)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in said
+    }  # fmt: skip
+
+
+CONSTANTS = {path: constants(tree) for path, tree in TREES.items()}
+EVERYWHERE = set().union(*CONSTANTS.values())
+
+
+def pieces(folder: Path) -> set[str]:
+    """Return what keys may be made of: constants, and what stands between dots, blanks and commas in them."""
+    mine = set().union(*(some for path, some in CONSTANTS.items() if path.is_relative_to(folder)))
+    return {piece for one in mine for piece in (one, *re.split(r"[., ]", one), one.replace(" ", "_"))}
+
+
+PIECES = {folder: pieces(PACKAGE / folder) for folder in set(NAMED_IN.values())}
+
+
+def is_used(room: str, name: str) -> bool:
+    if f"{room}.{name}" in EVERYWHERE or name in TABLES.get(room, ()):
+        return True
+    return room in NAMED_IN and is_made_of(name, PIECES[NAMED_IN[room]])
+
+
+def is_made_of(name: str, names: set[str]) -> bool:
+    """Return whether a name is one of these, or put together of them: "way_" + way, "unknown_" + what + "_near"."""
+    if name in names or f"{name}_angle" in names:
+        return True
+    starts = (one for one in names if one[-1:] == "_" and len(one) > 1 and name.startswith(one))
+    ends = (one for one in names if one[:1] == "_" and len(one) > 1 and name.endswith(one))
+    rests = {*(name.removeprefix(one) for one in starts), *(name.removesuffix(one) for one in ends)}
+    return any(is_made_of(one, names) for one in rests if one)
+
+
+def said_keys() -> set[str]:
+    """Return the keys that calls spell whole, and those that the words of notes and sheets are asked for."""
+    found = set()
+    for path, tree in TREES.items():
+        for call in ast.walk(tree):
+            match call:
+                case ast.Call(func=ast.Name("say") | ast.Attribute(_, "say"), args=[ast.Constant(str(key)), *_]):
+                    found.add(key if "." in key else SAME.get(key, key if key in QUANTITIES else f"sheets.{key}"))
+                case ast.Call(func=ast.Attribute(_, verb), args=[ast.Constant(str(key)), *_]) if verb in SAYING:
+                    if path.is_relative_to(PACKAGE / "note"):
+                        found.add(_SAME.get(f"{SAYING[verb]}.{key}", f"{SAYING[verb]}.{key}"))
+    return found - set(QUANTITIES)
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_every_text_is_used(room):
+    assert [name for name in texts(room, "en") if not is_used(room, name)] == []
+
+
+def test_every_key_that_the_source_spells_has_its_text():
+    found = said_keys()
+    assert len(found) > 200
+    assert {one for one in found if not has_text(one)} == set()
+    assert {key for key in (*SAME.values(), *_SAME.values()) if not has_text(key)} == set()
+    assert {key for key in _SAME if has_text(key)} == set()
+
+
+def test_every_quantity_has_name_and_symbol():
+    assert list(texts("quantities", "en")) == list(QUANTITIES)
+    assert set(QUANTITIES) <= set(texts("symbols", "en"))
+
+
+def test_what_is_the_same_in_english_is_one_text():
+    """Two keys with one English text go apart in the other languages; symbols and subscripts are not words."""
+    keys = defaultdict(list)
+    for room in ROOMS:
+        if room not in ("symbols", "marks", "units"):
+            # a dimension is named in refusals only
+            for name, said in texts(room, "en").items() if room != "refusals" else ():
+                keys[said.casefold()].append(f"{room}.{name}")
+    assert {said: some for said, some in keys.items() if len(some) > 1} == {}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_notice_can_be_told(language):
+    for code in texts("notices", "en"):
+        values: dict[str, float | str] = dict.fromkeys(re.findall(r"\{(\w+)\}", say(f"notices.{code}", "en")), 1.0)
+        values |= {name: "fuel" for name in values if name in ("name", "names", "message")}
+        values |= {name: one for name, one in (("quantity", "heat_to_coolant"), ("argument", "t_c")) if name in values}
+        told = notice_text(Notice(code, values).code, values, language)
+        assert told
+        assert "{" not in told
+
+
+def test_a_refusal_says_the_same_in_every_language():
+    refusal = Refusal("missing", advice=(Refusal("a_table", key="rod"), "[rod]"))
+    assert refusal == "is missing; write a table [rod] or [rod]"
+    assert [told(refusal, language) for language in LANGUAGES] == [
+        str(refusal), "отсутствует; запишите таблицу [rod] или [rod]", "còn thiếu; hãy ghi bảng [rod] hoặc [rod]",
+    ]  # fmt: skip
+    assert told(pickle.loads(pickle.dumps(refusal)), "ru") == told(refusal, "ru")  # noqa: S301 - our own
+    assert told(refusal.cleaned(str.upper), "en") == "is missing; write a table [ROD] or [ROD]"
+    assert told("said by somebody else", "ru") == "said by somebody else"

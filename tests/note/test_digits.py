@@ -1,0 +1,104 @@
+"""Printed numbers give the printed value on a pocket calculator."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+
+import pytest
+
+import crankwork
+from crankwork.analysis.steps import worked_steps
+from crankwork.errors import CrankworkError
+from crankwork.formula.expression import FORMULAS
+from crankwork.formula.steps import Given, Step, all_steps, sum_step
+from crankwork.note.digits import enough_digits
+from crankwork.note.equations import line_parts, shown_values
+
+FILES = [*sorted(Path("examples").glob("*.toml")), *crankwork.template_names()]
+CASES = [(file, way) for file in FILES for way in ("exact", "textbook")]
+# what is zero but for rounding
+NOTHING = 1e-15
+SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+CALCULATOR = {
+    "sin": math.sin, "cos": math.cos, "tan": math.tan, "arcsin": math.asin, "arccos": math.acos, "arctan": math.atan,
+    "sqrt": math.sqrt, "exp": math.exp, "ln": math.log, "lg": math.log10, "abs": abs, "max": max, "min": min,
+    "sinh": math.sinh, "cosh": math.cosh, "tanh": math.tanh, "sign": lambda x: math.copysign(1.0, x) if x else 0.0,
+    "pi": math.pi,
+}  # fmt: skip
+
+
+def keyed_in(printed: str) -> float:
+    """Return what a calculator shows for a printed expression."""
+    typed = re.sub(r"[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+", lambda found: f"**({found[0].translate(SUPERSCRIPTS)})", printed)
+    # a power of ten belongs to its number
+    typed = re.sub(r"(?<![\d.])10\*\*\((-?\d+)\)", r"1e\1", typed)
+    typed = typed.replace("·", "*").replace("−", "-").replace("√", "sqrt").replace("^", "**").replace("π", "pi")
+    return float(eval(typed, {"__builtins__": {}}, CALCULATOR))  # noqa: S307 - printed by the program itself
+
+
+def terms(printed: str) -> list[float]:
+    """Return the terms of a printed sum."""
+    depth, parts = 0, [""]
+    for at, letter in enumerate(printed):
+        depth += (letter == "(") - (letter == ")")
+        if depth == 0 and letter in "+−" and printed[max(at - 1, 0)] == " ":
+            parts.append("")
+        else:
+            parts[-1] += letter
+    return [keyed_in(part) for part in parts if part.strip()]
+
+
+def last_place(value: float) -> float:
+    return 10.0 ** (math.floor(math.log10(abs(value))) - 5) if value else 0.0
+
+
+def missed(numbers: str, value: str) -> str:
+    """Return what is wrong with a line, empty if its numbers give its value."""
+    value = re.split("[\u00a0°%]", value)[0]
+    found, printed = keyed_in(numbers), keyed_in(value)
+    largest = max(map(abs, [*terms(numbers), printed]))
+    # the printed values are decimals, their difference is not
+    fits = abs(found - printed) <= 2.0000001 * last_place(largest) or max(abs(found), abs(printed)) < 1e-11 * largest
+    return "" if fits or abs(printed) < NOTHING else f"{numbers} = {found:.10g}, not {value}"
+
+
+def results_of(file: Path | str, way: str) -> crankwork.Results:
+    settings = [f"method.kinematics={way}"]
+    try:
+        if isinstance(file, Path):
+            return crankwork.analyse(crankwork.read(file, settings))
+        return crankwork.analyse(crankwork.read_machine(crankwork.template(file), file, settings))
+    except CrankworkError:
+        assert way == "textbook"
+        return results_of(file, "exact")
+
+
+@pytest.mark.parametrize(("file", "way"), CASES)
+def test_every_line_can_be_followed_with_a_calculator(file, way):
+    wrong, count = [], 0
+    for group in worked_steps(results_of(file, way)):
+        for step in all_steps(group.steps):
+            if isinstance(step, Given):
+                continue
+            count += 1
+            *before, value = line_parts(step, "en")[: 1 - len(shown_values(step)) or None]
+            # symbols, then numbers, unless those are the value
+            if len(before) > 1 and (said := missed(before[-1], value)):
+                wrong.append(f"{step.key}: {said}")
+    assert count
+    assert wrong == []
+
+
+def test_a_difference_of_near_numbers_gets_more_digits():
+    total = sum_step("reciprocating_mass", [Given("piston_mass", 1234.56789), Given("rod_small_end_mass", -1234.56111)])
+    assert enough_digits(total) == 9
+    assert line_parts(total, "en")[1:] == ["1234.56789 + (−1234.56111)", "0.00678\u00a0kg"]
+
+
+def test_a_product_of_moderate_numbers_has_six_digits():
+    formula = FORMULAS["piston_area"]
+    step = Step("piston_area", formula, {"pi": math.pi, "D": 0.0789123456}, formula.function(math.pi, 0.0789123456))
+    assert enough_digits(step) == 6
+    assert line_parts(step, "en")[1] == "π·0.0789123²/4"

@@ -1,0 +1,113 @@
+"""Every value of every machine is explained down to what is given."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+import crankwork
+from crankwork.cli import commands
+from crankwork.errors import CrankworkError
+
+FILES = [*sorted(Path("examples").glob("*.toml")), *crankwork.template_names()]
+CASES = [(file, way) for file in FILES for way in ("exact", "textbook")]
+ENGINE = "examples/spark-engine.toml"
+
+
+def results_of(file: Path | str, way: str) -> crankwork.Results:
+    settings = [f"method.kinematics={way}"]
+    try:
+        if isinstance(file, Path):
+            return crankwork.analyse(crankwork.read(file, settings))
+        return crankwork.analyse(crankwork.read_machine(crankwork.template(file), file, settings))
+    except CrankworkError:
+        assert way == "textbook"
+        return results_of(file, "exact")
+
+
+@pytest.mark.parametrize(("file", "way"), CASES)
+def test_every_kind_of_value_is_explained(file, way):
+    results = results_of(file, way)
+    at = float(results.grid.degrees[len(results.grid) // 3])
+    unknown, wrong, seen = [], [], set()
+    for key in (*results.columns, *results.summary):
+        if key not in results.memory:
+            unknown.append(key)
+        kind = re.sub(r"_(max|min)(_angle)?(?=\.|$)", "_max", key).partition(".")[0]
+        if kind in seen:
+            continue
+        seen.add(kind)
+        language = ("en", "ru", "vi")[len(seen) % 3]
+        told = results.explain(key, at, language)
+        wrong += [line for line in told.splitlines() if re.search(r"\?|nan|inf\b|_\.| = $", line)]
+    assert wrong == []
+    assert unknown == []
+
+
+def explained(*arguments: str) -> list[str]:
+    result = CliRunner().invoke(commands, ["explain", *arguments], catch_exceptions=False)
+    assert result.exit_code == 0
+    return result.output.replace("\u00a0", " ").splitlines()
+
+
+def test_a_torque_is_followed_from_the_file():
+    lines = explained(ENGINE, "crank_torque", "--at", "390", "--method", "textbook")
+    assert lines[0] == "Crank torque: M(390°) = 712.026 N·m"
+    assert "  sin φ = sin 390° = 0.5" in lines
+    assert "  M = F_T·r = 13459.84·0.0529 = 712.026 N·m   [1, ch. 7]" in lines
+    assert any(line.endswith("(law from 375° to 505°)") for line in lines)
+    number = next(n for n, one in enumerate(Path(ENGINE).read_text("utf-8").splitlines(), 1) if "radius" in one)
+    assert f"  r = 0.0529 m = 52.9 mm   crank.radius, line {number}" in lines
+    # operands before what is made of them
+    assert lines.index("  sin β = λ·sin φ = 0.25·0.5 = 0.125   [1, ch. 6]") > lines.index("  sin φ = sin 390° = 0.5")
+
+
+def test_no_line_stands_twice():
+    for key in ("crank_torque", "overturning_moment", "rod_force"):
+        lines = [one for one in explained(ENGINE, key, "--at", "77") if one]
+        assert len(lines) == len(set(lines))
+
+
+def test_an_extreme_is_followed_where_it_stands():
+    lines = explained(ENGINE, "crank_torque_max", "--set", "crank.radius=60 mm", "--method", "textbook")
+    assert lines[0] == "Largest crank torque: M_max = 737.594 N·m"
+    assert "At the crank angle 383.9096275°" in lines
+    assert "  M_max = largest value (M), at 383.9096275° = 737.594 N·m" in lines
+    assert "  r = 0.06 m = 60 mm   crank.radius, by --set" in lines
+
+
+def test_another_cylinder_is_the_first_one_later():
+    lines = explained("examples/petrol-four.toml", "total_torque", "--at", "30", "--method", "textbook")
+    assert any(line.startswith("  M_4(30°) = M(390°) = ") for line in lines)
+    assert any(line.startswith("  M_Σ = M_1 + M_2 + M_3 + M_4 = ") for line in lines)
+
+
+def test_a_mean_says_what_it_is_of():
+    assert any("mean over the cycle (M: crank_torque) = " in line for line in explained(ENGINE, "mean_torque"))
+
+
+def test_a_default_is_told_from_what_the_file_states():
+    settings = ("--set", "method.weights=true")
+    lines = explained(ENGINE, "weight_force", *settings)
+    assert any(line.endswith("method.gravity: default, not in the file") for line in lines)
+
+
+def test_a_joint_force_is_followed_to_the_lengths():
+    lines = explained("examples/press-geometry.toml", "joint_force.D", "--at", "60")
+    assert lines[0].startswith("Joint force, D: R_D(60°) = ")
+    given = lines[lines.index("Given values") :]
+    assert any(one.startswith("  l_rod = 0.6 m = 600 mm   links.rod, line ") for one in given)
+
+
+def test_keys_are_listed_and_mistakes_refused():
+    assert any(one.startswith("crank_torque ") for one in explained(ENGINE, "--list"))
+    for arguments, sentence in (
+        (["crank_torqe"], "did you mean crank_torque"),
+        (["crank_torque"], "varies with the crank angle; say where, for example"),
+        ([], "say which value"),
+    ):
+        with pytest.raises(CrankworkError, match=sentence):
+            CliRunner().invoke(commands, ["explain", ENGINE, *arguments], catch_exceptions=False)

@@ -1,0 +1,155 @@
+"""Every number that an equation of a note prints is held by the analysis: in its memory, summary or a listing."""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections import defaultdict
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from crankwork.analysis import analyse, with_method
+from crankwork.analysis.one_cylinder import as_engine
+from crankwork.description.machine_file import read, read_machine, template, template_names
+from crankwork.formula.lines import Moment
+from crankwork.formula.steps import Step
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.machine import Machine
+from crankwork.note import engine_material, linkage_material
+from crankwork.note.contents import note_of
+from crankwork.note.document import Equation
+from crankwork.note.options import NoteOptions
+from crankwork.quantities import base_key
+
+EXAMPLES = sorted(Path(__file__).parents[2].joinpath("examples").glob("*.toml"))
+FILES = [one.stem for one in EXAMPLES] + [f"{name} template" for name in template_names()]
+OPTIONS = NoteOptions(figures=False)
+# in SI, or of the largest operand beside it: what is printed as zero
+NOISE = 1e-15
+
+# What no memory holds yet, by the reason. The lists only shrink.
+NOT_YET = {
+    "balance is not remembered": {
+        "acceleration_coefficient", "force_factor", "order_inertia_force", "shaft_unbalance", "unbalance_force",
+    },
+    "the mean torque is worked from the work of a cycle, and held as an integral": {"mean_total_torque"},
+    "nor are harmonics, counterweights and what adds up over cylinders without the crank angle": {
+        "counterweight_moment", "displacement", "free_moment", "mean_torque", "moment_factor",
+        "total_harmonic_amplitude",
+    },
+    "the cylinder of an articulated rod has a memory of its own, which the results do not hold": {
+        "diagram_pressure", "gas_force", "gas_pressure", "inertia_force", "knuckle_couple",
+        "knuckle_x", "knuckle_y", "piston_acceleration", "piston_area", "piston_displacement", "piston_force",
+        "piston_transfer_1", "piston_transfer_2", "piston_velocity", "reciprocating_mass", "rod_cosine", "rod_force",
+        "rod_ratio", "rod_sine", "rod_transfer_1", "rod_transfer_2", "side_force", "speed",
+    },
+    "heat release is integrated, and worked at one angle": {
+        "burning_progress", "burning_rate", "burnt_fraction", "cylinder_temperature", "heat_transfer_coefficient",
+        "motored_pressure", "piston_displacement", "pressure_rise", "wall_area", "wall_gas_speed", "wall_heat_rate",
+    },
+    "what follows from the structure is counted, not remembered": {"mobility"},
+    "the efficiency of a chain of joints is a given value, calculated where the file is read": {"efficiency"},
+}  # fmt: skip
+# which machines have what is not remembered; all of them otherwise
+ONLY = {
+    "nor are harmonics, counterweights and what adds up over cylinders without the crank angle": {
+        "petrol-four", "radial-five", "two-stroke", "v8-diesel", "whole-engine template",
+    },
+    "the cylinder of an articulated rod has a memory of its own, which the results do not hold": {"radial-five"},
+    "heat release is integrated, and worked at one angle": {"two-stroke"},
+}  # fmt: skip
+
+
+def machine_of(name):
+    kind, is_template, _ = name.partition(" template")
+    return read_machine(template(kind)) if is_template else read(EXAMPLES[FILES.index(name)])
+
+
+@functools.cache
+def analysed(name, method):
+    machine = machine_of(name)
+    results = analyse(with_method(machine, method)) if isinstance(machine, Machine) else analyse(machine)
+    return as_engine(results), note_of(results, OPTIONS)
+
+
+CASES = [(name, "exact") for name in FILES]
+CASES += [(name, "textbook") for name in FILES if isinstance(machine_of(name), Machine)]
+
+
+def named(results):
+    """Yield everything that is remembered under each of its names."""
+    stack, seen = [known.named(key) for key, known in results.memory.items()], set()
+    while stack:
+        one = stack.pop()
+        if (id(one.node), one.key) not in seen:
+            seen.add((id(one.node), one.key))
+            yield one
+            stack.extend(one.node.operands)
+
+
+def moments(results):
+    """Return the crank angles at which a note works something; of a table all of its positions."""
+    if results.has_positions:
+        degrees = results.grid.degrees.tolist()
+    else:
+        material = engine_material if isinstance(results.machine, Machine) else linkage_material
+        groups = material.Material(results, OPTIONS).groups.values()
+        degrees = {round(math.degrees(one.crank_angle), 9) for one in groups if one.crank_angle is not None}
+    return [Moment(CrankGrid.from_degrees, one) for one in degrees] or [Moment(CrankGrid.from_degrees, 0.0)]
+
+
+def is_same(value, step):
+    if value == step.value or abs(value - step.value) <= 2 * math.ulp(step.value):
+        return True
+    operands = step.values.values() if isinstance(step, Step) else ()
+    return step.value == 0 and abs(value) < NOISE * max([1.0, *map(abs, operands)])
+
+
+def not_held(results, note):
+    """Return the quantities of which an equation prints a number that the results do not hold."""
+    at, known, found = moments(results), defaultdict(list), set()
+    for one in named(results):
+        known[one.key].append(one)
+    rows = defaultdict(list)
+    for listing in results.listings.values():
+        for key, column in listing.columns.items():
+            rows[base_key(key)] += column.tolist()
+    for block in note.blocks:
+        step = block.step if isinstance(block, Equation) else None
+        if not hasattr(step, "value"):
+            continue
+        held = [results.summary[step.key]] if step.key in results.summary else []
+        held += rows[base_key(step.key)]
+        held += [one.value(kept) for kept in known[step.key] for one in (at if kept.varies else at[:1])]
+        if not any(is_same(value, step) for value in held):
+            found.add(base_key(step.key))
+    return found
+
+
+def excused(name):
+    return {key for why, keys in NOT_YET.items() if name in ONLY.get(why, {name}) for key in keys}
+
+
+@pytest.mark.parametrize(("name", "method"), CASES)
+def test_a_printed_number_is_one_that_the_analysis_holds(name, method):
+    assert not_held(*analysed(name, method)) - excused(name) == set()
+
+
+def test_what_is_not_remembered_yet_only_shrinks():
+    found = [(name, not_held(*analysed(name, method))) for name, method in CASES]
+    for why, keys in NOT_YET.items():
+        assert keys == keys & set().union(*(one for name, one in found if name in ONLY.get(why, {name}))), why
+
+
+def test_a_number_that_nobody_holds_is_found():
+    results, note = analysed("slider-crank", "exact")
+    wrong = [
+        replace(one, step=one.step._replace(value=one.step.value * (1 + 1e-14)))
+        if isinstance(one, Equation) and getattr(one.step, "key", "") == "piston_velocity"
+        else one
+        for one in note.blocks
+    ]
+    assert not_held(results, note) == set()
+    assert not_held(results, replace(note, blocks=tuple(wrong))) == {"piston_velocity"}
