@@ -81,7 +81,8 @@ def test_an_extreme_is_followed_where_it_stands():
 
 def test_another_cylinder_is_the_first_one_later():
     lines = explained("examples/petrol-four.toml", "total_torque", "--at", "30", "--method", "textbook")
-    assert any(line.startswith("  M_4(30°) = M(390°) = ") for line in lines)
+    assert any(line.startswith("  F_T,4(30°) = F_T(390°) = ") for line in lines)
+    assert any(line.startswith("  M_4 = F_T,4·r = ") for line in lines)
     assert any(line.startswith("  M_Σ = M_1 + M_2 + M_3 + M_4 = ") for line in lines)
 
 

@@ -31,14 +31,8 @@ NOISE = 1e-15
 
 # What no memory holds yet, by the reason. The lists only shrink.
 NOT_YET = {
-    "balance is not remembered": {
-        "acceleration_coefficient", "force_factor", "order_inertia_force", "shaft_unbalance", "unbalance_force",
-    },
     "the mean torque is worked from the work of a cycle, and held as an integral": {"mean_total_torque"},
-    "nor are harmonics, counterweights and what adds up over cylinders without the crank angle": {
-        "counterweight_moment", "displacement", "free_moment", "mean_torque", "moment_factor",
-        "total_harmonic_amplitude",
-    },
+    "what adds up over cylinders is added again": {"counterweight_moment", "displacement"},
     "the cylinder of an articulated rod has a memory of its own, which the results do not hold": {
         "diagram_pressure", "gas_force", "gas_pressure", "inertia_force", "knuckle_couple",
         "knuckle_x", "knuckle_y", "piston_acceleration", "piston_area", "piston_displacement", "piston_force",
@@ -54,7 +48,7 @@ NOT_YET = {
 }  # fmt: skip
 # which machines have what is not remembered; all of them otherwise
 ONLY = {
-    "nor are harmonics, counterweights and what adds up over cylinders without the crank angle": {
+    "what adds up over cylinders is added again": {
         "petrol-four", "radial-five", "two-stroke", "v8-diesel", "whole-engine template",
     },
     "the cylinder of an articulated rod has a memory of its own, which the results do not hold": {"radial-five"},

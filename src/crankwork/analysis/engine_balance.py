@@ -2,23 +2,33 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from crankwork.analysis.cylinders import WholeEngine
-from crankwork.analysis.engine_bearings import counterweights, rotating_masses
+from crankwork.analysis.engine_bearings import counterweights, rotating_mass_of, rotating_masses
 from crankwork.analysis.results import Listing
 from crankwork.cylinders.balance import (
     ORDERS,
     InertiaHarmonics,
+    free_force,
     free_forces,
+    free_moment,
     inertia_harmonics,
+    layout_factors,
+    order_inertia_force,
     sampled_harmonics,
 )
 from crankwork.cylinders.balance_shafts import ShaftWeight, balance_shafts, shaft_forces
 from crankwork.cylinders.counterweights import Unbalance, rotating_unbalances, turning_forces
-from crankwork.cylinders.ellipse import OrderBalance, balance_sum, unit_vectors
+from crankwork.cylinders.ellipse import Ellipse, OrderBalance, balance_sum, unit_vectors
+from crankwork.cylinders.journal_loads import unbalance_force
+from crankwork.cylinders.layout import Layout
+from crankwork.formula.known import Found, Known, given, in_order
 from crankwork.kinematics.crank_grid import CrankGrid
 
 _SAMPLES = 720
@@ -39,6 +49,8 @@ class EngineBalance(NamedTuple):
         All together.
     weights, shaft_weights : tuple
         The counterweights and the weights of the balance shafts.
+    harmonics : InertiaHarmonics
+        Orders of the piston acceleration, of each cylinder where some rods are articulated.
     """
 
     reciprocating: tuple[OrderBalance, ...]
@@ -48,6 +60,18 @@ class EngineBalance(NamedTuple):
     residual: tuple[OrderBalance, ...]
     weights: tuple[Unbalance, ...]
     shaft_weights: tuple[ShaftWeight, ...]
+    harmonics: InertiaHarmonics
+
+    @property
+    def rows(self) -> dict[str, OrderBalance]:
+        """What is free by name: of each kind of mass, and what is left."""
+        found = {f"reciprocating.{one.order}": one for one in self.reciprocating} | {"rotating": self.rotating}
+        if self.weights:
+            found["counterweights"] = self.counterweights
+        found |= {f"balance_shafts.{one.order}": one for one in self.shafts}
+        if self.weights or self.shafts or self.rotating.force.largest or self.rotating.moment.largest:
+            found |= {f"residual.{one.order}": one for one in self.residual}
+        return found
 
 
 def engine_balance(whole: WholeEngine) -> EngineBalance:
@@ -64,7 +88,8 @@ def engine_balance(whole: WholeEngine) -> EngineBalance:
     """
     layout, masses, w = whole.layout, whole.masses, whole.master.speed
     r = whole.master.lengths.crank_radius
-    reciprocating = free_forces(layout, masses.reciprocating, r, w, _harmonics(whole))
+    harmonics = _harmonics(whole)
+    reciprocating = free_forces(layout, masses.reciprocating, r, w, harmonics)
     turning = rotating_unbalances(layout, rotating_masses(whole), r)
     weights = counterweights(whole, layout)
     rotating, balanced = turning_forces(layout, turning, w), turning_forces(layout, weights, w)
@@ -76,9 +101,8 @@ def engine_balance(whole: WholeEngine) -> EngineBalance:
         for weight in balance_shafts(part, w, _planes(whole, part))
     )
     shafts = shaft_forces(shaft_weights, w)
-    return EngineBalance(
-        reciprocating, rotating, balanced, shafts, balance_sum((*before, *shafts)), weights, shaft_weights
-    )
+    residual = balance_sum((*before, *shafts))
+    return EngineBalance(reciprocating, rotating, balanced, shafts, residual, weights, shaft_weights, harmonics)
 
 
 def _harmonics(whole: WholeEngine) -> InertiaHarmonics:
@@ -101,7 +125,122 @@ def _planes(whole: WholeEngine, part: OrderBalance) -> tuple[float] | tuple[floa
     return (0.0,) if first == last or not part.moment.largest else (first, last)
 
 
-def balance_listing(whole: WholeEngine, balance: EngineBalance) -> Listing:
+def balance_memory(whole: WholeEngine, balance: EngineBalance) -> dict[str, Known]:
+    """Return what is free by row, and what it is made of: formulas where all cylinders are alike, else vector sums.
+
+    Parameters
+    ----------
+    whole : WholeEngine
+        The engine, with masses.
+    balance : EngineBalance
+        What is free.
+    """
+    found = dict(_order_forces(whole, balance) | _rotating_forces(whole) | _weights(whole, balance))
+    for name, one in balance.rows.items():
+        of_order = [row for row, other in balance.rows.items() if other.order == one.order]
+        for kind, sizes in (("force", one.force), ("moment", one.moment)):
+            parts = [found[key] for row in of_order if (key := f"free_{kind}.{row}") in found]
+            of = parts if name.startswith("residual") else _parts(name, found) if kind == "force" else ()
+            largest = Known(Found(sizes.largest, "vector_sum", of), f"free_{kind}.{name}")
+            largest = found.setdefault(largest.key, largest)
+            for word, value in (("min", sizes.least), ("direction", math.radians(sizes.direction))):
+                key = f"free_{kind}_{word}.{name}"
+                found[key] = Known(Found(value, "vector_sum", (largest,)), key)
+    return found
+
+
+def _parts(name: str, found: Mapping[str, Known]) -> list[Known]:
+    """Return the forces that a row is the sum of."""
+    kind, _, order = name.partition(".")
+    start = f"order_inertia_force.{order}." if kind == "reciprocating" else f"unbalance_force.{kind}"
+    return [known for key, known in found.items() if key.startswith(start)]
+
+
+def _order_forces(whole: WholeEngine, balance: EngineBalance) -> dict[str, Known]:
+    """Return the inertia force of each order of one cylinder and, where all are alike, what is free of it."""
+    found, memory, layout = dict[str, Known](), whole.master.memory, whole.layout
+    of_slaves = balance.harmonics.coefficients.ndim > 1
+    pitch = balance_pitch(layout)
+    for at, (order, factor) in enumerate(zip(ORDERS, layout_factors(layout, ORDERS, pitch or 1.0), strict=True)):
+        for number, row in enumerate(np.atleast_2d(np.abs(balance.harmonics.coefficients)), start=1):
+            name = f"{order}.{number}" if of_slaves else f"{order}"
+            if not row[at]:
+                # an order that the method does not have
+                continue
+            of = whole.cylinders[number - 1].memory
+            acceleration = of.get("inertia_acceleration", of["piston_acceleration"])
+            coefficient = Known(Found(float(row[at]), "harmonic", (acceleration,)), f"acceleration_coefficient.{name}")
+            force = order_inertia_force(
+                memory["reciprocating_mass"], memory["crank_radius"], memory["speed"], coefficient
+            ).named(f"order_inertia_force.{name}")
+            found |= {one.key: one for one in (coefficient, force)}
+            if not of_slaves:
+                found |= _freed(f"reciprocating.{order}", f"{order}", factor, pitch, force)
+    return found
+
+
+def _freed(row: str, name: str, factor: OrderBalance, pitch: float, force: Known) -> dict[str, Known]:
+    """Return force and moment that a layout leaves free of a force that all cylinders have alike."""
+    K_F = Known(Found(factor.force.largest, "vector_sum"), f"force_factor.{name}")
+    found = [K_F, free_force(K_F, force).named(f"free_force.{row}")]
+    if pitch:
+        K_M, a_z = (
+            Known(Found(factor.moment.largest, "vector_sum"), f"moment_factor.{name}"),
+            given("balance_pitch", pitch),
+        )
+        found += [K_M, free_moment(K_M, a_z, force).named(f"free_moment.{row}")]
+    return {one.key: one for one in found}
+
+
+def balance_pitch(layout: Layout) -> float:
+    """Return the distance between neighbouring cylinders of the first bank, of all where it has one; zero if none. [m]
+
+    Parameters
+    ----------
+    layout : Layout
+        The cylinders.
+    """
+    places = layout.places
+    for some in ([one for one in places if one.axis == places[0].axis], places):
+        along = sorted({one.position for one in some})
+        if len(along) > 1:
+            return min(after - before for before, after in pairwise(along))
+    return 0.0
+
+
+def _rotating_forces(whole: WholeEngine) -> dict[str, Known]:
+    """Return force and moment of the rotating masses, where those of all cylinders are the same."""
+    layout, masses = whole.layout, rotating_masses(whole)
+    if not masses[0] or not np.all(masses == masses[0]):
+        return {}
+    mass, r, w = (
+        rotating_mass_of(whole, layout.places[0]),
+        *(whole.master.memory[key] for key in ("crank_radius", "speed")),
+    )
+    unbalance = (mass * r).named("shaft_unbalance.rotating")
+    force = unbalance_force(unbalance, w).named("unbalance_force.rotating")
+    pitch = balance_pitch(layout)
+    factor = turning_forces(layout, rotating_unbalances(layout, 1.0, 1.0), 1.0)
+    moment = Ellipse(*(part / (pitch or 1.0) for part in factor.moment))
+    found = {one.key: one for one in (mass, unbalance, force)}
+    return found | _freed("rotating", "rotating", factor._replace(moment=moment), pitch, force)
+
+
+def _weights(whole: WholeEngine, balance: EngineBalance) -> dict[str, Known]:
+    """Return the mass moments of counterweights and balance shafts, and the forces of these."""
+    moments = [one.mass_moment for one in balance.weights if isinstance(one.mass_moment, Known)]
+    found = {one.key: one for one in in_order(moments) if one.key.startswith(_OF_WEIGHTS)}
+    for at, weight in enumerate(balance.shaft_weights, start=1):
+        moment = Known(Found(weight.mass_moment, "vector_sum"), f"balance_shaft_moment.{at}")
+        force = unbalance_force(moment, weight.order * whole.master.memory["speed"])
+        found |= {moment.key: moment, f"unbalance_force.balance_shafts.{at}": force}
+    return {key: one.named(key) for key, one in found.items()}
+
+
+_OF_WEIGHTS = ("rotating_mass", "counterweight_moment")
+
+
+def balance_listing(whole: WholeEngine, balance: EngineBalance, memory: Mapping[str, Known]) -> Listing:
     """Return forces and moments by order: of each kind of mass, and what is left.
 
     Parameters
@@ -110,26 +249,14 @@ def balance_listing(whole: WholeEngine, balance: EngineBalance) -> Listing:
         The engine.
     balance : EngineBalance
         What is free.
+    memory : mapping of str to Known
+        That of `balance_memory`.
     """
-    rows = [(f"reciprocating.{one.order}", one) for one in balance.reciprocating]
-    rows += [("rotating", balance.rotating)]
-    if balance.weights:
-        rows += [("counterweights", balance.counterweights)]
-    rows += [(f"balance_shafts.{one.order}", one) for one in balance.shafts]
-    if balance.weights or balance.shafts or balance.rotating.force.largest or balance.rotating.moment.largest:
-        rows += [(f"residual.{one.order}", one) for one in balance.residual]
-    columns = {
-        "free_force": [one.force.largest for _, one in rows],
-        "free_force_min": [one.force.least for _, one in rows],
-        "free_force_direction": [np.radians(one.force.direction) for _, one in rows],
-    }
-    positions = {one.position for one in whole.layout.places}
-    if len(positions) > 1:
-        columns |= {
-            "free_moment": [one.moment.largest for _, one in rows],
-            "free_moment_min": [one.moment.least for _, one in rows],
-        }
-    return Listing({key: np.array(values) for key, values in columns.items()}, tuple(name for name, _ in rows))
+    kinds = ["free_force", "free_force_min", "free_force_direction"]
+    if balance_pitch(whole.layout):
+        kinds += ["free_moment", "free_moment_min"]
+    rows = tuple(balance.rows)
+    return Listing({kind: np.array([memory[f"{kind}.{name}"].value for name in rows]) for kind in kinds}, rows)
 
 
 def balance_checks(whole: WholeEngine, balance: EngineBalance) -> dict[str, float]:

@@ -258,9 +258,8 @@ def _counterweight(whole: WholeEngine, pin: int) -> Known:
     key = f"counterweight_moment.{pin + 1}"
     if whole.machine.masses is not None and (engine.rotating_share or engine.reciprocating_share):
         for place in whole.on_pin[pin]:
-            turning = rotating_mass_of(whole, place) * engine.rotating_share
             moment = counterweight_moment(
-                turning.named("rotating_mass.of_cylinder"),
+                engine.rotating_share * rotating_mass_of(whole, place),
                 given("balanced_share", engine.reciprocating_share, "balance.reciprocating_share"),
                 memory["reciprocating_mass"],
                 memory["crank_radius"],
@@ -283,7 +282,8 @@ def rotating_mass_of(whole: WholeEngine, place: Place) -> Known:
     """
     on_throw = [one.throw for one in whole.layout.places].count(place.throw)
     big = given("rod_big_end_mass", whole.masses.rod_big_end, "rod")
-    return big + given("crank_mass", whole.masses.crank, "crank.mass") / on_throw
+    mass = big + given("crank_mass", whole.masses.crank, "crank.mass") / on_throw
+    return mass.named("rotating_mass.of_cylinder")
 
 
 def rotating_masses(whole: WholeEngine) -> Array:

@@ -12,13 +12,16 @@ from crankwork.analysis.cylinders import WholeEngine
 from crankwork.analysis.results import Listing
 from crankwork.analysis.solved import Notice
 from crankwork.cylinders.layout import Layout
-from crankwork.cylinders.torque import firing_intervals, torques_along_shaft
+from crankwork.cylinders.torque import torques_along_shaft
 from crankwork.cylinders.torque_harmonics import (
+    amplitude_of_harmonic,
+    amplitude_of_total,
     curve_harmonics,
     phase_star,
     torque_harmonics,
     total_harmonics,
 )
+from crankwork.dynamics.piston_forces import crank_torque
 from crankwork.errors import MethodError
 from crankwork.formula.known import Found, Known, Table, absent, given, total
 from crankwork.formula.over_cycle import OverCycle
@@ -51,8 +54,8 @@ class EngineTorque(NamedTuple):
         What the total torque does beyond its mean.
     speed : TrueSpeed or None
         With the flywheel, where anything has an inertia.
-    columns, summary : mapping of str to Known
-        Energy and speed over the crank angle; single values.
+    columns, summary, between : mapping of str to Known
+        Energy and speed over the crank angle; single values; what lies between them.
     notices : tuple of Notice
         Why there is no flywheel, or no steady speed.
     """
@@ -63,6 +66,7 @@ class EngineTorque(NamedTuple):
     speed: TrueSpeed | None
     columns: Mapping[str, Known]
     summary: Mapping[str, Known]
+    between: Mapping[str, Known]
     notices: tuple[Notice, ...]
 
 
@@ -74,13 +78,23 @@ def torque_memory(whole: WholeEngine) -> dict[str, Known]:
     whole : WholeEngine
         The engine.
     """
-    each = [whole.of(place.number, "crank_torque") for place in whole.layout.places]
+    tangential = [whole.of(place.number, "tangential_force") for place in whole.layout.places]
+    each = [_torque(whole, number, force) for number, force in enumerate(tangential, start=1)]
     along = torques_along_shaft(each, whole.layout)
-    found = list(each) if len(each) > 1 else []
+    found = [*tangential, *each] if len(each) > 1 else []
     if len(along.throws) > 1:
         found += [*along.throws, *along.journals[1:], *along.crankpins]
     found.append(total("total_torque", along.throws))
     return {one.key: one for one in found}
+
+
+def _torque(whole: WholeEngine, number: int, tangential: Known) -> Known:
+    """Return the torque of a cylinder from its tangential force at the crank angle of cylinder 1."""
+    own, weight = whole.cylinders[number - 1].memory, absent("rotating_torque")
+    if "rotating_torque" in own:
+        weight = whole.of(number, "rotating_torque")
+    torque: Known = crank_torque(tangential, own["crank_radius"], weight)
+    return torque.named(whole.of(number, "crank_torque").key)
 
 
 def engine_torque(
@@ -106,20 +120,23 @@ def engine_torque(
     summary = {"mean_total_torque": over.mean("total_torque", "mean_total_torque")}
     summary |= {key: one for key, one in extremes.items() if key.startswith("total_torque_")}
     excess = summary["excess_work"] = Known(Found(found.work, "range", of), "excess_work")
-    mean = summary["mean_total_torque"]
+    mean, between = summary["mean_total_torque"], dict[str, Known]()
     if mean.value:
-        work = work_of_mean_torque(mean, math.radians(whole.layout.cycle))
+        work = work_of_mean_torque(mean, given("cycle_angle", math.radians(whole.layout.cycle)))
+        between["work_per_cycle"] = work
         summary["energy_fluctuation"] = fluctuation_of_energy(excess, work if mean.value > 0 else -work)
     own = given("reduced_inertia", engine.inertia, "flywheel.inertia") if engine.inertia else absent("reduced_inertia")
-    notices, wheel = [], absent("flywheel_inertia")
+    notices, whole_inertia = [], own
     if engine.fluctuation is not None:
         wanted = given("speed_fluctuation", engine.fluctuation, "flywheel.fluctuation")
         try:
             check_fluctuation(engine.fluctuation, w.value)
-            wheel = summary["flywheel_inertia"] = _flywheel(excess, wanted, w, own)
+            wheel, needed = _flywheel(excess, wanted, w, own)
+            summary["flywheel_inertia"] = wheel
+            if wheel.value:
+                whole_inertia = between[needed.key] = needed
         except MethodError as error:
             notices.append(Notice("no_flywheel", {"message": str(error)}))
-    whole_inertia = wheel if own.is_absent else (own if not wheel.value else (own + wheel).named("whole_inertia"))
     speed, columns = None, dict[str, Known]()
     change = Table(AtDegrees(found.curve), "integral", np.degrees(found.curve.angle), of)
     columns["kinetic_energy_change"] = Known(change, "kinetic_energy_change")
@@ -137,19 +154,21 @@ def engine_torque(
         for word, value, at in (("max", ends.largest, ends.at_largest), ("min", ends.least, ends.at_least)):
             summary[f"crank_speed_{word}"] = Known(Found(value, word, (turning,), math.degrees(at)))
     named = {key: known.named(key) for key, known in summary.items()}
-    return EngineTorque(one, all_, found, speed, columns, named, tuple(notices))
+    return EngineTorque(one, all_, found, speed, columns, named, between, tuple(notices))
 
 
-def _flywheel(excess: Known, wanted: Known, w: Known, own: Known) -> Known:
-    """Return the flywheel that an engine needs beside what turns already; zero where that is enough."""
-    needed: Known = inertia_for_fluctuation(excess, wanted, w)
+def _flywheel(excess: Known, wanted: Known, w: Known, own: Known) -> tuple[Known, Known]:
+    """Return the flywheel that an engine needs beside what turns already, zero where that is enough, and both."""
+    needed: Known = inertia_for_fluctuation(excess, wanted, w).named("flywheel_inertia")
+    wheel = needed
     if not own.is_absent:
-        needed = flywheel_beside_machine(needed.named("whole_inertia"), own)
-    return needed if needed.value > 0 else Known(Found(0.0, "none", (needed,)))
+        needed = needed.named("whole_inertia")
+        wheel = flywheel_beside_machine(needed, own)
+    return (wheel if wheel.value > 0 else Known(Found(0.0, "none", (wheel,)))), needed
 
 
-def torque_listings(whole: WholeEngine, torque: EngineTorque) -> dict[str, Listing]:
-    """Return the firing of the cylinders and the harmonics of the torque.
+def harmonics_memory(whole: WholeEngine, torque: EngineTorque, memory: Mapping[str, Known]) -> dict[str, Known]:
+    """Return the harmonics of the torque of one cylinder and of all, each under its order: `harmonic_amplitude.2.5`.
 
     Parameters
     ----------
@@ -157,41 +176,50 @@ def torque_listings(whole: WholeEngine, torque: EngineTorque) -> dict[str, Listi
         The engine.
     torque : EngineTorque
         What `engine_torque` has found.
+    memory : mapping of str to Known
+        That of `torque_memory`.
     """
-    layout = whole.layout
-    places = layout.places
-    radians = {
-        "bank_axis": [one.axis for one in places],
-        "crankpin_angle": [one.pin_angle for one in places],
-        "firing_angle": [one.firing_angle for one in places],
-    }
-    after = dict(zip(layout.firing_order, firing_intervals(layout), strict=True))
-    radians["firing_interval"] = [after[one.number] for one in places]
-    if any(one.slave is not None for one in whole.cylinders):
-        strokes = [one.stroke for one in whole.cylinders]
-        radians["top_dead_centre_angle"] = [
-            (place.firing_angle + stroke[1]) % layout.cycle for place, stroke in zip(places, strokes, strict=True)
-        ]
-    firing = {key: np.radians(values) for key, values in radians.items()}
-    if "top_dead_centre_angle" in firing:
-        firing["stroke"] = np.array([stroke[0] for stroke in strokes])
-        spaces = [one.space for one in whole.cylinders]
-        if all(space is not None for space in spaces):
-            firing["swept_volume"] = np.array([space.swept for space in spaces if space is not None])
-    numbers = np.array([float(one.number) for one in places])
-    count = round(_ORDERS * layout.cycle / 360)
-    one, all_ = (curve_harmonics(curve, count) for curve in (torque.one, torque.total))
-    stars = np.array([abs(phase_star(layout, order).sum) for order in one.orders])
-    harmonics = {
-        "harmonic_order": one.orders,
-        "harmonic_cosine": one.cosine,
-        "harmonic_sine": one.sine,
-        "harmonic_amplitude": one.amplitude,
-        "harmonic_phase": one.phase,
-        "phase_sum": stars,
-        "total_harmonic_amplitude": all_.amplitude,
-    }
-    return {"firing": Listing({"cylinder_number": numbers, **firing}), "torque_harmonics": Listing(harmonics)}
+    layout, found = whole.layout, dict[str, Known]()
+    count, of = round(_ORDERS * layout.cycle / 360), (whole.of(1, "crank_torque"),)
+    one = curve_harmonics(torque.one, count)
+    all_ = None if whole.is_uniform else curve_harmonics(torque.total, count).amplitude
+    for at, order in enumerate(one.orders.tolist()):
+        cosine, sine = (Known(Found(float(part[at]), "fourier", of)) for part in (one.cosine, one.sine))
+        amplitude = amplitude_of_harmonic(cosine, sine)
+        star = Known(Found(abs(phase_star(layout, order).sum), "phase_star"))
+        each = {
+            "harmonic_cosine": cosine,
+            "harmonic_sine": sine,
+            "harmonic_amplitude": amplitude,
+            "harmonic_phase": Known(Found(float(one.phase[at]), "fourier", (cosine, sine))),
+            "phase_sum": star,
+        }
+        each = {key: known.named(f"{key}.{order:g}") for key, known in each.items()}
+        whole_amplitude = (
+            amplitude_of_total(each["harmonic_amplitude"], each["phase_sum"])
+            if all_ is None
+            else Known(Found(float(all_[at]), "fourier", (memory["total_torque"],)))
+        )
+        each["total_harmonic_amplitude"] = whole_amplitude.named(f"total_harmonic_amplitude.{order:g}")
+        found |= {known.key: known for known in each.values()}
+    return found
+
+
+def harmonics_listing(harmonics: Mapping[str, Known]) -> Listing:
+    """Return the harmonics of the torque by their order.
+
+    Parameters
+    ----------
+    harmonics : mapping of str to Known
+        Those of `harmonics_memory`.
+    """
+    columns: dict[str, list[float]] = {"harmonic_order": []}
+    for key, known in harmonics.items():
+        kind, _, order = key.partition(".")
+        columns.setdefault(kind, []).append(known.value)
+        if kind == "harmonic_cosine":
+            columns["harmonic_order"].append(float(order))
+    return Listing({key: np.array(values) for key, values in columns.items()})
 
 
 def torque_checks(whole: WholeEngine, torque: EngineTorque) -> dict[str, float]:

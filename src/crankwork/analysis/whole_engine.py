@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import replace
 
 from crankwork.analysis.cylinders import WholeEngine, whole_engine
-from crankwork.analysis.engine_balance import balance_checks, balance_listing, engine_balance
+from crankwork.analysis.engine_balance import balance_checks, balance_listing, balance_memory, engine_balance
 from crankwork.analysis.engine_bearings import (
     bearing_columns,
     bearing_listings,
@@ -17,17 +16,23 @@ from crankwork.analysis.engine_bearings import (
     load_values,
     wear_memory,
 )
-from crankwork.analysis.engine_torque import engine_torque, torque_checks, torque_listings, torque_memory
+from crankwork.analysis.engine_firing import firing_listing, firing_memory, work_memory
+from crankwork.analysis.engine_torque import (
+    engine_torque,
+    harmonics_listing,
+    harmonics_memory,
+    torque_checks,
+    torque_memory,
+)
 from crankwork.analysis.results import Listing, Results
 from crankwork.analysis.solved import Notice
-from crankwork.formula.known import Found, Known, given, total
+from crankwork.formula.known import Known
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.loads.gas import indicated_power
-from crankwork.working_cycle.engine_size import displacement
 
 _TORQUES = ("crank_torque.", "total_torque", "journal_torque.", "crankpin_torque.")
+_WHOLE_VALUES = ("cylinder_count", "displacement", "engine_indicated_power")
 _TABLES = {
     "engine_torque": ("crank_torque.", "total_torque"),
     "accumulated_torque": ("journal_torque.", "crankpin_torque."),
@@ -63,13 +68,14 @@ def with_whole_engine(results: Results) -> Results:
         notices.append(Notice("articulated_big_ends", {}))
     if len({one.position for one in whole.layout.places}) == 1 < len({one.throw for one in whole.layout.places}):
         notices.append(Notice("no_spacing", {}))
+    firing = firing_memory(whole)
     if "crank_torque" not in results.columns:
         notices.append(Notice("motion_only", {}))
-        return replace(results, notices=(*results.notices, *notices))
+        return replace(results, notices=(*results.notices, *notices), memory={**results.memory, **firing})
     memory, over, extremes = whole_memory(whole)
     torque = engine_torque(whole, memory, over, extremes)
     loads = load_values(whole, memory, over, extremes) | wear_memory(whole, memory)
-    balance = engine_balance(whole)
+    works, harmonics = work_memory(whole, firing), harmonics_memory(whole, torque, memory)
     torques = [key for key in memory if key.startswith(_TORQUES)]
     keys = [*torques, *torque.columns, *bearing_columns(memory)]
     memory |= torque.columns
@@ -78,10 +84,17 @@ def with_whole_engine(results: Results) -> Results:
         name: tuple(key for key in found if key.startswith(starts) and _belongs(name, key))
         for name, starts in _TABLES.items()
     }
-    listings: dict[str, Listing] = torque_listings(whole, torque) | bearing_listings(whole, loads)
+    listings: dict[str, Listing] = {
+        "firing": firing_listing(whole, firing),
+        "torque_harmonics": harmonics_listing(harmonics),
+        **bearing_listings(whole, loads),
+    }
+    balance, balanced = engine_balance(whole), dict[str, Known]()
     if whole.machine.masses is not None:
-        listings["balance"] = balance_listing(whole, balance)
-    single = {**_engine_values(whole), **torque.summary, **bearing_summary(whole, loads)}
+        balanced = balance_memory(whole, balance)
+        listings["balance"] = balance_listing(whole, balance, balanced)
+    whole_values = {key: one for key, one in {**firing, **works}.items() if key in _WHOLE_VALUES}
+    single = {**whole_values, **torque.summary, **bearing_summary(whole, loads)}
     summary = {key: one.value for key, one in single.items()}
     told = (*torque.notices, *_torque_against_cycle(results.summary, summary))
     return replace(
@@ -93,7 +106,17 @@ def with_whole_engine(results: Results) -> Results:
         notices=(*results.notices, *notices, *told),
         groups={**results.groups, **groups},
         listings={**results.listings, **listings},
-        memory={**results.memory, **memory, **loads, **single},
+        memory={
+            **results.memory,
+            **firing,
+            **works,
+            **memory,
+            **loads,
+            **harmonics,
+            **balanced,
+            **torque.between,
+            **single,
+        },
     )
 
 
@@ -136,27 +159,3 @@ def whole_memory(whole: WholeEngine) -> tuple[dict[str, Known], OverCycle, dict[
     }
     over = OverCycle({first.key: first, **followed}, CrankGrid.from_degrees, whole.layout.cycle)
     return memory, over, over.extremes(*followed)
-
-
-def _engine_values(whole: WholeEngine) -> dict[str, Known]:
-    """Return number, volume and power of the cylinders."""
-    count = given("cylinder_count", float(len(whole.cylinders)))
-    result, memories = {"cylinder_count": count}, [one.memory for one in whole.cylinders]
-    if any(one.space is None for one in whole.cylinders):
-        return result
-    if whole.is_uniform:
-        result["displacement"] = displacement(memories[0]["swept_volume"], count)
-    else:
-        volumes = (one["swept_volume"].named(f"swept_volume.{at}") for at, one in enumerate(memories, start=1))
-        result["displacement"] = total("displacement", volumes)
-    if len(memories) > 1:
-        works = [
-            Known(Found(one.space.work, "work", (one.memory["diagram_pressure"], one.memory["cylinder_volume"])), key)
-            for number, one in enumerate(whole.cylinders, start=1)
-            for key in (f"indicated_work.{number}",)
-            if one.space is not None
-        ]
-        cycle = given("cycle_angle", math.radians(whole.layout.cycle))
-        power = indicated_power(total("indicated_work.all", works), whole.master.memory["speed"], cycle)
-        result["engine_indicated_power"] = power.named("engine_indicated_power")
-    return result

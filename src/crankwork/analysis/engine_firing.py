@@ -1,0 +1,125 @@
+"""When the cylinders of an engine fire, where they stand, how large they are, and what the gas does in them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from crankwork.analysis.cylinders import WholeEngine
+from crankwork.analysis.results import Listing
+from crankwork.cylinders.firing import is_even
+from crankwork.cylinders.torque import even_firing_interval, firing_intervals, mean_torque_of_work
+from crankwork.formula.known import Found, Known, given, total
+from crankwork.kinematics.slider_crank import SliderCrank
+from crankwork.loads.gas import indicated_power, mean_torque
+from crankwork.working_cycle.engine_size import displacement
+
+_LISTED = ("bank_axis", "crankpin_angle", "firing_angle", "firing_interval")
+_OF_SLAVES = ("top_dead_centre_angle", "stroke", "swept_volume")
+
+
+def firing_memory(whole: WholeEngine) -> dict[str, Known]:
+    """Return number and volume of the cylinders, where each stands and when it fires.
+
+    Parameters
+    ----------
+    whole : WholeEngine
+        The engine.
+    """
+    count, layout = given("cylinder_count", float(len(whole.cylinders)), "engine.cylinders"), whole.layout
+    found = {count.key: count}
+    for place in layout.places:
+        for key, degrees in (
+            ("bank_axis", place.axis),
+            ("crankpin_angle", place.pin_angle),
+            ("firing_angle", place.firing_angle),
+        ):
+            found[f"{key}.{place.number}"] = given(f"{key}.{place.number}", math.radians(degrees))
+    return found | _intervals(whole, found) | _sizes(whole, found)
+
+
+def _intervals(whole: WholeEngine, found: Mapping[str, Known]) -> dict[str, Known]:
+    """Return the firing interval; of uneven firing that of each cylinder, up to the next."""
+    layout, cycle = whole.layout, given("cycle_angle", math.radians(whole.layout.cycle))
+    if is_even(firing_intervals(layout)):
+        return {"firing_interval": even_firing_interval(cycle, found["cylinder_count"])}
+    order, result = layout.firing_order, {}
+    for number, following in zip(order, (*order[1:], order[0]), strict=True):
+        key, after = f"firing_interval.{number}", found[f"firing_angle.{following}"]
+        if following == order[0]:
+            after = after + cycle if after.value else cycle
+        result[key] = (after - found[f"firing_angle.{number}"]).named(key)
+    return result
+
+
+def _sizes(whole: WholeEngine, found: Mapping[str, Known]) -> dict[str, Known]:
+    """Return the volume of all cylinders, and stroke and dead centre of each where rods are articulated."""
+    result, numbered = dict[str, Known](), list(enumerate(whole.cylinders, start=1))
+    if any(one.slave is not None for one in whole.cylinders):
+        for number, one in numbered:
+            top = (whole.layout.places[number - 1].firing_angle + one.stroke[1]) % whole.layout.cycle
+            lengths = SliderCrank(*(one.memory[key] for key in ("crank_radius", "rod_length", "offset")))
+            result[f"top_dead_centre_angle.{number}"] = Known(Found(math.radians(top), "dead_centre", lengths))
+            result[f"stroke.{number}"] = one.remembered_stroke(lengths)
+    if all(one.space is not None for one in whole.cylinders):
+        volumes = [one.memory["swept_volume"] for one in whole.cylinders]
+        if whole.is_uniform:
+            result["displacement"] = displacement(volumes[0], found["cylinder_count"])
+        else:
+            each = {f"swept_volume.{number}": one for number, one in enumerate(volumes, start=1)}
+            result |= each
+            result["displacement"] = total("displacement", (one.named(key) for key, one in each.items()))
+    return {key: one.named(key) for key, one in result.items()}
+
+
+def work_memory(whole: WholeEngine, firing: Mapping[str, Known]) -> dict[str, Known]:
+    """Return the works of all cylinders, and the power and the mean torque that follow; nothing without gas in each.
+
+    Parameters
+    ----------
+    whole : WholeEngine
+        The engine.
+    firing : mapping of str to Known
+        That of `firing_memory`.
+    """
+    works = [
+        Known(Found(one.space.work, "work", (one.memory["diagram_pressure"], one.memory["cylinder_volume"])))
+        for one in whole.cylinders
+        if one.space is not None
+    ]
+    if len(works) < len(whole.cylinders):
+        return {}
+    cycle, several = given("cycle_angle", math.radians(whole.layout.cycle)), len(works) > 1
+    found = {f"indicated_work.{number}": one for number, one in enumerate(works, start=1)} if several else {}
+    if several:
+        all_ = total("indicated_work.all", (one.named(key) for key, one in found.items()))
+        found["engine_indicated_power"] = indicated_power(all_, whole.master.memory["speed"], cycle)
+    if whole.is_uniform:
+        torque = mean_torque_of_work(firing["cylinder_count"], works[0].named("indicated_work"), cycle)
+    else:
+        each = [mean_torque(one, cycle).named(f"mean_torque.{number}") for number, one in enumerate(works, start=1)]
+        found |= {one.key: one for one in each}
+        torque = total("mean_total_torque.indicated", each)
+    found["mean_total_torque.indicated"] = torque
+    return {key: one.named(key) for key, one in found.items()}
+
+
+def firing_listing(whole: WholeEngine, firing: Mapping[str, Known]) -> Listing:
+    """Return where each cylinder stands and when it fires; of articulated rods also stroke and dead centre of each.
+
+    Parameters
+    ----------
+    whole : WholeEngine
+        The engine.
+    firing : mapping of str to Known
+        That of `firing_memory`.
+    """
+    numbers = [one.number for one in whole.layout.places]
+    columns = {"cylinder_number": np.array(numbers, dtype=float)}
+    for kind in (*_LISTED, *(_OF_SLAVES if "stroke.1" in firing else ())):
+        each = [firing.get(f"{kind}.{number}", firing.get(kind)) for number in numbers]
+        if all(one is not None for one in each):
+            columns[kind] = np.array([one.value for one in each if one is not None])
+    return Listing(columns)
