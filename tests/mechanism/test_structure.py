@@ -74,7 +74,7 @@ def test_formula_of_structure(tables, formula, number):
     assert problems == []
     assert found.formula == formula
     assert found.number == number
-    assert found.mobility == mobility(linkage) == 1
+    assert found.mobility == mobility(linkage).value == 1
 
 
 def test_links_may_stand_in_any_order():

@@ -43,7 +43,6 @@ NOT_YET = {
         "burning_progress", "burning_rate", "burnt_fraction", "cylinder_temperature", "heat_transfer_coefficient",
         "motored_pressure", "piston_displacement", "pressure_rise", "wall_area", "wall_gas_speed", "wall_heat_rate",
     },
-    "what follows from the structure is counted, not remembered": {"mobility"},
     "the efficiency of a chain of joints is a given value, calculated where the file is read": {"efficiency"},
 }  # fmt: skip
 # which machines have what is not remembered; all of them otherwise

@@ -10,7 +10,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.analysis.linkage_memory import linkage_memory, speed_of
+from crankwork.analysis.linkage_memory import efficiency_of, linkage_memory, speed_of
 from crankwork.analysis.linkage_speed import transient_summary, turn_of
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import Notice
@@ -28,6 +28,7 @@ from crankwork.kinematics.quality import FourBarType, grashof, limits_of_all, st
 from crankwork.linkage_machine import LinkageMachine, TabulatedMachine
 from crankwork.loads.load import applied_loads
 from crankwork.mechanism.dyads import RRP, RRR
+from crankwork.mechanism.structure import mobility
 from crankwork.method import Method
 
 _DENSE_STEP = 1.0
@@ -156,16 +157,19 @@ def analyse_linkage(machine: LinkageMachine, grid: CrankGrid | None = None) -> R
     over = OverCycle({key: memory[key] for key in _followed(memory)}, CrankGrid.from_degrees, high - low, low)
     summary = _summary(solved, over, memory, is_whole=not notices)
     checks = _checks(solved, dense)
+    between = {"mobility": mobility(machine.linkage)}
     if not notices and "reduced_inertia" in memory:
         turn = turn_of(machine, over, {**memory, **summary})
         memory |= turn.columns
         checks |= turn.checks
         summary |= turn.summary
+        between |= turn.between
         notices += turn.notices
     summary |= transient_summary(machine)
     columns = Program(memory)(grid)
     values = {key: one.value for key, one in summary.items()}
-    return Results(solved, grid, columns, values, checks, notices, _groups(columns), memory={**memory, **summary})
+    memory |= {**summary, **between}
+    return Results(solved, grid, columns, values, checks, notices, _groups(columns), memory=memory)
 
 
 def analyse_any_linkage(machine: LinkageMachine | TabulatedMachine, grid: CrankGrid | None = None) -> Results:
@@ -196,7 +200,7 @@ def _summary(
         eps = given("angular_acceleration", machine.angular_acceleration, "crank.angular_acceleration")
         result["angular_acceleration"] = eps
     if machine.drive.efficiency != 1:
-        result["efficiency"] = given("efficiency", machine.drive.efficiency, "efficiency")
+        result["efficiency"] = efficiency_of(machine.drive)
     if is_whole:
         result |= _quality(machine, memory)
     keys = [key for key in over.knowns if not over.is_nothing(key)]

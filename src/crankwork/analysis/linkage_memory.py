@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor
+from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor, remembered_efficiency
 from crankwork.dynamics.force_parts import balancing_torque_of_parts
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.link_loads import link_angular_acceleration
@@ -13,11 +13,11 @@ from crankwork.dynamics.piston_forces import angular_speed
 from crankwork.dynamics.reaction import JointForces
 from crankwork.dynamics.reduction import dynamic_torque, kinetic_energy, reduced_inertia, reduced_torque, static_torque
 from crankwork.dynamics.running import Running
-from crankwork.formula.known import Known, Pieces, absent, given
+from crankwork.formula.known import Found, Known, Pieces, absent, given
 from crankwork.kinematics import transfer_rates as rates
 from crankwork.kinematics.memory import angle_of, course_of, given_mechanism, remembered_motion
 from crankwork.kinematics.motion import Motion
-from crankwork.linkage_machine import LinkageMachine, TabulatedMachine
+from crankwork.linkage_machine import Drive, LinkageMachine, TabulatedMachine
 from crankwork.loads.load import applied_loads
 
 
@@ -63,8 +63,26 @@ def speed_of(machine: LinkageMachine | TabulatedMachine) -> Known:
     return found
 
 
-def _stated(key: str, value: float, neutral: float = 0.0) -> Known:
-    return absent(key, neutral) if value == neutral else given(key, value)
+def efficiency_of(drive: Drive) -> Known:
+    """Return the efficiency of the joints between motor and process, made up of those of a chain where it is given.
+
+    Parameters
+    ----------
+    drive : Drive
+        What drives the crank.
+    """
+    if drive.efficiency == 1:
+        return absent("efficiency", 1.0)
+    if drive.chain is None:
+        return given("efficiency", drive.efficiency, "efficiency")
+    if drive.exact_efficiency is None:
+        return remembered_efficiency(drive.chain)
+    exact = remembered_efficiency(drive.chain).named("efficiency.exact")
+    return Known(Found(drive.efficiency, "rounded", (exact,)), "efficiency")
+
+
+def _stated(key: str, value: float) -> Known:
+    return given(key, value) if value else absent(key)
 
 
 def _moving(machine: LinkageMachine, motion: Motion, w: Known, eps: Known) -> Iterator[tuple[str, Known]]:
@@ -107,15 +125,15 @@ def _at_work(machine: LinkageMachine, motion: Motion, w: Known, eps: Known) -> d
         "static_torque": static,
         "dynamic_torque": dynamic,
         "balancing_torque": balancing,
-        "driving_torque": _driving(static, dynamic, balancing, machine.drive.efficiency, motion),
+        "driving_torque": _driving(static, dynamic, balancing, machine.drive, motion),
         **dict(_forces(machine, joint_forces(Running(mechanism, motion, w, loads, eps)))),
     }
     return columns if reduced.is_absent else columns | {"reduced_torque": reduced}
 
 
-def _driving(static: Known, dynamic: Known, balancing: Known, efficiency: float, motion: Motion) -> Known:
+def _driving(static: Known, dynamic: Known, balancing: Known, drive: Drive, motion: Motion) -> Known:
     """Return the torque of the motor, which drives where it is positive and brakes where it is negative."""
-    eta = _stated("efficiency", efficiency, 1.0)
+    eta = efficiency_of(drive)
     motor: Known = driving_torque_as_motor(static, dynamic, eta)
     if eta.is_absent or not balancing.varies:
         return motor

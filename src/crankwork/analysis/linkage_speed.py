@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.analysis.linkage_memory import speed_of
+from crankwork.analysis.linkage_memory import efficiency_of, speed_of
 from crankwork.analysis.solved import Notice
 from crankwork.errors import MethodError
 from crankwork.formula.known import Found, Known, Table, absent, given
@@ -19,7 +20,7 @@ from crankwork.loads.spring import Spring
 from crankwork.shaft.curve import AtDegrees, Curve
 from crankwork.shaft.energy_machine import energy_machine
 from crankwork.shaft.energy_motion import moment_after
-from crankwork.shaft.fluctuation import excess_work, speed_of_energy, true_speed
+from crankwork.shaft.fluctuation import excess_work, fluctuation_of_energy, speed_of_energy, true_speed
 from crankwork.shaft.flywheel import (
     Flywheel,
     flywheels,
@@ -29,7 +30,8 @@ from crankwork.shaft.flywheel import (
     wittenbauer_slope_largest,
     wittenbauer_slope_least,
 )
-from crankwork.shaft.flywheel_parts import flywheel_beside_machine
+from crankwork.shaft.flywheel_body import inertia_on_other_shaft
+from crankwork.shaft.flywheel_parts import flywheel_beside_machine, work_of_mean_torque
 from crankwork.shaft.motor import GearedMotor
 from crankwork.shaft.motor_choice import first_angle_beyond, motor_need, needed_power
 from crankwork.shaft.speed import ReducedMachine, steady_speed
@@ -41,12 +43,13 @@ _SLOPES = {
 
 
 class Turn(NamedTuple):
-    """How evenly a linkage runs: columns, single values, residuals and what the reader should know."""
+    """How evenly a linkage runs: columns, single values, what lies between, residuals, what the reader should know."""
 
     columns: dict[str, Known]
     summary: dict[str, Known]
     checks: dict[str, float]
     notices: tuple[Notice, ...]
+    between: dict[str, Known]
 
 
 def turn_of(machine: LinkageMachine, over: OverCycle, memory: Mapping[str, Known]) -> Turn:
@@ -62,7 +65,7 @@ def turn_of(machine: LinkageMachine, over: OverCycle, memory: Mapping[str, Known
         The columns.
     """
     drive, w = machine.drive, speed_of(machine)
-    turn = Turn({}, {}, {}, ())
+    turn = Turn({}, {}, {}, (), {})
     if drive.fluctuation is None and drive.motor is None:
         return turn
     inertia, load = _curves(over, memory)
@@ -77,7 +80,8 @@ def turn_of(machine: LinkageMachine, over: OverCycle, memory: Mapping[str, Known
         return turn._replace(notices=(*turn.notices, told))
     if drive.motor is not None:
         summary, told_too = _driven(machine, memory, drive.motor, (inertia, load), added)
-        return turn._replace(summary={**turn.summary, **summary}, notices=turn.notices + told_too)
+        between = turn.between | _rotor(drive.motor)
+        return turn._replace(summary={**turn.summary, **summary}, notices=turn.notices + told_too, between=between)
     return turn
 
 
@@ -108,7 +112,24 @@ def _even(memory: Mapping[str, Known], inertia: Curve, load: Curve, w: Known, fl
     crank_speed = speed_of_energy(energy + change, memory["reduced_inertia"] + _beside(added))
     columns = {"kinetic_energy_change": change, "crank_speed": crank_speed.named("crank_speed")}
     residual = abs(turning.fluctuation - fluctuation) if added else max(turning.fluctuation - fluctuation, 0.0)
-    return Turn(columns, summary, {"flywheel": residual}, ()), added
+    return Turn(columns, summary, {"flywheel": residual}, (), _of_energy(memory, summary["excess_work"])), added
+
+
+def _of_energy(memory: Mapping[str, Known], excess: Known) -> dict[str, Known]:
+    """Return the work of a turn, and how much of it the kinetic energy takes and gives; nothing without either."""
+    mean = memory.get("mean_torque")
+    if mean is None or not mean.value:
+        return {}
+    work = work_of_mean_torque(mean, given("cycle_angle", 2 * math.pi))
+    return {"work_per_cycle": work, "energy_fluctuation": fluctuation_of_energy(excess, work)}
+
+
+def _rotor(motor: GearedMotor) -> dict[str, Known]:
+    """Return the moment of inertia of the rotor on the crank; nothing without one."""
+    if not motor.inertia:
+        return {}
+    inertia, ratio = given("flywheel_inertia.motor", motor.inertia, "motor.inertia"), given("gear_ratio", motor.ratio)
+    return {"inertia_on_crank": inertia_on_other_shaft(inertia, ratio)}
 
 
 def _beside(inertia: float) -> Known:
@@ -144,7 +165,7 @@ def _driven(
     drive, w, (inertia, load) = machine.drive, speed_of(machine), curves
     notices: tuple[Notice, ...] = ()
     need = motor_need(-load, w.value, efficiency=drive.efficiency)
-    eta = given("efficiency", drive.efficiency, "efficiency") if drive.efficiency != 1 else absent("efficiency", 1.0)
+    eta = efficiency_of(drive)
     power = Known(Found(need.mean_power, "need", (w, eta)), "motor_power")
     if need.mean_torque > 0 and "mean_torque" in memory:
         power = needed_power(absent("power_reserve", 1.0), memory["mean_torque"], w, eta)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from crankwork.analysis.linkage_memory import speed_of
+from crankwork.analysis.linkage_memory import efficiency_of, speed_of
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import Notice
 from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor
@@ -110,8 +110,7 @@ def _memory(machine: TabulatedMachine, grid: CrankGrid) -> dict[str, Known]:
     if static is None:
         return memory
     balancing: Known = balancing_torque_of_parts(static, memory["dynamic_torque"])
-    eta = machine.drive.efficiency
-    torques = static, memory["dynamic_torque"], absent("efficiency", 1.0) if eta == 1 else given("efficiency", eta)
+    torques = static, memory["dynamic_torque"], efficiency_of(machine.drive)
     drives = replay(balancing, grid) > 0
     # each position has its own law: positions have nothing between them
     laws = tuple((driving_torque_as_motor if one else driving_torque_as_brake)(*torques) for one in drives)
@@ -150,7 +149,7 @@ def _static(machine: TabulatedMachine, dynamic: Known, row: Callable[..., Known]
 def _summary(machine: TabulatedMachine, columns: Mapping[str, Array], memory: Mapping[str, Known]) -> dict[str, Known]:
     result = {"rotational_speed": given("rotational_speed", machine.speed, "speed"), "speed": speed_of(machine)}
     if machine.drive.efficiency != 1:
-        result["efficiency"] = given("efficiency", machine.drive.efficiency, "efficiency")
+        result["efficiency"] = efficiency_of(machine.drive)
     for key in ("reduced_inertia", "dynamic_torque", "driving_torque"):
         for word, find in (("max", np.argmax), ("min", np.argmin)) if key in columns else ():
             row, of = int(find(columns[key])), (memory[key],)

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import math
+import operator
 from dataclasses import dataclass
+from functools import reduce
 
 import numpy as np
 
+from crankwork.dynamics.force_parts import efficiency_share
 from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import Known, given, total
 from crankwork.kinematics.crank_grid import Array
 
 
@@ -70,18 +74,42 @@ def efficiency(chain: Chain) -> float:
     >>> round(efficiency(Series((0.98, Parallel((0.9, 0.8)), 0.99))), 5)
     0.82467
     """
+    return remembered_efficiency(chain).value
+
+
+def remembered_efficiency(chain: Chain, key: str = "efficiency") -> Known:
+    """Return the efficiency of a chain as it is made up; its parts have the keys `key.1`, `key.2` and so on.
+
+    Parameters
+    ----------
+    chain : float, Series or Parallel
+        Efficiencies of joints. [-]
+    key : str
+        Key of the value.
+
+    Raises
+    ------
+    ValueError
+        If an efficiency or the shares are impossible.
+    """
     match chain:
         case Series(parts):
-            return math.prod(efficiency(part) for part in parts)
+            found = [remembered_efficiency(part, f"{key}.{at}") for at, part in enumerate(parts, start=1)]
+            return reduce(operator.mul, found).named(key)
         case Parallel(parts, shares):
             shares = shares or (1 / len(parts),) * len(parts)
             if len(shares) != len(parts) or not math.isclose(sum(shares), 1.0) or min(shares) < 0:
                 raise ValueError(f"{len(parts)} parallel chains need as many shares, none negative, that sum to 1")
-            return sum(share * efficiency(part) for share, part in zip(shares, parts, strict=True))
+            terms = []
+            for at, (share, part) in enumerate(zip(shares, parts, strict=True), start=1):
+                # an efficiency of its own is a number in its share
+                inner = remembered_efficiency(part, "" if isinstance(part, float | int) else f"{key}.{at}.0")
+                terms.append(efficiency_share(share, inner).named(f"{key}.{at}"))
+            return total(key, terms)
         case value:
             if not 0 < value <= 1:
                 raise ValueError(f"an efficiency lies above 0 and not above 1, not at {value:g}")
-            return float(value)
+            return given(key, value, "efficiency.chain")
 
 
 @formula("driving_torque", "artobolevsky_1988, ch. 14")

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from crankwork.errors import Problem
+from crankwork.formula.known import Known, given
+from crankwork.mechanism.freedom import chain_mobility
 from crankwork.mechanism.linkage import GROUND, Linkage
 
 # sets of members looked at for one group; larger groups than any linkage has
@@ -52,8 +54,8 @@ class Structure:
 
     @property
     def mobility(self) -> int:
-        """Degrees of freedom, 3 n - 2 p5 (Chebyshev)."""
-        return 3 * len(self.links) - 2 * self.joints
+        """Degrees of freedom (Chebyshev)."""
+        return int(chain_mobility(len(self.links), self.joints))
 
     @property
     def number(self) -> int:
@@ -69,8 +71,8 @@ class Structure:
         )])  # fmt: skip
 
 
-def mobility(linkage: Linkage) -> int:
-    """Return the degrees of freedom of a linkage, 3 n - 2 p5.
+def mobility(linkage: Linkage) -> Known:
+    """Return the degrees of freedom of a linkage.
 
     Parameters
     ----------
@@ -81,7 +83,9 @@ def mobility(linkage: Linkage) -> int:
     ----------
     artobolevsky_1988, ch. 2; Chebyshev's formula without higher pairs.
     """
-    return 3 * (1 + len(linkage.members)) - 2 * _joints(linkage)
+    links, joints = given("moving_links", 1.0 + len(linkage.members)), given("lower_pairs", float(_joints(linkage)))
+    found: Known = chain_mobility(links, joints)
+    return found
 
 
 def _joints(linkage: Linkage) -> int:
@@ -239,8 +243,8 @@ def _loose_ends(linkage: Linkage) -> list[Problem]:
 
 def _too_free(linkage: Linkage, rest: list[str]) -> str:
     return (
-        f"the linkage has {mobility(linkage)} degrees of freedom with one crank: {', '.join(rest)} can move on their "
-        f"own; add a link or a guide, or take away {'one of these' if len(rest) > 1 else 'it'}"
+        f"the linkage has {mobility(linkage).value:g} degrees of freedom with one crank: {', '.join(rest)} can move on "
+        f"their own; add a link or a guide, or take away {'one of these' if len(rest) > 1 else 'it'}"
     )
 
 
@@ -248,7 +252,7 @@ def _too_stiff(linkage: Linkage, some: tuple[str, ...]) -> str:
     what = " and ".join(some)
     return (
         f"{what} cannot move with the crank: {'it has' if len(some) == 1 else 'they have'} more joints than the rest "
-        f"leaves free (mobility {mobility(linkage)}); take away a joint or a link"
+        f"leaves free (mobility {mobility(linkage).value:g}); take away a joint or a link"
     )
 
 

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
 from crankwork.kinematics.crank_grid import Array
+from crankwork.shaft.flywheel_body import inertia_on_other_shaft
 
 
 @formula("synchronous_speed", "chilikin_sandler_1981, ch. 2")
@@ -285,7 +286,7 @@ class GearedMotor:
     @property
     def reduced_inertia(self) -> float:
         """Moment of inertia on the crank, J i^2. [kg m2]"""
-        return self.inertia * self.ratio**2
+        return float(inertia_on_other_shaft(self.inertia, self.ratio))
 
     def torque(self, speed: ArrayLike) -> Array:
         """Return the torque on the crank.
