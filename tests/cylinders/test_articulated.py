@@ -14,14 +14,12 @@ from crankwork.cylinders.articulated import (
     ArticulatedRod,
     articulated_motion,
     check_articulated_rod,
-    plain_articulated_rod,
     slave_stroke,
 )
 from crankwork.cylinders.articulated_forces import slave_forces
 from crankwork.cylinders.engines import radial
-from crankwork.cylinders.knuckle import compression_ratio_of_slave, corrected_rod, farthest_knuckle_angle
 from crankwork.cylinders.torque import cylinder_angle
-from crankwork.errors import GeometryError, MethodError
+from crankwork.errors import GeometryError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank
@@ -229,77 +227,6 @@ def test_the_missing_length_is_the_very_one():
         check_articulated_rod(MASTER, short._replace(length=0.14 + missing - 1e-8))
 
 
-# --- equal compression
-
-AXES = [40.0 * k for k in range(1, 9)]
-
-
-@pytest.mark.parametrize("axis", AXES)
-def test_the_corrected_knuckle_angle_is_the_one_of_the_straight_line(axis):
-    """Crank, knuckle pin and rod in line reach r + l: the angle of the cylinder plus that of the master rod."""
-    rod = plain_articulated_rod(MASTER, axis, KNUCKLE)
-    assert slave_stroke(MASTER, rod).top < MASTER.crank_radius + MASTER.rod_length
-    corrected = corrected_rod(MASTER, rod)
-    expected = axis + math.degrees(math.asin(MASTER.rod_ratio * math.sin(math.radians(axis))))
-    assert corrected.knuckle_angle == pytest.approx(expected, abs=1e-12)
-    slave = slave_stroke(MASTER, corrected)
-    assert slave.top == pytest.approx(MASTER.crank_radius + MASTER.rod_length, rel=1e-15)
-    assert slave.top_angle == pytest.approx(0.0, abs=1e-9)
-    assert farthest_knuckle_angle(MASTER, rod) == corrected.knuckle_angle
-
-
-@pytest.mark.parametrize("part", ["knuckle_radius", "length"])
-@pytest.mark.parametrize("ratio", [math.inf, 6.5])
-def test_other_corrections_give_equal_compression(part, ratio):
-    rod = plain_articulated_rod(MASTER, 80.0, KNUCKLE)
-    corrected = corrected_rod(MASTER, rod, part, ratio)
-    changed = {name for name in rod._fields if getattr(rod, name) != getattr(corrected, name)}
-    assert changed == {part}
-    if ratio == math.inf:
-        top = slave_stroke(MASTER, corrected).top
-        assert top == pytest.approx(MASTER.crank_radius + MASTER.rod_length, rel=1e-14)
-    else:
-        assert compression_ratio_of_slave(MASTER, rod, ratio) < 6.4
-        assert compression_ratio_of_slave(MASTER, corrected, ratio) == pytest.approx(ratio, rel=1e-12)
-
-
-@pytest.mark.parametrize("axis", AXES)
-def test_a_knuckle_angle_gives_the_compression_ratio_of_the_master(axis):
-    corrected = corrected_rod(MASTER, plain_articulated_rod(MASTER, axis, KNUCKLE), "knuckle_angle", 6.0)
-    assert compression_ratio_of_slave(MASTER, corrected, 6.0) == pytest.approx(6.0, rel=1e-11)
-
-
-def test_a_longer_rod_has_two_angles_and_the_nearer_is_taken():
-    rod = ArticulatedRod(MASTER.rod_length - KNUCKLE + 0.0004, KNUCKLE, 80.0, 80.0)
-    near, far = (corrected_rod(MASTER, rod._replace(knuckle_angle=one), "knuckle_angle", 7.0) for one in (60.0, 120.0))
-    assert near.knuckle_angle < farthest_knuckle_angle(MASTER, rod) < far.knuckle_angle
-    for one in (near, far):
-        assert compression_ratio_of_slave(MASTER, one, 7.0) == pytest.approx(7.0, rel=1e-11)
-
-
-def test_a_rod_too_short_for_any_angle_is_refused_with_what_it_misses():
-    rod = ArticulatedRod(MASTER.rod_length - KNUCKLE - 0.002, KNUCKLE, 40.0, 40.0)
-    with pytest.raises(GeometryError, match=r"it misses 2 mm"):
-        corrected_rod(MASTER, rod)
-
-
-def test_what_cannot_be_corrected_is_refused():
-    rod = plain_articulated_rod(MASTER, 40.0, KNUCKLE)
-    with pytest.raises(MethodError, match="knuckle_angle, knuckle_radius, length"):
-        corrected_rod(MASTER, rod, "axis")
-    with pytest.raises(GeometryError, match=r"runs 1[0-9.]+ mm into the head"):
-        compression_ratio_of_slave(MASTER, rod._replace(length=rod.length + 0.05), 6.0)
-
-
-def test_strokes_and_dead_centres_of_a_corrected_row_differ():
-    """With equal compression the strokes still differ, symmetrically about the master."""
-    rods = [corrected_rod(MASTER, plain_articulated_rod(MASTER, axis, KNUCKLE)) for axis in AXES]
-    strokes = np.array([slave_stroke(MASTER, rod).stroke for rod in rods])
-    assert strokes == pytest.approx(strokes[::-1], rel=1e-13)
-    assert strokes.min() > 2 * MASTER.crank_radius
-    assert strokes.max() < 2.15 * MASTER.crank_radius
-
-
 # --- a radial row
 
 
@@ -339,7 +266,9 @@ def test_articulated_rods_of_a_radial_row_leave_a_second_order():
     def motion(place, own):
         if not place.master:
             return piston_motion(MASTER, own)
-        return articulated_motion(MASTER, plain_articulated_rod(MASTER, place.axis, KNUCKLE), own)
+        angle = (place.axis + 180.0) % 360.0 - 180.0
+        rod = ArticulatedRod(MASTER.rod_length - KNUCKLE, KNUCKLE, angle, place.axis)
+        return articulated_motion(MASTER, rod, own)
 
     parts = _inertia_orders(9, motion)
     assert abs(parts[2]) == pytest.approx(4.5, rel=0.01)

@@ -17,7 +17,7 @@ from crankwork.cylinders.balance import (
     order_inertia_force,
     sampled_harmonics,
 )
-from crankwork.cylinders.ellipse import Ellipse, OrderBalance, balance_sum, forces_over_turn, unit_vectors, vector_sum
+from crankwork.cylinders.ellipse import Ellipse, OrderBalance, balance_sum, unit_vectors, vector_sum
 from crankwork.cylinders.layout import Layout, Place
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import CrankGrid
@@ -106,11 +106,6 @@ def test_an_ellipse_has_the_extremes_of_its_vector() -> None:
     assert ellipse.largest == pytest.approx(length.max(), rel=1e-9)
     assert ellipse.least == pytest.approx(length.min(), rel=1e-9)
     assert ellipse.direction == pytest.approx(np.degrees(np.angle(vector[length.argmax()])) % 180, abs=1e-2)
-    for direction in (0.0, 30.0, 90.0, 200.0):
-        along = (vector / np.exp(1j * np.radians(direction))).real
-        assert ellipse.amplitude_along(direction) == pytest.approx(along.max(), rel=1e-9)
-    assert ellipse.amplitude_along(ellipse.direction) == pytest.approx(ellipse.largest)
-    assert ellipse.amplitude_along(ellipse.direction + 90) == pytest.approx(ellipse.least)
 
 
 def test_a_circle_has_no_direction() -> None:
@@ -213,9 +208,3 @@ def test_forces_of_different_orders_are_not_added() -> None:
         OrderBalance(1, Ellipse(1j, 0j), Ellipse(0j, 2.0)),
         OrderBalance(2, Ellipse(2j, 0j), Ellipse(0j, 4.0)),
     )
-
-
-def test_the_hodograph_is_the_sum_of_the_orders() -> None:
-    parts = (OrderBalance(1, Ellipse(2.0, 1j), Ellipse(0j, 0j)), OrderBalance(2, Ellipse(0j, 1.0), Ellipse(0j, 0j)))
-    found = forces_over_turn(parts, CrankGrid.from_degrees([0.0, 90.0, 180.0]))
-    assert found.tolist() == [3 + 1j, 2j + 1 - 1, -2 - 1j + 1]

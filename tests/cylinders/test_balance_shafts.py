@@ -7,22 +7,14 @@ import pytest
 
 from crankwork.cylinders.balance import free_forces, inertia_harmonics, layout_factors
 from crankwork.cylinders.balance_shafts import (
-    ShaftPlace,
     ShaftWeight,
     balance_shafts,
-    first_order_shaft_moment,
-    lanchester_moment,
-    second_order_shaft_torque,
     shaft_forces,
-    shaft_torque,
 )
 from crankwork.cylinders.counterweights import rotating_unbalances, throw_counterweights, turning_forces
 from crankwork.cylinders.ellipse import balance_sum
 from crankwork.cylinders.layout import Layout, Place
-from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank
-from crankwork.kinematics.textbook import textbook_transfer_1, textbook_transfer_2
-from crankwork.method import TEXTBOOK
 
 pytestmark = pytest.mark.elsewhere
 
@@ -45,7 +37,7 @@ def test_the_pair_of_lanchester_takes_the_second_order_of_four_cylinders() -> No
     free = free_forces(FOUR, M_REC, R, W, RODS)
     pair = balance_shafts(free[1], W)
     assert [(one.order, one.sense, one.angle) for one in pair] == [(2, 1, 180), (2, -1, 180)]
-    moment = lanchester_moment(4, M_REC, R, RODS.coefficients[1].real)
+    moment = 4 * M_REC * R * RODS.coefficients[1].real / 8
     assert [one.mass_moment for one in pair] == pytest.approx([moment, moment], rel=1e-14)
     left = balance_sum([*free, *shaft_forces(pair, W)])
     assert left[1].force.largest == pytest.approx(0, abs=1e-12 * ONE)
@@ -65,7 +57,7 @@ def test_a_balanced_order_needs_no_shafts() -> None:
 def test_two_shafts_take_the_first_order_of_one_cylinder(axis: float) -> None:
     free = free_forces(_layout([0.0], axis), M_REC, R, W, RODS)
     pair = balance_shafts(free[0], W)
-    assert [one.mass_moment for one in pair] == pytest.approx([first_order_shaft_moment(M_REC, R)] * 2, rel=1e-14)
+    assert [one.mass_moment for one in pair] == pytest.approx([M_REC * R / 2] * 2, rel=1e-14)
     # at top dead centre both weights are down, whichever way the cylinder leans
     assert [one.angle for one in pair] == pytest.approx([axis + 180] * 2)
     assert balance_sum([*free, *shaft_forces(pair, W)])[0].force.largest == pytest.approx(0, abs=1e-12 * ONE)
@@ -77,7 +69,7 @@ def test_with_counterweights_one_shaft_against_the_crank_is_enough() -> None:
     left = balance_sum([*free_forces(layout, M_REC, R, W, RODS), turning_forces(layout, turning, W)])
     (weight,) = balance_shafts(left[0], W)
     assert weight.sense == -1
-    assert weight.mass_moment == pytest.approx(first_order_shaft_moment(M_REC, R), rel=1e-12)
+    assert weight.mass_moment == pytest.approx(M_REC * R / 2, rel=1e-12)
 
 
 def test_one_shaft_with_two_weights_takes_the_couple_of_three_cylinders() -> None:
@@ -107,38 +99,3 @@ def test_moments_of_shafts_are_about_the_position_asked_for() -> None:
     (middle,), (end,) = shaft_forces([weight], W), shaft_forces([weight], W, about=0.25)
     assert middle.moment.largest == pytest.approx(1e-3 * (2 * W) ** 2 * 0.25)
     assert end.moment.largest == 0
-
-
-# --- height
-
-
-def test_shafts_one_rod_length_apart_in_height_cancel_the_second_order_of_the_inertia_torque() -> None:
-    """In two terms: the frame of four cylinders gets minus the inertia torque of the crank, by virtual work."""
-    grid = CrankGrid.from_degrees(np.arange(64) * (360 / 64))
-    two_terms = inertia_harmonics(LENGTHS, (1, 2), TEXTBOOK)
-    lam = LENGTHS.rod_ratio
-    frame = np.zeros(64)
-    for pin in (0.0, 180.0, 180.0, 0.0):
-        local = CrankGrid.from_degrees(grid.degrees + pin)
-        velocity = textbook_transfer_1(R, local.sin, lam, local.sin_2, 0.0, local.cos)
-        frame += M_REC * textbook_transfer_2(R, local.cos, lam, local.cos_2, 0.0, local.sin) * velocity * W**2
-    second = free_forces(FOUR, M_REC, R, W, two_terms)[1]
-    places = (ShaftPlace(0.1 + LENGTHS.rod_length, 0.07), ShaftPlace(0.1, -0.07))
-    pair = balance_shafts(second, W, places=places)
-    torque = shaft_torque(pair, W, grid)
-    both = np.abs(np.fft.rfft(frame + torque)) / 32
-    before = np.abs(np.fft.rfft(frame)) / 32
-    assert before[2] > 100
-    assert both[2] < 1e-12 * before[2]
-    assert both[4] == pytest.approx(before[4], rel=1e-12)
-    amplitude = second_order_shaft_torque(pair[0].mass_moment, W, LENGTHS.rod_length)
-    assert torque == pytest.approx(-amplitude * grid.sin_2, abs=1e-12 * amplitude)
-
-
-def test_shafts_at_equal_heights_on_both_sides_do_not_turn_the_frame() -> None:
-    grid = CrankGrid.steps(10.0, 360.0)
-    second = free_forces(FOUR, M_REC, R, W, RODS)[1]
-    level = balance_shafts(second, W, places=(ShaftPlace(-0.05, 0.08), ShaftPlace(-0.05, -0.08)))
-    assert np.abs(shaft_torque(level, W, grid)).max() < 1e-12 * ONE
-    askew = balance_shafts(second, W, places=(ShaftPlace(-0.05, 0.08), ShaftPlace(-0.05, 0.0)))
-    assert np.abs(shaft_torque(askew, W, grid)).max() == pytest.approx(second.force.largest / 2 * 0.08)

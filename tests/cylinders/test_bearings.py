@@ -18,11 +18,7 @@ from hypothesis.extra.numpy import arrays
 
 import crankwork
 from crankwork.cylinders import bearings
-from crankwork.cylinders.bearings import crank_frame_load
-from crankwork.cylinders.layout import Layout, Place
-from crankwork.cylinders.load_statistics import load_statistics
 from crankwork.cylinders.load_vectors import BearingLoad, turned, turned_by
-from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank, rod_swing
 
@@ -40,6 +36,10 @@ def _swing(ratio=0.3, offset=0.0):
     return rod_swing(SliderCrank(0.05, 0.05 / ratio, offset), GRID)
 
 
+def _crank_frame_load(radial, tangential, inertia):
+    return BearingLoad(-bearings.crankpin_radial_force(radial, inertia), tangential)
+
+
 def _close(one, other, tolerance=1e-13):
     scale = 1 + max(float(np.max(np.abs(part))) for part in (*one, *other))
     return all(np.all(np.abs(a - b) <= tolerance * scale) for a, b in zip(one, other, strict=True))
@@ -50,7 +50,7 @@ def _close(one, other, tolerance=1e-13):
 
 @given(radial=COLUMNS, tangential=COLUMNS, inertia=st.floats(-1e4, 0), ratio=st.floats(0.15, 0.6), angle=ANGLES)
 def test_a_load_has_one_size_in_every_frame(radial, tangential, inertia, ratio, angle):
-    load = crank_frame_load(radial, tangential, inertia)
+    load = _crank_frame_load(radial, tangential, inertia)
     scale = 1e-13 * (1 + np.max(load.resultant))
     frames = (
         bearings.big_end_bearing_load(load, _swing(ratio)),
@@ -83,38 +83,6 @@ def test_a_direction_just_below_zero_does_not_round_to_a_full_turn():
 # --- crankpin
 
 
-@given(
-    forces=arrays(float, (2, GRID.angle.size), elements=FORCES), bank=st.floats(-180, 180), ratio=st.floats(0.1, 0.6)
-)
-def test_rods_side_by_side_add_as_vectors(forces, bank, ratio):
-    """Each rod hands on axial force P and P tan(beta) sideways; put together in the block, cylinder by cylinder."""
-    total = np.zeros(GRID.angle.size, dtype=complex)
-    loads = []
-    for force, axis, inertia in zip(forces, (0.0, bank), (-700.0, -300.0), strict=True):
-        own = CrankGrid.from_degrees(GRID.degrees - axis)
-        swing = rod_swing(SliderCrank(0.05, 0.05 / ratio), own)
-        total += (-force + 1j * force * swing.sin / swing.cos) * np.exp(1j * np.radians(axis))
-        loads.append(crank_frame_load(force * swing.cos_sum / swing.cos, force * swing.sin_sum / swing.cos, inertia))
-    layout = Layout("V", (_place(1, 0), _place(2, 0)), 720.0, (1, 2))
-    load = turned(bearings.crankpin_loads(layout, loads)[0], GRID.sin, GRID.cos)
-    total += 1000.0 * np.exp(1j * GRID.angle)
-    assert _close(load, (total.real, total.imag), 3e-13)
-
-
-def _place(number, crankpin):
-    return Place(number, 0.0, crankpin, crankpin, 180.0 * crankpin, 0.1 * crankpin, 0.0)
-
-
-def test_cylinders_load_the_crankpin_they_work_on():
-    layout = Layout("V", (_place(1, 0), _place(2, 1), _place(3, 0)), 720.0, (1, 2, 3))
-    loads = [BearingLoad(np.array([x]), np.array([y])) for x, y in ((1.0, 2.0), (10.0, 20.0), (100.0, 200.0))]
-    first, second = bearings.crankpin_loads(layout, loads)
-    assert (first.x.tolist(), first.y.tolist()) == ([101.0], [202.0])
-    assert second == loads[1]
-    with pytest.raises(CrankworkError, match="2 loads are given for 3 cylinders"):
-        bearings.crankpin_loads(layout, loads[:2])
-
-
 # --- printed engine
 
 
@@ -140,7 +108,7 @@ def engine():
 def test_the_crankpin_load_of_the_printed_engine(engine):
     """To the last printed digit, but for pressures that are not those of the note's own program."""
     results, inertia, area = engine
-    load = crank_frame_load(results["radial_force"], results["tangential_force"], inertia)
+    load = _crank_frame_load(results["radial_force"], results["tangential_force"], inertia)
     rows = np.searchsorted(results.grid.degrees, NOTE_ANGLE - 1e-9)
     size = load.resultant[rows] / area / 1e6
     expected = np.array([_note_load(*row) for row in zip(NOTE_ANGLE, NOTE_P1, strict=True)])
@@ -148,23 +116,10 @@ def test_the_crankpin_load_of_the_printed_engine(engine):
     assert differ.tolist() == [355, 510, 515, 520, 525, 530, 535, 540, 545]
 
 
-def test_mean_and_largest_crankpin_load_of_the_printed_engine(engine):
-    """The largest from P1 = 4.151584 at 370 degrees is 3.744339; the mean by hand from the force on the pin."""
-    results, inertia, area = engine
-    load = crank_frame_load(results["radial_force"], results["tangential_force"], inertia)
-    statistics = load_statistics(load, results.grid.degrees, 720.0)
-    assert statistics.max_angle == 370
-    assert statistics.max / area / 1e6 == pytest.approx(_note_load(370.0, 4.151584), abs=1e-6)
-    assert results.grid.degrees.tolist() == NOTE_ANGLE.tolist()
-    by_hand = [_note_load(*row) for row in zip(NOTE_ANGLE, results["piston_force"] / area / 1e6, strict=True)]
-    assert statistics.mean / area / 1e6 == pytest.approx(sum(by_hand[:-1]) / 144, rel=1e-9)
-    assert statistics.min / area / 1e6 == pytest.approx(min(by_hand), rel=1e-9)
-
-
 def test_at_top_dead_centre_the_rod_pulls_with_all_of_it(engine):
     """P1 = -0.846907 at 0 degrees and K_R = -0.42227 of 13.76 g/cm2 at r w^2 = 3068.8 m/s2 add up. [MN/m2]"""
     results, inertia, area = engine
-    load = crank_frame_load(results["radial_force"], results["tangential_force"], inertia)
+    load = _crank_frame_load(results["radial_force"], results["tangential_force"], inertia)
     assert load.x[0] / area / 1e6 == pytest.approx(0.846907 + 0.42227, abs=1e-5)
     assert load.y[0] == 0
 
@@ -175,7 +130,7 @@ def test_at_top_dead_centre_the_rod_pulls_with_all_of_it(engine):
 @given(force=COLUMNS, ratio=st.floats(0.1, 0.7), offset=st.floats(-0.01, 0.01))
 def test_a_rod_without_mass_is_loaded_along_itself(force, ratio, offset):
     swing = _swing(ratio, offset)
-    load = crank_frame_load(force * swing.cos_sum / swing.cos, force * swing.sin_sum / swing.cos, 0.0)
+    load = _crank_frame_load(force * swing.cos_sum / swing.cos, force * swing.sin_sum / swing.cos, 0.0)
     along = force / swing.cos
     assert _close(bearings.big_end_bearing_load(load, swing), (along, 0 * along))
     assert _close(bearings.small_end_bearing_load(force, force * swing.sin / swing.cos, swing), (-along, 0 * along))
@@ -200,7 +155,7 @@ def test_big_end_and_small_end_forces_move_the_rod(offset, inertia_excess):
     side = P * swing.sin / swing.cos - inertia_excess * eps / (l * swing.cos)
     radial, tangential = P * grid.cos - side * grid.sin, P * grid.sin + side * grid.cos
     inertia = bearings.big_end_inertia_force(big, r, w)
-    big_end = bearings.big_end_bearing_load(crank_frame_load(radial, tangential, inertia), swing)
+    big_end = bearings.big_end_bearing_load(_crank_frame_load(radial, tangential, inertia), swing)
     pin = bearings.piston_pin_force(gas, masses.piston, a, 0.0)
     small_end = bearings.small_end_bearing_load(pin, side, swing)
     assert np.allclose(small_end.resultant, bearings.small_end_load(pin, side), rtol=1e-13)

@@ -9,22 +9,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from crankwork.cylinders.engines import inline, radial, standard_layout, vee
+from crankwork.cylinders.engines import standard_layout, vee
 from crankwork.cylinders.standard_orders import STANDARD_ORDERS, standard_orders
 from crankwork.cylinders.torque import (
     cylinder_angle,
-    cylinder_angles,
     even_firing_interval,
     firing_intervals,
     mean_torque_of_work,
-    torque_period,
     torques_along_shaft,
-    total_curve,
     total_torque,
 )
 from crankwork.cylinders.torque_harmonics import (
     curve_harmonics,
-    major_orders,
     phase_star,
     torque_harmonics,
     total_harmonics,
@@ -45,6 +41,10 @@ standards = st.sampled_from([one for one in STANDARD_ORDERS if one.strokes == 4]
 
 def _standard(kind, cylinders):
     return standard_layout(standard_orders(kind, cylinders)[0])[0]
+
+
+def _cylinder_angles(degrees, layout):
+    return np.stack([cylinder_angle(degrees, place, layout.cycle) for place in layout.places])
 
 
 def _wave(coefficients):
@@ -68,7 +68,7 @@ waves = st.lists(st.tuples(st.floats(-100, 100), st.floats(-100, 100)), min_size
 def test_cylinder_angles_of_decimal_degrees_are_decimals():
     layout = _standard("inline", 4)
     degrees = np.arange(0, 7201) / 10
-    for place, row in zip(layout.places, cylinder_angles(degrees, layout), strict=True):
+    for place, row in zip(layout.places, _cylinder_angles(degrees, layout), strict=True):
         expected = (np.arange(0, 7201) - round(10 * place.firing_angle)) % 7200 / 10
         if place.number == 1:
             expected[-1] = 720.0
@@ -121,52 +121,16 @@ def test_torques_must_be_a_row_per_cylinder():
 def test_the_mean_of_the_sum_is_the_work_of_all_over_the_cycle(standard, wave):
     layout, _ = standard_layout(standard)
     torque = _wave(wave)
-    total = total_torque(torque(cylinder_angles(EVEN, layout)))
+    total = total_torque(torque(_cylinder_angles(EVEN, layout)))
     work = float(np.mean(torque(EVEN))) * CYCLE
     size = 50 + sum(map(sum, np.abs(wave)))
     count = len(layout.places)
     assert np.mean(total) == pytest.approx(mean_torque_of_work(count, work, CYCLE), abs=1e-12 * count * size)
 
 
-@pytest.mark.parametrize(
-    ("layout", "period"),
-    [
-        (_standard("inline", 6), 120.0),
-        (_standard("V", 8), 90.0),
-        (_standard("V", 2), 720.0),
-        (vee(6, (1, 4, 2, 5, 3, 6), 90.0, uneven=True)[0], 240.0),
-        (vee(4, (1, 2, 3, 4), 90.0, throws=(0.0, 0.0), numbering="pairs")[0], 360.0),
-        (inline(4, (1, 3, 2, 4), throws=(0, 270, 90, 180))[0], 720.0),
-        (inline(3, (1, 3, 2), strokes=2)[0], 120.0),
-    ],
-)
-def test_the_total_torque_repeats_after_its_period(layout, period):
-    assert torque_period(layout) == period
-    torque = _wave([(k, -k / 2) for k in range(1, 12)])
-    degrees = np.arange(0.0, 720.0, 1.5)
-    now, later = (total_torque(torque(cylinder_angles(degrees + step, layout))) for step in (0, period))
-    assert now == pytest.approx(later, abs=1e-9)
-
-
 def test_intervals_of_even_firing():
     assert firing_intervals(_standard("inline", 6)) == (120.0,) * 6
     assert math.degrees(even_firing_interval(CYCLE, 6)) == pytest.approx(120)
-
-
-@given(standards, st.lists(st.floats(-500, 500), min_size=3, max_size=12))
-def test_the_sum_of_curves_is_the_curve_of_sums(standard, corners):
-    layout, _ = standard_layout(standard)
-    curve = Curve.linear(np.linspace(0, CYCLE, len(corners) + 1), [*corners, corners[0]])
-    total = total_curve(curve, layout)
-    degrees = np.arange(0.7, 720.0, 11.3)
-    expected = sum(curve(np.radians(row)) for row in cylinder_angles(degrees, layout))
-    assert total(np.radians(degrees)) == pytest.approx(expected, abs=1e-9)
-    assert total.mean == pytest.approx(len(layout.places) * curve.mean, abs=1e-9)
-
-
-def test_a_curve_over_another_cycle_is_refused():
-    with pytest.raises(MethodError, match="over 360 deg, but the cycle of the engine is 720 deg"):
-        total_curve(Curve.constant(1.0), _standard("inline", 4))
 
 
 # --- harmonics
@@ -221,7 +185,7 @@ def test_too_few_samples_are_refused():
 def test_the_harmonics_of_the_sum_are_those_of_one_times_the_phase_star(standard, wave):
     layout, _ = standard_layout(standard)
     torque = _wave(wave)
-    summed = torque_harmonics(total_torque(torque(cylinder_angles(EVEN, layout))), 720.0, 24)
+    summed = torque_harmonics(total_torque(torque(_cylinder_angles(EVEN, layout))), 720.0, 24)
     by_star = total_harmonics(torque_harmonics(torque(EVEN), 720.0, 24), layout)
     size = len(layout.places) * (50 + sum(map(sum, np.abs(wave))))
     for one, other in zip(summed[:5], by_star[:5], strict=True):
@@ -230,22 +194,6 @@ def test_the_harmonics_of_the_sum_are_those_of_one_times_the_phase_star(standard
 
 
 # --- phase stars
-
-
-@pytest.mark.parametrize(
-    ("layout", "orders"),
-    [
-        (_standard("inline", 4), (2, 4, 6, 8)),
-        (_standard("inline", 5), (2.5, 5, 7.5)),
-        (_standard("inline", 6), (3, 6)),
-        (_standard("V", 8), (4, 8)),
-        (radial(7)[0], (3.5, 7)),
-        (inline(6, (1, 5, 3, 4, 2, 6), strokes=2)[0], (6,)),
-        (_standard("V", 2), (8,)),
-    ],
-)
-def test_major_orders_are_the_multiples_of_half_the_number_of_cylinders(layout, orders):
-    assert major_orders(layout, 8.0) == orders
 
 
 def test_an_even_engine_sums_to_zero_in_every_other_order():

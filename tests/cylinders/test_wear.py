@@ -10,7 +10,7 @@ from hypothesis.extra.numpy import arrays
 
 from crankwork.cylinders.load_statistics import cycle_shares
 from crankwork.cylinders.load_vectors import BearingLoad, turned_by
-from crankwork.cylinders.wear import mean_wear, oil_hole, ray_angles, wear_sums, wear_table
+from crankwork.cylinders.wear import oil_hole, ray_angles, wear_sums, wear_table
 from crankwork.errors import CrankworkError
 
 SIZES = arrays(float, 20, elements=st.floats(1.0, 1e5))
@@ -40,10 +40,6 @@ def test_the_diagram_turns_with_the_loads(size, direction, rays, steps):
     load = _load(size, direction)
     further = turned_by(load, steps * 360 / rays)
     assert np.allclose(wear_sums(further, rays=rays), np.roll(wear_sums(load, rays=rays), steps), rtol=1e-12)
-    degrees = np.arange(20) * 36.0
-    assert np.allclose(
-        mean_wear(further, degrees, 720.0, rays), np.roll(mean_wear(load, degrees, 720.0, rays), steps), rtol=1e-9
-    )
 
 
 def test_a_force_presses_where_it_comes_from():
@@ -96,9 +92,6 @@ def test_a_force_that_turns_evenly_in_the_journal_wears_it_evenly():
     sums = wear_sums(_load(np.ones(360), degrees), rays=24)
     assert sums == pytest.approx(np.full(24, 120.0))
     assert oil_hole(sums)[:2] == (0, 360)
-    assert mean_wear(_load(np.ones(360), degrees), degrees, 360.0, rays=24) == pytest.approx(
-        np.full(24, 1 / 3), rel=1e-4
-    )
 
 
 @given(size=SIZES, direction=DIRECTIONS)
@@ -106,22 +99,6 @@ def test_loads_alike_on_both_sides_of_the_crank_wear_both_sides_alike(size, dire
     load = _load(np.tile(size, 2), np.concatenate([direction, -direction]))
     sums = wear_sums(load)
     assert np.allclose(sums, np.roll(sums[::-1], 1), rtol=1e-12)
-
-
-# --- the smooth diagram
-
-
-@given(size=SIZES, direction=DIRECTIONS, spread=st.sampled_from([30.0, 60.0, 75.0, 180.0]))
-def test_the_smooth_diagram_has_the_same_mean_as_the_classical_one(size, direction, spread):
-    load, degrees = _load(size, direction), np.arange(20) * 36.0
-    smooth = mean_wear(load, degrees, 720.0, rays=720, spread=spread)
-    assert np.mean(smooth) == pytest.approx(np.mean(size) * spread / 180, rel=1e-4)
-
-
-def test_the_smooth_diagram_of_one_direction_is_a_cosine():
-    smooth = mean_wear(_load(np.full(4, 8.0), 180.0), [0.0, 90.0, 180.0, 270.0], 360.0, rays=360)
-    angle = np.minimum(ray_angles(360), 360 - ray_angles(360))
-    assert smooth == pytest.approx(np.where(angle < 60, 4 * np.pi * np.cos(np.radians(1.5 * angle)), 0), abs=1e-12)
 
 
 # --- the oil hole
@@ -166,4 +143,4 @@ def test_rays_and_arcs_that_make_no_diagram_are_refused():
     with pytest.raises(CrankworkError, match="cannot act 181 degrees to either side"):
         wear_sums(load, spread=181.0)
     with pytest.raises(CrankworkError, match="more than 0 and at most 180"):
-        mean_wear(load, [0.0], 360.0, spread=0.0)
+        wear_sums(load, spread=0.0)

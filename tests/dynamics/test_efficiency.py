@@ -1,9 +1,8 @@
 from __future__ import annotations
 
-import numpy as np
 import pytest
 
-from crankwork.dynamics.efficiency import Parallel, Series, driving_torque, efficiency
+from crankwork.dynamics.efficiency import Parallel, Series, driving_torque_as_brake, driving_torque_as_motor, efficiency
 
 pytestmark = pytest.mark.elsewhere
 
@@ -29,9 +28,5 @@ def test_impossible_shares(shares):
 
 
 def test_a_motor_pays_the_losses_and_a_brake_saves_them():
-    found = driving_torque(np.array([60.0, -60.0, 0.0]), np.array([20.0, -20.0, 0.0]), 0.8)
-    assert found == pytest.approx([100, -64, 0])
-
-
-def test_a_sum_below_zero_brakes_although_the_load_resists():
-    assert driving_torque(np.array([60.0]), np.array([-100.0]), 0.5) == pytest.approx([-20])
+    assert driving_torque_as_motor(60.0, 20.0, 0.8) == pytest.approx(100)
+    assert driving_torque_as_brake(-60.0, -20.0, 0.8) == pytest.approx(-64)

@@ -81,21 +81,15 @@ def test_the_force_of_a_slot_is_square_to_it_and_acts_at_the_pin():
     slot = found.guides["block"]
     assert found.pins["crank_pin"].resultant == pytest.approx(np.abs(slot.normal))
     assert slot.moment == pytest.approx(0, abs=1e-12)
-    assert slot.application == pytest.approx(0, abs=1e-12)
 
 
-def test_the_point_of_application_follows_an_eccentric_load():
+def test_the_moment_of_a_guide_follows_an_eccentric_load():
     yoke = replace(scotch_yoke(0.1), points=(LinkPoint("E", "yoke", 0.0, 0.05), LinkPoint("S", "block", 0.0)))
     found = joint_forces(at_rest(yoke, ForceOnPoint("E", -200.0, 80.0)))
     guide = found.guides["yoke"]
     assert guide.normal == pytest.approx(-80)
     # 200 N at 0.05 m above the guide, and the slot takes it at the height of the pin
     assert guide.moment == pytest.approx(-200 * (0.05 - 0.1 * GRID.sin), abs=1e-12)
-    assert guide.application == pytest.approx(guide.moment / guide.normal)
-
-
-def test_no_force_has_no_point_of_application():
-    assert np.isnan(joint_forces(at_rest(scotch_yoke(0.1))).guides["yoke"].application).all()
 
 
 def test_blocks_on_crossing_guides_share_the_force():

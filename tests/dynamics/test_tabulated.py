@@ -3,32 +3,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from crankwork.dynamics.reduction import reduced_inertia
-from crankwork.dynamics.tabulated import TabulatedBody, difference_derivative, tabulated_inertia
-from crankwork.kinematics.bodies import body_motions
-from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.motion import linkage_motion
-from crankwork.mechanism.catalog import slotted_press
+from crankwork.dynamics.tabulated import difference_derivative
 
 pytestmark = pytest.mark.elsewhere
 
 ANGLE = np.radians(np.arange(0, 360, 10))
-
-
-def test_a_table_of_computed_ratios_gives_the_computed_inertia():
-    press, grid = slotted_press(), CrankGrid.from_degrees(np.arange(0.0, 360, 30))
-    moved = linkage_motion(press, grid)
-    table = [
-        TabulatedBody(
-            one.body.link,
-            one.body.mass,
-            one.body.inertia,
-            tuple(np.hypot(one.centre.x.position_1, one.centre.y.position_1)),
-            tuple(np.abs(one.angle_1)),
-        )
-        for one in body_motions(press, moved)
-    ]
-    assert tabulated_inertia(table) == pytest.approx(reduced_inertia(press, moved).inertia, rel=1e-14)
 
 
 @pytest.mark.parametrize(("scheme", "error"), [("forward", 0.2), ("central", 0.03), ("spectral", 1e-13)])

@@ -13,7 +13,7 @@ import pytest
 from crankwork.formula.known import KnownAngle, given
 from crankwork.formula.over_cycle import Extreme, OverCycle
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.extremes import dead_centres, roots
+from crankwork.kinematics.extremes import dead_centres
 from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.method import EXACT, TEXTBOOK, Method
@@ -177,12 +177,3 @@ def test_velocity_vanishes_between_its_extremes_only_at_the_dead_centres() -> No
     top, bottom = dead_centres(machine)
     fastest, backwards = _largest_and_least(machine, 1)
     assert top < fastest.at < bottom < backwards.at < top + 360
-
-
-def test_roots_are_found_at_scan_points_and_between_them() -> None:
-    found = roots(lambda degrees: (degrees - 90) * (degrees - 100.3) * (degrees - 359.9), 0.0, 360.0)
-    assert found == pytest.approx([90, 100.3, 359.9], rel=1e-15)
-
-
-def test_a_function_without_sign_changes_has_no_roots() -> None:
-    assert roots(lambda degrees: degrees**2 + 1, 0.0, 360.0).size == 0

@@ -20,15 +20,13 @@ from crankwork.cylinders.balance import (
     layout_factors,
     sampled_harmonics,
 )
-from crankwork.cylinders.balance_shafts import ShaftPlace, balance_shafts, shaft_forces, shaft_torque
+from crankwork.cylinders.balance_shafts import balance_shafts, shaft_forces
 from crankwork.cylinders.counterweights import (
-    Unbalance,
     rotating_unbalances,
     throw_counterweights,
     turning_forces,
-    two_plane_counterweights,
 )
-from crankwork.cylinders.ellipse import OrderBalance, balance_sum, forces_over_turn
+from crankwork.cylinders.ellipse import OrderBalance, balance_sum, unit_vectors
 from crankwork.cylinders.layout import Layout, Place
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank
@@ -111,7 +109,10 @@ def test_the_phasors_are_the_fourier_transform_of_the_summed_forces(drawn: Drawn
 @MANY
 @given(drawn=engines())
 def test_all_orders_together_are_the_summed_force(drawn: Drawn) -> None:
-    total = forces_over_turn(_free(drawn, range(1, 121)), GRID)
+    total = np.zeros(COUNT, dtype=complex)
+    for one in _free(drawn, range(1, 121)):
+        turning = unit_vectors(one.order * DEGREES)
+        total += one.force.forward * turning + one.force.backward * turning.conj()
     assert np.abs(total - _forces(drawn).sum(axis=0)).max() < 1e-10 * drawn.size
 
 
@@ -170,19 +171,6 @@ def test_counterweights_of_one_half_leave_nothing_of_the_first_order_that_turns_
     assert left.force.backward == pytest.approx(primary[0].force.backward, abs=1e-12 * size)
 
 
-@given(
-    turning=st.lists(st.builds(Unbalance, st.floats(0.0, 10.0), angles, positions), min_size=1, max_size=8),
-    first=positions,
-    span=st.floats(0.1, 2.0),
-)
-def test_two_counterweights_balance_whatever_turns(turning: list[Unbalance], first: float, span: float) -> None:
-    layout = Layout("any", (Place(1, 20.0, 0, 0, 0.0, 0.0, 0.0),), 720.0, (1,))
-    weights = two_plane_counterweights(turning, (first, first + span))
-    left = turning_forces(layout, [*turning, *weights], 10.0)
-    assert left.force.largest < 1e-9
-    assert left.moment.largest < 1e-9
-
-
 @MANY
 @given(drawn=engines(), first=positions, span=st.floats(0.1, 2.0))
 def test_weights_on_two_shafts_in_two_planes_take_any_order_away(drawn: Drawn, first: float, span: float) -> None:
@@ -191,17 +179,3 @@ def test_weights_on_two_shafts_in_two_planes_take_any_order_away(drawn: Drawn, f
         (left,) = balance_sum([part, *shaft_forces(weights, drawn.speed)])
         assert left.force.largest < 1e-10 * drawn.size
         assert left.moment.largest < 1e-10 * drawn.size
-
-
-@MANY
-@given(drawn=engines(), sides=st.lists(st.builds(ShaftPlace, positions, positions), min_size=2, max_size=2))
-def test_the_torque_of_shafts_is_the_moment_of_their_forces(drawn: Drawn, sides: list[ShaftPlace]) -> None:
-    weights = [
-        one for part in _free(drawn, (1, 2)) for one in balance_shafts(part, drawn.speed, places=(sides[0], sides[1]))
-    ]
-    expected = np.zeros(COUNT)
-    for one in weights:
-        angle = np.radians(one.angle + one.sense * one.order * DEGREES)
-        force = one.mass_moment * (one.order * drawn.speed) ** 2
-        expected += force * (one.place.height * np.sin(angle) - one.place.side * np.cos(angle))
-    assert shaft_torque(weights, drawn.speed, GRID) == pytest.approx(expected, abs=1e-10 * drawn.size)

@@ -20,7 +20,7 @@ import crankwork
 from crankwork.analysis import columns, solve
 from crankwork.analysis.forces import COLUMNS
 from crankwork.analysis.motion import HARMONICS
-from crankwork.dynamics.masses import CrankGearMasses, rod_inertia_excess, rod_small_end_mass, three_masses
+from crankwork.dynamics.masses import CrankGearMasses, rod_inertia_excess, rod_small_end_mass
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.machine import Cylinder, Gas, Machine
@@ -273,7 +273,8 @@ def test_three_masses_take_the_torque_of_the_rigid_rod(drawn: Drawn) -> None:
     machine = replace(machine, has_gravity=False)
     masses, w, eps = machine.masses, machine.speed, machine.angular_acceleration
     assert masses is not None
-    at_piston, at_crank, at_centre = three_masses(rod.mass, rod.inertia, rod.centre, l)
+    at_piston, at_crank = rod.inertia / (l * (l - rod.centre)), rod.inertia / (l * rod.centre)
+    at_centre = rod.mass - at_piston - at_crank
     phi = ONE_TURN.angle
     sin_psi = np.sqrt(1 - ((e - r * np.sin(phi)) / l) ** 2)
     along = (e - r * np.sin(phi)) / l + 1j * sin_psi

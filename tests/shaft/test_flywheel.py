@@ -1,4 +1,4 @@
-"""Excess work, true speed, the flywheel four ways, and its body."""
+"""Excess work, true speed, the flywheel four ways."""
 
 from __future__ import annotations
 
@@ -10,15 +10,7 @@ import pytest
 from crankwork.errors import MethodError
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import excess_work, fluctuation_of_inertia, true_speed
-from crankwork.shaft.flywheel import WAYS, flywheel, flywheels, mass_energy_curve
-from crankwork.shaft.flywheel_body import (
-    Rim,
-    disc_of_inertia,
-    inertia_on_other_shaft,
-    largest_diameter,
-    rim_mass,
-    rim_of_inertia,
-)
+from crankwork.shaft.flywheel import WAYS, flywheel, flywheels, inertia_on_other_shaft, mass_energy_curve
 
 pytestmark = pytest.mark.elsewhere
 
@@ -109,25 +101,6 @@ def test_a_negative_inertia_has_no_motion():
     assert math.isnan(flywheel(swinging, LOAD * 0.001, 10.0, 0.5, "energy").fluctuation)
 
 
-class TestBody:
-    def test_a_rim_of_inertia(self):
-        rim = rim_of_inertia(100.0, 1.2, width_ratio=1.5)
-        assert rim.inertia == pytest.approx(100, rel=1e-13)
-        assert rim.width / rim.thickness == pytest.approx(1.5)
-        inner, outer = 0.6 - rim.thickness / 2, 0.6 + rim.thickness / 2
-        ring = 7200 * math.pi / 2 * rim.width * (outer**4 - inner**4)
-        assert rim.inertia == pytest.approx(ring, rel=1e-13)
-
-    def test_rim_stress(self):
-        assert Rim(2.0, 0.1, 0.05, density=7000).stress(10.0) == pytest.approx(7000 * 10.0**2)
-        assert largest_diameter(7000 * 100, 10.0, 7000) == pytest.approx(2.0)
-
-    def test_a_disc_of_inertia(self):
-        disc = disc_of_inertia(2.0, 0.5)
-        assert disc.inertia == pytest.approx(2.0)
-        assert disc.stress(100.0) == pytest.approx(3.3 / 8 * 7850 * 25**2)
-
-    def test_mass_and_another_shaft(self):
-        assert rim_mass(18.0, 3.0) == 2.0
-        assert inertia_on_other_shaft(2.0, 3.0) == 18.0
-        assert fluctuation_of_inertia(10.0, 2.0, 5.0) == 0.2
+def test_a_flywheel_on_a_faster_shaft_counts_by_the_square_of_the_ratio():
+    assert inertia_on_other_shaft(2.0, 3.0) == 18.0
+    assert fluctuation_of_inertia(10.0, 2.0, 5.0) == 0.2

@@ -14,8 +14,7 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.mechanism.freedom import chain_mobility
 from crankwork.mechanism.structure import structure
 from crankwork.shaft.fluctuation import fluctuation_of_energy
-from crankwork.shaft.flywheel import WAYS
-from crankwork.shaft.flywheel_body import inertia_on_other_shaft
+from crankwork.shaft.flywheel import WAYS, inertia_on_other_shaft
 from crankwork.shaft.flywheel_parts import work_of_mean_torque
 
 _MOTION = (

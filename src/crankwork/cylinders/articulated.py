@@ -113,20 +113,6 @@ class ArticulatedRod(NamedTuple):
     offset: float = 0.0
 
 
-def plain_articulated_rod(lengths: SliderCrank, axis: float, knuckle_radius: float) -> ArticulatedRod:
-    """Return the articulated rod that reaches as far as the master rod, its knuckle pin on its own cylinder's axis.
-
-    Parameters
-    ----------
-    lengths : SliderCrank
-        Crank and master rod. [m]
-    axis, knuckle_radius : float
-        From the axis of the master cylinder to its own; from the crankpin to the knuckle pin. [deg], [m]
-    """
-    angle = (axis + 180.0) % 360.0 - 180.0
-    return ArticulatedRod(lengths.rod_length - knuckle_radius, knuckle_radius, angle, axis)
-
-
 class ArticulatedMotion(NamedTuple):
     """Motion of an articulated rod and its piston over the crank angle of its own cylinder, arrays of shape (n,).
 

@@ -13,31 +13,6 @@ import numpy as np
 
 from crankwork.cylinders.counterweights import in_two_planes
 from crankwork.cylinders.ellipse import Ellipse, OrderBalance, balance_sum, unit_vectors
-from crankwork.formula.expression import Value, formula
-from crankwork.kinematics.crank_grid import Array, CrankGrid
-
-
-@formula("balance_shaft_moment", "taylor_1985, vol. 2, ch. 8")
-def lanchester_moment(K_F: Value, m_rec: Value, r: Value, A_q: Value) -> Value:
-    """Mass moment of each of the two shafts that balance the second order of cylinders in one plane.
-
-    Notes
-    -----
-    Each shaft takes half of the force and turns twice as fast: 2 Q (2 w)^2 = K m r w^2 A.
-    """
-    return K_F * m_rec * r * A_q / 8
-
-
-@formula("balance_shaft_moment", "den_hartog_1956, ch. 5")
-def first_order_shaft_moment(m_rec: Value, r: Value) -> Value:
-    """Mass moment of each of the two shafts that balance the first order of one cylinder."""
-    return m_rec * r / 2
-
-
-@formula("balance_shaft_torque", "taylor_1985, vol. 2, ch. 8")
-def second_order_shaft_torque(Q_s: Value, w: Value, h: Value) -> Value:
-    """Amplitude of the torque on the frame from a pair of second-order shafts at different heights."""
-    return Q_s * (2 * w) ** 2 * h
 
 
 class ShaftPlace(NamedTuple):
@@ -147,39 +122,6 @@ def shaft_forces(weights: Sequence[ShaftWeight], speed: float, *, about: float =
         arm = one.position - about
         found.append(OrderBalance(one.order, Ellipse(forward, backward), Ellipse(arm * forward, arm * backward)))
     return balance_sum(found)
-
-
-def shaft_torque(weights: Sequence[ShaftWeight], speed: float, grid: CrankGrid) -> Array:
-    """Return the torque of balance shafts on the frame, because their forces pass the crankshaft at a distance.
-
-    Parameters
-    ----------
-    weights : sequence of ShaftWeight
-        The weights.
-    speed : float
-        Angular speed of the crank. [rad/s]
-    grid : CrankGrid, shape (n,)
-        Crank angles of cylinder 1. [rad]
-
-    Returns
-    -------
-    array, shape (n,)
-        Torque about the crankshaft axis, positive with the rotation. [N m]
-
-    References
-    ----------
-    taylor_1985, vol. 2, ch. 8.
-
-    Notes
-    -----
-    A pair whose forward shaft lies higher works against the second order of the inertia torque: with a height
-    difference of one rod length it cancels it.
-    """
-    total = np.zeros(grid.angle.shape)
-    for one in weights:
-        force = _force(one, speed) * unit_vectors(one.sense * one.order * grid.degrees)
-        total += one.place.height * force.imag - one.place.side * force.real
-    return total
 
 
 def _needed(force: complex, moment: complex, planes: tuple[float, ...]) -> tuple[complex, ...]:

@@ -6,13 +6,9 @@ the journal on it, the opposite. Frames are those of `load_vectors`; the speed i
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
-from crankwork.cylinders.layout import Layout
 from crankwork.cylinders.load_vectors import BearingLoad, turned
-from crankwork.errors import CrankworkError
 from crankwork.formula.expression import Value, formula
 from crankwork.kinematics.slider_crank import RodSwing
 
@@ -57,77 +53,6 @@ def bearing_pressure(R_b: Value, d_b: Value, l_b: Value) -> Value:
 def bearing_load_ratio(R_max: Value, R_mean: Value) -> Value:
     """Largest load over the mean load."""
     return R_max / R_mean
-
-
-def crank_frame_load(radial: Value, tangential: Value, inertia: Value) -> BearingLoad:
-    """Return the load on a crankpin from one rod in the crank frame; `crankpin_loads` add up those of several.
-
-    Parameters
-    ----------
-    radial, tangential : array, shape (n,)
-        Forces of the rod on the crankpin, towards the crankshaft and with the rotation. [N]
-    inertia : float
-        Inertia force of the rod mass at the crankpin; never positive. [N]
-
-    Returns
-    -------
-    BearingLoad of array, shape (n,)
-        Force of the rod on the crankpin. [N]
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 7.
-    """
-    return BearingLoad(-crankpin_radial_force(radial, inertia), tangential)
-
-
-def crankpin_loads(layout: Layout, loads: Sequence[BearingLoad]) -> tuple[BearingLoad, ...]:
-    """Return the load on every crankpin: the sum over the cylinders that work on it.
-
-    Parameters
-    ----------
-    layout : Layout
-        Which cylinder works on which crankpin.
-    loads : sequence of BearingLoad of array, shape (n,)
-        Force of each rod on its crankpin in the frame of its own crank, by cylinder, at the same instants. [N]
-
-    Returns
-    -------
-    tuple of BearingLoad of array, shape (n,)
-        Loads by crankpin, each in the frame of its own crank. [N]
-
-    Raises
-    ------
-    CrankworkError
-        If there is not one load per cylinder.
-    """
-    check_one_load_per_cylinder(layout, loads)
-    sums: dict[int, BearingLoad] = {}
-    for place, load in zip(layout.places, loads, strict=True):
-        other = sums.get(place.crankpin)
-        sums[place.crankpin] = load if other is None else BearingLoad(other.x + load.x, other.y + load.y)
-    return tuple(sums[crankpin] for crankpin in sorted(sums))
-
-
-def check_one_load_per_cylinder(layout: Layout, loads: Sequence[BearingLoad]) -> None:
-    """Raise unless there is one load for every cylinder.
-
-    Parameters
-    ----------
-    layout : Layout
-        The cylinders.
-    loads : sequence of BearingLoad of array, shape (n,)
-        Their loads. [N]
-
-    Raises
-    ------
-    CrankworkError
-        With both numbers.
-    """
-    if len(loads) != len(layout.places):
-        raise CrankworkError(
-            f"{len(loads)} loads are given for {len(layout.places)} cylinders; give one load per cylinder"
-        )
 
 
 def big_end_bearing_load(load: BearingLoad, swing: RodSwing) -> BearingLoad:

@@ -26,18 +26,6 @@ def counterweight_moment(m_rot: Value, k_b: Value, m_rec: Value, r: Value) -> Va
     return (m_rot + k_b * m_rec) * r
 
 
-@formula("counterweight_mass", "bevan_1956, ch. 14")
-def counterweight_mass(Q_b: Value, r_b: Value) -> Value:
-    """Mass of a counterweight whose centre of mass lies at a given radius."""
-    return Q_b / r_b
-
-
-@formula("residual_force", "bevan_1956, ch. 14")
-def partial_balance_residual(m_rec: Value, r: Value, w: Value, k_b: Value, cos_phi: Value, sin_phi: Value) -> Value:
-    """Primary force of one cylinder that is left where a share of its reciprocating mass is balanced."""
-    return m_rec * r * w**2 * np.sqrt(((1 - k_b) * cos_phi) ** 2 + (k_b * sin_phi) ** 2)
-
-
 class Unbalance(NamedTuple):
     """A mass that turns with the crankshaft.
 
@@ -157,62 +145,6 @@ def throw_counterweights(
     return tuple(weights)
 
 
-def two_plane_counterweights(
-    unbalances: Sequence[Unbalance], planes: tuple[float, float]
-) -> tuple[Unbalance, Unbalance]:
-    """Return the two counterweights that balance any turning masses, force and couple.
-
-    Parameters
-    ----------
-    unbalances : sequence of Unbalance
-        What turns.
-    planes : tuple of float
-        Positions of the two counterweights along the shaft. [m]
-
-    Returns
-    -------
-    tuple of Unbalance
-        The counterweights.
-
-    Raises
-    ------
-    CrankworkError
-        If the planes are one.
-
-    References
-    ----------
-    bevan_1956, ch. 14.
-    """
-    vectors = np.array([one.mass_moment for one in unbalances]) * unit_vectors([one.angle for one in unbalances])
-    arms = np.array([one.position for one in unbalances])
-    parts = in_two_planes(vectors, arms, planes)
-    first, second = (_opposite(part, plane) for part, plane in zip(parts, planes, strict=True))
-    return first, second
-
-
-def one_plane_counterweight(unbalances: Sequence[Unbalance], plane: float) -> Unbalance:
-    """Return the counterweight that balances the force of turning masses, and leaves their couple.
-
-    Parameters
-    ----------
-    unbalances : sequence of Unbalance
-        What turns.
-    plane : float
-        Position of the counterweight along the shaft. [m]
-
-    Returns
-    -------
-    Unbalance
-        The counterweight.
-
-    References
-    ----------
-    bevan_1956, ch. 14.
-    """
-    vectors = np.array([one.mass_moment for one in unbalances]) * unit_vectors([one.angle for one in unbalances])
-    return _opposite(vector_sum(vectors), plane)
-
-
 def in_two_planes(vectors: ArrayLike, positions: ArrayLike, planes: tuple[float, float]) -> tuple[complex, complex]:
     """Return the two vectors, one in each plane, with the sum and the moment of given vectors.
 
@@ -236,8 +168,3 @@ def in_two_planes(vectors: ArrayLike, positions: ArrayLike, planes: tuple[float,
     vectors, arms = np.asarray(vectors, dtype=complex), np.asarray(positions, dtype=float)
     span = second - first
     return vector_sum(vectors * (second - arms) / span), vector_sum(vectors * (arms - first) / span)
-
-
-def _opposite(vector: complex, plane: float) -> Unbalance:
-    """Return the counterweight of an unbalance given as a vector in the frame of the crank."""
-    return Unbalance(abs(vector), float(np.degrees(np.angle(-vector)) % 360) if vector else 0.0, plane)

@@ -74,17 +74,6 @@ class Ellipse(NamedTuple):
             return 0.0
         return float(np.degrees(np.angle(self.forward) + np.angle(self.backward)) / 2 % 180)
 
-    def amplitude_along(self, direction: float) -> float:
-        """Return the amplitude of the component along a direction.
-
-        Parameters
-        ----------
-        direction : float
-            Angle from the reference direction, with the rotation. [deg]
-        """
-        axis = complex(unit_vectors(direction))
-        return float(abs(self.forward / axis + (self.backward / axis).conjugate()))
-
     def outline(self, count: int = 181) -> ComplexArray:
         """Return points of the closed ellipse for a figure, from the crank angle zero onwards.
 
@@ -120,28 +109,6 @@ def balance_sum(parts: Iterable[OrderBalance]) -> tuple[OrderBalance, ...]:
         OrderBalance(order, _ellipse_sum([one.force for one in some]), _ellipse_sum([one.moment for one in some]))
         for order, some in sorted(of_order.items())
     )
-
-
-def forces_over_turn(parts: Iterable[OrderBalance], grid: CrankGrid) -> ComplexArray:
-    """Return the sum of the forces of all orders, the hodograph of the shaking force.
-
-    Parameters
-    ----------
-    parts : iterable of OrderBalance
-        The orders.
-    grid : CrankGrid, shape (n,)
-        Crank angles of cylinder 1. [rad]
-
-    Returns
-    -------
-    complex, shape (n,)
-        Force, real along the reference direction, imaginary 90 degrees further with the rotation. [N]
-    """
-    total = np.zeros(grid.angle.shape, dtype=complex)
-    for one in parts:
-        turning = unit_vectors(one.order * grid.degrees)
-        total += one.force.forward * turning + one.force.backward * turning.conj()
-    return total
 
 
 def _ellipse_sum(parts: Sequence[Ellipse]) -> Ellipse:

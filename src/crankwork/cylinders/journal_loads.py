@@ -11,7 +11,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.cylinders.bearings import check_one_load_per_cylinder
 from crankwork.cylinders.counterweights import Unbalance
 from crankwork.cylinders.layout import Layout
 from crankwork.cylinders.load_vectors import BearingLoad, turned_by
@@ -69,7 +68,10 @@ def main_journal_loads(
     Minus the sum of what the throws on both sides of the journal hand on, each by its lever. With every force in
     the middle of its throw it is minus one half of the vector sum of the two throws.
     """
-    check_one_load_per_cylinder(layout, loads)
+    if len(loads) != len(layout.places):
+        raise CrankworkError(
+            f"{len(loads)} loads are given for {len(layout.places)} cylinders; give one load per cylinder"
+        )
     check_journals(layout)
     journals, places = layout.journal_positions, layout.places
     acting = [

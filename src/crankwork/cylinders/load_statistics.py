@@ -8,13 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.cylinders.bearings import bearing_load_ratio, bearing_pressure
 from crankwork.cylinders.load_vectors import BearingLoad
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
-
-# Loads closer than this share of the largest are the same: loads that repeat within the cycle differ by rounding.
-_SAME_LOAD = 1e-12
 
 
 def cycle_shares(degrees: ArrayLike, cycle: float) -> Array:
@@ -47,76 +43,6 @@ def cycle_shares(degrees: ArrayLike, cycle: float) -> Array:
     return np.asarray((steps + np.roll(steps, 1)) / (2 * cycle))
 
 
-class LoadStatistics(NamedTuple):
-    """What the size of a load comes to over the cycle; the angles are crank angles. [N], [deg]
-
-    Parameters
-    ----------
-    mean, max, max_angle, min, min_angle, ratio : float
-        Mean over the cycle, largest and smallest tabulated load and where each first stands, largest over
-        mean. [N], [N], [deg], [N], [deg], [-]
-    """
-
-    mean: float
-    max: float
-    max_angle: float
-    min: float
-    min_angle: float
-    ratio: float
-
-
-def load_statistics(load: BearingLoad, degrees: ArrayLike, cycle: float) -> LoadStatistics:
-    """Return mean, largest and smallest size of a load.
-
-    Parameters
-    ----------
-    load : BearingLoad of array, shape (n,)
-        Load in any frame. [N]
-    degrees : array, shape (n,)
-        Ascending crank angles, with or without the end of the cycle. [deg]
-    cycle : float
-        Length of the cycle. [deg]
-
-    Returns
-    -------
-    LoadStatistics
-        Of the size of the load; the ratio of no load at all is 1. [N], [deg]
-    """
-    size, degrees = load.resultant, np.asarray(degrees, dtype=float)
-    mean = float(cycle_shares(degrees, cycle) @ size)
-    largest, smallest = float(np.max(size)), float(np.min(size))
-    rounding = _SAME_LOAD * largest
-    at_largest = degrees[np.argmax(size >= largest - rounding)]
-    at_smallest = degrees[np.argmax(size <= smallest + rounding)]
-    ratio = float(bearing_load_ratio(largest, mean)) if mean else 1.0
-    return LoadStatistics(mean, largest, float(at_largest), smallest, float(at_smallest), ratio)
-
-
-class SpecificLoads(NamedTuple):
-    """Mean and largest load per projected area of the bearing. [Pa]"""
-
-    mean: float
-    max: float
-
-
-def specific_loads(statistics: LoadStatistics, diameter: float, length: float) -> SpecificLoads:
-    """Return mean and largest load per projected area of a bearing.
-
-    Parameters
-    ----------
-    statistics : LoadStatistics
-        What the load comes to.
-    diameter, length : float
-        Of the bearing. [m], [m]
-
-    Returns
-    -------
-    SpecificLoads
-        Pressures. [Pa]
-    """
-    return SpecificLoads(*(float(bearing_pressure(one, diameter, length)) for one in statistics[:2]))
-
-
 class LoadReversal(NamedTuple):
     """How long and how strongly a bearing is loaded along the rod in either direction.
 
@@ -144,51 +70,6 @@ class LoadReversal(NamedTuple):
         larger = max(self.compression_peak, self.tension_peak)
         return min(self.compression_peak, self.tension_peak) / larger if larger else 0.0
 
-    def is_enough(self, duration: float = 15.0, ratio: float = 0.03) -> bool:
-        """Return whether oil can get between pin and bearing, by default by the limits of API 618.
-
-        Parameters
-        ----------
-        duration : float
-            Least stretch in the direction that has the shorter one. [deg]
-        ratio : float
-            Least share of the smaller peak. [-]
-        """
-        return self.duration >= duration and self.ratio >= ratio
-
-
-def load_reversal(load: BearingLoad, degrees: ArrayLike, cycle: float) -> LoadReversal:
-    """Return how a small-end load changes its direction along the rod, linear between tabulated angles.
-
-    Parameters
-    ----------
-    load : BearingLoad of array, shape (n,)
-        Load on the small-end bearing in the rod frame; negative x is compression. [N]
-    degrees : array, shape (n,)
-        Ascending crank angles, with or without the end of the cycle. [deg]
-    cycle : float
-        Length of the cycle, 720 or 360. [deg]
-
-    Returns
-    -------
-    LoadReversal
-        Stretches and peaks in both directions. [deg], [N]
-
-    References
-    ----------
-    api_618, which counts within one turn of the crankshaft.
-    """
-    cycle_shares(degrees, cycle)
-    force = -np.append(load.x, load.x[0])
-    angle = np.append(degrees, np.asarray(degrees)[0] + cycle)
-    before = np.flatnonzero((force[:-1] < 0) != (force[1:] < 0))
-    crossings = angle[before] + np.diff(angle)[before] * force[before] / (force[before] - force[before + 1])
-    start = float(angle[0])
-    # negative x is compression
-    is_compression = [not one < 0 for one in (force[0], *force[before + 1])]
-    peaks = float(np.max(load.x)), float(np.min(load.x))
-    return reversal([*crossings.tolist(), start + cycle], is_compression, peaks, start=start)
-
 
 def reversal(
     ends: Sequence[float], is_compression: Sequence[bool], peaks: tuple[float, float], *, start: float = 0.0
@@ -210,6 +91,10 @@ def reversal(
     -------
     LoadReversal
         Stretches and peaks in both directions. [deg], [N]
+
+    References
+    ----------
+    api_618, which counts within one turn of the crankshaft.
     """
     lengths = np.diff(ends, prepend=start).tolist()
     if len(ends) > 1 and is_compression[0] == is_compression[-1]:

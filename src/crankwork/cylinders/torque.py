@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.cylinders.firing import SAME_ANGLE, intervals, is_even
+from crankwork.cylinders.firing import intervals
 from crankwork.cylinders.layout import Layout, Place
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import absent, added, called, is_known
 from crankwork.kinematics.crank_grid import Array
-from crankwork.shaft.curve import Curve
 
 _DECIMALS = 9
 
@@ -71,24 +69,6 @@ def cylinder_angle(degrees: ArrayLike, place: Place, cycle: float) -> Array:
     reach = 1e-15 * (np.abs(degrees) + place.firing_angle + cycle)
     rest = np.where(np.abs(rest - near) <= reach, near, rest)
     return np.where(cycle - rest <= 1e-12 * cycle, 0.0, rest)
-
-
-def cylinder_angles(degrees: ArrayLike, layout: Layout) -> Array:
-    """Return the crank angle of every cylinder in its own cycle.
-
-    Parameters
-    ----------
-    degrees : array, shape (n,)
-        Crank angles of cylinder 1. [deg]
-    layout : Layout
-        The cylinders.
-
-    Returns
-    -------
-    array, shape (cylinders, n)
-        Angles. [deg]
-    """
-    return np.stack([cylinder_angle(degrees, place, layout.cycle) for place in layout.places])
 
 
 def total_torque(torques: ArrayLike) -> Array:
@@ -166,53 +146,3 @@ def firing_intervals(layout: Layout) -> tuple[float, ...]:
         As many as cylinders. [deg]
     """
     return intervals([layout.places[number - 1].firing_angle for number in layout.firing_order], layout.cycle)
-
-
-def torque_period(layout: Layout) -> float:
-    """Return the angle after which the total torque repeats, if all cylinders do the same.
-
-    Parameters
-    ----------
-    layout : Layout
-        The cylinders.
-
-    Returns
-    -------
-    float
-        The firing interval where it is even, else the shortest repetition of the intervals. [deg]
-    """
-    steps = firing_intervals(layout)
-    if is_even(steps):
-        return layout.cycle / len(steps)
-    for count in range(2, len(steps)):
-        if len(steps) % count == 0:
-            repeated = steps[:count] * (len(steps) // count)
-            if max(abs(one - other) for one, other in zip(steps, repeated, strict=True)) <= SAME_ANGLE:
-                return layout.cycle * count / len(steps)
-    return layout.cycle
-
-
-def total_curve(curve: Curve, layout: Layout) -> Curve:
-    """Return the torque of all cylinders over the crank angle of cylinder 1, every cylinder like the first.
-
-    Parameters
-    ----------
-    curve : Curve
-        Torque of one cylinder over its cycle. [N m]
-    layout : Layout
-        The cylinders.
-
-    Returns
-    -------
-    Curve
-        Total torque. [N m]
-    """
-    if abs(math.degrees(curve.cycle) - layout.cycle) > SAME_ANGLE:
-        raise MethodError(
-            f"the torque is given over {math.degrees(curve.cycle):g} deg, but the cycle of the engine is "
-            f"{layout.cycle:g} deg"
-        )
-    total = Curve.constant(0.0, curve.cycle) if curve.angle[0] == 0 else curve * 0.0
-    for place in layout.places:
-        total = total + (curve.delayed(math.radians(place.firing_angle)) if place.firing_angle else curve)
-    return total

@@ -129,11 +129,6 @@ class PhaseStar(NamedTuple):
     vectors: Phasors
     sum: complex
 
-    @property
-    def is_major(self) -> bool:
-        """Whether all cylinders point the same way."""
-        return bool(abs(abs(self.sum) - len(self.vectors)) < 1e-9)
-
 
 def phase_star(layout: Layout, order: float) -> PhaseStar:
     """Return the phase star of one order: unit vectors exp(-i nu theta) at the firing angles theta.
@@ -157,26 +152,6 @@ def phase_star(layout: Layout, order: float) -> PhaseStar:
     firing = CrankGrid.from_degrees([wrapped(order * place.firing_angle) for place in layout.places])
     vectors = firing.cos - 1j * firing.sin
     return PhaseStar(order, vectors, complex(np.sum(vectors)))
-
-
-def major_orders(layout: Layout, highest: float) -> tuple[float, ...]:
-    """Return the orders in which all cylinders act together.
-
-    Parameters
-    ----------
-    layout : Layout
-        The cylinders.
-    highest : float
-        Highest order, per revolution. [-]
-
-    Returns
-    -------
-    tuple of float
-        Orders, ascending. [-]
-    """
-    step = 360.0 / layout.cycle
-    orders = [step * k for k in range(1, math.floor(highest / step + 1e-9) + 1)]
-    return tuple(order for order in orders if phase_star(layout, order).is_major)
 
 
 def total_harmonics(harmonics: TorqueHarmonics, layout: Layout) -> TorqueHarmonics:

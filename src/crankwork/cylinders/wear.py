@@ -12,7 +12,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from crankwork.cylinders.load_statistics import cycle_shares
 from crankwork.cylinders.load_vectors import BearingLoad
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
@@ -96,37 +95,6 @@ def wear_sums(load: BearingLoad, weights: ArrayLike | None = None, *, rays: int 
     """
     table = wear_table(load, rays, spread)
     return np.asarray(np.sum(table, axis=0) if weights is None else np.asarray(weights) @ table)
-
-
-def mean_wear(load: BearingLoad, degrees: ArrayLike, cycle: float, rays: int = 360, spread: float = 60.0) -> Array:
-    """Return a smooth wear diagram: mean over the cycle, each force fading as a cosine towards the ends of its arc.
-
-    Parameters
-    ----------
-    load : BearingLoad of array, shape (n,)
-        Load on the journal in its own frame. [N]
-    degrees : array, shape (n,)
-        Ascending crank angles, with or without the end of the cycle. [deg]
-    cycle : float
-        Length of the cycle. [deg]
-    rays : int
-        Number of rays.
-    spread : float
-        How far the arc of a force goes to either side. [deg]
-
-    Returns
-    -------
-    array, shape (rays,)
-        Mean load by ray; its mean around the journal is that of the classical diagram, mean load times
-        spread / 180. [N]
-
-    References
-    ----------
-    The classical diagram with the step at the ends of each arc replaced by (pi / 2) cos(90 deg distance / spread).
-    """
-    share = np.minimum(_distance(load, rays) / _checked(spread), 1.0)
-    fading = np.pi / 2 * np.cos(np.pi / 2 * share)
-    return np.asarray((cycle_shares(degrees, cycle) * load.resultant) @ fading)
 
 
 def _distance(load: BearingLoad, rays: int) -> Array:

@@ -7,12 +7,9 @@ import operator
 from dataclasses import dataclass
 from functools import reduce
 
-import numpy as np
-
 from crankwork.dynamics.force_parts import efficiency_share
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import Known, given, total
-from crankwork.kinematics.crank_grid import Array
 
 
 @dataclass(frozen=True)
@@ -122,27 +119,3 @@ def driving_torque_as_motor(M_st: Value, M_dyn: Value, eta: Value) -> Value:
 def driving_torque_as_brake(M_st: Value, M_dyn: Value, eta: Value) -> Value:
     """Torque of a motor that the crank drives."""
     return (M_st + M_dyn) * eta
-
-
-def driving_torque(static: Array, dynamic: Array, chain_efficiency: float) -> Array:
-    """Return the torque of the motor on the crank with the losses of the chain.
-
-    Parameters
-    ----------
-    static, dynamic : array, shape (n,)
-        Static and dynamic torque. [N m], [N m]
-    chain_efficiency : float
-        Efficiency of the chain. [-]
-
-    Returns
-    -------
-    array, shape (n,)
-        Torque: the sum over the efficiency where the motor drives, times the efficiency where it brakes. [N m]
-
-    Notes
-    -----
-    The slope jumps where the sum passes zero.
-    """
-    motor = driving_torque_as_motor(static, dynamic, chain_efficiency)
-    brake = driving_torque_as_brake(static, dynamic, chain_efficiency)
-    return np.asarray(np.where(static + dynamic > 0, motor, brake), dtype=float)

@@ -47,12 +47,6 @@ class GuideForce(NamedTuple):
     normal: Value
     moment: Value
 
-    @property
-    def application(self) -> Array:
-        """How far from the origin of the piece the normal force acts, along the guide; NaN without force. [m]"""
-        loaded = self.normal != 0
-        return np.where(loaded, self.moment / np.where(loaded, self.normal, 1.0), np.nan)
-
 
 Reaction = PinForce | GuideForce
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -42,28 +41,6 @@ class TabulatedBody:
 def reduced_inertia_of_ratios(m_i: Value, v_w: Value, J_S: Value, w_w: Value) -> Value:
     """Part of one body in the reduced moment of inertia, from its speeds over that of the crank."""
     return m_i * v_w**2 + J_S * w_w**2
-
-
-def tabulated_inertia(bodies: Iterable[TabulatedBody]) -> Array:
-    """Return the reduced moment of inertia from tabulated speed ratios.
-
-    Parameters
-    ----------
-    bodies : iterable of TabulatedBody
-        The bodies.
-
-    Returns
-    -------
-    array, shape (n,)
-        Moment of inertia. [kg m2]
-    """
-    parts = [
-        np.asarray(
-            reduced_inertia_of_ratios(one.mass, np.array(one.velocity_ratio), one.inertia, np.array(one.rotation_ratio))
-        )
-        for one in bodies
-    ]
-    return np.asarray(sum(parts), dtype=float)
 
 
 def difference_derivative(crank_angle: ArrayLike, values: ArrayLike, scheme: Differences = "central") -> Array:

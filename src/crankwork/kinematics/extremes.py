@@ -14,34 +14,6 @@ _SCAN = 720
 _MAX_STEPS = 40
 
 
-def roots(function: Callable[[Array], Array], start: float, end: float, *, scan: int = _SCAN) -> Array:
-    """Return the sign changes of a function of the crank angle, to the last bit.
-
-    Parameters
-    ----------
-    function : callable
-        Takes and returns an array of shape (n,). [deg] -> any
-    start, end : float
-        Range to search. [deg]
-    scan : int
-        Number of equal steps in which each root is to stand alone.
-
-    Returns
-    -------
-    array, shape (k,)
-        The roots, ascending. [deg]
-    """
-    edges = np.linspace(start, end, scan + 1)
-    exact = edges[function(edges) == 0]
-    # a root close to one that an edge hits exactly would hide behind it
-    aside = (end - start) / scan / 1000
-    edges = np.sort(np.concatenate([edges, exact - aside, exact + aside]))
-    values = function(edges)
-    left = np.flatnonzero(values[:-1] * values[1:] < 0)
-    found = closed_in(function, edges[left], edges[left + 1], values[left], values[left + 1])
-    return np.sort(np.concatenate([exact, found]))
-
-
 def closed_in(function: Callable[[Array], Array], low: Array, high: Array, at_low: Array, at_high: Array) -> Array:
     """Return a root between each pair of angles at which a function has different signs, to the last bit.
 

@@ -66,40 +66,6 @@ class _Row(NamedTuple):
     columns: list[tuple[int, Array, Array, Array]]
 
 
-def chain_motion(chain: Chain, grid: CrankGrid, around: Callable[[CrankGrid], Surroundings]) -> ChainMotion:
-    """Return the motion of a chain of links.
-
-    Parameters
-    ----------
-    chain : Chain
-        The links and the stated start.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    around : callable
-        What is placed before, as a function of the crank angles.
-
-    Returns
-    -------
-    ChainMotion
-        NaN where the chain cannot be reached from its start without passing a singular position.
-
-    Raises
-    ------
-    GeometryError
-        If pins and slides do not determine the links, or the chain cannot be assembled at the start.
-
-    Notes
-    -----
-    F(q, phi) = 0; q' and q'' solve J q' = -F' and J q'' = -F'' with the same Jacobian, where F' and F'' are the
-    derivatives of the equations with the unknown one set to zero.
-
-    References
-    ----------
-    uicker_2011, on numerical loop closure.
-    """
-    return ChainPath(chain, grid, around).motion(grid)
-
-
 class ChainPath:
     """Positions of a chain along the way of the crank, from the stated start; all others are solved from these.
 
@@ -111,6 +77,11 @@ class ChainPath:
         Crank angles to be reached. [rad]
     around : callable
         What is placed before, as a function of the crank angles.
+
+    Notes
+    -----
+    F(q, phi) = 0; q' and q'' solve J q' = -F' and J q'' = -F'' with the same Jacobian, where F' and F'' are the
+    derivatives of the equations with the unknown one set to zero (uicker_2011).
     """
 
     def __init__(self, chain: Chain, grid: CrankGrid, around: Callable[[CrankGrid], Surroundings]) -> None:

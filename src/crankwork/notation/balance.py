@@ -11,7 +11,4 @@ ARGUMENTS: dict[str, Argument] = {
     "K_M": Argument("moment_factor"),
     "a_z": Argument("balance_pitch"),
     "k_b": Argument("balanced_share"),
-    "Q_b": Argument("counterweight_moment"),
-    "r_b": Argument("counterweight_radius"),
-    "Q_s": Argument("balance_shaft_moment"),
 }

@@ -24,5 +24,4 @@ ARGUMENTS: dict[str, Argument] = {
     "cos_beta_a": Argument("articulated_rod_angle", "cos {}"),
     "beta_a1": Argument("articulated_rod_angle", "{}′"),
     "M_a": Argument("knuckle_couple"),
-    "h_c": Argument("clearance_height"),
 }

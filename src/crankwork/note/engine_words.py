@@ -40,10 +40,6 @@ class EngineWords(NoteWords):
         """Return the caption of a table."""
         return note_text(f"captions.{key}", self.language)
 
-    def continued(self, caption: str) -> str:
-        """Return the caption of the next part of a table."""
-        return say("captions.continued", self.language, caption=caption)
-
     def symbol(self, key: str) -> str:
         """Return the symbol of a key as `base_subscript`, what tells its parts apart in the subscript."""
         return value_symbol(key, self.language)

@@ -2,21 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
-from crankwork.formula.expression import Expression
 from crankwork.note.characters import xml_text
 from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright
-from crankwork.note.math import formula_box
-from crankwork.quantities import Language
 
-NAMESPACE = "http://www.w3.org/1998/Math/MathML"
 _SPACES = {"prefix": "0", "times": "0.12em", "slash": "0", "binary": "0.25em", "relation": "0.35em"}
-
-
-def mathml(tree: Expression, values: Mapping[str, float] | None = None, language: Language = "en") -> str:
-    """Return a recorded formula as an element `math`."""
-    return f'<math xmlns="{NAMESPACE}">{mathml_box(formula_box(tree, values, language))}</math>'
 
 
 def mathml_box(box: Box) -> str:  # noqa: C901 - one case per kind of box

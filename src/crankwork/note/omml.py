@@ -2,28 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
-from crankwork.formula.expression import Expression
 from crankwork.note.characters import xml_text
 from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright
-from crankwork.note.math import formula_box
-from crankwork.quantities import Language
 
-NAMESPACES = (
-    'xmlns:m="http://schemas.openxmlformats.org/officeDocument/2006/math" '
-    'xmlns:w="http://schemas.openxmlformats.org/wordprocessingml/2006/main"'
-)
 _FONT = '<w:rPr><w:rFonts w:ascii="Cambria Math" w:hAnsi="Cambria Math" w:cs="Cambria Math"/></w:rPr>'
 # normal text keeps a decimal comma tight, where mathematics would put a space after it
 # a parenthesis whose partner stands on another line is literal, or a reader of formulas looks for the partner
 _STYLES = {"letter": '<m:sty m:val="i"/>', "upright": '<m:sty m:val="p"/>', "text": "<m:nor/>",
            "literal": '<m:lit/><m:sty m:val="p"/>'}  # fmt: skip
-
-
-def omml(tree: Expression, values: Mapping[str, float] | None = None, language: Language = "en") -> str:
-    """Return a recorded formula as an element `m:oMath`, namespaces declared."""
-    return f"<m:oMath {NAMESPACES}>{omml_box(formula_box(tree, values, language))}</m:oMath>"
 
 
 def omml_box(box: Box) -> str:  # noqa: C901 - one case per kind of box

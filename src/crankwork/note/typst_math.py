@@ -2,28 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
-from crankwork.formula.expression import Expression
 from crankwork.note.characters import typst_string
 from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright
-from crankwork.note.math import formula_box
-from crankwork.quantities import Language
 
 _SIGNS = {"·": "dot.op", "": "thin", "/": "slash", "(": "paren.l", ")": "paren.r", ",": "comma thin", ";": '";" thin'}
 _PRIMES = {"′": "prime", "″": "prime.double", "‴": "prime.triple"}
-
-
-def typst_math(tree: Expression, values: Mapping[str, float] | None = None, language: Language = "en") -> str:
-    """Return a recorded formula as what stands between the dollar signs of Typst.
-
-    Examples
-    --------
-    >>> from crankwork.formula.expression import record
-    >>> typst_math(record(lambda r, w: r * w**2 / 2))
-    'frac(r thin attach(ω, t: 2), 2)'
-    """
-    return typst_box(formula_box(tree, values, language))
 
 
 def typst_box(box: Box) -> str:  # noqa: C901 - one case per kind of box

@@ -21,18 +21,7 @@ ROWS = (
              "Share of the reciprocating mass that counterweights balance as if it turned with the crankpin."),
     Quantity("counterweight_moment", "kg*m",
              "Mass of a counterweight times the distance of its centre of mass from the crankshaft axis."),
-    Quantity("counterweight_mass", "kg", "Mass of one counterweight."),
-    Quantity("counterweight_radius", "mm",
-             "Distance of the centre of mass of a counterweight from the crankshaft axis."),
-    Quantity("residual_force", "N", "First order of the inertia forces of one cylinder that partial balance leaves."),
     # balance shafts
     Quantity("balance_shaft_moment", "kg*m",
              "Mass of the weight on one balance shaft times the distance of its centre of mass from that shaft."),
-    Quantity("balance_shaft_torque", "N*m",
-             "Moment of the forces of the balance shafts about the crankshaft axis, positive with the rotation."),
-    # locomotives
-    Quantity("tractive_effort_variation", "N",
-             "Primary inertia force along the line of stroke that the counterweights leave."),
-    Quantity("swaying_couple", "N*m",
-             "Couple, about the vertical midway between the cylinders, of the primary forces that are left."),
 )  # fmt: skip

@@ -38,5 +38,4 @@ ROWS = (
     Quantity("articulated_rod_angle", "deg", "Angle between articulated rod and axis of its cylinder."),
     Quantity("knuckle_couple", "N*m", "Moment of the force on the knuckle pin about the crankpin."),
     Quantity("knuckle_side_force", "N", "Side force of the master piston that holds the moment of the knuckle pin."),
-    Quantity("clearance_height", "mm", "Clearance volume over piston area."),
 )  # fmt: skip

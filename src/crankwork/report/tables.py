@@ -65,13 +65,8 @@ def row_name(name: str, language: Language) -> str:
     return f"{what} {number}".rstrip()
 
 
-def csv_table(results: Results, name: str, *, per_area: bool = False, for_excel: bool = False) -> bytes:
-    """Return a table as CSV, all digits, one heading line `key [unit]`."""
-    return csv_of_sheet(sheets(results, per_area=per_area)[name], per_area=per_area, for_excel=for_excel)
-
-
 def csv_of_sheet(sheet: Sheet, *, per_area: bool = False, for_excel: bool = False) -> bytes:
-    """Return one table as CSV; parameters as those of `csv_table`."""
+    """Return one table as CSV."""
     separator = ";" if for_excel else ","
     headings = [_quoted(f"{key} [{key_unit(key, per_area=per_area) or '-'}]") for key in sheet.columns]
     columns = [[_number(one, for_excel=for_excel) for one in values.tolist()] for values in sheet.columns.values()]

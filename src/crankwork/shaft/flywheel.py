@@ -20,6 +20,12 @@ def inertia_for_fluctuation(L_exc: Value, delta: Value, w: Value) -> Value:
     return L_exc / (delta * w**2)
 
 
+@formula("inertia_on_crank", "artobolevsky_1988, ch. 16")
+def inertia_on_other_shaft(J_f: Value, i_g: Value) -> Value:
+    """Moment of inertia that acts on the crank like a body on a shaft that turns i times as fast."""
+    return J_f * i_g**2
+
+
 @formula("wittenbauer_slope", "wittenbauer_1923", unit="J/(kg*m2)")
 def wittenbauer_slope_largest(w: Value, delta: Value) -> Value:
     """Slope of the upper tangent of the mass-energy curve, with the square of delta left out."""

@@ -19,7 +19,6 @@ class GasSpeedFactors(NamedTuple):
     burning: float
 
 
-GAS_EXCHANGE = GasSpeedFactors(6.18, 0.0)
 COMPRESSION = GasSpeedFactors(2.28, 0.0)
 EXPANSION = GasSpeedFactors(2.28, 3.24e-3)
 

@@ -16,7 +16,6 @@ from crankwork.quantities import Language
 Size = Literal["A1", "A0"]
 SIZES: dict[Size, tuple[float, float]] = {"A1": (841.0, 594.0), "A0": (1189.0, 841.0)}
 _BINDING, _EDGE = 20.0, 5.0
-_CORNER = 14.0
 # layouts are laid out on the field of A1 between its margins
 _FIELD = (816.0, 580.0)
 
