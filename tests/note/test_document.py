@@ -52,9 +52,8 @@ def test_equations_tables_and_figures_are_counted_apart():
 
 
 def test_sources_are_numbered_in_the_order_in_which_the_text_comes_to_them():
-    numbers = _numbered(
-        Paragraph((Citation("den_hartog_1956, p. 12"),)), Equation(STEP), Paragraph((Citation("den_hartog_1956"),))
-    )
+    book = "den_hartog_1956"
+    numbers = _numbered(Paragraph((Citation(f"{book}, p. 12"),)), Equation(STEP), Paragraph((Citation(book),)))
     assert list(numbers.sources) == [book, "kolchin_demidov_2008"]
     assert [numbers.citation(f"{book}, p. 12"), numbers.citation(book)] == ["[1, с. 12]", "[1]"]
 

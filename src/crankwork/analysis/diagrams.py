@@ -53,17 +53,10 @@ def _corners(results: Results) -> tuple[float, ...]:
 
 
 class BrixPoints(NamedTuple):
-    """Points of Brix's circle for a circle of radius 1 about the crankshaft, up towards top dead centre.
+    """Points of Brix's circle for a circle of radius 1 about the crankshaft, up towards top dead centre."""
 
-    Parameters
-    ----------
-    pole : array, shape (2,)
-        Where the rays begin: right and up, in crank radii. [-]
-    across, up : array, shape (n,)
-        Where they cut the circle. [-]
-    """
-
-    pole: Array
+    pole: Array  # Where the rays begin: right and up, in crank radii, shape (2,) [-]
+    # Where they cut the circle, shape (n,) [-]
     across: Array
     up: Array
 
@@ -98,15 +91,10 @@ def brix_points(lengths: SliderCrank, degrees: Array) -> BrixPoints:
 
 
 class TollePoints(NamedTuple):
-    """Points of Tolle's construction: displacement over the crank radius, acceleration over r w^2.
+    """Points of Tolle's construction: displacement over the crank radius, acceleration over r w^2."""
 
-    Parameters
-    ----------
-    a, b, c, d, e, f : tuple of float
-        A and B at the dead centres on the axis, C and D at the accelerations there, E where CD cuts the axis,
-        F at the acceleration -3 r/l beside E. [-]
-    """
-
+    # A and B at the dead centres on the axis, C and D at the accelerations there, E where CD cuts the axis, F at the
+    # acceleration -3 r/l beside E [-]
     a: tuple[float, float]
     b: tuple[float, float]
     c: tuple[float, float]

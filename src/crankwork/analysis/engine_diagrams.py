@@ -36,24 +36,12 @@ _LOCI = 2
 
 
 class CrankpinLoad(NamedTuple):
-    """Load of the rods on a crankpin.
+    """Load of the rods on a crankpin."""
 
-    Parameters
-    ----------
-    size : array, shape (n,)
-        Of the whole load. [N]
-    polar : PolarDiagram
-        Tangential to the right, radial downward.
-    inertia : float
-        Inertia force of all rod masses at the crankpin, never positive. [N]
-    rods : int
-        How many turn on it.
-    """
-
-    size: Array
-    polar: PolarDiagram
-    inertia: float
-    rods: int
+    size: Array  # Of the whole load, shape (n,) [N]
+    polar: PolarDiagram  # Tangential to the right, radial downward
+    inertia: float  # Inertia force of all rod masses at the crankpin, never positive [N]
+    rods: int  # How many turn on it
 
 
 class Locus(NamedTuple):
@@ -112,15 +100,9 @@ def wear_rings(results: Results, listing: str) -> tuple[Array, dict[str, WearRin
 
 @dataclass(frozen=True)
 class EngineDiagrams:
-    """Curves and diagrams of a whole engine.
+    """Curves and diagrams of a whole engine."""
 
-    Parameters
-    ----------
-    results : Results
-        Of a machine with an engine whose forces are known.
-    """
-
-    results: Results
+    results: Results  # Of a machine with an engine whose forces are known
 
     @property
     def cycle(self) -> float:

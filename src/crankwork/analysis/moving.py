@@ -37,24 +37,12 @@ class Frame(NamedTuple):
 
 
 class Moving(NamedTuple):
-    """A linkage at crank angles.
+    """A linkage at crank angles."""
 
-    Parameters
-    ----------
-    degrees : array, shape (n,)
-        Crank angles. [deg]
-    points : mapping of str to Track
-        Points by name. [m]
-    frames : mapping of str to Frame
-        Links and sliding pieces by name.
-    sliders : mapping of str to array, shape (n,)
-        Distance of each slider along its guide. [m]
-    """
-
-    degrees: Array
-    points: Mapping[str, Track]
-    frames: Mapping[str, Frame]
-    sliders: Mapping[str, Array]
+    degrees: Array  # Crank angles, shape (n,) [deg]
+    points: Mapping[str, Track]  # Points by name [m]
+    frames: Mapping[str, Frame]  # Links and sliding pieces by name
+    sliders: Mapping[str, Array]  # Distance of each slider along its guide, shape (n,) [m]
 
 
 def moving(mechanism: Mechanism, degrees: ArrayLike) -> Moving:

@@ -18,21 +18,13 @@ _ROWS = 12
 
 
 class Polytropes(NamedTuple):
-    """Polytropes of compression and expansion, as far as a diagram has them.
+    """Polytropes of compression and expansion, as far as a diagram has them."""
 
-    Parameters
-    ----------
-    exponents : mapping of str to float
-        Exponents of `compression` and `expansion`. [-]
-    multiples, volumes : array, shape (n,)
-        Volumes in multiples of the clearance volume, and themselves. [-], [m3]
-    pressures : mapping of str to array, shape (n,)
-        Pressures of `compression` and `expansion`, not a number beyond their ends. [Pa]
-    """
-
-    exponents: Mapping[str, float]
+    exponents: Mapping[str, float]  # Exponents of `compression` and `expansion` [-]
+    # Volumes in multiples of the clearance volume, and themselves, shape (n,) [-], [m3]
     multiples: Array
     volumes: Array
+    # Pressures of `compression` and `expansion`, not a number beyond their ends, shape (n,) [Pa]
     pressures: Mapping[str, Array]
 
 

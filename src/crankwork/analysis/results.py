@@ -31,17 +31,11 @@ _SAME_ANGLE = 1e-9
 
 
 class Listing(NamedTuple):
-    """A table that does not run over the crank angle: orders, rays, cylinders, bearings.
+    """A table that does not run over the crank angle: orders, rays, cylinders, bearings."""
 
-    Parameters
-    ----------
-    columns : mapping of str to array, shape (n,)
-        Columns by key of `quantities.QUANTITIES`, the first of which says what each row is. [SI]
-    names : tuple of str
-        What rows are called where they are things, such as `crankpin.1`; empty where the first column says it.
-    """
-
+    # Columns by key of `quantities.QUANTITIES`, the first of which says what each row is, shape (n,) [SI]
     columns: Mapping[str, Array]
+    # What rows are called where they are things, such as `crankpin.1`; empty where the first column says it
     names: tuple[str, ...] = ()
 
 

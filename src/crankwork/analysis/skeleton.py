@@ -34,25 +34,14 @@ class Member(NamedTuple):
 
 
 class Skeleton(NamedTuple):
-    """A mechanism as it is drawn.
+    """A mechanism as it is drawn."""
 
-    Parameters
-    ----------
-    members : tuple of Member
-        Moving links, the crank first.
-    pivots : mapping of str to tuple of float
-        Joints with the ground, that of the crank first. [m]
-    coupler_points, centres : tuple of str
-        Points that are no joints: those that draw a path, and centres of mass.
-    letters : mapping of str to str
-        What is written at a point.
-    """
-
-    members: tuple[Member, ...]
-    pivots: Mapping[str, Point]
+    members: tuple[Member, ...]  # Moving links, the crank first
+    pivots: Mapping[str, Point]  # Joints with the ground, that of the crank first [m]
+    # Points that are no joints: those that draw a path, and centres of mass
     coupler_points: tuple[str, ...]
     centres: tuple[str, ...]
-    letters: Mapping[str, str]
+    letters: Mapping[str, str]  # What is written at a point
 
     @property
     def crank(self) -> Member:

@@ -15,20 +15,11 @@ from crankwork.loads.weight import Weight
 
 
 class StatedLoad(NamedTuple):
-    """A load as a description states it.
+    """A load as a description states it."""
 
-    Parameters
-    ----------
-    kind : str
-        `slider`, `point`, `force`, `torque`, `spring`, `slider_spring` or `weight`.
-    names : mapping of str to str
-        What it acts on: `name`, and the `other` end of a spring.
-    amounts : mapping of str to (float or None, str)
-        Values and the units in which they are told; of a table its largest, none of a law that is a program. [SI]
-    """
-
-    kind: str
-    names: Mapping[str, str]
+    kind: str  # `slider`, `point`, `force`, `torque`, `spring`, `slider_spring` or `weight`
+    names: Mapping[str, str]  # What it acts on: `name`, and the `other` end of a spring
+    # Values and the units in which they are told; of a table its largest, none of a law that is a program [SI]
     amounts: Mapping[str, tuple[float | None, str]]
 
 

@@ -92,25 +92,15 @@ def articulated_rod_transfer_2(y_A2: Value, l_a: Value, beta_a1: Value, sin_beta
 
 
 class ArticulatedRod(NamedTuple):
-    """An articulated rod and where its knuckle pin and its cylinder are.
+    """An articulated rod and where its knuckle pin and its cylinder are."""
 
-    Parameters
-    ----------
-    length, knuckle_radius : float
-        Between knuckle pin and piston pin; from the crankpin to the knuckle pin. [m], [m]
-    knuckle_angle : float
-        From the axis of the master rod to the knuckle pin, seen from the crankpin, positive with the rotation. [deg]
-    axis : float
-        From the axis of the master cylinder to its own, positive with the rotation. [deg]
-    offset : float
-        Of its cylinder axis from the crankshaft, positive towards the crankpin at 90 degrees. [m]
-    """
-
+    # Between knuckle pin and piston pin; from the crankpin to the knuckle pin [m]
     length: float
     knuckle_radius: float
+    # From the axis of the master rod to the knuckle pin, seen from the crankpin, positive with the rotation [deg]
     knuckle_angle: float
-    axis: float
-    offset: float = 0.0
+    axis: float  # From the axis of the master cylinder to its own, positive with the rotation [deg]
+    offset: float = 0.0  # Of its cylinder axis from the crankshaft, positive towards the crankpin at 90 degrees [m]
 
 
 class ArticulatedMotion(NamedTuple):

@@ -46,17 +46,10 @@ def free_moment(K_M: Value, a_z: Value, F_jq: Value) -> Value:
 
 
 class InertiaHarmonics(NamedTuple):
-    """Orders of the piston acceleration x''/r = Re sum C_q exp(i q phi).
+    """Orders of the piston acceleration x''/r = Re sum C_q exp(i q phi)."""
 
-    Parameters
-    ----------
-    orders : tuple of int
-        The orders q.
-    coefficients : complex, shape (orders,) or (cylinders, orders)
-        The coefficients C_q, by the crank angle of each cylinder's own axis. [-]
-    """
-
-    orders: tuple[int, ...]
+    orders: tuple[int, ...]  # The orders q
+    # The coefficients C_q, by the crank angle of each cylinder's own axis, shape (orders,) [-]
     coefficients: ComplexArray
 
 

@@ -16,44 +16,24 @@ from crankwork.cylinders.ellipse import Ellipse, OrderBalance, balance_sum, unit
 
 
 class ShaftPlace(NamedTuple):
-    """Where a balance shaft lies beside the crankshaft.
+    """Where a balance shaft lies beside the crankshaft."""
 
-    Parameters
-    ----------
-    height, side : float
-        Distance from the crankshaft axis along the reference direction of the engine, and 90 degrees further with the
-        rotation. [m]
-    """
-
+    # Distance from the crankshaft axis along the reference direction of the engine, and 90 degrees
+    # further with the rotation [m]
     height: float = 0.0
     side: float = 0.0
 
 
 class ShaftWeight(NamedTuple):
-    """A weight on a balance shaft.
+    """A weight on a balance shaft."""
 
-    Parameters
-    ----------
-    order : int
-        Speed of the shaft over that of the crankshaft.
-    sense : int
-        1 where it turns with the crankshaft, -1 against it.
-    mass_moment : float
-        Mass times eccentricity. [kg m]
-    angle : float
-        Its direction from the reference direction at crank angle zero, positive with the crank's rotation. [deg]
-    position : float
-        Its place along the shaft, as those of the cylinders. [m]
-    place : ShaftPlace
-        Where the shaft lies.
-    """
-
-    order: int
-    sense: int
-    mass_moment: float
+    order: int  # Speed of the shaft over that of the crankshaft
+    sense: int  # 1 where it turns with the crankshaft, -1 against it
+    mass_moment: float  # Mass times eccentricity [kg m]
+    # Its direction from the reference direction at crank angle zero, positive with the crank's rotation [deg]
     angle: float
-    position: float
-    place: ShaftPlace = ShaftPlace()
+    position: float  # Its place along the shaft, as those of the cylinders [m]
+    place: ShaftPlace = ShaftPlace()  # Where the shaft lies
 
 
 def balance_shafts(

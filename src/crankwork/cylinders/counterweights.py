@@ -27,24 +27,12 @@ def counterweight_moment(m_rot: Value, k_b: Value, m_rec: Value, r: Value) -> Va
 
 
 class Unbalance(NamedTuple):
-    """A mass that turns with the crankshaft.
+    """A mass that turns with the crankshaft."""
 
-    Parameters
-    ----------
-    mass_moment : float
-        Mass times distance of its centre of mass from the crankshaft axis. [kg m]
-    angle : float
-        Its direction, ahead of the crankpin of cylinder 1. [deg]
-    position : float
-        Its place along the shaft, as those of the cylinders. [m]
-    name : str
-        What it is: `throw.2`, `counterweights.3`.
-    """
-
-    mass_moment: Value
-    angle: float
-    position: float
-    name: str = ""
+    mass_moment: Value  # Mass times distance of its centre of mass from the crankshaft axis [kg m]
+    angle: float  # Its direction, ahead of the crankpin of cylinder 1 [deg]
+    position: float  # Its place along the shaft, as those of the cylinders [m]
+    name: str = ""  # What it is: `throw.2`, `counterweights.3`
 
 
 def rotating_unbalances(layout: Layout, mass: ArrayLike, crank_radius: float) -> tuple[Unbalance, ...]:

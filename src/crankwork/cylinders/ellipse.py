@@ -46,14 +46,9 @@ def vector_sum(terms: ArrayLike) -> complex:
 
 
 class Ellipse(NamedTuple):
-    """A vector made of one that turns with the crank and one that turns against it, at the same speed.
+    """A vector made of one that turns with the crank and one that turns against it, at the same speed."""
 
-    Parameters
-    ----------
-    forward, backward : complex
-        The two where the crank angle of cylinder 1 is zero; force or moment. [N or N m]
-    """
-
+    # The two where the crank angle of cylinder 1 is zero; force or moment [N or N m]
     forward: complex
     backward: complex
 

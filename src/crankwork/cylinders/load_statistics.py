@@ -44,18 +44,12 @@ def cycle_shares(degrees: ArrayLike, cycle: float) -> Array:
 
 
 class LoadReversal(NamedTuple):
-    """How long and how strongly a bearing is loaded along the rod in either direction.
+    """How long and how strongly a bearing is loaded along the rod in either direction."""
 
-    Parameters
-    ----------
-    compression, tension : float
-        Longest unbroken stretch of the cycle in that direction. [deg], [deg]
-    compression_peak, tension_peak : float
-        Largest force in that direction, not negative. [N], [N]
-    """
-
+    # Longest unbroken stretch of the cycle in that direction [deg]
     compression: float
     tension: float
+    # Largest force in that direction, not negative [N]
     compression_peak: float
     tension_peak: float
 
@@ -107,24 +101,14 @@ def reversal(
 
 
 class PolarDiagram(NamedTuple):
-    """The end of a load vector over the cycle, as a curve with marked crank angles, seen from its pole.
+    """The end of a load vector over the cycle, as a curve with marked crank angles, seen from its pole."""
 
-    Parameters
-    ----------
-    across, down : array, shape (n,)
-        Curve: to the right and downward, in a crank frame tangential and radial force. [N], [N]
-    pole : tuple of float
-        Where the vectors begin, right and down. [N]
-    marks : array, shape (m,)
-        Marked crank angles. [deg]
-    marks_across, marks_down : array, shape (m,)
-        Points of the curve at the marked angles. [N], [N]
-    """
-
+    # Curve: to the right and downward, in a crank frame tangential and radial force, shape (n,) [N]
     across: Array
     down: Array
-    pole: tuple[float, float]
-    marks: Array
+    pole: tuple[float, float]  # Where the vectors begin, right and down [N]
+    marks: Array  # Marked crank angles, shape (m,) [deg]
+    # Points of the curve at the marked angles, shape (m,) [N]
     marks_across: Array
     marks_down: Array
 

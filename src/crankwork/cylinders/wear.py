@@ -110,22 +110,13 @@ def _checked(spread: float) -> float:
 
 
 class OilHole(NamedTuple):
-    """Where a journal is loaded least.
+    """Where a journal is loaded least."""
 
-    Parameters
-    ----------
-    angle : float
-        Middle of the least loaded arc, from the reference direction of the frame with the rotation. [deg]
-    arc : float
-        Width of that arc: one step of the rays for each ray on it. 360 if all rays are as good, and then the angle
-        says nothing. [deg]
-    least : float
-        The sum there. [N]
-    """
-
-    angle: float
+    angle: float  # Middle of the least loaded arc, from the reference direction of the frame with the rotation [deg]
+    # Width of that arc: one step of the rays for each ray on it. 360 if all rays are as good, and then the
+    # angle says nothing [deg]
     arc: float
-    least: float
+    least: float  # The sum there [N]
 
 
 def oil_hole(sums: ArrayLike) -> OilHole:

@@ -14,31 +14,17 @@ from crankwork.formula.known import Known, given, total
 
 @dataclass(frozen=True)
 class Series:
-    """Joints or chains through which all power flows, one after the other.
+    """Joints or chains through which all power flows, one after the other."""
 
-    Parameters
-    ----------
-    parts : tuple of float, Series or Parallel
-        Their efficiencies. [-]
-    """
-
-    parts: tuple[Chain, ...]
+    parts: tuple[Chain, ...]  # Their efficiencies [-]
 
 
 @dataclass(frozen=True)
 class Parallel:
-    """Joints or chains between which the power divides.
+    """Joints or chains between which the power divides."""
 
-    Parameters
-    ----------
-    parts : tuple of float, Series or Parallel
-        Their efficiencies. [-]
-    shares : tuple of float
-        Share of the power through each; equal where none are given. [-]
-    """
-
-    parts: tuple[Chain, ...]
-    shares: tuple[float, ...] = ()
+    parts: tuple[Chain, ...]  # Their efficiencies [-]
+    shares: tuple[float, ...] = ()  # Share of the power through each; equal where none are given [-]
 
 
 Chain = float | Series | Parallel

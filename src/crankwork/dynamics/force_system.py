@@ -29,20 +29,12 @@ _FIXED_AXES: list[Vector] = [(_ONE, _ZERO), (_ZERO, _ONE)]
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """The equations of some links, three each, with two unknowns for each joint.
+    """The equations of some links, three each, with two unknowns for each joint."""
 
-    Parameters
-    ----------
-    links : tuple of str
-        The links, in order.
-    joints : tuple of Joint
-        The joints that hold them, in order.
-    matrix : array, shape (n, 3 links, unknowns)
-        Force and moment on each link of a unit of each unknown; moments about the origins of the frames. [- or m]
-    """
-
-    links: tuple[str, ...]
-    joints: tuple[Joint, ...]
+    links: tuple[str, ...]  # The links, in order
+    joints: tuple[Joint, ...]  # The joints that hold them, in order
+    # Force and moment on each link of a unit of each unknown; moments about the origins of the frames, shape (n, 3
+    # links, unknowns) [- or m]
     matrix: Array
 
     def right_side(self, wrenches: Acting) -> Array:

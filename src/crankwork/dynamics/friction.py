@@ -47,38 +47,21 @@ _REST = 1e-12
 
 @dataclass(frozen=True)
 class FrictionForces:
-    """Joint forces with friction, and how far they are to be relied on.
+    """Joint forces with friction, and how far they are to be relied on."""
 
-    Parameters
-    ----------
-    joint_forces : JointForces
-        Reactions and balancing torque with friction; NaN where `status` is not 0. [N], [N m]
-    ideal_torque : array, shape (n,)
-        Balancing torque without friction. [N m]
-    friction : mapping of str to array, shape (n,)
-        By joint, the friction moment on the link that a pin holds, or the friction force on a sliding piece along
-        its guide. [N m or N]
-    power_loss : array, shape (n,)
-        Power that all joints take. [W]
-    efficiency : array, shape (n,)
-        Torque without friction over torque with it where the crank drives, the reverse where the load does; zero
-        or less where the load alone could not move the mechanism. [-]
-    residual : array, shape (n,)
-        By what share of the forces on a link the equilibrium is missed. [-]
-    status : array of int, shape (n,)
-        0 converged, 1 not converged, 2 self-locking, 3 no position; `MEANING` says it in words. [-]
-    iterations : int
-        Steps of the iteration.
-    """
-
-    joint_forces: JointForces
-    ideal_torque: Array
+    joint_forces: JointForces  # Reactions and balancing torque with friction; NaN where `status` is not 0 [N], [N m]
+    ideal_torque: Array  # Balancing torque without friction, shape (n,) [N m]
+    # By joint, the friction moment on the link that a pin holds, or the friction force on a sliding piece along its
+    # guide, shape (n,) [N m or N]
     friction: Mapping[str, Array]
-    power_loss: Array
+    power_loss: Array  # Power that all joints take, shape (n,) [W]
+    # Torque without friction over torque with it where the crank drives, the reverse where the load does; zero or less
+    # where the load alone could not move the mechanism, shape (n,) [-]
     efficiency: Array
-    residual: Array
+    residual: Array  # By what share of the forces on a link the equilibrium is missed, shape (n,) [-]
+    # 0 converged, 1 not converged, 2 self-locking, 3 no position; `MEANING` says it in words, shape (n,) [-]
     status: Status
-    iterations: int
+    iterations: int  # Steps of the iteration
 
     @property
     def held(self) -> NDArray[np.bool_]:

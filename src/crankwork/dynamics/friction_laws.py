@@ -9,40 +9,22 @@ from crankwork.formula.expression import Value, formula
 
 @dataclass(frozen=True)
 class PinFriction:
-    """Friction in a revolute joint.
+    """Friction in a revolute joint."""
 
-    Parameters
-    ----------
-    joint : str
-        Name of the joint, see `mechanism.joints`.
-    radius : float
-        Radius of the pin. [m]
-    coefficient : float
-        Friction moment over joint force and radius, f': from f in a loose bearing to 1.57 f in a tight new one. [-]
-    """
-
-    joint: str
-    radius: float
+    joint: str  # Name of the joint, see `mechanism.joints`
+    radius: float  # Radius of the pin [m]
+    # Friction moment over joint force and radius, f': from f in a loose bearing to 1.57 f in a tight new one [-]
     coefficient: float
 
 
 @dataclass(frozen=True)
 class GuideFriction:
-    """Friction of a sliding piece on its guide.
+    """Friction of a sliding piece on its guide."""
 
-    Parameters
-    ----------
-    slider : str
-        The sliding piece.
-    coefficient : float
-        Friction force over normal force, the tangent of the friction angle. [-]
-    length : float
-        Length of the piece along the guide, its origin in the middle. The moment of the normal force then
-        presses the ends of the piece on both sides; with 0 that moment makes no friction. [m]
-    """
-
-    slider: str
-    coefficient: float
+    slider: str  # The sliding piece
+    coefficient: float  # Friction force over normal force, the tangent of the friction angle [-]
+    # Length of the piece along the guide, its origin in the middle. The moment of the normal force then presses the
+    # ends of the piece on both sides; with 0 that moment makes no friction [m]
     length: float = 0.0
 
 

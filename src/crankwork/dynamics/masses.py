@@ -39,22 +39,15 @@ def rotating_mass(m_k: Value, m_2: Value) -> Value:
 
 @dataclass(frozen=True)
 class CrankGearMasses:
-    """Masses of one crank gear. [kg], [kg m2]
+    """Masses of one crank gear. [kg], [kg m2]"""
 
-    Parameters
-    ----------
-    piston, crank : float
-        Piston group; unbalanced crank throw at the crankpin. [kg]
-    rod_small_end, rod_big_end : float
-        Rod mass at the piston pin and at the crankpin. [kg]
-    rod_inertia_excess : float
-        Inertia of the rod beyond that of the two masses; zero where nothing more is known. [kg m2]
-    """
-
+    # Piston group; unbalanced crank throw at the crankpin [kg]
     piston: float = 0.0
+    # Rod mass at the piston pin and at the crankpin [kg]
     rod_small_end: float = 0.0
     rod_big_end: float = 0.0
     crank: float = 0.0
+    # Inertia of the rod beyond that of the two masses; zero where nothing more is known [kg m2]
     rod_inertia_excess: float = 0.0
 
     @property

@@ -105,21 +105,12 @@ def reaction_wrench(reaction: Reaction, motion: Motion, link: str) -> Wrench:
 
 @dataclass(frozen=True)
 class JointForces:
-    """Reactions in all joints, and the torque that the crank needs.
+    """Reactions in all joints, and the torque that the crank needs."""
 
-    Parameters
-    ----------
-    pins : mapping of str to PinForce
-        Forces in the revolute joints by name, arrays of shape (n,). [N]
-    guides : mapping of str to GuideForce
-        Normal forces and moments of the guides by sliding piece, arrays of shape (n,). [N], [N m]
-    balancing_torque : array, shape (n,)
-        Torque on the crank, positive with the rotation. [N m]
-    """
-
-    pins: Mapping[str, PinForce]
+    pins: Mapping[str, PinForce]  # Forces in the revolute joints by name, arrays of shape (n,) [N]
+    # Normal forces and moments of the guides by sliding piece, arrays of shape (n,) [N], [N m]
     guides: Mapping[str, GuideForce]
-    balancing_torque: Value
+    balancing_torque: Value  # Torque on the crank, positive with the rotation, shape (n,) [N m]
 
     def columns(self) -> dict[str, Array]:
         """Return the columns of a table: components and resultants by joint, the balancing torque last. [N], [N m]"""

@@ -12,24 +12,10 @@ from crankwork.mechanism.mechanism import Mechanism
 
 @dataclass(frozen=True)
 class Running:
-    """A mechanism at work: what it is, how it moves, how fast it runs and what pushes it.
+    """A mechanism at work: what it is, how it moves, how fast it runs and what pushes it."""
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        Links, joints and bodies.
-    motion : Motion
-        Its motion.
-    speed : float or array, shape (n,)
-        Angular speed of the crank. [rad/s]
-    loads : AppliedLoads
-        Forces and torques.
-    angular_acceleration : float or array, shape (n,)
-        Angular acceleration of the crank. [rad/s2]
-    """
-
-    mechanism: Mechanism
+    mechanism: Mechanism  # Links, joints and bodies
     motion: Motion
-    speed: Value = 0.0
-    loads: AppliedLoads = NO_LOADS
-    angular_acceleration: Value = 0.0
+    speed: Value = 0.0  # Angular speed of the crank, shape (n,) [rad/s]
+    loads: AppliedLoads = NO_LOADS  # Forces and torques
+    angular_acceleration: Value = 0.0  # Angular acceleration of the crank, shape (n,) [rad/s2]

@@ -16,25 +16,15 @@ Differences = Literal["forward", "central", "spectral"]
 
 @dataclass(frozen=True)
 class TabulatedBody:
-    """A body whose motion is a column of numbers.
-
-    Parameters
-    ----------
-    name : str
-        Its name.
-    mass, inertia : float
-        Mass, and moment of inertia about the point whose speed is given. [kg], [kg m2]
-    velocity_ratio : tuple of float
-        Speed of that point over the angular speed of the crank, one for each crank angle. [m]
-    rotation_ratio : tuple of float
-        Angular speed of the body over that of the crank. [-]
-    """
+    """A body whose motion is a column of numbers."""
 
     name: str
+    # Mass, and moment of inertia about the point whose speed is given [kg], [kg m2]
     mass: float = 0.0
     inertia: float = 0.0
+    # Speed of that point over the angular speed of the crank, one for each crank angle [m]
     velocity_ratio: tuple[float, ...] = (0.0,)
-    rotation_ratio: tuple[float, ...] = (0.0,)
+    rotation_ratio: tuple[float, ...] = (0.0,)  # Angular speed of the body over that of the crank [-]
 
 
 @formula("reduced_inertia", "artobolevsky_1988, ch. 15")

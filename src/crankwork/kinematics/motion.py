@@ -33,32 +33,17 @@ Status = NDArray[np.int8]
 
 @dataclass(frozen=True)
 class Motion:
-    """Position, first and second transfer function of everything that moves.
+    """Position, first and second transfer function of everything that moves."""
 
-    Parameters
-    ----------
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    points : mapping of str to PointMotion
-        Coordinates of the named points, arrays of shape (n,). [m]
-    links : mapping of str to Transfer
-        Direction of each link that does not slide from the x axis, arrays of shape (n,). [rad]
-    sliders : mapping of str to Transfer
-        Distance of each slider along its guide, arrays of shape (n,). [m]
-    method : Method
-        How it was made.
-    frames : mapping of str to LinkMotion
-        Links and sliding pieces as frames, with origin and direction; empty where the motion comes from a table.
-    status : int, shape (n,), or None
-        0 where the crank gets, 1 where the mechanism cannot be assembled, 2 where it can, but not be reached.
-    """
-
-    grid: CrankGrid
-    points: Mapping[str, PointMotion]
+    grid: CrankGrid  # Crank angles, shape (n,) [rad]
+    points: Mapping[str, PointMotion]  # Coordinates of the named points, arrays of shape (n,) [m]
+    # Direction of each link that does not slide from the x axis, arrays of shape (n,) [rad]
     links: Mapping[str, Transfer]
-    sliders: Mapping[str, Transfer]
-    method: Method
+    sliders: Mapping[str, Transfer]  # Distance of each slider along its guide, arrays of shape (n,) [m]
+    method: Method  # How it was made
+    # Links and sliding pieces as frames, with origin and direction; empty where the motion comes from a table
     frames: Mapping[str, LinkMotion] = field(default_factory=dict)
+    # 0 where the crank gets, 1 where the mechanism cannot be assembled, 2 where it can, but not be reached, shape (n,)
     status: Status | None = None
 
 

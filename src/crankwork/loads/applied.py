@@ -37,17 +37,9 @@ class AppliedTorque(NamedTuple):
 
 @dataclass(frozen=True)
 class AppliedLoads:
-    """Forces and torques on the links of a mechanism.
+    """Forces and torques on the links of a mechanism."""
 
-    Parameters
-    ----------
-    forces : tuple of AppliedForce
-        Forces, in any order.
-    torques : tuple of AppliedTorque
-        Torques.
-    """
-
-    forces: tuple[AppliedForce, ...] = ()
+    forces: tuple[AppliedForce, ...] = ()  # Forces, in any order
     torques: tuple[AppliedTorque, ...] = ()
 
     def also(self, other: AppliedLoads) -> AppliedLoads:

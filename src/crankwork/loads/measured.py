@@ -18,22 +18,13 @@ _WRAP = 0.05
 
 @dataclass(frozen=True)
 class MeasuredPressure:
-    """Pressure samples of one or more cycles, as recorded.
+    """Pressure samples of one or more cycles, as recorded."""
 
-    Parameters
-    ----------
-    degrees, pressure : array, shape (n,)
-        Crank angles, rising throughout, and pressures. [deg], [Pa]
-    rows : sequence of int
-        Line numbers of the samples in their file, for messages.
-    file : str
-        Name of that file, without its folder.
-    """
-
+    # Crank angles, rising throughout, and pressures, shape (n,) [deg], [Pa]
     degrees: Array
     pressure: Array
-    rows: Sequence[int]
-    file: str = ""
+    rows: Sequence[int]  # Line numbers of the samples in their file, for messages
+    file: str = ""  # Name of that file, without its folder
 
 
 def measured_diagram(

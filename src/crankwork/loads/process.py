@@ -26,97 +26,49 @@ _DECIMALS = 9
 
 @dataclass(frozen=True)
 class ProcessForce:
-    """A force against the working stroke of a sliding piece, along its guide.
+    """A force against the working stroke of a sliding piece, along its guide."""
 
-    Parameters
-    ----------
-    slider : str
-        The sliding piece.
-    force : callable
-        Force, positive against the forward stroke, at the stroke or the crank angle; a `Table` is one. [N]
-    against : {"stroke", "angle"}
-        What `force` is given by: the way from `start`, or the crank angle. [m], [rad]
-    forward : {1, -1}
-        1 if the distance of the piece along its guide grows on the working stroke, -1 if it falls.
-    start : float
-        That distance where the working stroke begins. [m]
-    acts : {"forward", "both"}
-        On the working stroke only, or on the way back too, with the same direction.
-    """
-
-    slider: str
-    force: Curve
+    slider: str  # The sliding piece
+    force: Curve  # Force, positive against the forward stroke, at the stroke or the crank angle; a `Table` is one [N]
+    # What `force` is given by: the way from `start`, or the crank angle [m], [rad]
     against: Literal["stroke", "angle"] = "stroke"
-    forward: Branch = 1
-    start: float = 0.0
+    forward: Branch = 1  # 1 if the distance of the piece along its guide grows on the working stroke, -1 if it falls
+    start: float = 0.0  # That distance where the working stroke begins [m]
+    # On the working stroke only, or on the way back too, with the same direction
     acts: Literal["forward", "both"] = "forward"
 
 
 @dataclass(frozen=True)
 class ProcessForceAtPoint:
-    """A force of fixed direction at a point, against its way in the opposite direction.
+    """A force of fixed direction at a point, against its way in the opposite direction."""
 
-    Parameters
-    ----------
-    point : str
-        Where it acts.
-    direction : float
-        Direction of the working stroke from the x axis; a positive force acts the other way. [rad]
-    force : callable
-        Force at the stroke or the crank angle. [N]
-    against : {"stroke", "angle"}
-        What `force` is given by: the way of the point in that direction, or the crank angle. [m], [rad]
-    start : float
-        Coordinate of the point in that direction where the working stroke begins. [m]
-    acts : {"forward", "both"}
-        On the working stroke only, or always.
-    link : str
-        The link it acts on; empty for the first one of those that meet there.
-    """
-
-    point: str
-    direction: float
-    force: Curve
+    point: str  # Where it acts
+    direction: float  # Direction of the working stroke from the x axis; a positive force acts the other way [rad]
+    force: Curve  # Force at the stroke or the crank angle [N]
+    # What `force` is given by: the way of the point in that direction, or the crank angle [m], [rad]
     against: Literal["stroke", "angle"] = "stroke"
-    start: float = 0.0
-    acts: Literal["forward", "both"] = "forward"
-    link: str = ""
+    start: float = 0.0  # Coordinate of the point in that direction where the working stroke begins [m]
+    acts: Literal["forward", "both"] = "forward"  # On the working stroke only, or always
+    link: str = ""  # The link it acts on; empty for the first one of those that meet there
 
 
 @dataclass(frozen=True)
 class ForceOnPoint:
-    """A constant force at a point.
+    """A constant force at a point."""
 
-    Parameters
-    ----------
-    point : str
-        Where it acts.
-    x, y : float
-        Its components along the fixed axes. [N]
-    link : str
-        The link it acts on; empty for the first one of those that meet there.
-    """
-
-    point: str
+    point: str  # Where it acts
+    # Its components along the fixed axes [N]
     x: float
     y: float
-    link: str = ""
+    link: str = ""  # The link it acts on; empty for the first one of those that meet there
 
 
 @dataclass(frozen=True)
 class TorqueOnLink:
-    """A torque on a link, constant or by the crank angle.
-
-    Parameters
-    ----------
-    link : str
-        The link.
-    torque : float or callable
-        Positive anticlockwise; a callable takes the crank angle in radians. [N m]
-    """
+    """A torque on a link, constant or by the crank angle."""
 
     link: str
-    torque: float | Curve
+    torque: float | Curve  # Positive anticlockwise; a callable takes the crank angle in radians [N m]
 
 
 class _Way(NamedTuple):

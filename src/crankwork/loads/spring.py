@@ -18,51 +18,28 @@ from crankwork.mechanism.mechanism import Mechanism
 
 @dataclass(frozen=True)
 class Spring:
-    """A straight spring between two points.
+    """A straight spring between two points."""
 
-    Parameters
-    ----------
-    start, end : str
-        The points it joins, of links or fixed.
-    stiffness : float
-        Force per length. [N/m]
-    free_length : float
-        Length at which it pulls with the preload only. [m]
-    preload : float
-        Pull at the free length. [N]
-    start_link, end_link : str
-        Links it is fixed to; empty for the first ones of those that meet there.
-    """
-
+    # The points it joins, of links or fixed
     start: str
     end: str
-    stiffness: float
-    free_length: float
-    preload: float = 0.0
+    stiffness: float  # Force per length [N/m]
+    free_length: float  # Length at which it pulls with the preload only [m]
+    preload: float = 0.0  # Pull at the free length [N]
+    # Links it is fixed to; empty for the first ones of those that meet there
     start_link: str = ""
     end_link: str = ""
 
 
 @dataclass(frozen=True)
 class SliderSpring:
-    """A spring along a guide, between a sliding piece and what carries the guide.
+    """A spring along a guide, between a sliding piece and what carries the guide."""
 
-    Parameters
-    ----------
-    slider : str
-        The sliding piece.
-    stiffness : float
-        Force per length. [N/m]
-    free_position : float
-        Distance of the piece along its guide at which the spring pulls with the preload only. [m]
-    preload : float
-        Pull there, against the direction in which that distance counts. [N]
-    """
-
-    slider: str
-    stiffness: float
+    slider: str  # The sliding piece
+    stiffness: float  # Force per length [N/m]
+    # Distance of the piece along its guide at which the spring pulls with the preload only [m]
     free_position: float = 0.0
-    preload: float = 0.0
+    preload: float = 0.0  # Pull there, against the direction in which that distance counts [N]
 
 
 @formula("spring_force", "norton_2012, ch. 8")

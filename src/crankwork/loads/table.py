@@ -20,15 +20,6 @@ Curve = Callable[[Array], Array]
 class Table:
     """A curve through points, which is called like a function.
 
-    Parameters
-    ----------
-    at, values : tuple of float
-        Ascending abscissas, angles in radians or lengths in metres, and ordinates. [rad or m], [N or N m]
-    interpolation : {"linear", "monotone"}
-        Straight, where an abscissa given twice is a jump; or a smooth curve that never overshoots the points.
-    period : float
-        Period of the abscissa, 0 for none: outside the table the value is then zero. [rad]
-
     Examples
     --------
     >>> import numpy as np
@@ -36,10 +27,12 @@ class Table:
     array([250.,   0.])
     """
 
+    # Ascending abscissas, angles in radians or lengths in metres, and ordinates [rad or m], [N or N m]
     at: tuple[float, ...]
     values: tuple[float, ...]
+    # Straight, where an abscissa given twice is a jump; or a smooth curve that never overshoots the points
     interpolation: Literal["linear", "monotone"] = "linear"
-    period: float = 0.0
+    period: float = 0.0  # Period of the abscissa, 0 for none: outside the table the value is then zero [rad]
 
     def __post_init__(self) -> None:
         if len(self.at) != len(self.values) or len(self.at) < 2:

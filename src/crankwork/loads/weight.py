@@ -16,18 +16,10 @@ from crankwork.method import STANDARD_GRAVITY
 
 @dataclass(frozen=True)
 class Weight:
-    """Gravity on every body.
+    """Gravity on every body."""
 
-    Parameters
-    ----------
-    gravity : float
-        Acceleration of free fall. [m/s2]
-    direction : float
-        Where it pulls, from the x axis. [rad]
-    """
-
-    gravity: float = STANDARD_GRAVITY
-    direction: float = -math.pi / 2
+    gravity: float = STANDARD_GRAVITY  # Acceleration of free fall [m/s2]
+    direction: float = -math.pi / 2  # Where it pulls, from the x axis [rad]
 
 
 @formula("load_x", "artobolevsky_1988, ch. 12")

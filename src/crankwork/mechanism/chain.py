@@ -10,24 +10,12 @@ from crankwork.mechanism.dyads import Guide, Point
 
 @dataclass(frozen=True)
 class ChainLink:
-    """A moving link of a chain, and where it is at the start.
+    """A moving link of a chain, and where it is at the start."""
 
-    Parameters
-    ----------
-    name : str
-        Name of the link or sliding piece.
-    origin : tuple of float
-        Where the origin of its frame is at the start. [m]
-    angle : float
-        Direction of its x axis at the start, from the fixed x axis. [rad]
-    points : mapping of str to tuple of float
-        Its joints and other named points, in its frame. [m]
-    """
-
-    name: str
-    origin: Point
-    angle: float
-    points: Mapping[str, Point]
+    name: str  # Name of the link or sliding piece
+    origin: Point  # Where the origin of its frame is at the start [m]
+    angle: float  # Direction of its x axis at the start, from the fixed x axis [rad]
+    points: Mapping[str, Point]  # Its joints and other named points, in its frame [m]
 
 
 @dataclass(frozen=True)
@@ -44,20 +32,10 @@ class Chain:
 
     Links that share the name of a point are pinned there; a point that no link of the chain owns alone is
     one that the crank or an earlier group has placed.
-
-    Parameters
-    ----------
-    links : tuple of ChainLink
-        The moving links.
-    slides : tuple of Slide
-        Which of them slide, and on what: a guide that is fixed, on a known link or on a link of the chain.
-    known : frozenset of str
-        Points that are placed before.
-    start : float
-        Crank angle of the stated start. [rad]
     """
 
-    links: tuple[ChainLink, ...]
+    links: tuple[ChainLink, ...]  # The moving links
+    # Which of them slide, and on what: a guide that is fixed, on a known link or on a link of the chain
     slides: tuple[Slide, ...] = ()
-    known: frozenset[str] = field(default_factory=frozenset)
-    start: float = 0.0
+    known: frozenset[str] = field(default_factory=frozenset)  # Points that are placed before
+    start: float = 0.0  # Crank angle of the stated start [rad]

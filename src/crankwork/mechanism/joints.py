@@ -14,37 +14,21 @@ from crankwork.mechanism.mechanism import Mechanism
 
 @dataclass(frozen=True)
 class Pin:
-    """A revolute joint.
+    """A revolute joint."""
 
-    Parameters
-    ----------
-    name : str
-        Name of the joint: that of its point, with that of the link where several links hang on one point.
-    link, other : str
-        The link that is held, and the one that holds it or `ground`.
-    point : str
-        Where it is; empty for the pivot of the crank, the origin of its frame.
-    """
-
-    name: str
+    name: str  # Name of the joint: that of its point, with that of the link where several links hang on one point
+    # The link that is held, and the one that holds it or `ground`
     link: str
     other: str
-    point: str
+    point: str  # Where it is; empty for the pivot of the crank, the origin of its frame
 
 
 @dataclass(frozen=True)
 class SlidingJoint:
-    """A sliding joint, the x axis of the frame of its piece on the guide.
+    """A sliding joint, the x axis of the frame of its piece on the guide."""
 
-    Parameters
-    ----------
-    name : str
-        Name of the joint, that of its piece.
-    link, other : str
-        The sliding piece, and the link that carries the guide or `ground`.
-    """
-
-    name: str
+    name: str  # Name of the joint, that of its piece
+    # The sliding piece, and the link that carries the guide or `ground`
     link: str
     other: str
 

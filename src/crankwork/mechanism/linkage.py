@@ -15,58 +15,31 @@ GROUND = "ground"
 
 @dataclass(frozen=True)
 class Member:
-    """A link, or a piece that slides without turning on its guide.
-
-    Parameters
-    ----------
-    name : str
-        Its name.
-    points : mapping of str to tuple of float
-        Its joints and other named points, in its own frame. [m]
-    guide : str
-        Name of the guide it slides on, its x axis on the line; empty for a link.
-    mass, inertia : float
-        Mass, and moment of inertia about the centre of mass. [kg], [kg m2]
-    centre : str
-        Name of the point that is the centre of mass; empty where there is no mass.
-    """
+    """A link, or a piece that slides without turning on its guide."""
 
     name: str
-    points: Mapping[str, Point]
-    guide: str = ""
+    points: Mapping[str, Point]  # Its joints and other named points, in its own frame [m]
+    guide: str = ""  # Name of the guide it slides on, its x axis on the line; empty for a link
+    # Mass, and moment of inertia about the centre of mass [kg], [kg m2]
     mass: float = 0.0
     inertia: float = 0.0
-    centre: str = ""
+    centre: str = ""  # Name of the point that is the centre of mass; empty where there is no mass
 
 
 @dataclass(frozen=True)
 class Linkage:
-    """A planar linkage before it is taken apart.
+    """A planar linkage before it is taken apart."""
 
-    Parameters
-    ----------
-    crank : Crank
-        The driving link.
-    ground : mapping of str to tuple of float
-        Fixed points by name. [m]
-    members : tuple of Member
-        Links and sliding pieces, in any order.
-    guides : mapping of str to Guide
-        Straight guides by name, fixed or carried by a member, in its frame.
-    branches : mapping of str to {1, -1}
-        Branch by the name of the joint that it places, or of the slotted lever.
-    positions : mapping of str to tuple of float
-        Roughly where joints are at a crank angle of zero; they settle the branches that are not given. [m]
-    crank_points : mapping of str to tuple of float
-        Further points of the crank: from the pivot towards the pin, and to the left of that. [m]
-    """
-
-    crank: Crank
-    ground: Mapping[str, Point]
-    members: tuple[Member, ...]
+    crank: Crank  # The driving link
+    ground: Mapping[str, Point]  # Fixed points by name [m]
+    members: tuple[Member, ...]  # Links and sliding pieces, in any order
+    # Straight guides by name, fixed or carried by a member, in its frame
     guides: Mapping[str, Guide] = field(default_factory=dict)
+    # Branch by the name of the joint that it places, or of the slotted lever
     branches: Mapping[str, Branch] = field(default_factory=dict)
+    # Roughly where joints are at a crank angle of zero; they settle the branches that are not given [m]
     positions: Mapping[str, Point] = field(default_factory=dict)
+    # Further points of the crank: from the pivot towards the pin, and to the left of that [m]
     crank_points: Mapping[str, Point] = field(default_factory=dict)
 
     def member(self, name: str) -> Member:

@@ -16,70 +16,41 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Crank:
-    """A link that turns about a fixed pivot and drives the mechanism.
+    """A link that turns about a fixed pivot and drives the mechanism."""
 
-    Parameters
-    ----------
-    radius : float
-        Distance from pivot to pin. [m]
-    pivot : tuple of float
-        Coordinates of the fixed axis. [m]
-    start : float
-        Direction of the crank arm at crank angle zero, from the x axis. [rad]
-    direction : {1, -1}
-        1 if the crank angle grows anticlockwise, -1 if clockwise.
-    pin, link : str
-        Names of the moving end and of the link.
-    """
-
-    radius: float
-    pivot: Point = (0.0, 0.0)
-    start: float = 0.0
-    direction: Branch = 1
+    radius: float  # Distance from pivot to pin [m]
+    pivot: Point = (0.0, 0.0)  # Coordinates of the fixed axis [m]
+    start: float = 0.0  # Direction of the crank arm at crank angle zero, from the x axis [rad]
+    direction: Branch = 1  # 1 if the crank angle grows anticlockwise, -1 if clockwise
+    # Names of the moving end and of the link
     pin: str = "crank_pin"
     link: str = "crank"
 
 
 @dataclass(frozen=True)
 class LinkPoint:
-    """A named point that moves with a link: a coupler point, a further joint, a centre of mass.
+    """A named point that moves with a link: a coupler point, a further joint, a centre of mass."""
 
-    Parameters
-    ----------
-    name, link : str
-        Name of the point, and of the link or sliding piece it belongs to.
-    along, across : float
-        Coordinates in the frame of the link: from its first joint towards its second, and to the left of that. [m]
-    """
-
+    # Name of the point, and of the link or sliding piece it belongs to
     name: str
     link: str
+    # Coordinates in the frame of the link: from its first joint towards its second, and to the left of that [m]
     along: float
     across: float = 0.0
 
 
 @dataclass(frozen=True)
 class Body:
-    """A moving mass: a link with its centre of mass on the line between two named points.
+    """A moving mass: a link with its centre of mass on the line between two named points."""
 
-    Parameters
-    ----------
-    link : str
-        Name of the link or slider that carries the mass.
-    mass, inertia : float
-        Mass, and moment of inertia about the centre of mass. [kg], [kg m2]
-    start, end : str
-        Points between which the centre of mass lies.
-    share : float
-        Where it lies: 0 at `start`, 1 at `end`. [-]
-    """
-
-    link: str
+    link: str  # Name of the link or slider that carries the mass
+    # Mass, and moment of inertia about the centre of mass [kg], [kg m2]
     mass: float
     inertia: float
+    # Points between which the centre of mass lies
     start: str
     end: str
-    share: float
+    share: float  # Where it lies: 0 at `start`, 1 at `end` [-]
 
 
 def body_at(link: str, mass: float, inertia: float, point: str) -> Body:
@@ -99,27 +70,13 @@ def body_at(link: str, mass: float, inertia: float, point: str) -> Body:
 
 @dataclass(frozen=True)
 class Mechanism:
-    """A crank, the dyads in the order in which they are solved, and the bodies.
+    """A crank, the dyads in the order in which they are solved, and the bodies."""
 
-    Parameters
-    ----------
-    crank : Crank
-        The driving link.
-    dyads : tuple of Dyad or Chain
-        Each rests on points and links that the crank or an earlier one has placed.
-    bodies : tuple of Body
-        Moving masses; may be empty where only the motion is wanted.
-    ground : mapping of str to tuple of float
-        Fixed points by name. [m]
-    points : tuple of LinkPoint
-        Further points of the links; a dyad may rest on them.
-    """
-
-    crank: Crank
-    dyads: tuple[Dyad | Chain, ...]
-    bodies: tuple[Body, ...] = ()
-    ground: Mapping[str, Point] = field(default_factory=dict)
-    points: tuple[LinkPoint, ...] = ()
+    crank: Crank  # The driving link
+    dyads: tuple[Dyad | Chain, ...]  # Each rests on points and links that the crank or an earlier one has placed
+    bodies: tuple[Body, ...] = ()  # Moving masses; may be empty where only the motion is wanted
+    ground: Mapping[str, Point] = field(default_factory=dict)  # Fixed points by name [m]
+    points: tuple[LinkPoint, ...] = ()  # Further points of the links; a dyad may rest on them
 
 
 def slider_crank(crank_radius: float, rod_length: float, offset: float = 0.0) -> Mechanism:

@@ -19,38 +19,21 @@ _ROMAN = ("0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 
 @dataclass(frozen=True)
 class AssurGroup:
-    """Members that have to be solved together, in the order given.
+    """Members that have to be solved together, in the order given."""
 
-    Parameters
-    ----------
-    members : tuple of str
-        Their names.
-    number : int
-        The class: 2 for a dyad, 3 for a group about a link with three joints, 4 and more for a closed loop of
-        as many links.
-    """
-
-    members: tuple[str, ...]
+    members: tuple[str, ...]  # Their names
+    # The class: 2 for a dyad, 3 for a group about a link with three joints, 4 and more for a
+    # closed loop of as many links
     number: int
 
 
 @dataclass(frozen=True)
 class Structure:
-    """Mobility and groups of a linkage.
+    """Mobility and groups of a linkage."""
 
-    Parameters
-    ----------
-    links : tuple of str
-        Moving links, the crank first; their numbers in the formula.
-    joints : int
-        Joints of one freedom, p5.
-    groups : tuple of AssurGroup
-        Groups in the order in which they are solved.
-    """
-
-    links: tuple[str, ...]
-    joints: int
-    groups: tuple[AssurGroup, ...]
+    links: tuple[str, ...]  # Moving links, the crank first; their numbers in the formula
+    joints: int  # Joints of one freedom, p5
+    groups: tuple[AssurGroup, ...]  # Groups in the order in which they are solved
 
     @property
     def mobility(self) -> int:

@@ -32,21 +32,11 @@ _TABLED = ("free_force", "free_moment", "firing_angle", "cylinder_count", "beari
 
 @dataclass
 class Material:
-    """Results and what is chosen, and what follows from both; remembers what the note has shown already.
+    """Results and what is chosen, and what follows from both; remembers what the note has shown already."""
 
-    Parameters
-    ----------
-    results : Results
-        Of an engine.
-    options : NoteOptions
-        Language and what else is chosen.
-    has_engine : bool
-        Whether the machine says what engine it is, and not only its crank gear is known.
-    """
-
-    results: Results
-    options: NoteOptions
-    has_engine: bool = True
+    results: Results  # Of an engine
+    options: NoteOptions  # Language and what else is chosen
+    has_engine: bool = True  # Whether the machine says what engine it is, and not only its crank gear is known
     _shown: set[tuple[object, ...]] = field(default_factory=set)
     _told: set[str] = field(default_factory=set)
     _keys: set[str] = field(default_factory=set)

@@ -26,18 +26,10 @@ _POSITION_STEP = 30.0
 
 @dataclass(frozen=True)
 class Material:
-    """Results and what is chosen, and what follows from both, computed when a section asks for it.
+    """Results and what is chosen, and what follows from both, computed when a section asks for it."""
 
-    Parameters
-    ----------
-    results : Results
-        Of a linkage, or of a table of transfer functions.
-    options : NoteOptions
-        Language and what else is chosen.
-    """
-
-    results: Results
-    options: NoteOptions
+    results: Results  # Of a linkage, or of a table of transfer functions
+    options: NoteOptions  # Language and what else is chosen
 
     @cached_property
     def words(self) -> Words:

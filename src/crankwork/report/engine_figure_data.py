@@ -19,15 +19,9 @@ from crankwork.report.language import displayed, key_unit, method_name, number, 
 
 @dataclass(frozen=True)
 class EngineDrawn:
-    """What is drawn of an engine.
+    """What is drawn of an engine."""
 
-    Parameters
-    ----------
-    drawn : Drawn
-        What the figures of one cylinder share.
-    """
-
-    drawn: Drawn
+    drawn: Drawn  # What the figures of one cylinder share
 
     @property
     def language(self) -> Language:

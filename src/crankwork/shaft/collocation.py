@@ -33,27 +33,17 @@ TOLERANCE = 1e-13
 
 @dataclass(frozen=True)
 class Panels:
-    """A solution on panels.
+    """A solution on panels."""
 
-    Parameters
-    ----------
-    edges, values : array, shape (n + 1,)
-        Where panels meet, and the solution there. [unit of x], [unit of y]
-    points, inside, rate : array, shape (n, 8)
-        Gauss points of the panels, solution and its derivative there. [unit of x], [unit of y], [y / x]
-    converged : bool
-        Whether Newton's method settled and every polynomial died out.
-    multiplier : float
-        Change of the last value per change of the first. [-]
-    """
-
+    # Where panels meet, and the solution there, shape (n + 1,) [unit of x], [unit of y]
     edges: Array
     values: Array
+    # Gauss points of the panels, solution and its derivative there, shape (n, 8) [unit of x], [unit of y], [y / x]
     points: Array
     inside: Array
     rate: Array
-    converged: bool
-    multiplier: float
+    converged: bool  # Whether Newton's method settled and every polynomial died out
+    multiplier: float  # Change of the last value per change of the first [-]
 
     def __call__(self, x: Array) -> Array:
         """Return the solution anywhere on the panels."""

@@ -43,20 +43,14 @@ class Extremes(NamedTuple):
 
 @dataclass(frozen=True)
 class Curve:
-    """A quantity over one cycle of the crank, repeated in every cycle. Made by `linear`, `hermite` or `smooth`.
+    """A quantity over one cycle of the crank, repeated in every cycle. Made by `linear`, `hermite` or `smooth`."""
 
-    Parameters
-    ----------
-    angle : array, shape (n + 1,)
-        Ascending angles between which it is a polynomial; the last is the first, one cycle on. [rad]
-    coefficients : array, shape (k, n)
-        Coefficients of ascending powers of the angle from the start of each interval. [unit of the quantity / rad^i]
-    growth : float
-        How much it grows per cycle; zero unless it is the integral of a quantity with a mean. [unit of the quantity]
-    """
-
+    # Ascending angles between which it is a polynomial; the last is the first, one cycle on, shape (n + 1,) [rad]
     angle: Array
+    # Coefficients of ascending powers of the angle from the start of each interval, shape (k, n) [unit
+    # of the quantity / rad^i]
     coefficients: Array
+    # How much it grows per cycle; zero unless it is the integral of a quantity with a mean [unit of the quantity]
     growth: float = 0.0
 
     @classmethod

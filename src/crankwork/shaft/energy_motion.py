@@ -26,42 +26,24 @@ _MOST_CYCLES = 1_000_000
 
 @dataclass(frozen=True)
 class EnergyMachine:
-    """A machine whose torques are a constant one and those of a potential: springs, weights.
+    """A machine whose torques are a constant one and those of a potential: springs, weights."""
 
-    Parameters
-    ----------
-    state : callable
-        Reduced moment of inertia, potential energy and its derivative at crank angles, all periodic. [kg m2], [J],
-        [J/rad]
-    drive : float
-        Constant torque on the crank. [N m]
-    cycle : float
-        Their period. [rad]
-    """
-
+    # Reduced moment of inertia, potential energy and its derivative at crank angles, all periodic [kg m2], [J], [J/rad]
     state: Callable[[Array], tuple[Array, Array, Array]]
-    drive: float = 0.0
-    cycle: float = 2 * math.pi
+    drive: float = 0.0  # Constant torque on the crank [N m]
+    cycle: float = 2 * math.pi  # Their period [rad]
 
 
 @dataclass(frozen=True)
 class Moment:
-    """Where a machine is at a time.
+    """Where a machine is at a time."""
 
-    Parameters
-    ----------
-    time, angle, speed : float
-        Time from the start, crank angle, speed. [s], [rad], [rad/s]
-    energy : float
-        Kinetic energy. [J]
-    tail : float
-        Size of the last Legendre coefficients that were kept, over the whole time: the error to be expected. [-]
-    """
-
+    # Time from the start, crank angle, speed [s], [rad], [rad/s]
     time: float
     angle: float
     speed: float
-    energy: float
+    energy: float  # Kinetic energy [J]
+    # Size of the last Legendre coefficients that were kept, over the whole time: the error to be expected [-]
     tail: float
 
 

@@ -44,24 +44,14 @@ def fluctuation_of_energy(L_exc: Value, W_c: Value) -> Value:
 
 @dataclass(frozen=True)
 class ExcessWork:
-    """What the torque does beyond its mean.
+    """What the torque does beyond its mean."""
 
-    Parameters
-    ----------
-    curve : Curve
-        Integral of torque less mean torque, zero at the start of the cycle. [J]
-    work : float
-        Difference of its extremes. [J]
-    at_least, at_largest : float
-        Crank angles of the extremes: of least and greatest speed if the moment of inertia is constant. [rad]
-    mean_torque, work_per_cycle : float
-        Mean of the torque, and what it does in a cycle. [N m], [J]
-    """
-
-    curve: Curve
-    work: float
+    curve: Curve  # Integral of torque less mean torque, zero at the start of the cycle [J]
+    work: float  # Difference of its extremes [J]
+    # Crank angles of the extremes: of least and greatest speed if the moment of inertia is constant [rad]
     at_least: float
     at_largest: float
+    # Mean of the torque, and what it does in a cycle [N m], [J]
     mean_torque: float
     work_per_cycle: float
 
@@ -115,25 +105,16 @@ def excess_work(torque: Curve) -> ExcessWork:
 
 @dataclass(frozen=True)
 class TrueSpeed:
-    """Speed over one cycle of steady motion, from the energy.
+    """Speed over one cycle of steady motion, from the energy."""
 
-    Parameters
-    ----------
-    inertia, inertia_1, excess, torque : Curve
-        Moment of inertia with the flywheel, its derivative, excess work, torque less its mean. [kg m2],
-        [kg m2/rad], [J], [N m]
-    energy : float
-        Kinetic energy where the excess work is zero. [J]
-    extremes : Extremes
-        Least and greatest speed, and where. [rad/s], [rad]
-    """
-
+    # Moment of inertia with the flywheel, its derivative, excess work, torque less its mean [kg
+    # m2], [kg m2/rad], [J], [N m]
     inertia: Curve
     inertia_1: Curve
     excess: Curve
     torque: Curve
-    energy: float
-    extremes: Extremes
+    energy: float  # Kinetic energy where the excess work is zero [J]
+    extremes: Extremes  # Least and greatest speed, and where [rad/s], [rad]
 
     @property
     def mean_speed(self) -> float:

@@ -52,55 +52,33 @@ def slope_least(w: Value, delta: Value) -> Value:
 
 @dataclass(frozen=True)
 class Flywheel:
-    """A flywheel found in one of the four ways.
+    """A flywheel found in one of the four ways."""
 
-    Parameters
-    ----------
-    way : str
-        `energy`, `mertsalov`, `wittenbauer` or `exact`.
-    inertia : float
-        Moment of inertia of the flywheel on the crank; negative where the machine needs none. [kg m2]
-    excess : float
-        Excess work in the sense of this way, which over delta w^2 gives the inertia. [J]
-    at_least, at_largest : float
-        Crank angles where this way sees the least and the greatest speed. [rad]
-    fluctuation : float
-        Fluctuation that the machine really has with it, from its true speed; NaN if the machine would stop. [-]
-    residual : float
-        That less the fluctuation asked for. [-]
-    """
-
-    way: Way
-    inertia: float
-    excess: float
+    way: Way  # `energy`, `mertsalov`, `wittenbauer` or `exact`
+    inertia: float  # Moment of inertia of the flywheel on the crank; negative where the machine needs none [kg m2]
+    excess: float  # Excess work in the sense of this way, which over delta w^2 gives the inertia [J]
+    # Crank angles where this way sees the least and the greatest speed [rad]
     at_least: float
     at_largest: float
+    # Fluctuation that the machine really has with it, from its true speed; NaN if the machine would stop [-]
     fluctuation: float
-    residual: float
+    residual: float  # That less the fluctuation asked for [-]
 
 
 @dataclass(frozen=True)
 class MassEnergyCurve:
-    """Wittenbauer's diagram: kinetic energy over reduced moment of inertia, with its two tangents.
+    """Wittenbauer's diagram: kinetic energy over reduced moment of inertia, with its two tangents."""
 
-    Parameters
-    ----------
-    inertia, excess : Curve
-        Abscissa and ordinate over the crank angle. [kg m2], [J]
-    slope_largest, slope_least : float
-        Slopes of the tangents. [J/(kg m2)]
-    upper, lower : float
-        Where the tangents cut the axis of ordinates. [J]
-    at_upper, at_lower : float
-        Crank angles where they touch: of the greatest and the least speed. [rad]
-    """
-
+    # Abscissa and ordinate over the crank angle [kg m2], [J]
     inertia: Curve
     excess: Curve
+    # Slopes of the tangents [J/(kg m2)]
     slope_largest: float
     slope_least: float
+    # Where the tangents cut the axis of ordinates [J]
     upper: float
     lower: float
+    # Crank angles where they touch: of the greatest and the least speed [rad]
     at_upper: float
     at_lower: float
 

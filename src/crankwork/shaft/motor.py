@@ -50,23 +50,12 @@ class Motor(Protocol):
 
 @dataclass(frozen=True)
 class AsynchronousMotor:
-    """An induction motor by the formula of Kloss.
+    """An induction motor by the formula of Kloss."""
 
-    Parameters
-    ----------
-    breakdown_torque : float
-        Greatest torque as a motor. [N m]
-    breakdown_slip : float
-        Slip at which it occurs. [-]
-    synchronous_speed : float
-        Speed without load. [rad/s]
-    resistance_ratio : float
-        Resistance of the stator over that of the rotor; zero for the simplified formula. [-]
-    """
-
-    breakdown_torque: float
-    breakdown_slip: float
-    synchronous_speed: float
+    breakdown_torque: float  # Greatest torque as a motor [N m]
+    breakdown_slip: float  # Slip at which it occurs [-]
+    synchronous_speed: float  # Speed without load [rad/s]
+    # Resistance of the stator over that of the rotor; zero for the simplified formula [-]
     resistance_ratio: float = 0.0
 
     @classmethod
@@ -131,18 +120,10 @@ class AsynchronousMotor:
 
 @dataclass(frozen=True)
 class LinearMotor:
-    """The working branch of a motor as a straight line, or a direct-current motor with shunt or separate excitation.
+    """The working branch of a motor as a straight line, or a direct-current motor with shunt or separate excitation."""
 
-    Parameters
-    ----------
-    stiffness : float
-        Torque per speed below that without load. [N m s/rad]
-    no_load_speed : float
-        Speed without load. [rad/s]
-    """
-
-    stiffness: float
-    no_load_speed: float
+    stiffness: float  # Torque per speed below that without load [N m s/rad]
+    no_load_speed: float  # Speed without load [rad/s]
 
     @classmethod
     def of_rating(cls, rated_power: float, rated_speed: float, no_load_speed: float) -> Self:
@@ -185,19 +166,12 @@ class LinearMotor:
 
 @dataclass(frozen=True)
 class SeriesMotor:
-    """A direct-current motor whose field carries the current of its armature, unsaturated.
+    """A direct-current motor whose field carries the current of its armature, unsaturated."""
 
-    Parameters
-    ----------
-    voltage, resistance : float
-        Voltage, resistance of armature and field. [V], [ohm]
-    flux_per_current : float
-        Torque per square of the current. [N m/A2]
-    """
-
+    # Voltage, resistance of armature and field [V], [ohm]
     voltage: float
     resistance: float
-    flux_per_current: float
+    flux_per_current: float  # Torque per square of the current [N m/A2]
 
     def torque(self, speed: ArrayLike) -> Array:
         """Return the torque on its own shaft.
@@ -217,15 +191,9 @@ class SeriesMotor:
 
 @dataclass(frozen=True)
 class ConstantMotor:
-    """A motor that gives the same torque at every speed.
+    """A motor that gives the same torque at every speed."""
 
-    Parameters
-    ----------
-    value : float
-        The torque. [N m]
-    """
-
-    value: float
+    value: float  # The torque [N m]
 
     def torque(self, speed: ArrayLike) -> Array:
         """Return the torque on its own shaft.
@@ -240,14 +208,9 @@ class ConstantMotor:
 
 @dataclass(frozen=True)
 class TableMotor:
-    """A motor or engine given as a table, straight between its rows and level beyond them.
+    """A motor or engine given as a table, straight between its rows and level beyond them."""
 
-    Parameters
-    ----------
-    speeds, torques : array, shape (n,)
-        Ascending speeds of its shaft, torques there. [rad/s], [N m]
-    """
-
+    # Ascending speeds of its shaft, torques there, shape (n,) [rad/s], [N m]
     speeds: Array
     torques: Array
 
@@ -264,24 +227,12 @@ class TableMotor:
 
 @dataclass(frozen=True)
 class GearedMotor:
-    """A motor behind a gear, as the crank feels it.
-
-    Parameters
-    ----------
-    motor : Motor
-        The motor.
-    ratio : float
-        Speed of the motor over speed of the crank. [-]
-    inertia : float
-        Moment of inertia on the shaft of the motor. [kg m2]
-    efficiency : float
-        Of the gear; a braking torque is divided by it. [-]
-    """
+    """A motor behind a gear, as the crank feels it."""
 
     motor: Motor
-    ratio: float = 1.0
-    inertia: float = 0.0
-    efficiency: float = 1.0
+    ratio: float = 1.0  # Speed of the motor over speed of the crank [-]
+    inertia: float = 0.0  # Moment of inertia on the shaft of the motor [kg m2]
+    efficiency: float = 1.0  # Of the gear; a braking torque is divided by it [-]
 
     @property
     def reduced_inertia(self) -> float:

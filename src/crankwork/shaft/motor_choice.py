@@ -21,25 +21,16 @@ def needed_power(k_s: Value, M_d: Value, w: Value, eta: Value) -> Value:
 
 @dataclass(frozen=True)
 class MotorNeed:
-    """What a machine asks of its motor.
+    """What a machine asks of its motor."""
 
-    Parameters
-    ----------
-    mean_torque, rms_torque : float
-        Mean and root mean square of the torque at the crank over the cycle. [N m]
-    largest_torque, at_largest : float
-        Greatest torque at the crank, and its angle. [N m], [rad]
-    speed : float
-        Speed of the crank. [rad/s]
-    mean_power, rms_power : float
-        Power of the motor by the mean and by the rms torque, safety and efficiency included. [W]
-    """
-
+    # Mean and root mean square of the torque at the crank over the cycle [N m]
     mean_torque: float
     rms_torque: float
+    # Greatest torque at the crank, and its angle [N m], [rad]
     largest_torque: float
     at_largest: float
-    speed: float
+    speed: float  # Speed of the crank [rad/s]
+    # Power of the motor by the mean and by the rms torque, safety and efficiency included [W]
     mean_power: float
     rms_power: float
 
@@ -77,25 +68,14 @@ def motor_need(load: Curve, speed: float, *, efficiency: float = 1.0, safety: fl
 
 @dataclass(frozen=True)
 class CatalogueMotor:
-    """A line of a catalogue.
+    """A line of a catalogue."""
 
-    Parameters
-    ----------
-    name : str
-        Its designation.
-    power, speed : float
-        Rated power and speed. [W], [rad/s]
-    overload : float
-        Greatest torque over rated torque. [-]
-    inertia : float
-        Moment of inertia of the rotor. [kg m2]
-    """
-
-    name: str
+    name: str  # Its designation
+    # Rated power and speed [W], [rad/s]
     power: float
     speed: float
-    overload: float
-    inertia: float = 0.0
+    overload: float  # Greatest torque over rated torque [-]
+    inertia: float = 0.0  # Moment of inertia of the rotor [kg m2]
 
     @property
     def rated_torque(self) -> float:
@@ -105,27 +85,13 @@ class CatalogueMotor:
 
 @dataclass(frozen=True)
 class MotorCheck:
-    """Whether a motor does for a machine, and why not.
-
-    Parameters
-    ----------
-    motor : CatalogueMotor
-        The motor.
-    ratio : float
-        Speed of the motor over that of the crank. [-]
-    load_share : float
-        Power that is needed over rated power; at most one. [-]
-    overload_share : float
-        Greatest torque on the shaft of the motor over its greatest; at most one. [-]
-    message : str
-        Empty if it does; else what is too weak, by how much, and where.
-    """
+    """Whether a motor does for a machine, and why not."""
 
     motor: CatalogueMotor
-    ratio: float
-    load_share: float
-    overload_share: float
-    message: str
+    ratio: float  # Speed of the motor over that of the crank [-]
+    load_share: float  # Power that is needed over rated power; at most one [-]
+    overload_share: float  # Greatest torque on the shaft of the motor over its greatest; at most one [-]
+    message: str  # Empty if it does; else what is too weak, by how much, and where
 
     @property
     def ok(self) -> bool:

@@ -14,24 +14,12 @@ _TOLERANCE = 1e-10
 
 @dataclass(frozen=True)
 class SimulatedFlywheel:
-    """A flywheel found by simulation.
+    """A flywheel found by simulation."""
 
-    Parameters
-    ----------
-    inertia : float
-        Moment of inertia of the flywheel on the crank; NaN where none was found. [kg m2]
-    run : SpeedRun
-        Steady motion with it.
-    residual : float
-        Its fluctuation less the one asked for. [-]
-    message : str
-        Why none was found; empty if one was.
-    """
-
-    inertia: float
-    run: SpeedRun
-    residual: float
-    message: str = ""
+    inertia: float  # Moment of inertia of the flywheel on the crank; NaN where none was found [kg m2]
+    run: SpeedRun  # Steady motion with it
+    residual: float  # Its fluctuation less the one asked for [-]
+    message: str = ""  # Why none was found; empty if one was
 
 
 def flywheel_by_simulation(

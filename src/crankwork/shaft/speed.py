@@ -22,23 +22,14 @@ _WIDEST = math.pi / 18
 
 @dataclass(frozen=True)
 class ReducedMachine:
-    """A machine reduced to its crank.
+    """A machine reduced to its crank."""
 
-    Parameters
-    ----------
-    inertia : callable
-        Reduced moment of inertia and its derivative at crank angles. [kg m2], [kg m2/rad]
-    torque : callable
-        Sum of all reduced torques at crank angles and speeds, positive with the rotation. [N m]
-    cycle : float
-        Crank angle after which both repeat. [rad]
-    corners : array, shape (k,)
-        Angles within one cycle from zero where they are not smooth. [rad]
-    """
-
+    # Reduced moment of inertia and its derivative at crank angles [kg m2], [kg m2/rad]
     inertia: Callable[[Array], tuple[Array, Array]]
+    # Sum of all reduced torques at crank angles and speeds, positive with the rotation [N m]
     torque: Callable[[Array, Array], Array]
-    cycle: float = 2 * math.pi
+    cycle: float = 2 * math.pi  # Crank angle after which both repeat [rad]
+    # Angles within one cycle from zero where they are not smooth, shape (k,) [rad]
     corners: Array = field(default_factory=lambda: np.empty(0))
 
     @classmethod
@@ -121,32 +112,20 @@ class ReducedMachine:
 
 @dataclass(frozen=True)
 class SpeedRun:
-    """How a machine turns, from one crank angle to another.
+    """How a machine turns, from one crank angle to another."""
 
-    Parameters
-    ----------
-    angle, speed, acceleration, time : array, shape (n,)
-        Crank angles, and what is there. [rad], [rad/s], [rad/s2], [s]
-    status : str
-        `steady`, `turning`, `stopped`, `stalled`, `not started` or `not solved`.
-    message : str
-        Where and why it ended otherwise than asked; empty if it did not.
-    energy_drift : float
-        Kinetic energy gained less work done, by another quadrature, over the largest energy. [-]
-    multiplier : float
-        What is left after a cycle of a small disturbance of steady motion; stable below one. NaN otherwise. [-]
-    least, at_least, largest, at_largest : float
-        Extreme speeds and their angles. [rad/s], [rad], [rad/s], [rad]
-    """
-
+    # Crank angles, and what is there, shape (n,) [rad], [rad/s], [rad/s2], [s]
     angle: Array
     speed: Array
     acceleration: Array
     time: Array
-    status: Status
-    message: str = ""
+    status: Status  # `steady`, `turning`, `stopped`, `stalled`, `not started` or `not solved`
+    message: str = ""  # Where and why it ended otherwise than asked; empty if it did not
+    # Kinetic energy gained less work done, by another quadrature, over the largest energy [-]
     energy_drift: float = 0.0
+    # What is left after a cycle of a small disturbance of steady motion; stable below one. NaN otherwise [-]
     multiplier: float = math.nan
+    # Extreme speeds and their angles [rad/s], [rad], [rad/s], [rad]
     least: float = math.nan
     at_least: float = math.nan
     largest: float = math.nan

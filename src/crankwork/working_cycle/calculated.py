@@ -13,27 +13,14 @@ from crankwork.loads.indicator import IndicatorDiagram, VolumeAt
 
 
 class Calculated(NamedTuple):
-    """A calculated diagram.
+    """A calculated diagram."""
 
-    Parameters
-    ----------
-    diagram : IndicatorDiagram
-        Absolute pressure over the cycle.
-    memory : mapping of str to Known
-        Single values by key of the table of quantities, in the order in which they were found.
-    notices : tuple of (str, mapping)
-        What the reader should know: code and values.
-    theoretical : IndicatorDiagram or None
-        The diagram before its corners were rounded.
-    peak : mapping of str to Known
-        What stands behind the greatest pressure of a release of heat, by key.
-    """
-
-    diagram: IndicatorDiagram
+    diagram: IndicatorDiagram  # Absolute pressure over the cycle
+    # Single values by key of the table of quantities, in the order in which they were found
     memory: Mapping[str, Known]
-    notices: tuple[tuple[str, Mapping[str, float | str]], ...]
-    theoretical: IndicatorDiagram | None = None
-    peak: Mapping[str, Known] = {}
+    notices: tuple[tuple[str, Mapping[str, float | str]], ...]  # What the reader should know: code and values
+    theoretical: IndicatorDiagram | None = None  # The diagram before its corners were rounded
+    peak: Mapping[str, Known] = {}  # What stands behind the greatest pressure of a release of heat, by key
 
     @property
     def values(self) -> dict[str, float]:

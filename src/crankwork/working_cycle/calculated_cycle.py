@@ -13,57 +13,31 @@ Notice = tuple[str, Mapping[str, float | str]]
 
 
 class Corners(NamedTuple):
-    """What the theoretical diagram is drawn from.
+    """What the theoretical diagram is drawn from."""
 
-    Parameters
-    ----------
-    p_r, p_a, p_c, p_z, p_b : Known
-        Absolute pressures at the named points. [Pa]
-    rho : Known
-        Volume at z over the clearance volume; 1 where burning is at constant volume. [-]
-    n1, n2 : Known
-        Exponents of compression and expansion. [-]
-    epsilon : Known
-        Compression ratio of the closed cylinder. [-]
-    psi : Known
-        Share of the stroke that the ports of a two-stroke engine take. [-]
-    """
-
+    # Absolute pressures at the named points [Pa]
     p_r: Known
     p_a: Known
     p_c: Known
     p_z: Known
     p_b: Known
-    rho: Known
+    rho: Known  # Volume at z over the clearance volume; 1 where burning is at constant volume [-]
+    # Exponents of compression and expansion [-]
     n1: Known
     n2: Known
-    epsilon: Known
-    psi: Known = absent("lost_stroke")
+    epsilon: Known  # Compression ratio of the closed cylinder [-]
+    psi: Known = absent("lost_stroke")  # Share of the stroke that the ports of a two-stroke engine take [-]
 
 
 @dataclass(frozen=True, eq=False)
 class CalculatedCycle:
-    """A working cycle and how it was calculated.
+    """A working cycle and how it was calculated."""
 
-    Parameters
-    ----------
-    kind : {"petrol", "diesel", "otto", "ideal-diesel", "dual"}
-        What was calculated.
-    angle : float
-        Crank angle of the cycle, 720 or 360. [deg]
-    corners : Corners
-        Of the theoretical diagram.
-    memory : mapping of str to Known
-        Data and results by key, in the order of textbooks.
-    notices : tuple
-        Code and numbers of everything worth saying.
-    """
-
-    kind: CycleKind
-    angle: float
-    corners: Corners
-    memory: Mapping[str, Known]
-    notices: tuple[Notice, ...] = ()
+    kind: CycleKind  # What was calculated
+    angle: float  # Crank angle of the cycle, 720 or 360 [deg]
+    corners: Corners  # Of the theoretical diagram
+    memory: Mapping[str, Known]  # Data and results by key, in the order of textbooks
+    notices: tuple[Notice, ...] = ()  # Code and numbers of everything worth saying
 
     @property
     def values(self) -> dict[str, float]:

@@ -15,117 +15,65 @@ from crankwork.working_cycle.performance import MECHANICAL_LOSSES
 
 @dataclass(frozen=True)
 class GrinevetskyData:
-    """Data of a calculated cycle; `None` takes the value that is usual for the kind of engine, or leaves a step out.
+    """Data of a calculated cycle; `None` takes the value that is usual for the kind of engine, or leaves a step out."""
 
-    Parameters
-    ----------
-    kind : {"petrol", "diesel"}
-        Burning at constant volume, or at constant volume and then pressure.
-    compression_ratio : float
-        Of the closed cylinder; of a two-stroke engine from the shutting of its ports. [-]
-    rotational_speed : float
-        Revolutions per minute. [rpm]
-    fuel : Fuel or None
-        By default the one the kind is named after.
-    excess_air : float or None
-        Air over air needed. [-]
-    ambient_pressure, ambient_temperature : float
-        Of the surroundings. [Pa], [K]
-    charge_pressure, charge_temperature : float or None
-        Behind compressor and cooler; the temperature may follow from the compressor. [Pa], [K]
-    compressor_exponent, cooler_drop : float
-        Polytrope of the compressor, temperature drop of the cooler. [-], [K]
-    intake_pressure : float or None
-        At the end of intake; by default from the loss factor and the speed in the intake. [Pa]
-    intake_loss_factor, intake_speed : float or None
-        Square of the slowing plus resistance, speed in the narrowest section. [-], [m/s]
-    residual_pressure, residual_temperature, heating : float or None
-        Of the residual gas; heating of the charge. [Pa], [K], [K]
-    charge_up, scavenging : float
-        Factors of charging after the dead centre and of scavenging. [-]
-    intake_school : {"kolchin", "vietnamese"}
-        Whether the residual gas keeps its pressure in the balance of the intake, or expands to that of the intake.
-    heat_correction : float
-        Heat of the residual gas over that of the fresh charge, in the Vietnamese balance. [-]
-    lost_stroke : float
-        Share of the stroke lost to the ports of a two-stroke engine. [-]
-    compression_exponent, expansion_exponent, heat_use : float or None
-        Of the polytropes; heat used up to z. [-]
-    pressure_ratio : float or None
-        Pressure at z over that at c, of a diesel. [-]
-    filling : float or None
-        Roundness factor of the diagram. [-]
-    exhaust_exponent : float
-        Of the polytrope from b to r. [-]
-    hydrogen_share : float
-        Hydrogen over carbon monoxide in rich products. [-]
-    heat_capacities : {"kolchin", "vietnamese", "linear"}
-        Law of the mean molar heats.
-    gas_constant, air_gas_constant : float
-        Molar one and that of air. [kJ/(kmol K)], [J/(kg K)]
-    strokes : {4, 2}
-        Strokes per cycle.
-    cylinders : int
-        How many.
-    mechanical_loss : tuple of float, str or None
-        Coefficients of p_m = a + b v_p, or their key in `performance.MECHANICAL_LOSSES`. [Pa, Pa s/m]
-    power : float or None
-        Wanted effective power of the engine; bore and stroke follow. [W]
-    stroke_bore_ratio : float
-        Stroke over bore, where they follow. [-]
-    bore, stroke : float or None
-        Where they are given. [m]
-    rounds_size : bool
-        Whether bore and stroke that follow are rounded to whole millimetres.
-    cooling_factor, cooling_exponent : float
-        Of the heat to the coolant. [-]
-    pi : float
-        The constant the calculation uses. [-]
-    """
-
-    kind: Literal["petrol", "diesel"]
-    compression_ratio: float
-    rotational_speed: float
-    fuel: Fuel | None = None
-    excess_air: float | None = None
+    kind: Literal["petrol", "diesel"]  # Burning at constant volume, or at constant volume and then pressure
+    compression_ratio: float  # Of the closed cylinder; of a two-stroke engine from the shutting of its ports [-]
+    rotational_speed: float  # Revolutions per minute [rpm]
+    fuel: Fuel | None = None  # By default the one the kind is named after
+    excess_air: float | None = None  # Air over air needed [-]
+    # Of the surroundings [Pa], [K]
     ambient_pressure: float = 0.1e6
     ambient_temperature: float = 293.0
+    # Behind compressor and cooler; the temperature may follow from the compressor [Pa], [K]
     charge_pressure: float | None = None
     charge_temperature: float | None = None
+    # Polytrope of the compressor, temperature drop of the cooler [-], [K]
     compressor_exponent: float = 1.65
     cooler_drop: float = 0.0
+    # At the end of intake; by default from the loss factor and the speed in the intake [Pa]
     intake_pressure: float | None = None
+    # Square of the slowing plus resistance, speed in the narrowest section [-], [m/s]
     intake_loss_factor: float | None = None
     intake_speed: float | None = None
+    # Of the residual gas; heating of the charge [Pa], [K], [K]
     residual_pressure: float | None = None
     residual_temperature: float | None = None
     heating: float | None = None
+    # Factors of charging after the dead centre and of scavenging [-]
     charge_up: float = 1.0
     scavenging: float = 1.0
+    # Whether the residual gas keeps its pressure in the balance of the intake, or expands to that of the intake
     intake_school: Literal["kolchin", "vietnamese"] = "kolchin"
+    # Heat of the residual gas over that of the fresh charge, in the Vietnamese balance [-]
     heat_correction: float = 1.1
-    lost_stroke: float = 0.0
+    lost_stroke: float = 0.0  # Share of the stroke lost to the ports of a two-stroke engine [-]
+    # Of the polytropes; heat used up to z [-]
     compression_exponent: float | None = None
     expansion_exponent: float | None = None
     heat_use: float | None = None
-    pressure_ratio: float | None = None
-    filling: float | None = None
-    exhaust_exponent: float = 1.5
-    hydrogen_share: float = 0.5
-    heat_capacities: HeatLaw = "kolchin"
+    pressure_ratio: float | None = None  # Pressure at z over that at c, of a diesel [-]
+    filling: float | None = None  # Roundness factor of the diagram [-]
+    exhaust_exponent: float = 1.5  # Of the polytrope from b to r [-]
+    hydrogen_share: float = 0.5  # Hydrogen over carbon monoxide in rich products [-]
+    heat_capacities: HeatLaw = "kolchin"  # Law of the mean molar heats
+    # Molar one and that of air [kJ/(kmol K)], [J/(kg K)]
     gas_constant: float = 8.315
     air_gas_constant: float = 287.0
-    strokes: Literal[4, 2] = 4
-    cylinders: int = 1
+    strokes: Literal[4, 2] = 4  # Strokes per cycle
+    cylinders: int = 1  # How many
+    # Coefficients of p_m = a + b v_p, or their key in `performance.MECHANICAL_LOSSES` [Pa, Pa s/m]
     mechanical_loss: tuple[float, float] | str | None = None
-    power: float | None = None
-    stroke_bore_ratio: float = 1.0
+    power: float | None = None  # Wanted effective power of the engine; bore and stroke follow [W]
+    stroke_bore_ratio: float = 1.0  # Stroke over bore, where they follow [-]
+    # Where they are given [m]
     bore: float | None = None
     stroke: float | None = None
-    rounds_size: bool = False
+    rounds_size: bool = False  # Whether bore and stroke that follow are rounded to whole millimetres
+    # Of the heat to the coolant [-]
     cooling_factor: float = 0.5
     cooling_exponent: float = 0.6
-    pi: float = 3.141592653589793
+    pi: float = 3.141592653589793  # The constant the calculation uses [-]
 
 
 # kolchin_demidov_2008, ch. 3: the middle of what is usual

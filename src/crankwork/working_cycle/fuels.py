@@ -14,23 +14,14 @@ class CycleError(CrankworkError):
 
 
 class Fuel(NamedTuple):
-    """Elements of 1 kg of liquid fuel, by mass.
+    """Elements of 1 kg of liquid fuel, by mass."""
 
-    Parameters
-    ----------
-    carbon, hydrogen, oxygen : float
-        Masses in 1 kg of fuel; together 1. [-]
-    molar_mass : float or None
-        Of the vapour, where the fuel evaporates before the cylinder. [kg/kmol]
-    heating_value : float or None
-        Lower heating value; by default from the elements. [J/kg]
-    """
-
+    # Masses in 1 kg of fuel; together 1 [-]
     carbon: float
     hydrogen: float
     oxygen: float = 0.0
-    molar_mass: float | None = None
-    heating_value: float | None = None
+    molar_mass: float | None = None  # Of the vapour, where the fuel evaporates before the cylinder [kg/kmol]
+    heating_value: float | None = None  # Lower heating value; by default from the elements [J/kg]
 
 
 FUELS = {"petrol": Fuel(0.855, 0.145, 0.0, 115.0), "diesel": Fuel(0.870, 0.126, 0.004, 190.0)}

@@ -10,64 +10,45 @@ from crankwork.errors import CrankworkError
 
 @dataclass(frozen=True)
 class HeatReleaseData:
-    """What a cycle from the heat released is made of.
+    """What a cycle from the heat released is made of."""
 
-    Parameters
-    ----------
-    bore, rotational_speed : float
-        Bore; revolutions per minute. [m], [rpm]
-    shut_pressure, shut_temperature : float
-        Of the gas at intake closing. [Pa], [K]
-    heat : float or None
-        Heat of the fuel per cycle; instead of it, the next three. [J]
-    fuel_per_cycle, heating_value, burning_efficiency : float
-        Mass of fuel, lower heating value, share of it that is released. [kg], [J/kg], [-]
-    burning_advance, burning_duration, burning_shape : float
-        Start of burning before top dead centre, duration, Wiebe exponent. [deg], [deg], [-]
-    heat_ratio, heat_ratio_slope, gas_constant : float
-        Ratio of specific heats (at 0 K where it has a slope), its change with temperature, specific gas
-        constant. [-], [1/K], [J/(kg*K)]
-    has_wall_loss : bool
-        Whether heat goes to the walls.
-    wall_temperature, head_area, crown_area, motored_exponent : float
-        Of the walls; areas of head and crown (the piston area if left out); polytrope without burning.
-        [K], [m2], [m2], [-]
-    cycle : float
-        720, or 360 for two strokes. [deg]
-    intake_closes, exhaust_opens : float
-        After and before bottom dead centre; the ports of two strokes likewise, the last to close and the first
-        to open. [deg]
-    intake_opens, exhaust_closes : float
-        Before and after top dead centre; with two strokes the scavenging ports open before bottom dead
-        centre and the exhaust ports shut after it. [deg]
-    exhaust_pressure, intake_pressure : float
-        While gas is exchanged; with two strokes the first is that of scavenging. [Pa]
-    """
-
+    # Bore; revolutions per minute [m], [rpm]
     bore: float
     rotational_speed: float
+    # Of the gas at intake closing [Pa], [K]
     shut_pressure: float
     shut_temperature: float
-    heat: float | None = None
+    heat: float | None = None  # Heat of the fuel per cycle; instead of it, the next three [J]
+    # Mass of fuel, lower heating value, share of it that is released [kg], [J/kg], [-]
     fuel_per_cycle: float = 0.0
     heating_value: float = 0.0
     burning_efficiency: float = 1.0
+    # Start of burning before top dead centre, duration, Wiebe exponent [deg], [deg], [-]
     burning_advance: float = 20.0
     burning_duration: float = 50.0
     burning_shape: float = 2.0
+    # Ratio of specific heats (at 0 K where it has a slope), its change with temperature, specific gas
+    # constant [-], [1/K], [J/(kg*K)]
     heat_ratio: float = 1.33
     heat_ratio_slope: float = 0.0
     gas_constant: float = 287.0
-    has_wall_loss: bool = True
+    has_wall_loss: bool = True  # Whether heat goes to the walls
+    # Of the walls; areas of head and crown (the piston area if left out); polytrope without
+    # burning [K], [m2], [m2], [-]
     wall_temperature: float = 450.0
     head_area: float | None = None
     crown_area: float | None = None
     motored_exponent: float = 1.35
-    cycle: float = 720.0
+    cycle: float = 720.0  # 720, or 360 for two strokes [deg]
+    # After and before bottom dead centre; the ports of two strokes likewise, the last to close
+    # and the first to open [deg]
     intake_closes: float = 50.0
     exhaust_opens: float = 60.0
+    # Before and after top dead centre; with two strokes the scavenging ports open before bottom dead centre and the
+    # exhaust ports shut after it [deg]
     intake_opens: float = 15.0
     exhaust_closes: float = 15.0
+    # While gas is exchanged; with two strokes the first is that of scavenging [Pa]
     exhaust_pressure: float = 1.1e5
     intake_pressure: float = 0.9e5
 

@@ -54,20 +54,11 @@ class HeatReleaseTrace(NamedTuple):
 
 @dataclass(frozen=True)
 class HeatReleaseResult:
-    """A cycle computed from the heat released.
+    """A cycle computed from the heat released."""
 
-    Parameters
-    ----------
-    calculated : Calculated
-        Diagram, single values, notices.
-    trace : HeatReleaseTrace
-        The closed period point by point.
-    again : mapping of str to float
-        Work and heat to the walls taken once more from the diagram, and what the first law leaves with them. [J]
-    """
-
-    calculated: Calculated
-    trace: HeatReleaseTrace
+    calculated: Calculated  # Diagram, single values, notices
+    trace: HeatReleaseTrace  # The closed period point by point
+    # Work and heat to the walls taken once more from the diagram, and what the first law leaves with them [J]
     again: Mapping[str, float]
 
 

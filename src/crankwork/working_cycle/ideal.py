@@ -19,40 +19,25 @@ IdealKind = Literal["otto", "ideal-diesel", "dual"]
 
 @dataclass(frozen=True)
 class IdealData:
-    """Data of an ideal cycle; how hot it becomes is said once.
+    """Data of an ideal cycle; how hot it becomes is said once."""
 
-    Parameters
-    ----------
-    kind : {"otto", "ideal-diesel", "dual"}
-        Heat at constant volume, at constant pressure, or first the one and then the other.
-    compression_ratio : float
-        Largest over smallest volume. [-]
-    pressure, temperature : float
-        Absolute state at the start of compression. [Pa], [K]
-    heat, peak_temperature : float or None
-        Heat added to 1 kg of gas, or the highest temperature. [J/kg], [K]
-    pressure_ratio : float or None
-        Rise of pressure at constant volume: needed by a dual cycle, one of the ways to say how hot an Otto cycle
-        becomes. [-]
-    cut_off : float or None
-        Rise of volume at constant pressure: one of the ways to say how hot the other two become. [-]
-    adiabatic_exponent, gas_constant : float
-        Ratio of specific heats, gas constant. [-], [J/(kg K)]
-    angle : {720, 360}
-        Crank angle of the cycle. [deg]
-    """
-
-    kind: IdealKind
-    compression_ratio: float
+    kind: IdealKind  # Heat at constant volume, at constant pressure, or first the one and then the other
+    compression_ratio: float  # Largest over smallest volume [-]
+    # Absolute state at the start of compression [Pa], [K]
     pressure: float
     temperature: float
+    # Heat added to 1 kg of gas, or the highest temperature [J/kg], [K]
     heat: float | None = None
     peak_temperature: float | None = None
+    # Rise of pressure at constant volume: needed by a dual cycle, one of the ways to say how
+    # hot an Otto cycle becomes [-]
     pressure_ratio: float | None = None
+    # Rise of volume at constant pressure: one of the ways to say how hot the other two become [-]
     cut_off: float | None = None
+    # Ratio of specific heats, gas constant [-], [J/(kg K)]
     adiabatic_exponent: float = 1.4
     gas_constant: float = 287.0
-    angle: float = 720.0
+    angle: float = 720.0  # Crank angle of the cycle [deg]
 
 
 def ideal_cycle(data: IdealData) -> CalculatedCycle:

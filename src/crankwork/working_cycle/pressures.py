@@ -24,21 +24,11 @@ _KNOWN: dict[object, HeatReleaseResult] = {}
 
 @dataclass(frozen=True)
 class CornerPressure:
-    """The diagram of a calculated cycle.
+    """The diagram of a calculated cycle."""
 
-    Parameters
-    ----------
-    cycle : CalculatedCycle
-        What was calculated.
-    timing : Timing or None
-        Of valves and ignition, where corners are rounded.
-    rounding : Rounding
-        How they are rounded.
-    """
-
-    cycle: CalculatedCycle
-    timing: Timing | None = None
-    rounding: Rounding = field(default_factory=Rounding)
+    cycle: CalculatedCycle  # What was calculated
+    timing: Timing | None = None  # Of valves and ignition, where corners are rounded
+    rounding: Rounding = field(default_factory=Rounding)  # How they are rounded
 
     def pressure(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
         """Return the diagram in a cylinder.
@@ -86,15 +76,9 @@ _ORIGINS = {"~start": "a", "~burnt": "z"}
 
 @dataclass(frozen=True)
 class HeatReleasePressure:
-    """The diagram that a release of heat makes.
+    """The diagram that a release of heat makes."""
 
-    Parameters
-    ----------
-    data : HeatReleaseData
-        Burning, gas, walls and valves.
-    """
-
-    data: HeatReleaseData
+    data: HeatReleaseData  # Burning, gas, walls and valves
 
     def pressure(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
         """Return the diagram in a cylinder.
