@@ -40,13 +40,7 @@ class MissingExtraError(CrankworkError):
 
 
 def missing_extras(modules: Mapping[str, str]) -> tuple[str, ...]:
-    """Return the extras that bring the modules which are not installed, each once.
-
-    Parameters
-    ----------
-    modules : mapping of str to str
-        Extra by the module that it brings.
-    """
+    """Return the extras that bring the modules which are not installed, each once."""
     missing = (extra for module, extra in modules.items() if find_spec(module) is None)
     return tuple(dict.fromkeys(missing))
 

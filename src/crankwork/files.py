@@ -40,13 +40,7 @@ _inputs: set[Path] = set()
 
 
 def read_resource(*names: str) -> str:
-    """Return the text of a file of the package.
-
-    Parameters
-    ----------
-    *names : str
-        Path within the package, part by part.
-    """
+    """Return the text of a file of the package."""
     return Path(__file__).parent.joinpath(*names).read_text(encoding="utf-8")
 
 
@@ -59,19 +53,7 @@ def resource_names(folder: str, suffix: str) -> list[str]:
 def read_text(path: str | Path, *, limit: int = MAX_MACHINE_FILE, advice: str = "check the path") -> str:
     """Return the text of a file, UTF-8 with or without a byte order mark.
 
-    Parameters
-    ----------
-    path : path
-        The file.
-    limit : int
-        Largest size accepted. [bytes]
-    advice : str
-        What to do if there is no such file.
-
-    Raises
-    ------
-    CrankworkError
-        If the file is missing, unreadable, larger than the limit, or not text.
+    `advice`: what to do if there is no such file.
     """
     path = Path(path)
     try:
@@ -113,22 +95,7 @@ def _line(data: bytes, position: int) -> int:
 
 
 def write_new(path: str | Path, text: str, *, overwrite: bool = False) -> None:
-    """Write a text file, whole or not at all.
-
-    Parameters
-    ----------
-    path : path
-        The file.
-    text : str
-        What goes in.
-    overwrite : bool
-        Replace a file that is there.
-
-    Raises
-    ------
-    CrankworkError
-        If the file exists and `overwrite` is not set, or it cannot be written.
-    """
+    """Write a text file, whole or not at all."""
     _check_new(Path(path), overwrite=overwrite)
     try:
         Path(path).parent.mkdir(parents=True, exist_ok=True)
@@ -138,20 +105,7 @@ def write_new(path: str | Path, text: str, *, overwrite: bool = False) -> None:
 
 
 def check_files(*paths: str | Path, overwrite: bool = False) -> None:
-    """Raise unless files may be written, before anything is computed for them.
-
-    Parameters
-    ----------
-    *paths : path
-        The files.
-    overwrite : bool
-        Whether they may be there already.
-
-    Raises
-    ------
-    CrankworkError
-        With the fix.
-    """
+    """Raise unless files may be written, before anything is computed for them."""
     for path in map(Path, paths):
         _check_new(path, overwrite=overwrite)
         try:
@@ -179,20 +133,7 @@ def _check_new(path: Path, *, overwrite: bool) -> None:
 
 
 def write_files(contents: Mapping[str | Path, bytes], *, overwrite: bool = False) -> None:
-    """Write files into folders that are there, so that a failure leaves what was there before.
-
-    Parameters
-    ----------
-    contents : mapping of path to bytes
-        Data by the file that it goes to.
-    overwrite : bool
-        Replace files that are there.
-
-    Raises
-    ------
-    CrankworkError
-        If a file exists and `overwrite` is not set, or one cannot be written.
-    """
+    """Write files into folders that are there, so that a failure leaves what was there before."""
     check_files(*contents, overwrite=overwrite)
     path = Path()
     try:
@@ -212,23 +153,8 @@ def write_folder(folder: str | Path, contents: dict[str, bytes], *, overwrite: b
     """Write files into a folder so that a failure leaves what was there before.
 
     Killed at any moment, the folder holds the old results, the new ones, or the file `MARK`, which says that both are
-    there.
-
-    Parameters
-    ----------
-    folder : path
-        Made if missing.
-    contents : dict of str to bytes
-        Data by path relative to the folder.
-    overwrite : bool
-        Write into a folder that holds something already. What an earlier run wrote there, by the folder's manifest, and
-        is not written anew is deleted if it is still as it was written; all other files stay.
-
-    Raises
-    ------
-    CrankworkError
-        If the folder holds something and `overwrite` is not set, a link or a file that this run has read stands where a
-        result is to go, or it cannot be written.
+    there. `overwrite`: write into a folder that holds something already. What an earlier run wrote there, by the
+    folder's manifest, and is not written anew is deleted if it is still as it was written; all other files stay.
     """
     folder = Path(folder)
     check_folder(folder, overwrite=overwrite)
@@ -249,10 +175,7 @@ def write_folder(folder: str | Path, contents: dict[str, bytes], *, overwrite: b
 def send_nowhere(stream: TextIO) -> None:
     """Let what is still buffered in a stream go nowhere, where nobody reads it any more.
 
-    Parameters
-    ----------
-    stream : text stream
-        The output; the interpreter would try to write it once more when it ends, and complain.
+    `stream`: the output; the interpreter would try to write it once more when it ends, and complain.
     """
     with contextlib.suppress(OSError, ValueError):
         nowhere = os.open(os.devnull, os.O_WRONLY)
@@ -261,20 +184,7 @@ def send_nowhere(stream: TextIO) -> None:
 
 
 def check_folder(folder: str | Path, *, overwrite: bool = False) -> None:
-    """Raise unless results may be written into a folder.
-
-    Parameters
-    ----------
-    folder : path
-        Where results are to go.
-    overwrite : bool
-        Whether it may hold something already.
-
-    Raises
-    ------
-    CrankworkError
-        With the fix.
-    """
+    """Raise unless results may be written into a folder."""
     folder = Path(folder)
     try:
         if folder.exists() and not folder.is_dir():

@@ -45,15 +45,7 @@ def sources() -> MappingProxyType[str, Source]:
 def cite(reference: str) -> str:
     """Return the line of a list of references.
 
-    Parameters
-    ----------
-    reference : str
-        Key of the bibliography, with chapter, page or equation after a comma if wanted.
-
-    Raises
-    ------
-    KeyError
-        If the bibliography has no such key.
+    `reference`: key of the bibliography, with chapter, page or equation after a comma if wanted.
 
     Examples
     --------

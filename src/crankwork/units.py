@@ -135,19 +135,8 @@ def spellings(dimension: str) -> list[str]:
 def parse(text: str, dimensions: tuple[str, ...], *, decimal_comma: bool = False) -> tuple[float, str]:
     """Return the SI value and the dimension of a quantity written as text.
 
-    Parameters
-    ----------
-    text : str
-        Number and unit, `"75 mm"`, `"2300 об/мин"`, `"15.87 g/cm2"`.
-    dimensions : tuple of str
-        The dimensions that make sense here; the first is used in the advice.
-    decimal_comma : bool
-        Read `1,1 kg` as 1.1 kg. Otherwise a comma is an error, because it also separates thousands.
-
-    Raises
-    ------
-    ValueError
-        With a sentence that says what is wrong and what to write.
+    `dimensions`: the dimensions that make sense here; the first is used in the advice; `decimal_comma`: read `1,1 kg`
+    as 1.1 kg. Otherwise a comma is an error, because it also separates thousands.
 
     Examples
     --------

@@ -27,15 +27,7 @@ class WholeEngine:
     cylinders: tuple[Solved, ...]
 
     def of(self, number: int, key: str) -> Known:
-        """Return a column of a cylinder at the crank angle of cylinder 1, under its key and the number.
-
-        Parameters
-        ----------
-        number : int
-            Of the cylinder.
-        key : str
-            The column, one that the cylinder has.
-        """
+        """Return a column of a cylinder at the crank angle of cylinder 1, under its key and the number."""
         if (number, key) not in self._delayed:
             by = self.layout.places[number - 1].firing_angle
             name = f"{key}.{number}" if len(self.cylinders) > 1 else key
@@ -52,20 +44,7 @@ class WholeEngine:
         return tuple(number for number, one in enumerate(self.cylinders, start=1) if key in one.memory)
 
     def each(self, key: str, degrees: ArrayLike) -> Array:
-        """Return a column of every cylinder at crank angles of cylinder 1.
-
-        Parameters
-        ----------
-        key : str
-            The column.
-        degrees : array, shape (n,)
-            Crank angles of cylinder 1, within one cycle. [deg]
-
-        Returns
-        -------
-        array, shape (cylinders, n)
-            A row for each cylinder. [SI]
-        """
+        """Return a column of every cylinder at crank angles of cylinder 1, shape (cylinders, n). [SI]"""
         numbers = range(1, len(self.cylinders) + 1)
         found = Program({str(one): self.of(one, key) for one in numbers})(CrankGrid.from_degrees(degrees))
         return np.stack([found[str(one)] for one in numbers])
@@ -98,18 +77,7 @@ class WholeEngine:
 
 
 def whole_engine(solved: Solved) -> WholeEngine:
-    """Return the engine that a solved crank gear is the first cylinder of.
-
-    Parameters
-    ----------
-    solved : Solved
-        Of a machine with an engine.
-
-    Raises
-    ------
-    CrankworkError
-        If an articulated rod cannot be assembled all round.
-    """
+    """Return the engine that a solved crank gear is the first cylinder of."""
     machine = solved.machine
     engine = machine.engine
     if engine is None:

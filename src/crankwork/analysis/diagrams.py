@@ -32,10 +32,7 @@ class FineColumns(NamedTuple):
 def fine_columns(results: Results) -> FineColumns:
     """Return the columns of one cylinder, with every corner of the pressure among the angles.
 
-    Parameters
-    ----------
-    results : Results
-        Of a slider-crank; of an approximate method with the orders of the motion.
+    `results`: of a slider-crank; of an approximate method with the orders of the motion.
     """
     grid = CrankGrid.steps(_STEP, results.machine.cycle, special=_corners(results))
     keys = COLUMNS if results.method.is_exact else (*COLUMNS, *HARMONICS)
@@ -62,22 +59,10 @@ class BrixPoints(NamedTuple):
 
 
 def brix_points(lengths: SliderCrank, degrees: Array) -> BrixPoints:
-    """Return where rays from the shifted pole cut the circle; its height below the top is the displacement.
+    """Return where rays from the shifted pole cut the circle; its height below the top is the displacement. [-]
 
-    Parameters
-    ----------
-    lengths : SliderCrank
-        Crank radius, rod length, offset. [m]
-    degrees : array, shape (n,)
-        Crank angles, which the rays make with the axis. [deg]
+    `degrees`: crank angles, which the rays make with the axis [deg].
 
-    Returns
-    -------
-    BrixPoints
-        Pole and points. [-]
-
-    Notes
-    -----
     The pole lies half the crank-to-rod ratio towards bottom dead centre. Where the cylinder is offset, the axis is
     turned by the ratio of offset to rod length, which gives the displacement its part of the sine.
     """
@@ -104,20 +89,8 @@ class TollePoints(NamedTuple):
 
 
 def tolle_points(ratio: float) -> TollePoints:
-    """Return the points of Tolle's construction for a central slider-crank.
+    """Return the points of Tolle's construction for a central slider-crank. [-]
 
-    Parameters
-    ----------
-    ratio : float
-        Crank radius over rod length. [-]
-
-    Returns
-    -------
-    TollePoints
-        In crank radii and r w^2. [-]
-
-    Notes
-    -----
     With two terms of the series both displacement and acceleration are quadratic in the cosine of the crank angle, so
     that one over the other is a parabola; CF and FD are its tangents at the dead centres.
     """
@@ -126,34 +99,19 @@ def tolle_points(ratio: float) -> TollePoints:
 
 
 def tolle_parabola(ratio: float) -> tuple[Array, Array]:
-    """Return displacement and acceleration by two terms of the series, the parabola that the tangents envelop.
+    """Return displacement and acceleration by two terms of the series, the parabola that the tangents envelop. [-]
 
-    Parameters
-    ----------
-    ratio : float
-        Crank radius over rod length. [-]
-
-    Returns
-    -------
-    tuple of array, shape (n,)
-        In crank radii and r w^2, from top to bottom dead centre. [-]
+    In crank radii and r w^2, from top to bottom dead centre.
     """
     cosine = np.cos(np.radians(np.arange(0.0, 181.0, 3.0)))
     return 1 - cosine + ratio / 2 * (1 - cosine**2), cosine + ratio * (2 * cosine**2 - 1)
 
 
 def tangent_ends(start: ArrayLike, corner: ArrayLike, end: ArrayLike) -> Array:
-    """Return the lines that join equal parts of two tangents of a parabola, which are tangents as well.
+    """Return the lines that join equal parts of two tangents of a parabola, which are tangents as well, shape (n, 4).
 
-    Parameters
-    ----------
-    start, corner, end : array, shape (2,)
-        Where the tangents touch the parabola, and between them where they meet. [any]
-
-    Returns
-    -------
-    array, shape (n, 4)
-        Both ends of every line. [any]
+    `start`, `corner` and `end`: where the tangents touch the parabola, and between them where they meet [any], shape
+    (2,).
     """
     share = np.arange(1, _PARTS)[:, None] / _PARTS
     a, b, c = (np.array(one) for one in (start, corner, end))
@@ -187,22 +145,11 @@ class Tangents(NamedTuple):
 
 
 def tangents(inertia: Array, energy: Array, wanted: Fluctuation) -> Tangents:
-    """Return the two tangents of the energy-mass curve.
+    """Return the two tangents of the energy-mass curve (artobolevsky_1988).
 
-    Parameters
-    ----------
-    inertia, energy : array, shape (n,)
-        Reduced moment of inertia [kg m2] and change of the kinetic energy [J] over one cycle.
-    wanted : Fluctuation
-        Mean speed and coefficient.
+    `inertia` and `energy`: reduced moment of inertia [kg m2] and change of the kinetic energy [J] over one cycle.
 
-    Notes
-    -----
     tan psi = w^2 (1 +- delta) / 2; the upper tangent touches the curve from above, the lower one from below.
-
-    References
-    ----------
-    artobolevsky_1988
     """
     high = float(wittenbauer_slope_largest(wanted.mean, wanted.delta))
     low = float(wittenbauer_slope_least(wanted.mean, wanted.delta))

@@ -43,24 +43,7 @@ GROUPS = {"kinematics": KINEMATICS, "harmonics": HARMONICS, "forces": FORCES}
 def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: Method | None = None) -> Results:
     """Return everything a machine does over one cycle.
 
-    Parameters
-    ----------
-    machine : Machine
-        What to compute.
-    grid : CrankGrid, shape (n,), optional
-        Ascending crank angles for the columns, within one cycle; the machine's own table otherwise. [rad]
-    method : Method, optional
-        Instead of the machine's own.
-
-    Returns
-    -------
-    Results
-        Columns, summary, checks and notices.
-
-    Raises
-    ------
-    CrankworkError
-        If the mechanism cannot turn, or the diagram does not hang together.
+    `grid`: ascending crank angles for the columns, within one cycle; the machine's own table otherwise [rad].
     """
     solved = solve(machine, method or machine.method)
     if grid is None:

@@ -60,17 +60,7 @@ class WearRing(NamedTuple):
 
 
 def crankpin_of_one(results: Results, degrees: Array, columns: Mapping[str, Array]) -> CrankpinLoad:
-    """Return the load of the one rod of a crank gear on its crankpin; the machine may have no engine.
-
-    Parameters
-    ----------
-    results : Results
-        Of a slider-crank with forces.
-    degrees : array, shape (n,)
-        Crank angles over the cycle. [deg]
-    columns : mapping of str to array, shape (n,)
-        With `radial_force` and `tangential_force`. [N]
-    """
+    """Return the load of the one rod of a crank gear on its crankpin; the machine may have no engine."""
     inertia = _rod_inertia(results)
     load = BearingLoad(-columns["radial_force"] - inertia, columns["tangential_force"])
     return CrankpinLoad(load.resultant, polar_diagram(load, degrees, results.machine.cycle, inertia), inertia, 1)
@@ -84,15 +74,7 @@ def _rod_inertia(results: Results) -> float:
 
 
 def wear_rings(results: Results, listing: str) -> tuple[Array, dict[str, WearRing]]:
-    """Return the angles of the rays of wear diagrams [deg], and the rings by number of the journal.
-
-    Parameters
-    ----------
-    results : Results
-        Of an engine, with the listing.
-    listing : str
-        `crankpin_wear` or `main_wear`.
-    """
+    """Return the angles of the rays of wear diagrams [deg], and the rings by number of the journal."""
     columns = dict(results.listings[listing].columns)
     angles = np.degrees(columns.pop("wear_ray_angle"))
     return angles, {key.partition(".")[2]: WearRing(one, oil_hole(one)) for key, one in columns.items()}
@@ -166,12 +148,8 @@ class EngineDiagrams:
     def crankpin(self, pin: int, degrees: Array | None = None) -> CrankpinLoad:
         """Return the load of all rods on a crankpin.
 
-        Parameters
-        ----------
-        pin : int
-            Its number, one of those in `loads`.
-        degrees : array, shape (n,), optional
-            Crank angles over the cycle; those of `loads` otherwise. [deg]
+        `pin`: its number, one of those in `loads`; `degrees`: crank angles over the cycle; those of `loads` otherwise
+        [deg].
         """
         degrees, loads = (
             self.loads if degrees is None else (degrees, bearing_loads(self.whole, self.results.memory, degrees))

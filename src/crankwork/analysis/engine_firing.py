@@ -21,13 +21,7 @@ _OF_SLAVES = ("top_dead_centre_angle", "stroke", "swept_volume")
 
 
 def firing_memory(whole: WholeEngine) -> dict[str, Known]:
-    """Return number and volume of the cylinders, where each stands and when it fires.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-    """
+    """Return number and volume of the cylinders, where each stands and when it fires."""
     count, layout = given("cylinder_count", float(len(whole.cylinders)), "engine.cylinders"), whole.layout
     found = {count.key: count}
     for place in layout.places:
@@ -75,15 +69,7 @@ def _sizes(whole: WholeEngine, found: Mapping[str, Known]) -> dict[str, Known]:
 
 
 def work_memory(whole: WholeEngine, firing: Mapping[str, Known]) -> dict[str, Known]:
-    """Return the works of all cylinders, and the power and the mean torque that follow; nothing without gas in each.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-    firing : mapping of str to Known
-        That of `firing_memory`.
-    """
+    """Return the works of all cylinders, and the power and the mean torque that follow; nothing without gas in each."""
     works = [
         Known(Found(one.space.work, "work", (one.memory["diagram_pressure"], one.memory["cylinder_volume"])))
         for one in whole.cylinders
@@ -107,15 +93,7 @@ def work_memory(whole: WholeEngine, firing: Mapping[str, Known]) -> dict[str, Kn
 
 
 def firing_listing(whole: WholeEngine, firing: Mapping[str, Known]) -> Listing:
-    """Return where each cylinder stands and when it fires; of articulated rods also stroke and dead centre of each.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-    firing : mapping of str to Known
-        That of `firing_memory`.
-    """
+    """Return where each cylinder stands and when it fires; of articulated rods also stroke and dead centre of each."""
     numbers = [one.number for one in whole.layout.places]
     columns = {"cylinder_number": np.array(numbers, dtype=float)}
     for kind in (*_LISTED, *(_OF_SLAVES if "stroke.1" in firing else ())):

@@ -12,25 +12,9 @@ FACTORS = ("side_factor", "rod_factor", "radial_factor", "tangential_factor")
 
 
 def force_functions(results: Results) -> dict[str, Array]:
-    """Return tan beta, 1 / cos beta, cos(phi + beta) / cos beta and sin(phi + beta) / cos beta.
+    """Return tan beta, 1 / cos beta, cos(phi + beta) / cos beta and sin(phi + beta) / cos beta. [-]
 
-    Parameters
-    ----------
-    results : Results
-        Of an engine.
-
-    Returns
-    -------
-    dict of str to array, shape (n,)
-        `side_factor`, `rod_factor`, `radial_factor`, `tangential_factor` at the crank angles of the columns. [-]
-
-    Raises
-    ------
-    MethodError
-        If the machine is no slider-crank of its own.
-
-    References
-    ----------
+    `side_factor`, `rod_factor`, `radial_factor`, `tangential_factor` at the crank angles of the columns. Source:
     kolchin_demidov_2008, ch. 7.
     """
     solved = results.solved

@@ -34,14 +34,7 @@ COLUMNS = ("crank_angle", *KINEMATICS, "cylinder_volume", *FORCES, "knuckle_side
 def cylinder_memory(solved: Solved) -> dict[str, Known]:
     """Return everything about one cylinder by key: motion, gas and forces, each remembering how it came about.
 
-    Parameters
-    ----------
-    solved : Solved
-        Machine and method.
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 6 and 7.
+    Source: kolchin_demidov_2008, ch. 6 and 7.
     """
     moving = moving_cylinder(solved)
     memory = moving.memory
@@ -58,21 +51,9 @@ def cylinder_memory(solved: Solved) -> dict[str, Known]:
 
 
 def columns(solved: Solved, grid: CrankGrid, keys: Iterable[str] = COLUMNS) -> dict[str, Array]:
-    """Return columns of one cylinder at crank angles within one cycle.
+    """Return columns of one cylinder at crank angles within one cycle. [SI]
 
-    Parameters
-    ----------
-    solved : Solved
-        Machine and method.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    keys : iterable of str
-        Which; those that the machine does not have are left out.
-
-    Returns
-    -------
-    dict of str to array, shape (n,)
-        Columns by key. [SI]
+    `keys`: which; those that the machine does not have are left out.
     """
     return Program({key: solved.memory[key] for key in keys if key in solved.memory})(grid)
 

@@ -11,19 +11,7 @@ from crankwork.loads.pressure import at_angle, polytrope_origin, remembered_pres
 
 
 def space_memory(solved: Solved, moving: MovingCylinder) -> dict[str, Known]:
-    """Return areas and volumes of the cylinder, as far as they are known.
-
-    Parameters
-    ----------
-    solved : Solved
-        Machine and method.
-    moving : MovingCylinder
-        The motion.
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 5.
-    """
+    """Return areas and volumes of the cylinder, as far as they are known (kolchin_demidov_2008, ch. 5)."""
     cylinder, space = solved.machine.cylinder, solved.space
     if cylinder is None:
         return {}
@@ -44,20 +32,9 @@ def space_memory(solved: Solved, moving: MovingCylinder) -> dict[str, Known]:
 
 
 def gas_memory(solved: Solved, space: WorkingSpace, moving: MovingCylinder) -> dict[str, Known]:
-    """Return volume, pressure and force of the gas.
+    """Return volume, pressure and force of the gas (kolchin_demidov_2008, ch. 5 and 7).
 
-    Parameters
-    ----------
-    solved : Solved
-        Machine and method.
-    space : WorkingSpace
-        The cylinder as solved.
-    moving : MovingCylinder
-        The motion, with areas and volumes in its memory.
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 5 and 7.
+    `moving`: the motion, with areas and volumes in its memory.
     """
     memory = moving.memory
     area = memory["piston_area"]

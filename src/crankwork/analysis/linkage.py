@@ -49,31 +49,12 @@ class SolvedLinkage:
 
 
 def solve_linkage(machine: LinkageMachine) -> SolvedLinkage:
-    """Return a linkage made ready.
-
-    Parameters
-    ----------
-    machine : LinkageMachine
-        What to compute.
-    """
+    """Return a linkage made ready."""
     return SolvedLinkage(machine, machine.method, machine.speed * machine.method.pi / math.pi)
 
 
 def reachable(machine: LinkageMachine, grid: CrankGrid) -> tuple[CrankGrid, tuple[Notice, ...]]:
-    """Return the crank angles that the linkage can reach, and a notice if those are not all.
-
-    Parameters
-    ----------
-    machine : LinkageMachine
-        What to compute.
-    grid : CrankGrid, shape (n,)
-        Ascending crank angles. [rad]
-
-    Raises
-    ------
-    GeometryError
-        If it can be assembled nowhere.
-    """
+    """Return the crank angles that the linkage can reach, and a notice if those are not all."""
     try:
         linkage_motion(machine.mechanism, grid)
     except GeometryError as error:
@@ -89,13 +70,7 @@ def reachable(machine: LinkageMachine, grid: CrankGrid) -> tuple[CrankGrid, tupl
 
 
 def four_bar_type(machine: LinkageMachine) -> FourBarType | Literal[""]:
-    """Return the type of a four-bar linkage by Grashof, empty for any other linkage.
-
-    Parameters
-    ----------
-    machine : LinkageMachine
-        The linkage.
-    """
+    """Return the type of a four-bar linkage by Grashof, empty for any other linkage."""
     crank, ground = machine.mechanism.crank, machine.mechanism.ground
     match machine.mechanism.dyads:
         case (RRR() as dyad,) if {dyad.joint_a, dyad.joint_b} & set(ground):
@@ -107,15 +82,7 @@ def four_bar_type(machine: LinkageMachine) -> FourBarType | Literal[""]:
 
 
 def running_at(solved: SolvedLinkage, motion: Motion) -> Running:
-    """Return the linkage at work, with its loads.
-
-    Parameters
-    ----------
-    solved : SolvedLinkage
-        The linkage.
-    motion : Motion
-        Its motion.
-    """
+    """Return the linkage at work, with its loads."""
     machine = solved.machine
     loads = applied_loads(machine.mechanism, motion, machine.loads)
     return Running(machine.mechanism, motion, solved.speed, loads, machine.angular_acceleration)
@@ -124,22 +91,8 @@ def running_at(solved: SolvedLinkage, motion: Motion) -> Running:
 def analyse_linkage(machine: LinkageMachine, grid: CrankGrid | None = None) -> Results:
     """Return everything a linkage does over one revolution.
 
-    Parameters
-    ----------
-    machine : LinkageMachine
-        What to compute.
-    grid : CrankGrid, shape (n,), optional
-        Ascending crank angles within one revolution; the machine's own table otherwise. [rad]
-
-    Returns
-    -------
-    Results
-        Columns, summary, checks and notices; only the angles that the linkage reaches.
-
-    Raises
-    ------
-    CrankworkError
-        If the linkage can be assembled nowhere.
+    Columns, summary, checks and notices; only the angles that the linkage reaches. `grid`: ascending crank angles
+    within one revolution; the machine's own table otherwise [rad].
     """
     solved = solve_linkage(machine)
     own_table = grid is None
@@ -173,15 +126,7 @@ def analyse_linkage(machine: LinkageMachine, grid: CrankGrid | None = None) -> R
 
 
 def analyse_any_linkage(machine: LinkageMachine | TabulatedMachine, grid: CrankGrid | None = None) -> Results:
-    """Return the results of a linkage, or of a table of transfer functions at its own positions.
-
-    Parameters
-    ----------
-    machine : LinkageMachine or TabulatedMachine
-        What to compute.
-    grid : CrankGrid, shape (n,), optional
-        Crank angles of a linkage. [rad]
-    """
+    """Return the results of a linkage, or of a table of transfer functions at its own positions."""
     return analyse_linkage(machine, grid) if isinstance(machine, LinkageMachine) else analyse_tabulated(machine)
 
 
@@ -268,15 +213,7 @@ class TorqueByRoutes(NamedTuple):
 
 
 def torque_by_routes(results: Results, degrees: ArrayLike) -> TorqueByRoutes:
-    """Return the balancing torque by five routes.
-
-    Parameters
-    ----------
-    results : Results
-        Of a linkage.
-    degrees : array, shape (n,)
-        Crank angles. [deg]
-    """
+    """Return the balancing torque by five routes."""
     solved: SolvedLinkage = results.solved
     running = running_at(solved, linkage_motion(solved.machine.mechanism, CrankGrid.from_degrees(degrees)))
     torques = {"by_groups": by_groups(running), **{name: route(running) for name, route in ROUTES.items()}}
@@ -284,18 +221,7 @@ def torque_by_routes(results: Results, degrees: ArrayLike) -> TorqueByRoutes:
 
 
 def differences(routes: list[Array]) -> Array:
-    """Return how far routes are apart at each position, relative to the largest torque of the turn.
-
-    Parameters
-    ----------
-    routes : list of array, shape (n,)
-        The same torque, computed in different ways. [N m]
-
-    Returns
-    -------
-    array, shape (n,)
-        Largest less least. [-]
-    """
+    """Return how far routes are apart at each position, relative to the largest torque of the turn. [-]"""
     every = np.array(routes)
     return np.asarray(np.ptp(every, axis=0) / (float(np.max(np.abs(every))) or 1.0))
 

@@ -22,23 +22,10 @@ from crankwork.loads.load import applied_loads
 
 
 def linkage_memory(machine: LinkageMachine, moved: Motion) -> dict[str, Known]:
-    """Return all columns of a linkage.
+    """Return all columns of a linkage (artobolevsky_1988, ch. 13-16).
 
-    Parameters
-    ----------
-    machine : LinkageMachine
-        What to compute.
-    moved : Motion
-        Its motion in numbers, over the crank angles that it reaches.
-
-    Returns
-    -------
-    dict of str to Known
-        Columns by key; those of points, links, sliders and joints are `key.NAME`.
-
-    References
-    ----------
-    artobolevsky_1988, ch. 13-16.
+    Columns by key; those of points, links, sliders and joints are `key.NAME`. `moved`: its motion in numbers, over
+    the crank angles that it reaches.
     """
     motion = remembered_motion(machine.mechanism, moved)
     w, eps = speed_of(machine), _stated("angular_acceleration", machine.angular_acceleration)
@@ -49,13 +36,7 @@ def linkage_memory(machine: LinkageMachine, moved: Motion) -> dict[str, Known]:
 
 
 def speed_of(machine: LinkageMachine | TabulatedMachine) -> Known:
-    """Return the angular speed of the crank, with the method's own pi.
-
-    Parameters
-    ----------
-    machine : LinkageMachine or TabulatedMachine
-        Whose crank.
-    """
+    """Return the angular speed of the crank, with the method's own pi."""
     if machine.method.pi == math.pi:
         return given("speed", machine.speed, "crank.speed")
     turns = given("rotational_speed", machine.speed * 30 / math.pi, "crank.speed")
@@ -64,13 +45,7 @@ def speed_of(machine: LinkageMachine | TabulatedMachine) -> Known:
 
 
 def efficiency_of(drive: Drive) -> Known:
-    """Return the efficiency of the joints between motor and process, made up of those of a chain where it is given.
-
-    Parameters
-    ----------
-    drive : Drive
-        What drives the crank.
-    """
+    """Return the efficiency of the joints between motor and process, made up of those of a chain where it is given."""
     if drive.efficiency == 1:
         return absent("efficiency", 1.0)
     if drive.chain is None:

@@ -53,17 +53,7 @@ class Turn(NamedTuple):
 
 
 def turn_of(machine: LinkageMachine, over: OverCycle, memory: Mapping[str, Known]) -> Turn:
-    """Return flywheel, motor and true speed of a linkage, as far as they are asked for.
-
-    Parameters
-    ----------
-    machine : LinkageMachine
-        Its drive says what is wanted.
-    over : OverCycle
-        Reduced inertia and static torque over one revolution.
-    memory : mapping of str to Known
-        The columns.
-    """
+    """Return flywheel, motor and true speed of a linkage, as far as they are asked for."""
     drive, w = machine.drive, speed_of(machine)
     turn = Turn({}, {}, {}, (), {})
     if drive.fluctuation is None and drive.motor is None:
@@ -196,20 +186,7 @@ def _steady(
 def transient_summary(machine: LinkageMachine) -> dict[str, Known]:
     """Return crank angle and speed after the time of a transient.
 
-    Parameters
-    ----------
-    machine : LinkageMachine
-        With a transient.
-
-    Returns
-    -------
-    dict of str to Known
-        Values by key; none without a transient.
-
-    Raises
-    ------
-    MethodError
-        If the linkage does not start, or stands still before that time, with the angle.
+    Values by key; none without a transient.
     """
     wanted = machine.transient
     if wanted is None:

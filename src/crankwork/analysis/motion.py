@@ -39,17 +39,7 @@ class MovingCylinder(NamedTuple):
 
 
 def moving_cylinder(solved: Solved) -> MovingCylinder:
-    """Return the motion of a cylinder by its method, remembered.
-
-    Parameters
-    ----------
-    solved : Solved
-        Machine and method.
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 6.
-    """
+    """Return the motion of a cylinder by its method, remembered (kolchin_demidov_2008, ch. 6)."""
     machine = solved.machine
     angle: Value = KnownAngle()
     r, l, e = (float(one) for one in solved.lengths)  # noqa: E741
@@ -91,15 +81,7 @@ _PISTON = ("piston_displacement", "piston_transfer_1", "piston_transfer_2")
 
 
 def inertia_acceleration(solved: Solved, moving: MovingCylinder) -> Known:
-    """Return the acceleration behind the inertia force, with its own rod ratio where a document has one.
-
-    Parameters
-    ----------
-    solved : Solved
-        Machine and method.
-    moving : MovingCylinder
-        The motion.
-    """
+    """Return the acceleration behind the inertia force, with its own rod ratio where a document has one."""
     ratio = solved.method.inertia_rod_ratio
     if ratio is None or ratio == solved.lengths.rod_ratio or solved.method.is_exact:
         return moving.memory["piston_acceleration"]
@@ -117,15 +99,7 @@ def inertia_acceleration(solved: Solved, moving: MovingCylinder) -> Known:
 def harmonic_memory(solved: Solved, moving: MovingCylinder) -> dict[str, Known]:
     """Return the first- and second-order parts of piston displacement, velocity and acceleration.
 
-    Parameters
-    ----------
-    solved : Solved
-        Machine and method; the textbook has its own two terms, the other methods true harmonics.
-    moving : MovingCylinder
-        The motion.
-
-    References
-    ----------
+    `solved`: machine and method; the textbook has its own two terms, the other methods true harmonics. Source:
     kolchin_demidov_2008, ch. 6; taylor_1985, vol. 2, ch. 8.
     """
     lengths, found = moving.lengths, dict[str, Known]()

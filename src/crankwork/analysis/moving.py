@@ -46,20 +46,7 @@ class Moving(NamedTuple):
 
 
 def moving(mechanism: Mechanism, degrees: ArrayLike) -> Moving:
-    """Return a linkage at crank angles.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A crank and groups.
-    degrees : array, shape (n,)
-        Ascending crank angles. [deg]
-
-    Raises
-    ------
-    GeometryError
-        If the mechanism cannot be assembled at some angle.
-    """
+    """Return a linkage at crank angles."""
     found = linkage_motion(mechanism, CrankGrid.from_degrees(degrees))
     count = len(found.grid)
 
@@ -86,22 +73,7 @@ def moving(mechanism: Mechanism, degrees: ArrayLike) -> Moving:
 def transfer_ratios(mechanism: Mechanism, degrees: ArrayLike) -> dict[str, Array]:
     """Return velocities of points and sliders and angular velocities of links, over that of the crank.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A crank and groups.
-    degrees : array, shape (n,)
-        Ascending crank angles. [deg]
-
-    Returns
-    -------
-    dict of str to array, shape (n,)
-        `velocity_ratio.NAME` of points, `rotation_ratio.NAME` of links, `velocity_ratio.NAME` of sliders. [m], [-]
-
-    Raises
-    ------
-    GeometryError
-        If the mechanism cannot be assembled at some angle.
+    `velocity_ratio.NAME` of points, `rotation_ratio.NAME` of links, `velocity_ratio.NAME` of sliders [m], [-].
     """
     found = linkage_motion(mechanism, CrankGrid.from_degrees(degrees))
     points = {name: np.hypot(x.position_1, y.position_1) for name, (x, y) in found.points.items()}
@@ -114,30 +86,14 @@ def transfer_ratios(mechanism: Mechanism, degrees: ArrayLike) -> dict[str, Array
 def reached_angles(machine: LinkageMachine, step: float) -> tuple[Array, bool]:
     """Return crank angles of a revolution as far as a linkage reaches them [deg], and whether it reaches all.
 
-    Parameters
-    ----------
-    machine : LinkageMachine
-        The linkage.
-    step : float
-        Step. [deg]
-
-    Raises
-    ------
-    GeometryError
-        If it can be assembled nowhere.
+    `step`: step [deg].
     """
     grid, notices = reachable(machine, CrankGrid.steps(step, 360.0))
     return grid.degrees, not notices
 
 
 def drawn_mechanism(machine: Machine | LinkageMachine) -> Mechanism:
-    """Return the mechanism to draw: of an engine with several rods on a crankpin, all of these.
-
-    Parameters
-    ----------
-    machine : Machine or LinkageMachine
-        What is drawn.
-    """
+    """Return the mechanism to draw: of an engine with several rods on a crankpin, all of these."""
     lengths = as_slider_crank(machine.mechanism) if isinstance(machine, Machine) else None
     if not isinstance(machine, Machine) or machine.engine is None or lengths is None:
         return machine.mechanism

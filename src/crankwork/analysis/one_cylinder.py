@@ -13,13 +13,7 @@ _FOUR_STROKES = 720.0
 
 
 def as_engine(results: Results) -> Results:
-    """Return results with those of the whole engine; a crank gear of its own is an engine of one cylinder.
-
-    Parameters
-    ----------
-    results : Results
-        Of an engine.
-    """
+    """Return results with those of the whole engine; a crank gear of its own is an engine of one cylinder."""
     machine = results.machine
     if not isinstance(machine, Machine) or machine.engine is not None or "crank_torque" not in results.columns:
         return results

@@ -51,26 +51,10 @@ class _State(NamedTuple):
 
 
 def velocities(mechanism: Mechanism, moving: Moving, index: int, speed: float, links: tuple[str, ...] = ()) -> Plan:
-    """Return the velocity plan of a linkage at one crank angle.
+    """Return the velocity plan of a linkage at one crank angle. [m/s]
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A crank and groups.
-    moving : Moving
-        Where it is.
-    index : int
-        Which of the crank angles.
-    speed : float
-        Of the crank. [rad/s]
-    links : tuple of str
-        The moving links in the order of their numbers.
-
-    Returns
-    -------
-    Plan
-        v_A from the pole for every point, v_BA between points of one link, v_AA2 of a point along a slot of link 2
-        against the point A2 of that link underneath. [m/s]
+    v_A from the pole for every point, v_BA between points of one link, v_AA2 of a point along a slot of link 2
+    against the point A2 of that link underneath.
     """
     states = _States(skeleton(mechanism, links), moving, index, speed, 0.0)
     plan = Plan({}, [], {one.number: states.turning(one.name)[0] for one in states.shape.members}, {})
@@ -98,26 +82,10 @@ def accelerations(
     angular_acceleration: float = 0.0,
     links: tuple[str, ...] = (),
 ) -> Plan:
-    """Return the acceleration plan of a linkage at one crank angle.
+    """Return the acceleration plan of a linkage at one crank angle. [m/s2]
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A crank and groups.
-    moving : Moving
-        Where it is.
-    index : int
-        Which of the crank angles.
-    speed, angular_acceleration : float
-        Of the crank. [rad/s], [rad/s2]
-    links : tuple of str
-        The moving links in the order of their numbers.
-
-    Returns
-    -------
-    Plan
-        a_A from the pole for every point; a_BA between points of one link as its normal and tangential parts;
-        along a slot of link 2 the Coriolis and the sliding part from A2 to A. [m/s2]
+    a_A from the pole for every point; a_BA between points of one link as its normal and tangential parts; along a
+    slot of link 2 the Coriolis and the sliding part from A2 to A.
     """
     states = _States(skeleton(mechanism, links), moving, index, speed, angular_acceleration)
     plan = Plan({}, [], {one.number: states.turning(one.name)[1] for one in states.shape.members}, {})

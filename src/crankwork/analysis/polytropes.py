@@ -29,13 +29,7 @@ class Polytropes(NamedTuple):
 
 
 def polytropes(results: Results) -> Polytropes | None:
-    """Return the polytropes of a diagram, of a calculated cycle before its corners were rounded; None without any.
-
-    Parameters
-    ----------
-    results : Results
-        Of an engine with gas.
-    """
+    """Return the polytropes of a diagram, of a calculated cycle before its corners were rounded; None without any."""
     space = results.solved.space
     diagram: IndicatorDiagram = space.theoretical or space.diagram
     found = _by_stroke(diagram, results.machine.cycle)

@@ -56,13 +56,8 @@ class Skeleton(NamedTuple):
 def skeleton(mechanism: Mechanism, links: Sequence[str] = ()) -> Skeleton:
     """Return a mechanism as it is drawn.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A crank and groups.
-    links : sequence of str
-        The moving links in the order of their numbers, as `Structure.links` gives them; group after group
-        where it is left out.
+    `links`: the moving links in the order of their numbers, as `Structure.links` gives them; group after group where
+    it is left out.
     """
     found = [one for group in mechanism.dyads for one in _members_of(group)]
     pivot = next((name for name, at in mechanism.ground.items() if at == mechanism.crank.pivot), PIVOT)
@@ -120,14 +115,7 @@ def _slot(slot: Guide, link: str) -> Guide:
 def point_letters(mechanism: Mechanism, members: Sequence[Member], centres: Sequence[str]) -> dict[str, str]:
     """Return what is written at each point: the owner's name, a letter where the catalog has named the point.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        What is drawn.
-    members : sequence of Member
-        Its moving links.
-    centres : sequence of str
-        Points that are centres of mass; S and the number of their link.
+    `centres`: points that are centres of mass; S and the number of their link.
     """
     names = list(dict.fromkeys(name for one in members for name in one.points))
     own = {name for name in (*names, *centres) if name not in _CATALOG and name != PIVOT}

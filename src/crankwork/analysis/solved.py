@@ -121,22 +121,7 @@ class Solved:
 def solve(machine: Machine, method: Method) -> Solved:
     """Return a machine made ready for a method.
 
-    Parameters
-    ----------
-    machine : Machine
-        What to compute.
-    method : Method
-        How.
-
-    Returns
-    -------
-    Solved
-        Lengths, angular speed and the solved indicator diagram.
-
-    Raises
-    ------
-    CrankworkError
-        If the mechanism is no slider-crank, cannot turn, or the diagram does not hang together.
+    Lengths, angular speed and the solved indicator diagram.
     """
     lengths = as_slider_crank(machine.mechanism)
     if lengths is None:
@@ -159,22 +144,7 @@ def solve(machine: Machine, method: Method) -> Solved:
 def solve_slave(solved: Solved, slave: ArticulatedRod) -> Solved:
     """Return a cylinder of the same engine whose rod hangs on the master rod.
 
-    Parameters
-    ----------
-    solved : Solved
-        The master cylinder.
-    slave : ArticulatedRod
-        The articulated rod.
-
-    Returns
-    -------
-    Solved
-        The same machine with the stroke, dead centres and diagram of that rod.
-
-    Raises
-    ------
-    CrankworkError
-        If the rod cannot be assembled all round, or the diagram does not hang together.
+    The same machine with the stroke, dead centres and diagram of that rod.
     """
     return _with_space(replace(solved, slave=slave, space=None, notices=()), [])
 

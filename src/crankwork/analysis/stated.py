@@ -24,13 +24,7 @@ class StatedLoad(NamedTuple):
 
 
 def stated_loads(machine: LinkageMachine) -> tuple[StatedLoad, ...]:
-    """Return the loads of a linkage as its description states them.
-
-    Parameters
-    ----------
-    machine : LinkageMachine
-        The linkage.
-    """
+    """Return the loads of a linkage as its description states them."""
     return tuple(_stated(one) for one in machine.loads)
 
 

@@ -44,22 +44,7 @@ class SolvedTable:
 
 
 def analyse_tabulated(machine: TabulatedMachine) -> Results:
-    """Return reduced inertia and torques at the positions of a table.
-
-    Parameters
-    ----------
-    machine : TabulatedMachine
-        Transfer functions, masses and torques.
-
-    Returns
-    -------
-    Results
-        Columns, summary and notices.
-
-    References
-    ----------
-    artobolevsky_1988, ch. 15 and 16.
-    """
+    """Return reduced inertia and torques at the positions of a table (artobolevsky_1988, ch. 15 and 16)."""
     solved = SolvedTable(machine, machine.method, machine.speed * machine.method.pi / math.pi)
     grid = CrankGrid.from_degrees([round(math.degrees(one), 9) for one in machine.angles])
     memory = _memory(machine, grid)

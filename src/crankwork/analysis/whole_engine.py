@@ -45,20 +45,7 @@ _TABLES = {
 def with_whole_engine(results: Results) -> Results:
     """Return the results of cylinder 1 with those of the engine it belongs to.
 
-    Parameters
-    ----------
-    results : Results
-        Of a machine with an engine.
-
-    Returns
-    -------
-    Results
-        Every column and single value of cylinder 1 as it was, and those of the engine.
-
-    Raises
-    ------
-    CrankworkError
-        If an articulated rod cannot be assembled all round.
+    Every column and single value of cylinder 1 as it was, and those of the engine.
     """
     whole = whole_engine(results.solved)
     notices = [Notice(*one) for one in whole.engine.notices]
@@ -145,13 +132,7 @@ def _torque_against_cycle(one: Mapping[str, float], whole: Mapping[str, float]) 
 
 
 def whole_memory(whole: WholeEngine) -> tuple[dict[str, Known], OverCycle, dict[str, Known]]:
-    """Return torques and bearing loads of an engine by key, what they are over the cycle, and their extremes.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine, with forces.
-    """
+    """Return torques and bearing loads of an engine by key, what they are over the cycle, and their extremes."""
     memory = torque_memory(whole) | bearing_memory(whole)
     first = whole.of(1, "crank_torque")
     followed = {

@@ -46,31 +46,10 @@ def arranged(
 ) -> tuple[Layout, tuple[LayoutNotice, ...]]:
     """Return the layout of any arrangement: W engines, narrow V engines and whatever has no name.
 
-    Parameters
-    ----------
-    banks : Banks
-        How the cylinders stand.
-    order : sequence of int
-        Firing order.
-    strokes : int
-        4 or 2.
-    throws : sequence of float, optional
-        Angle of each throw along the shaft ahead of the first, positive with the rotation; else from even firing. [deg]
-    uneven : bool
-        Whether uneven intervals are wanted, so that there is no notice of them.
+    Notice `uneven_intervals` with the intervals, unless they are wanted. `throws`: angle of each throw along the
+    shaft ahead of the first, positive with the rotation; else from even firing [deg]; `uneven`: whether uneven
+    intervals are wanted, so that there is no notice of them.
 
-    Returns
-    -------
-    tuple of Layout and tuple of LayoutNotice
-        Notice `uneven_intervals` with the intervals, unless they are wanted.
-
-    Raises
-    ------
-    LayoutError
-        If arrangement, crank and order do not belong together, with what would.
-
-    Notes
-    -----
     At the crank angle phi of cylinder 1 from its own axis, the crankpin of cylinder k stands at
     phi + axis_1 + pin_k, so its own crank angle is phi - (axis_k - axis_1 - pin_k): the bracket is its firing angle,
     up to a whole turn.

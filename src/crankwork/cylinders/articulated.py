@@ -137,28 +137,9 @@ class SlaveStroke(NamedTuple):
 def articulated_motion(lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGrid) -> ArticulatedMotion:
     """Return the exact motion of an articulated rod and its piston.
 
-    Parameters
-    ----------
-    lengths : SliderCrank
-        Crank and master rod, with the offset of the master cylinder. [m]
-    rod : ArticulatedRod
-        The articulated rod.
-    grid : CrankGrid, shape (n,)
-        Crank angles from the axis of its own cylinder. [rad]
-
-    Returns
-    -------
-    ArticulatedMotion
-        Displacement from its own top dead centre and derivatives [m]; angle and derivatives of the rod [rad].
-
-    Raises
-    ------
-    GeometryError
-        If it cannot be assembled all round, with the length that is missing.
-
-    References
-    ----------
-    taylor_1985, ch. 8; artobolevsky_1988, ch. 4.
+    Displacement from its own top dead centre and derivatives [m]; angle and derivatives of the rod [rad]. `lengths`:
+    crank and master rod, with the offset of the master cylinder [m]; `grid`: crank angles from the axis of its own
+    cylinder [rad]. Source: taylor_1985, ch. 8; artobolevsky_1988, ch. 4.
     """
     top: Value = slave_stroke(SliderCrank(*map(plain, lengths)), rod).top
     if is_known(*lengths):
@@ -214,26 +195,8 @@ def _knuckle_direction(
 def slave_stroke(lengths: SliderCrank, rod: ArticulatedRod) -> SlaveStroke:
     """Return the dead centres of an articulated rod.
 
-    Parameters
-    ----------
-    lengths : SliderCrank
-        Crank and master rod. [m]
-    rod : ArticulatedRod
-        The articulated rod.
-
-    Returns
-    -------
-    SlaveStroke
-        Angles of the dead centres from its own axis [deg] and distances of the piston pin there [m].
-
-    Raises
-    ------
-    GeometryError
-        If it cannot be assembled all round, with the length that is missing.
-
-    References
-    ----------
-    taylor_1985, ch. 8; roots of dx/dphi.
+    Angles of the dead centres from its own axis [deg] and distances of the piston pin there [m]. Source: taylor_1985,
+    ch. 8; roots of dx/dphi.
     """
     check_articulated_rod(lengths, rod)
     return _stroke(lengths, rod)
@@ -267,20 +230,7 @@ def _extremes(motion: Callable[[Array], Transfer], start: float) -> Array:
 
 
 def check_articulated_rod(lengths: SliderCrank, rod: ArticulatedRod) -> None:
-    """Raise if crank, master rod and articulated rod cannot turn fully.
-
-    Parameters
-    ----------
-    lengths : SliderCrank
-        Crank and master rod. [m]
-    rod : ArticulatedRod
-        The articulated rod.
-
-    Raises
-    ------
-    GeometryError
-        With the angle and the length that is missing.
-    """
+    """Raise if crank, master rod and articulated rod cannot turn fully."""
     check_slider_crank(lengths)
     if rod.length <= 0 or rod.knuckle_radius < 0:
         raise GeometryError("the articulated rod must be longer than zero, and its knuckle radius not negative")

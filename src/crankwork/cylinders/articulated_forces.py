@@ -46,29 +46,11 @@ class SlaveForces(NamedTuple):
 def slave_forces(
     P: Value, lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGrid, motion: ArticulatedMotion
 ) -> SlaveForces:
-    """Return the forces that an articulated rod passes to the master rod and with it to the crankpin.
+    """Return the forces that an articulated rod passes to the master rod and with it to the crankpin. [N]
 
-    Parameters
-    ----------
-    P : array, shape (n,)
-        Force on its piston pin along its cylinder axis, positive towards the crankshaft. [N]
-    lengths : SliderCrank
-        Crank and master rod. [m]
-    rod : ArticulatedRod
-        The articulated rod.
-    grid : CrankGrid, shape (n,)
-        Crank angles from the axis of its own cylinder. [rad]
-    motion : ArticulatedMotion
-        Its motion there.
-
-    Returns
-    -------
-    SlaveForces of array, shape (n,)
-        Forces and couple; tangential force times crank radius is the torque, P dx/dphi. [N]
-
-    References
-    ----------
-    taylor_1985, ch. 8; moments on the master rod about the crankpin, then its forces.
+    Forces and couple; tangential force times crank radius is the torque, P dx/dphi. `P`: force on its piston pin
+    along its cylinder axis, positive towards the crankshaft [N]; `grid`: crank angles from the axis of its own
+    cylinder [rad]. Source: taylor_1985, ch. 8; moments on the master rod about the crankpin, then its forces.
     """
     sin_rod, cos_rod = motion.swing.sin, motion.swing.cos
     side = side_force(P, sin_rod, cos_rod, 0.0, 0.0)

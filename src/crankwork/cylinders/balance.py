@@ -56,25 +56,10 @@ class InertiaHarmonics(NamedTuple):
 def inertia_harmonics(
     slider_crank: SliderCrank, orders: Sequence[int] = ORDERS, method: Method = EXACT
 ) -> InertiaHarmonics:
-    """Return the orders of the piston acceleration of a slider-crank.
+    """Return the orders of the piston acceleration of a slider-crank, shape (orders,). [-]
 
-    Parameters
-    ----------
-    slider_crank : SliderCrank
-        The dimensions.
-    orders : sequence of int
-        The orders.
-    method : Method
-        Exact, a series to some order, or the two terms of the textbooks, where the second is the crank-to-rod ratio.
-
-    Returns
-    -------
-    InertiaHarmonics of complex, shape (orders,)
-        The coefficients. [-]
-
-    References
-    ----------
-    taylor_1985, vol. 2, ch. 8; kolchin_demidov_2008, ch. 6, for the two terms.
+    `method`: exact, a series to some order, or the two terms of the textbooks, where the second is the crank-to-rod
+    ratio. Source: taylor_1985, vol. 2, ch. 8; kolchin_demidov_2008, ch. 6, for the two terms.
     """
     r, ratio = float(slider_crank.crank_radius), float(slider_crank.rod_ratio)
     if method.kinematics == "textbook":
@@ -90,26 +75,10 @@ def inertia_harmonics(
 
 
 def sampled_harmonics(acceleration: ArrayLike, crank_radius: float, orders: Sequence[int] = ORDERS) -> InertiaHarmonics:
-    """Return the orders of any piston acceleration, as that of an articulated rod.
+    """Return the orders of any piston acceleration, as that of an articulated rod, shape (orders,). [-]
 
-    Parameters
-    ----------
-    acceleration : array, shape (n,) or (cylinders, n)
-        d2x/dphi2 at n equal steps of one turn, from the crank angle zero of the cylinder, without the last. [m]
-    crank_radius : float
-        Crank radius. [m]
-    orders : sequence of int
-        The orders.
-
-    Returns
-    -------
-    InertiaHarmonics of complex, shape (orders,) or (cylinders, orders)
-        The coefficients. [-]
-
-    Raises
-    ------
-    CrankworkError
-        If there are too few samples for the highest order.
+    `acceleration`: d2x/dphi2 at n equal steps of one turn, from the crank angle zero of the cylinder, without the
+    last [m].
     """
     samples = np.asarray(acceleration, dtype=float)
     count = samples.shape[-1]
@@ -132,27 +101,11 @@ def free_forces(
 ) -> tuple[OrderBalance, ...]:
     """Return what the reciprocating masses leave free.
 
-    Parameters
-    ----------
-    layout : Layout
-        The cylinders.
-    mass, crank_radius : float or array, shape (cylinders,)
-        Reciprocating mass, crank radius; of each cylinder where they differ. [kg], [m]
-    speed : float
-        Angular speed. [rad/s]
-    harmonics : InertiaHarmonics
-        Orders of the piston acceleration, the same for all cylinders or one row for each. [-]
-    about : float
-        Position along the shaft that moments are about, by default the middle between the outermost cylinders. [m]
-
-    Returns
-    -------
-    tuple of OrderBalance
-        Force and moment of each order of `harmonics`. [N], [N m]
-
-    References
-    ----------
-    den_hartog_1956, ch. 5; taylor_1985, vol. 2, ch. 8.
+    Force and moment of each order of `harmonics` [N], [N m]. `mass` and `crank_radius`: reciprocating mass, crank
+    radius; of each cylinder where they differ [kg], [m], shape (cylinders,); `harmonics`: orders of the piston
+    acceleration, the same for all cylinders or one row for each; `about`: position along the shaft that moments are
+    about, by default the middle between the outermost cylinders [m]. Source: den_hartog_1956, ch. 5; taylor_1985,
+    vol. 2, ch. 8.
     """
     places = layout.places
     if harmonics.coefficients.ndim > 1 and len(harmonics.coefficients) != len(places):
@@ -175,25 +128,10 @@ def free_forces(
 
 
 def layout_factors(layout: Layout, orders: Sequence[int] = ORDERS, pitch: float = 1.0) -> tuple[OrderBalance, ...]:
-    """Return the free forces in units of the force of one cylinder, and the moments in that force times a pitch.
+    """Return the free forces in units of the force of one cylinder, and the moments in that force times a pitch. [-]
 
-    Parameters
-    ----------
-    layout : Layout
-        The cylinders.
-    orders : sequence of int
-        The orders.
-    pitch : float
-        Distance along the shaft that is the unit of the moments. [m]
-
-    Returns
-    -------
-    tuple of OrderBalance
-        Factors of m r w^2 A_q, and of that times the pitch. [-]
-
-    References
-    ----------
-    den_hartog_1956, ch. 5.
+    Factors of m r w^2 A_q, and of that times the pitch. `pitch`: distance along the shaft that is the unit of the
+    moments [m]. Source: den_hartog_1956, ch. 5.
     """
     found = free_forces(layout, 1.0, 1.0, 1.0, InertiaHarmonics(tuple(orders), np.ones(len(orders), dtype=complex)))
     return tuple(one._replace(moment=Ellipse(*(part / pitch for part in one.moment))) for one in found)

@@ -42,27 +42,11 @@ def balance_shafts(
     planes: tuple[float] | tuple[float, float] = (0.0,),
     places: tuple[ShaftPlace, ShaftPlace] = (ShaftPlace(), ShaftPlace()),
 ) -> tuple[ShaftWeight, ...]:
-    """Return the weights that take one order away.
+    """Return the weights that take one order away (taylor_1985, vol. 2, ch. 8).
 
-    Parameters
-    ----------
-    part : OrderBalance
-        What is free, its moment about the position zero. [N], [N m]
-    speed : float
-        Angular speed of the crank. [rad/s]
-    planes : tuple of float
-        Positions of the weights along the shafts: one takes the force, two take force and moment. [m]
-    places : tuple of ShaftPlace
-        Where the shaft that turns with the crank lies, and the one that turns against it. [m]
-
-    Returns
-    -------
-    tuple of ShaftWeight
-        As many weights as are needed; none for what is balanced already.
-
-    References
-    ----------
-    taylor_1985, vol. 2, ch. 8.
+    As many weights as are needed; none for what is balanced already. `part`: what is free, its moment about the
+    position zero [N], [N m]; `planes`: positions of the weights along the shafts: one takes the force, two take force
+    and moment [m]; `places`: where the shaft that turns with the crank lies, and the one that turns against it [m].
     """
     weights = []
     for sense, force, moment, place in zip((1, -1), part.force, part.moment, places, strict=True):
@@ -75,25 +59,9 @@ def balance_shafts(
 
 
 def shaft_forces(weights: Sequence[ShaftWeight], speed: float, *, about: float = 0.0) -> tuple[OrderBalance, ...]:
-    """Return force and moment of balance shafts, order by order.
+    """Return force and moment of balance shafts, order by order (den_hartog_1956, ch. 5).
 
-    Parameters
-    ----------
-    weights : sequence of ShaftWeight
-        The weights.
-    speed : float
-        Angular speed of the crank. [rad/s]
-    about : float
-        Position along the shaft that moments are about. [m]
-
-    Returns
-    -------
-    tuple of OrderBalance
-        To be added to those of the cylinders by `balance_sum`. [N], [N m]
-
-    References
-    ----------
-    den_hartog_1956, ch. 5.
+    To be added to those of the cylinders by `balance_sum` [N], [N m].
     """
     found = []
     for one in weights:

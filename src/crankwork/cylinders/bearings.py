@@ -56,51 +56,22 @@ def bearing_load_ratio(R_max: Value, R_mean: Value) -> Value:
 
 
 def big_end_bearing_load(load: BearingLoad, swing: RodSwing) -> BearingLoad:
-    """Return the load on the big-end bearing of a rod: the force of the crankpin on it, in the rod frame.
+    """Return the load on the big-end bearing of a rod: the force of the crankpin on it, in the rod frame. [N]
 
-    Parameters
-    ----------
-    load : BearingLoad of array, shape (n,)
-        Force of this rod alone on the crankpin, in the crank frame. [N]
-    swing : RodSwing
-        Functions of phi + beta at the same instants. [-]
-
-    Returns
-    -------
-    BearingLoad of array, shape (n,)
-        Opposite to the load on the crankpin, turned by phi + beta; positive x presses the bearing towards the
-        piston pin, as compression does. [N]
-
-    References
-    ----------
+    Opposite to the load on the crankpin, turned by phi + beta; positive x presses the bearing towards the piston pin,
+    as compression does. `load`: force of this rod alone on the crankpin, in the crank frame [N]. Source:
     kolchin_demidov_2008, ch. 7.
     """
     return turned(load.opposite, swing.sin_sum, swing.cos_sum)
 
 
 def small_end_bearing_load(pin_force: Value, side: Value, swing: RodSwing) -> BearingLoad:
-    """Return the load on the small-end bearing: the force of the piston pin on it, in the rod frame.
+    """Return the load on the small-end bearing: the force of the piston pin on it, in the rod frame. [N]
 
-    Parameters
-    ----------
-    pin_force : array, shape (n,)
-        Axial force of the piston on its pin, `piston_pin_force`, positive towards the crankshaft. [N]
-    side : array, shape (n,)
-        Side force; where the cylinder leans, with the weight of the piston group across the axis added. [N]
-    swing : RodSwing
-        Functions of beta at the same instants. [-]
+    Negative x presses the bearing towards the crankpin, as compression does. `pin_force`: axial force of the piston
+    on its pin, `piston_pin_force`, positive towards the crankshaft [N]; `side`: side force; where the cylinder leans,
+    with the weight of the piston group across the axis added [N]. Source: lukanin_shatrov_2007, ch. 1.
 
-    Returns
-    -------
-    BearingLoad of array, shape (n,)
-        Negative x presses the bearing towards the crankpin, as compression does. [N]
-
-    References
-    ----------
-    lukanin_shatrov_2007, ch. 1.
-
-    Notes
-    -----
     The piston hands on axially what acts on it and sideways what the wall gives back, so the force on the rod
     needs no rod mass. It is the force along the rod plus the inertia force that moves the rod's small-end mass.
     """

@@ -38,19 +38,8 @@ class Unbalance(NamedTuple):
 def rotating_unbalances(layout: Layout, mass: ArrayLike, crank_radius: float) -> tuple[Unbalance, ...]:
     """Return the rotating masses of the cylinders as they stand at the crankpins.
 
-    Parameters
-    ----------
-    layout : Layout
-        The cylinders.
-    mass : float or array, shape (cylinders,)
-        Rotating mass of each cylinder; of a crankpin that several share, the part of each. [kg]
-    crank_radius : float
-        Crank radius. [m]
-
-    Returns
-    -------
-    tuple of Unbalance
-        One for each cylinder.
+    `mass`: rotating mass of each cylinder; of a crankpin that several share, the part of each [kg], shape
+    (cylinders,).
     """
     masses = np.broadcast_to(np.asarray(mass, dtype=float), (len(layout.places),))
     return tuple(
@@ -64,25 +53,8 @@ def turning_forces(
 ) -> OrderBalance:
     """Return force and moment of masses that turn with the crankshaft: rotating masses, counterweights.
 
-    Parameters
-    ----------
-    layout : Layout
-        The cylinders, for the direction of the first.
-    unbalances : sequence of Unbalance
-        The masses.
-    speed : float
-        Angular speed. [rad/s]
-    about : float
-        Position along the shaft that moments are about. [m]
-
-    Returns
-    -------
-    OrderBalance
-        Of the first order, nothing of it backwards. [N], [N m]
-
-    References
-    ----------
-    den_hartog_1956, ch. 5.
+    Of the first order, nothing of it backwards [N], [N m]. `layout`: the cylinders, for the direction of the first.
+    Source: den_hartog_1956, ch. 5.
     """
     at_zero = layout.places[0].axis + np.array([one.angle for one in unbalances])
     size = np.array([plain(one.mass_moment) for one in unbalances]) * speed**2
@@ -96,25 +68,10 @@ def throw_counterweights(
 ) -> tuple[Unbalance, ...]:
     """Return one counterweight opposite each crankpin, for its rotating mass and a share of what reciprocates on it.
 
-    Parameters
-    ----------
-    layout : Layout
-        The cylinders.
-    reciprocating, rotating : float or array, shape (cylinders,)
-        Masses of each cylinder; of a crankpin that several share, the part of each. [kg], [kg]
-    crank_radius : float
-        Crank radius. [m]
-    share : float
-        Balanced share of the reciprocating mass; one half removes all of the first order that turns forwards. [-]
-
-    Returns
-    -------
-    tuple of Unbalance
-        One for each crankpin, midway between its masses.
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 8; taylor_1985, vol. 2, ch. 8, for radial engines.
+    One for each crankpin, midway between its masses. `reciprocating` and `rotating`: masses of each cylinder; of a
+    crankpin that several share, the part of each [kg], shape (cylinders,); `share`: balanced share of the
+    reciprocating mass; one half removes all of the first order that turns forwards. Source: kolchin_demidov_2008, ch.
+    8; taylor_1985, vol. 2, ch. 8, for radial engines.
     """
     count = len(layout.places)
     moments = np.broadcast_to(
@@ -134,22 +91,7 @@ def throw_counterweights(
 
 
 def in_two_planes(vectors: ArrayLike, positions: ArrayLike, planes: tuple[float, float]) -> tuple[complex, complex]:
-    """Return the two vectors, one in each plane, with the sum and the moment of given vectors.
-
-    Parameters
-    ----------
-    vectors : complex, shape (n,)
-        What is to be replaced.
-    positions : array, shape (n,)
-        Where they stand along the shaft. [m]
-    planes : tuple of float
-        Positions of the two planes. [m]
-
-    Returns
-    -------
-    tuple of complex
-        The vectors in the planes.
-    """
+    """Return the two vectors, one in each plane, with the sum and the moment of given vectors."""
     first, second = planes
     if first == second:
         raise CrankworkError(f"both planes are at {first * 1e3:g} mm; a couple needs two planes apart")

@@ -21,25 +21,13 @@ _ROUNDING = 1e-13
 
 
 def unit_vectors(degrees: ArrayLike) -> ComplexArray:
-    """Return vectors of length one in given directions, exact at multiples of 90 degrees.
-
-    Parameters
-    ----------
-    degrees : float or array
-        The directions. [deg]
-    """
+    """Return vectors of length one in given directions, exact at multiples of 90 degrees."""
     grid = CrankGrid.from_degrees(degrees)
     return np.asarray(grid.cos + 1j * grid.sin)
 
 
 def vector_sum(terms: ArrayLike) -> complex:
-    """Return the sum of vectors, zero where they cancel to rounding.
-
-    Parameters
-    ----------
-    terms : complex, shape (n,)
-        The vectors.
-    """
+    """Return the sum of vectors, zero where they cancel to rounding."""
     vectors = np.asarray(terms, dtype=complex)
     total = complex(vectors.sum())
     return total if abs(total) > _ROUNDING * float(np.abs(vectors).sum()) else 0j
@@ -72,10 +60,7 @@ class Ellipse(NamedTuple):
     def outline(self, count: int = 181) -> ComplexArray:
         """Return points of the closed ellipse for a figure, from the crank angle zero onwards.
 
-        Parameters
-        ----------
-        count : int
-            How many points; the last is the first.
+        `count`: how many points; the last is the first.
         """
         turning = unit_vectors(np.linspace(0.0, 360.0, count))
         return np.asarray(self.forward * turning + self.backward * turning.conj())
@@ -92,10 +77,7 @@ class OrderBalance(NamedTuple):
 def balance_sum(parts: Iterable[OrderBalance]) -> tuple[OrderBalance, ...]:
     """Return forces and moments added up order by order, such as those of the cylinders and of counterweights.
 
-    Parameters
-    ----------
-    parts : iterable of OrderBalance
-        What acts together, of any orders, moments about the same position.
+    `parts`: what acts together, of any orders, moments about the same position.
     """
     of_order: dict[int, list[OrderBalance]] = {}
     for one in parts:

@@ -22,20 +22,8 @@ def inline(
 ) -> tuple[Layout, tuple[LayoutNotice, ...]]:
     """Return an inline engine.
 
-    Parameters
-    ----------
-    cylinders : int
-        How many.
-    order : sequence of int
-        Firing order.
-    spacing : float
-        Distance between cylinders. [m]
-    throws : sequence of float, optional
-        Angle of each throw ahead of the first, positive with the rotation; else from even firing. [deg]
-    strokes : int
-        4 or 2.
-    uneven : bool
-        Whether uneven intervals are wanted, so that there is no notice of them.
+    `throws`: angle of each throw ahead of the first, positive with the rotation; else from even firing [deg];
+    `uneven`: whether uneven intervals are wanted, so that there is no notice of them.
     """
     return arranged(Banks("inline", cylinders, spacing=spacing), order, strokes=strokes, throws=throws, uneven=uneven)
 
@@ -56,28 +44,13 @@ def vee(  # noqa: PLR0913 - each argument is a key of the description
 ) -> tuple[Layout, tuple[LayoutNotice, ...]]:
     """Return a V engine, two cylinders to a throw.
 
-    Parameters
-    ----------
-    cylinders : int
-        How many.
-    order : sequence of int
-        Firing order.
-    bank_angle : float
-        From the axis of the bank of cylinder 1 to the other, positive with the rotation. [deg]
-    spacing, bank_stagger : float
-        Distance between cylinders of a bank; how much farther along the shaft the other bank stands. [m], [m]
-    pin_offset : float
-        How far the crankpins of the other bank are ahead on the same throw; 0 is a common pin. [deg]
-    numbering : str
-        banks: 1 to n/2 are the first bank. pairs: 1 and 2 are the first throw.
-    throws : sequence of float, optional
-        Angle of each throw ahead of the first, positive with the rotation; else from even firing. [deg]
-    strokes : int
-        4 or 2.
-    uneven : bool
-        Whether uneven intervals are wanted, so that there is no notice of them.
-    articulated : bool
-        Whether the rods of the other bank hang on those of the first.
+    `bank_angle`: from the axis of the bank of cylinder 1 to the other, positive with the rotation [deg]; `spacing`
+    and `bank_stagger`: distance between cylinders of a bank; how much farther along the shaft the other bank stands
+    [m]; `pin_offset`: how far the crankpins of the other bank are ahead on the same throw; 0 is a common pin [deg];
+    `numbering`: banks: 1 to n/2 are the first bank. pairs: 1 and 2 are the first throw; `throws`: angle of each throw
+    ahead of the first, positive with the rotation; else from even firing [deg]; `uneven`: whether uneven intervals
+    are wanted, so that there is no notice of them; `articulated`: whether the rods of the other bank hang on those of
+    the first.
     """
     axes = (-bank_angle / 2, bank_angle / 2)
     banks = Banks(
@@ -99,23 +72,11 @@ def boxer(  # noqa: PLR0913 - each argument is a key of the description
 ) -> tuple[Layout, tuple[LayoutNotice, ...]]:
     """Return a boxer engine: two opposed banks, each cylinder with a throw of its own.
 
-    Parameters
-    ----------
-    cylinders : int
-        How many.
-    order : sequence of int
-        Firing order.
-    spacing, bank_stagger : float
-        Distance between neighbouring throws, half that between cylinders of a bank; how much farther along the shaft
-        the other bank stands, by default as much. [m], [m]
-    numbering : str
-        banks: 1 to n/2 are the first bank. pairs: 1 and 2 are the first opposed pair.
-    throws : sequence of float, optional
-        Angle of each throw along the shaft ahead of the first, positive with the rotation; else from even firing. [deg]
-    strokes : int
-        4 or 2.
-    uneven : bool
-        Whether uneven intervals are wanted, so that there is no notice of them.
+    `spacing` and `bank_stagger`: distance between neighbouring throws, half that between cylinders of a bank; how
+    much farther along the shaft the other bank stands, by default as much [m]; `numbering`: banks: 1 to n/2 are the
+    first bank. pairs: 1 and 2 are the first opposed pair; `throws`: angle of each throw along the shaft ahead of the
+    first, positive with the rotation; else from even firing [deg]; `uneven`: whether uneven intervals are wanted, so
+    that there is no notice of them.
     """
     stagger = spacing if bank_stagger is None else bank_stagger
     banks = Banks("boxer", cylinders, (-90.0, 90.0), 2 * spacing, stagger, numbering=numbering, own_throws=True)
@@ -137,26 +98,12 @@ def w(  # noqa: PLR0913 - each argument is a key of the description
 ) -> tuple[Layout, tuple[LayoutNotice, ...]]:
     """Return an engine of any number of banks.
 
-    Parameters
-    ----------
-    cylinders : int
-        How many.
-    order : sequence of int
-        Firing order.
-    axes : sequence of float
-        Direction of each bank, positive with the rotation; the first holds cylinder 1. [deg]
-    spacing, bank_stagger : float
-        Distance between cylinders of a bank; how much farther along the shaft each next bank stands. [m], [m]
-    numbering : str
-        banks: along the first bank, then the next. pairs: across the banks, throw by throw.
-    throws : sequence of float, optional
-        Angle of each throw along the shaft ahead of the first, positive with the rotation; else from even firing. [deg]
-    strokes : int
-        4 or 2.
-    uneven : bool
-        Whether uneven intervals are wanted, so that there is no notice of them.
-    own_throws : bool
-        Whether every cylinder has a throw of its own, as in a V of 15 degrees, instead of one throw per row.
+    `axes`: direction of each bank, positive with the rotation; the first holds cylinder 1 [deg]; `spacing` and
+    `bank_stagger`: distance between cylinders of a bank; how much farther along the shaft each next bank stands [m];
+    `numbering`: banks: along the first bank, then the next. pairs: across the banks, throw by throw; `throws`: angle
+    of each throw along the shaft ahead of the first, positive with the rotation; else from even firing [deg];
+    `uneven`: whether uneven intervals are wanted, so that there is no notice of them; `own_throws`: whether every
+    cylinder has a throw of its own, as in a V of 15 degrees, instead of one throw per row.
     """
     banks = Banks("W", cylinders, tuple(axes), spacing, bank_stagger, numbering=numbering, own_throws=own_throws)
     return arranged(banks, order, strokes=strokes, throws=throws, uneven=uneven)
@@ -173,20 +120,9 @@ def radial(
 ) -> tuple[Layout, tuple[LayoutNotice, ...]]:
     """Return one row of a radial engine, numbered with the rotation, all rods on one crankpin.
 
-    Parameters
-    ----------
-    cylinders : int
-        How many.
-    order : sequence of int, optional
-        Firing order; else every other cylinder in four strokes, every one in two.
-    master : int
-        Number of the cylinder whose rod carries the others; 0 if every rod turns on the crankpin itself.
-    span : float
-        Distance between the main journals. [m]
-    strokes : int
-        4 or 2.
-    uneven : bool
-        Whether uneven intervals are wanted, so that there is no notice of them.
+    `order`: firing order; else every other cylinder in four strokes, every one in two; `master`: number of the
+    cylinder whose rod carries the others; 0 if every rod turns on the crankpin itself; `uneven`: whether uneven
+    intervals are wanted, so that there is no notice of them.
     """
     if not 0 <= master <= cylinders:
         raise LayoutError("engine.master", f"there is no cylinder {master}; write one from 1 to {cylinders}, or 0")
@@ -198,15 +134,7 @@ def radial(
 
 
 def standard_layout(standard: StandardOrder, *, spacing: float = 0.0) -> tuple[Layout, tuple[LayoutNotice, ...]]:
-    """Return a customary engine.
-
-    Parameters
-    ----------
-    standard : StandardOrder
-        One of `standard_orders.standard_orders`.
-    spacing : float
-        Distance between neighbouring throws. [m]
-    """
+    """Return a customary engine."""
     own = standard.kind in ("inline", "boxer")
     pitch, stagger = (2 * spacing, spacing) if standard.kind == "boxer" else (spacing, 0.0)
     banks = Banks(

@@ -30,17 +30,9 @@ class LayoutNotice(NamedTuple):
 
 
 def wrapped(angle: float, cycle: float = _TURN) -> float:
-    """Return an angle less whole cycles, a decimal where rounding alone keeps it from being one.
+    """Return an angle less whole cycles, a decimal where rounding alone keeps it from being one. [deg]
 
-    Parameters
-    ----------
-    angle, cycle : float
-        The angle, and the length of the cycle. [deg], [deg]
-
-    Returns
-    -------
-    float
-        At least 0 and less than the cycle. [deg]
+    At least 0 and less than the cycle. `angle` and `cycle`: the angle, and the length of the cycle [deg].
 
     Examples
     --------
@@ -62,29 +54,13 @@ def order_text(order: Sequence[int]) -> str:
 def angle_list(angles: Sequence[float]) -> str:
     """Return angles as text, `180, 270, 180, 90`.
 
-    Parameters
-    ----------
-    angles : sequence of float
-        The angles. [deg]
+    `angles`: the angles [deg].
     """
     return ", ".join(f"{one:.7g}" for one in angles)
 
 
 def checked_order(order: Sequence[int], cylinders: int) -> tuple[int, ...]:
-    """Return a firing order turned so that it begins with cylinder 1.
-
-    Parameters
-    ----------
-    order : sequence of int
-        Numbers of the cylinders as they fire.
-    cylinders : int
-        How many there are.
-
-    Raises
-    ------
-    LayoutError
-        If a cylinder is missing, named twice or does not exist.
-    """
+    """Return a firing order turned so that it begins with cylinder 1."""
     key, given = "engine.firing_order", [int(one) for one in order]
     unknown = sorted({one for one in given if not 1 <= one <= cylinders})
     if unknown:
@@ -105,19 +81,9 @@ def checked_order(order: Sequence[int], cylinders: int) -> tuple[int, ...]:
 
 
 def even_angles(order: Sequence[int], cycle: float) -> tuple[float, ...]:
-    """Return the firing angles of equal intervals.
+    """Return the firing angles of equal intervals. [deg]
 
-    Parameters
-    ----------
-    order : sequence of int
-        Firing order, starting with 1.
-    cycle : float
-        720 or 360. [deg]
-
-    Returns
-    -------
-    tuple of float
-        By number of the cylinder, from the firing of cylinder 1. [deg]
+    By number of the cylinder, from the firing of cylinder 1.
     """
     index = {number: at for at, number in enumerate(order)}
     return tuple(index[number] * cycle / len(order) for number in sorted(index))
@@ -126,19 +92,8 @@ def even_angles(order: Sequence[int], cycle: float) -> tuple[float, ...]:
 def firing_angles(order: Sequence[int], dead_centres: Sequence[float], cycle: float) -> tuple[float, ...] | None:
     """Return the firing angles of an order on a given crankshaft, the most even ones, or None if there are none.
 
-    Parameters
-    ----------
-    order : sequence of int
-        Firing order, starting with 1.
-    dead_centres : sequence of float
-        First top dead centre of each cylinder from that of cylinder 1, by number. [deg]
-    cycle : float
-        720 or 360; in a cycle of 720 a cylinder fires at every other dead centre. [deg]
-
-    Returns
-    -------
-    tuple of float or None
-        By number of the cylinder, from the firing of cylinder 1. [deg]
+    By number of the cylinder, from the firing of cylinder 1 [deg]. `cycle`: 720 or 360; in a cycle of 720 a cylinder
+    fires at every other dead centre [deg].
     """
     turns = round(cycle / _TURN)
     best: tuple[float, tuple[float, ...]] | None = None
@@ -157,19 +112,9 @@ def firing_angles(order: Sequence[int], dead_centres: Sequence[float], cycle: fl
 
 
 def intervals(angles: Sequence[float], cycle: float) -> tuple[float, ...]:
-    """Return the angles from each firing to the next, around the cycle.
+    """Return the angles from each firing to the next, around the cycle. [deg]
 
-    Parameters
-    ----------
-    angles : sequence of float
-        Firing angles in the order of firing; an interval is negative where they descend. [deg]
-    cycle : float
-        720 or 360. [deg]
-
-    Returns
-    -------
-    tuple of float
-        As many intervals as firings. [deg]
+    `angles`: firing angles in the order of firing; an interval is negative where they descend [deg].
     """
     following = (*angles[1:], angles[0] + cycle)
     return tuple(_decimal(later - one) for one, later in zip(angles, following, strict=True))
@@ -183,10 +128,7 @@ def _decimal(angle: float) -> float:
 def is_even(steps: Sequence[float]) -> bool:
     """Return whether all intervals are the same.
 
-    Parameters
-    ----------
-    steps : sequence of float
-        Intervals. [deg]
+    `steps`: intervals [deg].
     """
     return max(steps) - min(steps) <= SAME_ANGLE
 
@@ -194,19 +136,7 @@ def is_even(steps: Sequence[float]) -> bool:
 def even_orders(dead_centres: Sequence[float], cycle: float, *, limit: int = 1000) -> tuple[tuple[int, ...], ...]:
     """Return the firing orders of equal intervals that a crankshaft allows.
 
-    Parameters
-    ----------
-    dead_centres : sequence of float
-        First top dead centre of each cylinder from that of cylinder 1, by number. [deg]
-    cycle : float
-        720 or 360. [deg]
-    limit : int
-        How many to return at most.
-
-    Returns
-    -------
-    tuple of tuple of int
-        Orders that start with 1, in ascending order.
+    Orders that start with 1, in ascending order.
 
     Examples
     --------
@@ -239,17 +169,7 @@ def _even_orders(dead_centres: Sequence[float], cycle: float) -> Iterator[tuple[
 def possible_order(dead_centres: Sequence[float], cycle: float) -> tuple[int, ...] | None:
     """Return a firing order that a crankshaft allows, equal intervals or not, or None if two must fire at once.
 
-    Parameters
-    ----------
-    dead_centres : sequence of float
-        First top dead centre of each cylinder from that of cylinder 1, by number. [deg]
-    cycle : float
-        720 or 360. [deg]
-
-    Returns
-    -------
-    tuple of int or None
-        It starts with 1; in a cycle of 720 every other cylinder fires in the second turn.
+    It starts with 1; in a cycle of 720 every other cylinder fires in the second turn.
     """
     turns = round(cycle / _TURN)
     ranked = sorted(range(len(dead_centres)), key=lambda at: (dead_centres[at], at))

@@ -35,36 +35,13 @@ def journal_share(z_b: Value, z_left: Value, z_right: Value) -> Value:
 def main_journal_loads(
     layout: Layout, loads: Sequence[BearingLoad], unbalances: Sequence[Unbalance], speed: Value
 ) -> tuple[BearingLoad, ...]:
-    """Return the force of every main bearing on its journal, in the shaft frame.
+    """Return the force of every main bearing on its journal, in the shaft frame (kolchin_demidov_2008, ch. 7). [N]
 
-    Parameters
-    ----------
-    layout : Layout
-        Cylinders and main journals.
-    loads : sequence of BearingLoad of array, shape (n,)
-        Force of each rod on its crankpin in the frame of its own crank, by cylinder, at the same instants. [N]
-    unbalances : sequence of Unbalance
-        Masses of the throws and counterweights; beyond the outermost journals they overhang the end throw. The rod
-        masses at the crankpins are in the loads already.
-    speed : float
-        Angular speed. [rad/s]
+    By journal, in the frame of the crank of cylinder 1; `turned_by` its direction gives the block frame. `loads`:
+    force of each rod on its crankpin in the frame of its own crank, by cylinder, at the same instants [N];
+    `unbalances`: masses of the throws and counterweights; beyond the outermost journals they overhang the end throw.
+    The rod masses at the crankpins are in the loads already.
 
-    Returns
-    -------
-    tuple of BearingLoad of array, shape (n,)
-        By journal, in the frame of the crank of cylinder 1; `turned_by` its direction gives the block frame. [N]
-
-    Raises
-    ------
-    CrankworkError
-        If loads, cylinders and journals do not belong together.
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 7.
-
-    Notes
-    -----
     Minus the sum of what the throws on both sides of the journal hand on, each by its lever. With every force in
     the middle of its throw it is minus one half of the vector sum of the two throws.
     """
@@ -124,18 +101,7 @@ def _centrifugal(one: Unbalance, speed: Value) -> BearingLoad:
 
 
 def check_journals(layout: Layout) -> None:
-    """Raise unless every throw lies between two main journals with its cylinders.
-
-    Parameters
-    ----------
-    layout : Layout
-        Cylinders and journals along the shaft.
-
-    Raises
-    ------
-    CrankworkError
-        Naming what lies elsewhere.
-    """
+    """Raise unless every throw lies between two main journals with its cylinders."""
     journals, throws = layout.journal_positions, max(place.throw for place in layout.places) + 1
     if len(journals) != throws + 1:
         raise CrankworkError(

@@ -14,24 +14,9 @@ from crankwork.kinematics.crank_grid import Array
 
 
 def cycle_shares(degrees: ArrayLike, cycle: float) -> Array:
-    """Return which share of the cycle each tabulated crank angle stands for, by the trapezoidal rule.
+    """Return which share of the cycle each tabulated crank angle stands for, by the trapezoidal rule. [-]
 
-    Parameters
-    ----------
-    degrees : array, shape (n,)
-        Ascending crank angles, with or without the end of the cycle. [deg]
-    cycle : float
-        Length of the cycle. [deg]
-
-    Returns
-    -------
-    array, shape (n,)
-        Shares, which add up to 1. [-]
-
-    Raises
-    ------
-    CrankworkError
-        If the angles do not ascend or take more than the cycle.
+    `degrees`: ascending crank angles, with or without the end of the cycle [deg].
     """
     degrees = np.asarray(degrees, dtype=float)
     steps = np.diff(degrees, append=degrees[0] + cycle)
@@ -70,25 +55,9 @@ def reversal(
 ) -> LoadReversal:
     """Return how a load along the rod changes its direction, from the stretches in which it does not.
 
-    Parameters
-    ----------
-    ends : sequence of float
-        Where stretches of one direction end, the last at the end of the cycle. [deg]
-    is_compression : sequence of bool
-        Whether each is one of compression, negative x.
-    peaks : tuple of float
-        Largest and least x. [N]
-    start : float
-        Where the cycle begins. [deg]
-
-    Returns
-    -------
-    LoadReversal
-        Stretches and peaks in both directions. [deg], [N]
-
-    References
-    ----------
-    api_618, which counts within one turn of the crankshaft.
+    Stretches and peaks in both directions [deg], [N]. `ends`: where stretches of one direction end, the last at the
+    end of the cycle [deg]; `is_compression`: whether each is one of compression, negative x; `start`: where the cycle
+    begins [deg]. Source: api_618, which counts within one turn of the crankshaft.
     """
     lengths = np.diff(ends, prepend=start).tolist()
     if len(ends) > 1 and is_compression[0] == is_compression[-1]:
@@ -116,29 +85,12 @@ class PolarDiagram(NamedTuple):
 def polar_diagram(
     load: BearingLoad, degrees: ArrayLike, cycle: float, inertia: float = 0.0, step: float = 30.0
 ) -> PolarDiagram:
-    """Return the polar diagram of a load: y to the right, minus x downward, crank angles marked.
+    """Return the polar diagram of a load: y to the right, minus x downward, crank angles marked. [N]
 
-    Parameters
-    ----------
-    load : BearingLoad of array, shape (n,)
-        The whole load, inertia of the rod masses included. [N]
-    degrees : array, shape (n,)
-        Ascending crank angles, with or without the end of the cycle. [deg]
-    cycle : float
-        Length of the cycle. [deg]
-    inertia : float
-        Inertia force of all rod masses at the crankpin, never positive: the curve is that of the rods without it,
-        and the pole lies as far below the origin. Without it the pole is the origin. [N]
-    step : float
-        Step of the marks. [deg]
-
-    Returns
-    -------
-    PolarDiagram
-        Curve, pole and marks; from the pole, every vector is the whole load. [N]
-
-    References
-    ----------
+    Curve, pole and marks; from the pole, every vector is the whole load. `load`: the whole load, inertia of the rod
+    masses included [N]; `degrees`: ascending crank angles, with or without the end of the cycle [deg]; `inertia`:
+    inertia force of all rod masses at the crankpin, never positive: the curve is that of the rods without it, and the
+    pole lies as far below the origin. Without it the pole is the origin [N]; `step`: step of the marks [deg]. Source:
     kolchin_demidov_2008, ch. 7.
     """
     cycle_shares(degrees, cycle)

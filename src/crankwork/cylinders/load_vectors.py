@@ -69,37 +69,18 @@ class BearingLoad(NamedTuple):
 
 
 def turned(load: BearingLoad, sin: Value, cos: Value) -> BearingLoad:
-    """Return a load in a frame that its own frame is ahead of.
+    """Return a load in a frame that its own frame is ahead of. [N]
 
-    Parameters
-    ----------
-    load : BearingLoad of array, shape (n,)
-        Load in its own frame. [N]
-    sin, cos : array, shape (n,), or float
-        Functions of the angle by which its own frame is ahead of the other, with the rotation. [-]
-
-    Returns
-    -------
-    BearingLoad of array, shape (n,)
-        The same vector in the other frame. [N]
+    `sin` and `cos`: functions of the angle by which its own frame is ahead of the other, with the rotation.
     """
     return BearingLoad(turned_along(load.x, load.y, sin, cos), turned_across(load.x, load.y, sin, cos))
 
 
 def turned_by(load: BearingLoad, angle: ArrayLike) -> BearingLoad:
-    """Return a load in a frame that its own frame is ahead of by an angle, exactly at multiples of 90 degrees.
+    """Return a load in a frame that its own frame is ahead of by an angle, exactly at multiples of 90 degrees. [N]
 
-    Parameters
-    ----------
-    load : BearingLoad of array, shape (n,)
-        Load in its own frame: of a crankpin, for the shaft frame; of the shaft, for the block frame. [N]
-    angle : array, shape (n,), or float
-        How far its own frame is ahead: `pin_angle`; the direction of crank 1 in the block. [deg]
-
-    Returns
-    -------
-    BearingLoad of array, shape (n,)
-        The same vector in the other frame. [N]
+    `load`: load in its own frame: of a crankpin, for the shaft frame; of the shaft, for the block frame [N]; `angle`:
+    how far its own frame is ahead: `pin_angle`; the direction of crank 1 in the block [deg].
     """
     grid = CrankGrid.from_degrees(angle)
     sin, cos = (float(one) if one.ndim == 0 else one for one in (grid.sin, grid.cos))

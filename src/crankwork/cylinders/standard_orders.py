@@ -92,15 +92,7 @@ STANDARD_ORDERS = (
 def radial_order(cylinders: int, strokes: int) -> tuple[int, ...]:
     """Return the firing order of a single-row radial engine numbered with the rotation.
 
-    Parameters
-    ----------
-    cylinders, strokes : int
-        How many; 4 strokes need an odd number, and every other cylinder fires.
-
-    Raises
-    ------
-    LayoutError
-        If the number is even in four strokes.
+    `cylinders` and `strokes`: how many; 4 strokes need an odd number, and every other cylinder fires.
     """
     step = strokes // 2
     if step == 2 and cylinders % 2 == 0 and cylinders:
@@ -113,15 +105,7 @@ def radial_order(cylinders: int, strokes: int) -> tuple[int, ...]:
 
 
 def standard_orders(kind: str, cylinders: int, strokes: int = 4) -> tuple[StandardOrder, ...]:
-    """Return the customary firing orders and crankshafts of an engine, the most usual first.
-
-    Parameters
-    ----------
-    kind : str
-        inline, V, boxer, W or radial.
-    cylinders, strokes : int
-        How many.
-    """
+    """Return the customary firing orders and crankshafts of an engine, the most usual first."""
     if kind == "radial":
         if strokes == 4 and cylinders % 2 == 0:
             return ()

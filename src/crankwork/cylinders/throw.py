@@ -17,20 +17,9 @@ _UP = math.pi / 2
 def throw_mechanism(layout: Layout, lengths: SliderCrank, slaves: Sequence[ArticulatedRod | None] = ()) -> Mechanism:
     """Return the rods and pistons of the crankpin of cylinder 1, the crank turning clockwise.
 
-    Parameters
-    ----------
-    layout : Layout
-        The cylinders.
-    lengths : SliderCrank
-        Crank, rod and offset of every cylinder, of the master where rods are articulated. [m]
-    slaves : sequence of ArticulatedRod or None
-        The articulated rod of each cylinder that has one.
-
-    Returns
-    -------
-    Mechanism
-        Crankpin A, piston pins B1, B2 ... and knuckle pins C2, C3 ... by the numbers of the cylinders; at a crank angle
-        of zero the crank lies along the axis of cylinder 1.
+    Crankpin A, piston pins B1, B2 ... and knuckle pins C2, C3 ... by the numbers of the cylinders; at a crank angle
+    of zero the crank lies along the axis of cylinder 1. `lengths`: crank, rod and offset of every cylinder, of the
+    master where rods are articulated [m]; `slaves`: the articulated rod of each cylinder that has one.
     """
     places = [one for one in layout.places if one.crankpin == layout.places[0].crankpin]
     points, rods = [], []

@@ -43,22 +43,10 @@ def even_firing_interval(phi_c: Value, i_cyl: Value) -> Value:
 
 
 def cylinder_angle(degrees: ArrayLike, place: Place, cycle: float) -> Array:
-    """Return the crank angle of a cylinder in its own cycle.
+    """Return the crank angle of a cylinder in its own cycle. [deg]
 
-    Parameters
-    ----------
-    degrees : array, shape (n,)
-        Crank angles of cylinder 1. [deg]
-    place : Place
-        The cylinder.
-    cycle : float
-        720 or 360. [deg]
-
-    Returns
-    -------
-    array, shape (n,)
-        (degrees - firing angle) mod cycle; a decimal where rounding alone keeps it from being one, and left as it is
-        for a cylinder that fires with the first, within one cycle. [deg]
+    (degrees - firing angle) mod cycle; a decimal where rounding alone keeps it from being one, and left as it is for
+    a cylinder that fires with the first, within one cycle.
     """
     degrees = np.asarray(degrees, dtype=float)
     within = (degrees >= 0) & (degrees <= cycle)
@@ -72,17 +60,9 @@ def cylinder_angle(degrees: ArrayLike, place: Place, cycle: float) -> Array:
 
 
 def total_torque(torques: ArrayLike) -> Array:
-    """Return the sum of the torques of all cylinders.
+    """Return the sum of the torques of all cylinders. [N m]
 
-    Parameters
-    ----------
-    torques : array, shape (cylinders, n)
-        Torque of each cylinder at the same crank angles of cylinder 1. [N m]
-
-    Returns
-    -------
-    array, shape (n,)
-        Total torque. [N m]
+    `torques`: torque of each cylinder at the same crank angles of cylinder 1 [N m], shape (cylinders, n).
     """
     return np.asarray(np.sum(np.asarray(torques, dtype=float), axis=0))
 
@@ -101,21 +81,9 @@ class TorquesAlongShaft(NamedTuple):
 def torques_along_shaft(torques: Sequence[Value], layout: Layout) -> TorquesAlongShaft:
     """Return the torque on every main journal and crankpin: the accumulated torques of a shaft with a free front end.
 
-    Parameters
-    ----------
-    torques : sequence of array, shape (n,)
-        Torque of each cylinder by number, at the same crank angles of cylinder 1. [N m]
-    layout : Layout
-        The cylinders; those of one throw act together, on a common pin or on split ones.
-
-    Returns
-    -------
-    TorquesAlongShaft
-        Torques of throws, on journals and on crankpins. [N m]
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 9.
+    Torques of throws, on journals and on crankpins [N m]. `torques`: torque of each cylinder by number, at the same
+    crank angles of cylinder 1 [N m]; `layout`: the cylinders; those of one throw act together, on a common pin or on
+    split ones. Source: kolchin_demidov_2008, ch. 9.
     """
     if len(torques) != len(layout.places):
         raise MethodError(f"torques must be one row per cylinder, {len(layout.places)} rows, not {len(torques)}")
@@ -133,16 +101,5 @@ def torques_along_shaft(torques: Sequence[Value], layout: Layout) -> TorquesAlon
 
 
 def firing_intervals(layout: Layout) -> tuple[float, ...]:
-    """Return the angles from each firing to the next, in the firing order.
-
-    Parameters
-    ----------
-    layout : Layout
-        The cylinders.
-
-    Returns
-    -------
-    tuple of float
-        As many as cylinders. [deg]
-    """
+    """Return the angles from each firing to the next, in the firing order. [deg]"""
     return intervals([layout.places[number - 1].firing_angle for number in layout.firing_order], layout.cycle)

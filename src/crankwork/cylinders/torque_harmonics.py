@@ -54,25 +54,10 @@ def _harmonics(mean: float, orders: Array, cosine: Array, sine: Array) -> Torque
 
 
 def torque_harmonics(samples: ArrayLike, cycle: float, count: int) -> TorqueHarmonics:
-    """Return the harmonics of a torque that is sampled evenly.
+    """Return the harmonics of a torque that is sampled evenly, shape (count,) (den_hartog_1956, ch. 5). [N m]
 
-    Parameters
-    ----------
-    samples : array, shape (n,)
-        Torque at 0, cycle/n, 2 cycle/n, ...; the end of the cycle is not repeated. [N m]
-    cycle : float
-        720 or 360. [deg]
-    count : int
-        How many harmonics; fewer than half the samples.
-
-    Returns
-    -------
-    TorqueHarmonics of array, shape (count,)
-        Orders, coefficients, amplitudes and phases. [N m]
-
-    References
-    ----------
-    den_hartog_1956, ch. 5.
+    `samples`: torque at 0, cycle/n, 2 cycle/n, ...; the end of the cycle is not repeated [N m]; `count`: how many
+    harmonics; fewer than half the samples.
     """
     samples = np.asarray(samples, dtype=float)
     if 2 * count >= samples.size:
@@ -83,23 +68,9 @@ def torque_harmonics(samples: ArrayLike, cycle: float, count: int) -> TorqueHarm
 
 
 def curve_harmonics(curve: Curve, count: int) -> TorqueHarmonics:
-    """Return the harmonics of a torque that is given as a curve, integrated between its corners.
+    """Return the harmonics of a torque that is given as a curve, integrated between its corners, shape (count,).
 
-    Parameters
-    ----------
-    curve : Curve
-        Torque over the cycle. [N m]
-    count : int
-        How many harmonics.
-
-    Returns
-    -------
-    TorqueHarmonics of array, shape (count,)
-        Orders, coefficients, amplitudes and phases. [N m]
-
-    References
-    ----------
-    den_hartog_1956, ch. 5; Gauss points in pieces of at most one radian of the highest order.
+    Source: den_hartog_1956, ch. 5; Gauss points in pieces of at most one radian of the highest order.
     """
     cycle = curve.cycle
     orders: Array = np.arange(1.0, count + 1) * (2 * math.pi / cycle)
@@ -131,23 +102,9 @@ class PhaseStar(NamedTuple):
 
 
 def phase_star(layout: Layout, order: float) -> PhaseStar:
-    """Return the phase star of one order: unit vectors exp(-i nu theta) at the firing angles theta.
+    """Return the phase star of one order: unit vectors exp(-i nu theta) at the firing angles theta, shape (cylinders,).
 
-    Parameters
-    ----------
-    layout : Layout
-        The cylinders.
-    order : float
-        Order nu, per revolution. [-]
-
-    Returns
-    -------
-    PhaseStar of array, shape (cylinders,)
-        Unit vectors by number of the cylinder, and their sum. [-]
-
-    References
-    ----------
-    den_hartog_1956, ch. 5.
+    Unit vectors by number of the cylinder, and their sum [-]. Source: den_hartog_1956, ch. 5.
     """
     firing = CrankGrid.from_degrees([wrapped(order * place.firing_angle) for place in layout.places])
     vectors = firing.cos - 1j * firing.sin
@@ -155,23 +112,9 @@ def phase_star(layout: Layout, order: float) -> PhaseStar:
 
 
 def total_harmonics(harmonics: TorqueHarmonics, layout: Layout) -> TorqueHarmonics:
-    """Return the harmonics of the torque of all cylinders, from those of one and the phase stars.
+    """Return the harmonics of the torque of all cylinders, from those of one and the phase stars, shape (k,). [N m]
 
-    Parameters
-    ----------
-    harmonics : TorqueHarmonics of array, shape (k,)
-        Of one cylinder. [N m]
-    layout : Layout
-        The cylinders, all alike.
-
-    Returns
-    -------
-    TorqueHarmonics of array, shape (k,)
-        Of the sum. [N m]
-
-    References
-    ----------
-    den_hartog_1956, ch. 5.
+    Source: den_hartog_1956, ch. 5.
     """
     sums = _star_sums(layout, harmonics.orders.tolist())
     total = (harmonics.cosine - 1j * harmonics.sine) * sums

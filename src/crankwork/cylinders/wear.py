@@ -23,22 +23,9 @@ _SAME_SUM = 1e-9
 
 
 def ray_angles(rays: int) -> Array:
-    """Return the directions of evenly spread rays, the first along the reference direction of the frame.
+    """Return the directions of evenly spread rays, the first along the reference direction of the frame, shape (rays,).
 
-    Parameters
-    ----------
-    rays : int
-        Their number: 12 in Russian books, 24 in Vietnamese ones.
-
-    Returns
-    -------
-    array, shape (rays,)
-        Angles, positive with the rotation. [deg]
-
-    Raises
-    ------
-    CrankworkError
-        If there are fewer than three.
+    Angles, positive with the rotation [deg].
     """
     if rays < 3:
         raise CrankworkError(f"a wear diagram of {rays} rays shows nothing; give at least 3, usually 12 or 24")
@@ -46,52 +33,22 @@ def ray_angles(rays: int) -> Array:
 
 
 def wear_table(load: BearingLoad, rays: int = 12, spread: float = 60.0) -> Array:
-    """Return the classical table: every force in the columns of the rays within its arc, zero elsewhere.
+    """Return the classical table: every force in the columns of the rays within its arc, shape (n, rays).
 
-    Parameters
-    ----------
-    load : BearingLoad of array, shape (n,)
-        Load on the journal in its own frame: crank frame of a crankpin, shaft frame of a main journal. [N]
-    rays : int
-        Number of rays.
-    spread : float
-        How far the arc goes to either side of the point where the force presses, ends included. [deg]
-
-    Returns
-    -------
-    array, shape (n, rays)
-        Row per tabulated crank angle, column per ray of `ray_angles`. [N]
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 7.
+    Row per tabulated crank angle, column per ray of `ray_angles` [N]. `load`: load on the journal in its own frame:
+    crank frame of a crankpin, shaft frame of a main journal [N]; `spread`: how far the arc goes to either side of the
+    point where the force presses, ends included [deg]. Source: kolchin_demidov_2008, ch. 7.
     """
     within = _distance(load, rays) <= _checked(spread) + _SAME_ANGLE
     return np.where(within, load.resultant[:, np.newaxis], 0.0)
 
 
 def wear_sums(load: BearingLoad, weights: ArrayLike | None = None, *, rays: int = 12, spread: float = 60.0) -> Array:
-    """Return the sum of the loads on every ray.
+    """Return the sum of the loads on every ray, shape (rays,) (kolchin_demidov_2008, ch. 7). [N]
 
-    Parameters
-    ----------
-    load : BearingLoad of array, shape (n,)
-        Load on the journal in its own frame, at even steps without the end of the cycle unless weighted. [N]
-    weights : array, shape (n,), optional
-        How much each row counts: `cycle_shares` make the sums means over the cycle; by default 1. [-]
-    rays : int
-        Number of rays.
-    spread : float
-        How far the arc of a force goes to either side. [deg]
-
-    Returns
-    -------
-    array, shape (rays,)
-        Sums by ray of `ray_angles`. [N]
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 7.
+    `load`: load on the journal in its own frame, at even steps without the end of the cycle unless weighted [N];
+    `weights`: how much each row counts: `cycle_shares` make the sums means over the cycle; by default 1; `spread`:
+    how far the arc of a force goes to either side [deg].
     """
     table = wear_table(load, rays, spread)
     return np.asarray(np.sum(table, axis=0) if weights is None else np.asarray(weights) @ table)
@@ -120,21 +77,10 @@ class OilHole(NamedTuple):
 
 
 def oil_hole(sums: ArrayLike) -> OilHole:
-    """Return the middle of the longest arc of rays that all have the least sum.
+    """Return the middle of the longest arc of rays that all have the least sum (kolchin_demidov_2008, ch. 7).
 
-    Parameters
-    ----------
-    sums : array, shape (rays,)
-        Sums of evenly spread rays, `wear_sums` or `mean_wear`. [N]
-
-    Returns
-    -------
-    OilHole
-        Angle, arc and sum; of arcs as long as each other the one between the less loaded neighbours. [deg], [N]
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 7.
+    Angle, arc and sum; of arcs as long as each other the one between the less loaded neighbours [deg], [N]. `sums`:
+    sums of evenly spread rays, `wear_sums` or `mean_wear` [N], shape (rays,).
     """
     sums = np.asarray(sums, dtype=float)
     rays, least = sums.size, float(np.min(sums))

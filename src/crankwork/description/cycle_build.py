@@ -60,17 +60,7 @@ class Cycle(NamedTuple):
 
 
 def build_cycle(values: Mapping[str, Any], reader: Reader, pi: float) -> Cycle | None:
-    """Return the gas of a calculated cycle, or None after complaints.
-
-    Parameters
-    ----------
-    values : mapping
-        What `keys.MACHINE_FILE` has read.
-    reader : Reader
-        Collects the complaints.
-    pi : float
-        The constant the calculation uses. [-]
-    """
+    """Return the gas of a calculated cycle, or None after complaints."""
     table = values.get("cycle", {})
     kind = table.get("kind")
     if kind is None:

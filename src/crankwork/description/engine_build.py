@@ -41,16 +41,7 @@ def build_engine(
 ) -> Engine | None:
     """Return the whole engine of a machine file, or None if it describes one crank gear only or after complaints.
 
-    Parameters
-    ----------
-    values : mapping
-        What `keys.MACHINE_FILE` has read.
-    lengths : tuple of float or None
-        Crank radius, rod length and offset, if they are known. [m]
-    cycle : float
-        720 or 360. [deg]
-    reader : Reader
-        Collects the complaints.
+    `lengths`: crank radius, rod length and offset, if they are known [m].
     """
     if not {"engine", "bearings", "balance", "flywheel"} & set(values):
         return None

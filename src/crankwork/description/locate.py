@@ -34,10 +34,7 @@ class _Token(NamedTuple):
 def locate(source: str) -> dict[str, int]:
     """Return the line of every key and table of a valid TOML text.
 
-    Returns
-    -------
-    dict of str to int
-        Line by dotted key; entries of arrays are counted from one, `gas.pieces[2].law`.
+    Line by dotted key; entries of arrays are counted from one, `gas.pieces[2].law`.
     """
     return _Locator(source).lines
 

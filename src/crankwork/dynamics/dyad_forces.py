@@ -81,29 +81,13 @@ class OnGuide(NamedTuple):
 
 
 def rrr_forces(a: Wrench, b: Wrench, u: Vector, v: Vector, name: str = "") -> tuple[Vector, Vector, Vector]:
-    """Return the forces in the pins of two links.
+    """Return the forces in the pins of two links (artobolevsky_1988, ch. 13). [N]
 
-    Parameters
-    ----------
-    a, b : Wrench, arrays of shape (n,)
-        What acts on the links, moments about their outer pins. [N], [N]
-    u, v : tuple of array, shape (n,)
-        From the outer pins of the links to the inner one. [m], [m]
-    name : str
-        What the inner joint is called.
+    On the first link from outside, on the second from the first, on the second from outside. `a` and `b`: what acts
+    on the links, moments about their outer pins [N]; `u` and `v`: from the outer pins of the links to the inner one
+    [m].
 
-    Returns
-    -------
-    tuple of three tuples of array, shape (n,)
-        On the first link from outside, on the second from the first, on the second from outside. [N]
-
-    Notes
-    -----
     The moments about the outer pins, u x R = M_a and v x R = -M_b, give R = (M_a v + M_b u) / (u x v).
-
-    References
-    ----------
-    artobolevsky_1988, ch. 13.
     """
     area = named(area_of_arms(u[0], v[1], u[1], v[0]), f"doubled_area.{name}_arms")
     inner = _vector(
@@ -113,30 +97,14 @@ def rrr_forces(a: Wrench, b: Wrench, u: Vector, v: Vector, name: str = "") -> tu
 
 
 def rrp_forces(link: Wrench, piece: Wrench, u: Vector, t: Vector, name: str = "") -> tuple[Vector, Vector, OnGuide]:
-    """Return the forces in the pins of a link and on the guide of its sliding piece.
+    """Return the forces in the pins of a link and on the guide of its sliding piece (artobolevsky_1988, ch. 13).
 
-    Parameters
-    ----------
-    link, piece : Wrench, arrays of shape (n,)
-        What acts on them, moments about outer and inner pin. [N], [N]
-    u, t : tuple of array, shape (n,)
-        From the outer pin to the inner one [m], direction of the guide [-].
-    name : str
-        What the inner joint is called.
+    On the link from outside, on the piece from the link [N], on the piece from the guide. `link` and `piece`: what
+    acts on them, moments about outer and inner pin [N]; `u` and `t`: from the outer pin to the inner one [m],
+    direction of the guide [-].
 
-    Returns
-    -------
-    tuple of array, shape (n,)
-        On the link from outside, on the piece from the link [N], on the piece from the guide.
-
-    Notes
-    -----
     Along the guide the piece gives R_t = -F_t; about the outer pin the link gives u x R = M, hence
     R_n = (M + u_n R_t) / u_t.
-
-    References
-    ----------
-    artobolevsky_1988, ch. 13.
     """
     along, across = -force_along(piece.x, t[0], piece.y, t[1]), force_across(piece.y, t[0], piece.x, t[1])
     along, across = named(along, f"force_along.{name}"), named(across, f"force_across.{name}_piece")
@@ -148,29 +116,13 @@ def rrp_forces(link: Wrench, piece: Wrench, u: Vector, t: Vector, name: str = ""
 
 
 def rpr_forces(lever: Wrench, block: Wrench, u: Vector, t: Vector, name: str = "") -> tuple[Vector, OnGuide, Vector]:
-    """Return the forces in the pins of a slotted lever and its block, and between them.
+    """Return the forces in the pins of a slotted lever and its block, and between them (artobolevsky_1988, ch. 13).
 
-    Parameters
-    ----------
-    lever, block : Wrench, arrays of shape (n,)
-        What acts on them, moments about the pivot of the lever and the pin of the block. [N], [N]
-    u, t : tuple of array, shape (n,)
-        From the pivot to the pin [m], direction of the slot [-].
-    name : str
-        What the inner joint is called.
+    On the block from its pin [N], on the block from the slot, on the lever from its pivot [N]. `lever` and `block`:
+    what acts on them, moments about the pivot of the lever and the pin of the block [N]; `u` and `t`: from the pivot
+    to the pin [m], direction of the slot [-].
 
-    Returns
-    -------
-    tuple of array, shape (n,)
-        On the block from its pin [N], on the block from the slot, on the lever from its pivot [N].
-
-    Notes
-    -----
     The block gives R_t = -F_t and takes its moment from the slot; the lever gives N = (M + M_block) / u_t.
-
-    References
-    ----------
-    artobolevsky_1988, ch. 13.
     """
     reach = named(along_guide(u[0], t[0], u[1], t[1]), f"guide_along.{name}_arm")
     normal = named(rpr_normal_force(lever.moment, block.moment, reach), f"normal_force.{name}")
@@ -179,29 +131,12 @@ def rpr_forces(lever: Wrench, block: Wrench, u: Vector, t: Vector, name: str = "
 
 
 def prp_forces(a: Wrench, b: Wrench, t_a: Vector, t_b: Vector, name: str = "") -> tuple[OnGuide, Vector, OnGuide]:
-    """Return the forces on the guides of two blocks and in the pin between them.
+    """Return the forces on the guides of two blocks and in the pin between them (artobolevsky_1988, ch. 13).
 
-    Parameters
-    ----------
-    a, b : Wrench, arrays of shape (n,)
-        What acts on the blocks, moments about the pin. [N], [N]
-    t_a, t_b : tuple of array, shape (n,)
-        Directions of the guides. [-], [-]
-    name : str
-        What the inner joint is called.
+    On the first block from its guide, on the second block from the first [N], on the second from its guide. `a` and
+    `b`: what acts on the blocks, moments about the pin [N].
 
-    Returns
-    -------
-    tuple of array, shape (n,)
-        On the first block from its guide, on the second block from the first [N], on the second from its guide.
-
-    Notes
-    -----
     Along the guides R t_a = F_a t_a and R t_b = -F_b t_b.
-
-    References
-    ----------
-    artobolevsky_1988, ch. 13.
     """
     sine = named(sine_between(t_a[0], t_b[1], t_a[1], t_b[0]), f"guide_sine.{name}")
     along_a, along_b = force_along(a.x, t_a[0], a.y, t_a[1]), -force_along(b.x, t_b[0], b.y, t_b[1])
@@ -219,27 +154,11 @@ def rpp_forces(
 ) -> tuple[Vector, OnGuide, OnGuide]:
     """Return the forces in the pin of a block, in the slot of its yoke and on the guide of the yoke.
 
-    Parameters
-    ----------
-    yoke, block : Wrench, arrays of shape (n,)
-        What acts on them, moments about the origin of the yoke and the pin of the block. [N], [N]
-    u, slot, guide : tuple of array, shape (n,)
-        From the origin of the yoke to the pin, directions of slot and guide. [m], [-], [-]
-    name : str
-        What the inner joint is called.
+    On the block from its pin [N], on the block from the slot, on the yoke from its guide. `yoke` and `block`: what
+    acts on them, moments about the origin of the yoke and the pin of the block [N]; `u`, `slot` and `guide`: from the
+    origin of the yoke to the pin, directions of slot and guide [m]. Source: artobolevsky_1988, ch. 13.
 
-    Returns
-    -------
-    tuple of array, shape (n,)
-        On the block from its pin [N], on the block from the slot, on the yoke from its guide.
-
-    Notes
-    -----
     Along the guide the yoke gives N n t = F t with the normal n of the slot; across it and about its origin the rest.
-
-    References
-    ----------
-    artobolevsky_1988, ch. 13.
     """
     along = named(force_along(yoke.x, guide[0], yoke.y, guide[1]), f"force_along.{name}")
     sine = named(sine_between(slot[0], guide[1], slot[1], guide[0]), f"guide_sine.{name}")

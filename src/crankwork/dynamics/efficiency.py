@@ -31,26 +31,10 @@ Chain = float | Series | Parallel
 
 
 def efficiency(chain: Chain) -> float:
-    """Return the efficiency of a chain.
+    """Return the efficiency of a chain (artobolevsky_1988, ch. 14). [-]
 
-    Parameters
-    ----------
-    chain : float, Series or Parallel
-        Efficiencies of joints, from more than 0 to 1, in series and parallel. [-]
-
-    Returns
-    -------
-    float
-        Product of what is in series, weighted mean of what is parallel. [-]
-
-    Raises
-    ------
-    ValueError
-        If an efficiency or the shares are impossible.
-
-    References
-    ----------
-    artobolevsky_1988, ch. 14.
+    Product of what is in series, weighted mean of what is parallel. `chain`: efficiencies of joints, from more than 0
+    to 1, in series and parallel.
 
     Examples
     --------
@@ -61,20 +45,7 @@ def efficiency(chain: Chain) -> float:
 
 
 def remembered_efficiency(chain: Chain, key: str = "efficiency") -> Known:
-    """Return the efficiency of a chain as it is made up; its parts have the keys `key.1`, `key.2` and so on.
-
-    Parameters
-    ----------
-    chain : float, Series or Parallel
-        Efficiencies of joints. [-]
-    key : str
-        Key of the value.
-
-    Raises
-    ------
-    ValueError
-        If an efficiency or the shares are impossible.
-    """
+    """Return the efficiency of a chain as it is made up; its parts have the keys `key.1`, `key.2` and so on."""
     match chain:
         case Series(parts):
             found = [remembered_efficiency(part, f"{key}.{at}") for at, part in enumerate(parts, start=1)]

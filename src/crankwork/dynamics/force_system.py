@@ -55,16 +55,7 @@ def equilibrium(
 ) -> Equilibrium:
     """Return the equations of equilibrium of some links.
 
-    Parameters
-    ----------
-    motion : Motion
-        Where everything is.
-    links : sequence of str
-        The links.
-    held : sequence of Joint
-        The joints that hold them.
-    crank : Crank, optional
-        The link on which a torque is the last unknown, positive with the rotation.
+    `crank`: the link on which a torque is the last unknown, positive with the rotation.
     """
     row = {link: 3 * k for k, link in enumerate(links)}
     matrix = np.zeros((len(motion.grid), 3 * len(row), 2 * len(held) + (crank is not None)))
@@ -91,23 +82,7 @@ def _normal(guide: LinkMotion) -> list[Vector]:
 def solved_group(
     motion: Motion, links: Sequence[str], held: Sequence[Joint], wrenches: Acting
 ) -> dict[Joint, Reaction]:
-    """Return the reactions in the joints of one group.
-
-    Parameters
-    ----------
-    motion : Motion
-        Where everything is.
-    links : sequence of str
-        The links of the group.
-    held : sequence of Joint
-        The joints that hold them.
-    wrenches : Wrenches, arrays of shape (n,)
-        What acts on them. [N]
-
-    References
-    ----------
-    artobolevsky_1988, ch. 13.
-    """
+    """Return the reactions in the joints of one group (artobolevsky_1988, ch. 13)."""
     if is_known(motion.grid.angle):
         return _remembered(motion, links, held, wrenches)
     system = equilibrium(motion, links, held)
@@ -117,12 +92,7 @@ def solved_group(
 class GroupSolver:
     """Solves the equilibrium of a group from columns: entries of the matrix, then those of the right side.
 
-    Parameters
-    ----------
-    size : int
-        Number of equations.
-    entries : tuple
-        Row, column and value of each entry; None where a column gives it.
+    `entries` are row, column and value; None where a column gives the value.
     """
 
     def __init__(self, size: int, entries: tuple[tuple[int, int, float | None], ...]) -> None:
@@ -183,21 +153,9 @@ def _named_pair(joint: Joint, one: Known, other: Known) -> tuple[Known, Known]:
 
 
 def system_joint_forces(running: Running) -> JointForces:
-    """Return the forces in all joints and the balancing torque from one linear system.
+    """Return the forces in all joints and the balancing torque from one linear system (norton_2012, ch. 11).
 
-    Parameters
-    ----------
-    running : Running
-        The mechanism at work.
-
-    Returns
-    -------
-    JointForces, arrays of shape (n,)
-        The same as `joint_forces` gives group after group. [N], [N m]
-
-    References
-    ----------
-    norton_2012, ch. 11.
+    The same as `joint_forces` gives group after group [N], [N m].
     """
     system = whole_system(running)
     wrenches = {link: Wrench(*one) for link, one in plain_wrenches(running).items()}
@@ -206,13 +164,7 @@ def system_joint_forces(running: Running) -> JointForces:
 
 
 def whole_system(running: Running) -> Equilibrium:
-    """Return the equations of equilibrium of all links, the last unknown the balancing torque.
-
-    Parameters
-    ----------
-    running : Running
-        The mechanism at work.
-    """
+    """Return the equations of equilibrium of all links, the last unknown the balancing torque."""
     mechanism = running.mechanism
     held = joints(mechanism)
     # a link of a chain may only hold others
@@ -224,10 +176,7 @@ def whole_system(running: Running) -> Equilibrium:
 def solve_positions(matrix: Array, right: Array) -> Array:
     """Return the solutions of linear systems, NaN where the position is not known or singular.
 
-    Parameters
-    ----------
-    matrix, right : array, shape (n, k, k) and (n, k)
-        A system for each position. [m], [N]
+    `matrix` and `right`: a system for each position [m], [N], shape (n, k, k).
     """
     known: NDArray[np.bool_] = np.asarray(np.isfinite(matrix).all(axis=(-2, -1)) & np.isfinite(right).all(axis=-1))
     solution = np.full_like(right, np.nan)

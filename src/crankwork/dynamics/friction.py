@@ -108,36 +108,16 @@ class _Rubbing:
 
 
 def friction_forces(running: Running, friction: Sequence[Friction]) -> FrictionForces:
-    """Return the joint forces of a mechanism with dry friction in some joints.
+    """Return the joint forces of a mechanism with dry friction in some joints (artobolevsky_1988, ch. 11 and 13-14).
 
-    Parameters
-    ----------
-    running : Running
-        The mechanism at work; the crank turns forward unless its speed is negative.
-    friction : sequence of PinFriction or GuideFriction
-        The joints that rub, and how much.
+    Forces, torque, losses, efficiency, residual and status at each crank angle. `running`: the mechanism at work; the
+    crank turns forward unless its speed is negative.
 
-    Returns
-    -------
-    FrictionForces
-        Forces, torque, losses, efficiency, residual and status at each crank angle.
-
-    Raises
-    ------
-    MethodError
-        If a joint does not exist or rubs twice.
-
-    Notes
-    -----
     Friction in a pin is a moment rho |R| against the relative rotation; on a guide a force f |N| against the
     sliding, with 2 |M| / length in place of |N| where the moment M of the guide is so large that the piece
     presses with opposite sides. Newton's method solves the equilibrium; the friction grows from zero to its value
     in steps. As long as the determinant of the equations keeps its sign there is one solution. Where it changes
     it, the torque has grown beyond all bounds before, or there is none that turns the crank: self-locking.
-
-    References
-    ----------
-    artobolevsky_1988, ch. 11 and 13-14.
     """
     system, wrenches = whole_system(running), link_wrenches(running)
     right = system.right_side(wrenches)

@@ -21,20 +21,8 @@ from crankwork.mechanism.linkage import GROUND
 def joint_forces(running: Running) -> JointForces:
     """Return the forces in all joints and the balancing torque on the crank.
 
-    Parameters
-    ----------
-    running : Running
-        The mechanism at work, without friction.
-
-    Returns
-    -------
-    JointForces, arrays of shape (n,)
-        On each pin the force on the link it holds [N]; on each sliding piece the normal force [N] and its moment
-        [N m]; the torque that the crank needs [N m].
-
-    References
-    ----------
-    artobolevsky_1988, ch. 13; the method of Bruyevich.
+    On each pin the force on the link it holds [N]; on each sliding piece the normal force [N] and its moment [N m];
+    the torque that the crank needs [N m]. Source: artobolevsky_1988, ch. 13; the method of Bruyevich.
     """
     mechanism, motion = running.mechanism, running.motion
     every, wrenches = joints(mechanism), link_wrenches(running)

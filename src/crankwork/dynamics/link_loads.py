@@ -26,13 +26,7 @@ class Wrench(NamedTuple):
 
 
 class Wrenches:
-    """What acts on each link, gathered until it is asked for.
-
-    Parameters
-    ----------
-    motion : Motion
-        How the links move.
-    """
+    """What acts on each link, gathered until it is asked for."""
 
     def __init__(self, motion: Motion) -> None:
         self._grid = motion.grid
@@ -80,21 +74,9 @@ def link_angular_acceleration(theta_2: Value, w: Value, theta_1: Value, eps: Val
 
 
 def inertia_loads(running: Running) -> AppliedLoads:
-    """Return the inertia forces and torques of the bodies.
+    """Return the inertia forces and torques of the bodies (artobolevsky_1988, ch. 12).
 
-    Parameters
-    ----------
-    running : Running
-        The mechanism at work.
-
-    Returns
-    -------
-    AppliedLoads
-        -m a at each centre of mass and -J eps on each link. [N], [N m]
-
-    References
-    ----------
-    artobolevsky_1988, ch. 12.
+    -m a at each centre of mass and -J eps on each link [N], [N m].
     """
     w, eps = running.speed, running.angular_acceleration
     forces, torques = [], []
@@ -120,13 +102,7 @@ def _inertia_force(mass: Value, acceleration: Value, name: str) -> Value:
 
 
 def distinct(names: Iterable[str]) -> list[str]:
-    """Return names with a number from the second of the same name on.
-
-    Parameters
-    ----------
-    names : iterable of str
-        The names.
-    """
+    """Return names with a number from the second of the same name on."""
     seen: Counter[str] = Counter()
     result = []
     for name in names:
@@ -143,15 +119,7 @@ def all_loads(running: Running) -> AppliedLoads:
 def link_wrenches(running: Running) -> Wrenches:
     """Return what loads and inertia put on each moving link.
 
-    Parameters
-    ----------
-    running : Running
-        The mechanism at work.
-
-    Returns
-    -------
-    Wrenches
-        Force [N] and moment about the origin of the frame of each link [N m].
+    Force [N] and moment about the origin of the frame of each link [N m].
     """
     motion, loads = running.motion, all_loads(running)
     wrenches, still = Wrenches(motion), nothing(motion.grid)
@@ -165,18 +133,7 @@ def link_wrenches(running: Running) -> Wrenches:
 
 
 def arm(origin: PointMotion, point: PointMotion) -> tuple[Value, Value]:
-    """Return the way from one point to another.
-
-    Parameters
-    ----------
-    origin, point : PointMotion, arrays of shape (n,)
-        From where, to where. [m], [m]
-
-    Returns
-    -------
-    tuple of array, shape (n,)
-        Components along the fixed axes. [m]
-    """
+    """Return the way from one point to another. [m]"""
     ends, starts = (point.x.position, point.y.position), (origin.x.position, origin.y.position)
     if all(is_known(one, other) and one.node is other.node for one, other in zip(ends, starts, strict=True)):
         return absent("arm_x"), absent("arm_y")
@@ -184,26 +141,12 @@ def arm(origin: PointMotion, point: PointMotion) -> tuple[Value, Value]:
 
 
 def moment_of(way: tuple[Value, Value], force: tuple[Value, Value], name: str = "") -> Value:
-    """Return the moment of a force with an arm; absent where it has none.
-
-    Parameters
-    ----------
-    way, force : tuple of array, shape (n,)
-        Arm and force. [m], [N]
-    name : str
-        What turns which link.
-    """
+    """Return the moment of a force with an arm; absent where it has none."""
     if all(is_known(one) and one.is_absent for one in way):
         return absent("link_moment")
     return named(moment_about(way[0], force[1], way[1], force[0]), f"link_moment.{name}")
 
 
 def cross(a: tuple[Array, Array], b: tuple[Array, Array]) -> Array:
-    """Return the cross product of two plane vectors, the moment of a force `b` with the arm `a`.
-
-    Parameters
-    ----------
-    a, b : tuple of array, shape (n,)
-        The vectors. [m], [N]
-    """
+    """Return the cross product of two plane vectors, the moment of a force `b` with the arm `a`."""
     return a[0] * b[1] - a[1] * b[0]

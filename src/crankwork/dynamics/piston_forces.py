@@ -133,29 +133,10 @@ class RodForces(NamedTuple):
 
 
 def rod_forces(P: Value, grid: CrankGrid, swing: RodSwing, *, dN: Value = 0.0, F_wn: Value = 0.0) -> RodForces:
-    """Return the forces of a rod: of two masses, or with what the correction couple of the rigid rod adds.
+    """Return the forces of a rod: of two masses, or with what the correction couple of the rigid rod adds. [N]
 
-    Parameters
-    ----------
-    P : array, shape (n,)
-        Force on the piston pin along the cylinder axis. [N]
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    swing : RodSwing
-        Functions of the rod angle. [-]
-    dN : array, shape (n,)
-        Side force that holds the correction couple. [N]
-    F_wn : array, shape (n,)
-        Weight across the axis, which the wall carries beside the rod. [N]
-
-    Returns
-    -------
-    RodForces of array, shape (n,)
-        Side, along the rod, radial, tangential. [N]
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 7; khurmi_gupta_2005, ch. 15, for the couple.
+    `P`: force on the piston pin along the cylinder axis [N]; `F_wn`: weight across the axis, which the wall carries
+    beside the rod [N]. Source: kolchin_demidov_2008, ch. 7; khurmi_gupta_2005, ch. 15, for the couple.
     """
     return RodForces(
         side_force(P, swing.sin, swing.cos, dN, F_wn),

@@ -15,13 +15,7 @@ from crankwork.loads.applied import AppliedForce, AppliedLoads, AppliedTorque
 
 
 def plain_loads(running: Running) -> AppliedLoads:
-    """Return the loads of a mechanism together with the inertia of its bodies after D'Alembert.
-
-    Parameters
-    ----------
-    running : Running
-        The mechanism at work, in numbers.
-    """
+    """Return the loads of a mechanism together with the inertia of its bodies after D'Alembert."""
     w, eps = running.speed, running.angular_acceleration
     forces, torques = list(running.loads.forces), list(running.loads.torques)
     for body, centre, angle_1, angle_2 in body_motions(running.mechanism, running.motion):
@@ -34,15 +28,7 @@ def plain_loads(running: Running) -> AppliedLoads:
 def plain_wrenches(running: Running) -> dict[str, tuple[Array, Array, Array]]:
     """Return force and moment about the origin of each link.
 
-    Parameters
-    ----------
-    running : Running
-        The mechanism at work, in numbers.
-
-    Returns
-    -------
-    dict of str to tuple of array, shape (n,)
-        Components [N], [N] and moment [N m] by link.
+    Components [N], [N] and moment [N m] by link.
     """
     loads, frames = plain_loads(running), running.motion.frames
     found = {link: [np.zeros_like(running.motion.grid.angle) for _ in range(3)] for link in frames}

@@ -52,15 +52,7 @@ Reaction = PinForce | GuideForce
 
 
 def joint_place(joint: Joint, motion: Motion) -> PointMotion:
-    """Return where a joint is: its pin, or the origin of its sliding piece.
-
-    Parameters
-    ----------
-    joint : Pin or SlidingJoint
-        The joint.
-    motion : Motion
-        How the mechanism moves.
-    """
+    """Return where a joint is: its pin, or the origin of its sliding piece."""
     if isinstance(joint, Pin) and joint.point:
         return motion.points[joint.point]
     return motion.frames[joint.link].origin
@@ -69,19 +61,8 @@ def joint_place(joint: Joint, motion: Motion) -> PointMotion:
 def reaction_wrench(reaction: Reaction, motion: Motion, link: str) -> Wrench:
     """Return what a joint puts on one of its two links.
 
-    Parameters
-    ----------
-    reaction : PinForce or GuideForce
-        The reaction on the link that is held.
-    motion : Motion
-        How the mechanism moves.
-    link : str
-        The link that is held, or the other one.
-
-    Returns
-    -------
-    Wrench, arrays of shape (n,)
-        Force [N] and moment about the origin of the frame of `link` [N m].
+    Force [N] and moment about the origin of the frame of `link` [N m]. `link`: the link that is held, or the other
+    one.
     """
     joint = reaction.joint
     match reaction:
@@ -127,17 +108,7 @@ class JointForces:
 
 
 def gathered(reactions: Mapping[Joint, Reaction], order: tuple[Joint, ...], balancing_torque: Array) -> JointForces:
-    """Return reactions in the order of the joints.
-
-    Parameters
-    ----------
-    reactions : mapping of Joint to PinForce or GuideForce
-        By joint.
-    order : tuple of Joint
-        All joints.
-    balancing_torque : array, shape (n,)
-        Torque on the crank. [N m]
-    """
+    """Return reactions in the order of the joints."""
     found = [reactions[joint] for joint in order]
     pins = {one.joint.name: one for one in found if isinstance(one, PinForce)}
     guides = {one.joint.name: one for one in found if isinstance(one, GuideForce)}

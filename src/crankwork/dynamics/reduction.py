@@ -68,25 +68,9 @@ class ReducedInertia(NamedTuple):
 
 
 def reduced_inertia(mechanism: Mechanism, motion: Motion, beside: Value = 0.0) -> ReducedInertia:
-    """Return the reduced moment of inertia of a mechanism and its exact derivative.
+    """Return the reduced moment of inertia of a mechanism and its exact derivative. [kg m2]
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        Its bodies.
-    motion : Motion
-        Its transfer functions.
-    beside : float
-        What turns with the crank beside the bodies. [kg m2]
-
-    Returns
-    -------
-    ReducedInertia of array, shape (n,)
-        J and dJ/dphi, zero without bodies. [kg m2]
-
-    References
-    ----------
-    artobolevsky_1988, ch. 15.
+    J and dJ/dphi, zero without bodies. Source: artobolevsky_1988, ch. 15.
     """
     inertia, inertia_1 = [], []
     bodies = body_motions(mechanism, motion)
@@ -105,23 +89,9 @@ def reduced_inertia(mechanism: Mechanism, motion: Motion, beside: Value = 0.0) -
 
 
 def reduced_torque(motion: Motion, loads: AppliedLoads) -> Value:
-    """Return the torque on the crank that does the work of the loads.
+    """Return the torque on the crank that does the work of the loads (artobolevsky_1988, ch. 15). [N m]
 
-    Parameters
-    ----------
-    motion : Motion
-        The crank angles.
-    loads : AppliedLoads
-        Forces and torques.
-
-    Returns
-    -------
-    array, shape (n,)
-        Torque, positive with the rotation. [N m]
-
-    References
-    ----------
-    artobolevsky_1988, ch. 15.
+    Torque, positive with the rotation.
     """
     return summed("reduced_torque", _parts(loads), motion.grid)
 
@@ -151,22 +121,7 @@ class CrankTorque(NamedTuple):
 
 
 def crank_torque(running: Running) -> CrankTorque:
-    """Return the torque that the crank needs without friction, from energy.
-
-    Parameters
-    ----------
-    running : Running
-        The mechanism at work.
-
-    Returns
-    -------
-    CrankTorque of array, shape (n,)
-        Static, dynamic and driving torque. [N m]
-
-    References
-    ----------
-    artobolevsky_1988, ch. 16.
-    """
+    """Return the torque that the crank needs without friction, from energy (artobolevsky_1988, ch. 16). [N m]"""
     inertia, inertia_1 = reduced_inertia(running.mechanism, running.motion)
     dynamic = dynamic_torque(running.speed, inertia_1, inertia, running.angular_acceleration)
     return CrankTorque(static_torque(reduced_torque(running.motion, running.loads)), dynamic)

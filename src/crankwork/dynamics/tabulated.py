@@ -34,29 +34,11 @@ def reduced_inertia_of_ratios(m_i: Value, v_w: Value, J_S: Value, w_w: Value) ->
 
 
 def difference_derivative(crank_angle: ArrayLike, values: ArrayLike, scheme: Differences = "central") -> Array:
-    """Return the derivative by the crank angle of a column that repeats every revolution.
+    """Return the derivative by the crank angle of a column that repeats every revolution. [kg m2]
 
-    Parameters
-    ----------
-    crank_angle : array, shape (n,)
-        Ascending angles of less than a revolution in all. [rad]
-    values : array, shape (n,)
-        The column. [kg m2]
-    scheme : {"forward", "central", "spectral"}
-        To the next angle; from the last to the next; of the trigonometric polynomial through all values.
+    `crank_angle`: ascending angles of less than a revolution in all [rad]; `scheme`: to the next angle; from the last
+    to the next; of the trigonometric polynomial through all values.
 
-    Returns
-    -------
-    array, shape (n,)
-        Derivative. [kg m2]
-
-    Raises
-    ------
-    ValueError
-        If the angles do not ascend within a revolution, or are not equidistant for the spectral derivative.
-
-    Notes
-    -----
     Forward and central differences are how documents are made. For a computed motion the exact derivative is at
     hand, see `reduction.reduced_inertia`.
     """

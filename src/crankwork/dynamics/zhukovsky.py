@@ -11,26 +11,12 @@ from crankwork.kinematics.crank_grid import Array
 
 
 def zhukovsky_torque(running: Running) -> Array:
-    """Return the balancing torque from the moments of all forces on the velocity plan turned by a right angle.
+    """Return the balancing torque from the moments of all forces on the velocity plan turned by a right angle. [N m]
 
-    Parameters
-    ----------
-    running : Running
-        The mechanism at work, without friction.
+    Torque on the crank, positive with the rotation. Source: artobolevsky_1988, ch. 15.
 
-    Returns
-    -------
-    array, shape (n,)
-        Torque on the crank, positive with the rotation. [N m]
-
-    Notes
-    -----
     The plan is drawn for an angular speed of 1 rad/s and turned clockwise; each force stands at the end of the
     velocity of its point. A torque is a pair of forces, square to its link at its origin and a unit length along it.
-
-    References
-    ----------
-    artobolevsky_1988, ch. 15.
     """
     motion, loads = running.motion, plain_loads(running)
     moment = np.zeros_like(motion.grid.angle)
@@ -46,21 +32,9 @@ def zhukovsky_torque(running: Running) -> Array:
 
 
 def virtual_work_torque(running: Running) -> Array:
-    """Return the balancing torque from the virtual work of loads and inertia.
+    """Return the balancing torque from the virtual work of loads and inertia (artobolevsky_1988, ch. 15). [N m]
 
-    Parameters
-    ----------
-    running : Running
-        The mechanism at work, without friction.
-
-    Returns
-    -------
-    array, shape (n,)
-        Torque on the crank, positive with the rotation. [N m]
-
-    References
-    ----------
-    artobolevsky_1988, ch. 15.
+    Torque on the crank, positive with the rotation.
     """
     loads = plain_loads(running)
     power = np.zeros_like(running.motion.grid.angle)

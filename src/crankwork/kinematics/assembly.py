@@ -21,15 +21,7 @@ _SINGULAR = 1e-13
 def unassembled(closure: Closure) -> NDArray[np.bool_] | None:
     """Return where a group does not close or is singular, or None if it closes everywhere.
 
-    Parameters
-    ----------
-    closure : Closure of (n,)
-        How well it closes.
-
-    Returns
-    -------
-    bool, shape (n,), or None
-        True where it does not.
+    True where it does not.
     """
     value = closure.value
     limit = _SINGULAR * closure.scale
@@ -39,19 +31,7 @@ def unassembled(closure: Closure) -> NDArray[np.bool_] | None:
 
 
 def refusal(group: Dyad | Chain, closure: Closure, grid: CrankGrid, bad: NDArray[np.bool_]) -> GeometryError:
-    """Return the error that says where and by how much a group cannot be assembled, and what would help.
-
-    Parameters
-    ----------
-    group : Dyad or Chain
-        The group.
-    closure : Closure of (n,)
-        How well it closes.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    bad : bool, shape (n,)
-        Where it does not close.
-    """
+    """Return the error that says where and by how much a group cannot be assembled, and what would help."""
     value = np.where(bad, np.nan_to_num(closure.value, nan=-np.inf), np.inf)
     worst = int(np.argmin(value))
     singular = abs(float(closure.value.flat[worst])) <= _SINGULAR * closure.scale
@@ -133,23 +113,9 @@ def singular_between(
 ) -> Iterator[tuple[int, float]]:
     """Yield the intervals between given angles in which a group does not close, and an angle in each.
 
-    Parameters
-    ----------
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    closure : Closure of (n,)
-        How well it closes there.
-    closure_at : callable
-        The same for other angles.
+    Number of the interval, and the angle; none where the angles do not ascend, so that nothing lies between [-],
+    [rad].
 
-    Yields
-    ------
-    tuple of int and float
-        Number of the interval, and the angle; none where the angles do not ascend, so that nothing lies
-        between. [-], [rad]
-
-    Notes
-    -----
     Where a smooth function is least it is convex, and there the secants of its neighbours bound it from below.
     Only an interval in which that bound is negative is looked at more closely.
     """

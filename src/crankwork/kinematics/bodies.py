@@ -28,40 +28,15 @@ class BodyMotion(NamedTuple):
 def body_motions(mechanism: Mechanism, motion: Motion) -> tuple[BodyMotion, ...]:
     """Return the motion of every body of a mechanism.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        Whose bodies they are.
-    motion : Motion
-        How it moves.
-
-    Returns
-    -------
-    tuple of BodyMotion, arrays of shape (n,)
-        Centres of mass with first and second transfer functions [m], first and second rate of turning [-].
-
-    Raises
-    ------
-    GeometryError
-        If a body has a moment of inertia and nothing says how it turns.
+    Centres of mass with first and second transfer functions [m], first and second rate of turning [-].
     """
     return tuple(BodyMotion(body, centre_of_mass(body, motion), *_rates(body, motion)) for body in mechanism.bodies)
 
 
 def centre_of_mass(body: Body, motion: Motion) -> PointMotion:
-    """Return the motion of the centre of mass of a body, on the line between two points.
+    """Return the motion of the centre of mass of a body, on the line between two points. [m]
 
-    Parameters
-    ----------
-    body : Body
-        The body.
-    motion : Motion
-        Where its points are.
-
-    Returns
-    -------
-    PointMotion, arrays of shape (n,)
-        Position, first and second transfer function. [m]
+    Position, first and second transfer function.
     """
     start, end = motion.points[body.start], motion.points[body.end]
     if body.start == body.end or body.share == 0:
@@ -89,41 +64,17 @@ def _rates(body: Body, motion: Motion) -> tuple[Value, Value]:
 
 
 def nothing(grid: CrankGrid) -> Value:
-    """Return zero at every crank angle, or an absent value where columns are remembered.
-
-    Parameters
-    ----------
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    """
+    """Return zero at every crank angle, or an absent value where columns are remembered."""
     return absent("") if is_known(grid.angle) else np.zeros_like(grid.angle)
 
 
 def everywhere(value: Value, grid: CrankGrid) -> Value:
-    """Return a value at every crank angle; a known is that already.
-
-    Parameters
-    ----------
-    value : float or array, shape (n,)
-        The value. [any]
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    """
+    """Return a value at every crank angle; a known is that already."""
     return value if is_known(value, grid.angle) else value + np.zeros_like(grid.angle)
 
 
 def summed(key: str, terms: Iterable[Value], grid: CrankGrid) -> Value:
-    """Return the sum of columns in their order; of none, nothing.
-
-    Parameters
-    ----------
-    key : str
-        Key of the sum.
-    terms : iterable of array, shape (n,)
-        What is added. [any]
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    """
+    """Return the sum of columns in their order; of none, nothing."""
     if not is_known(grid.angle):
         return sum(terms, np.zeros_like(grid.angle))
     stated = [one for one in terms if not (is_known(one) and one.is_absent)]

@@ -17,19 +17,8 @@ _KEYS = ("point_x", "point_y", "link_angle")
 def remembered_chain(chain: Chain, around: Surroundings, root: Root) -> ChainMotion:
     """Return the motion of a chain of links as knowns.
 
-    Parameters
-    ----------
-    chain : Chain
-        The links.
-    around : Surroundings
-        What it hangs on, in knowns.
-    root : Root
-        Gives the coordinates of all links and their derivatives; its equations are noted here.
-
-    Returns
-    -------
-    ChainMotion
-        Points, frames and distances by the same formulas as those of any link.
+    Points, frames and distances by the same formulas as those of any link. `root`: gives the coordinates of all links
+    and their derivatives; its equations are noted here.
     """
     count = 3 * len(chain.links)
 

@@ -165,15 +165,7 @@ def fixed_guide(guide: Guide) -> LinkMotion:
 
 
 def crank_motion(crank: Crank, grid: CrankGrid) -> LinkMotion:
-    """Return the motion of the crank, its frame at the pivot.
-
-    Parameters
-    ----------
-    crank : Crank
-        The driving link.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    """
+    """Return the motion of the crank, its frame at the pivot."""
     cos, sin = grid.cos, grid.sin if crank.direction == 1 else -grid.sin
     if not is_nothing(crank.start):
         cos_start, sin_start = plane.cosine_of_direction(crank.start), plane.sine_of_direction(crank.start)
@@ -191,17 +183,7 @@ def crank_motion(crank: Crank, grid: CrankGrid) -> LinkMotion:
 def crank_pin_motion(crank: Crank, grid: CrankGrid) -> tuple[PointMotion, Transfer]:
     """Return the motion of the crank pin and the direction of the crank arm.
 
-    Parameters
-    ----------
-    crank : Crank
-        The driving link.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-
-    Returns
-    -------
-    tuple of PointMotion and Transfer, arrays of shape (n,)
-        Coordinates of the pin [m], direction of the arm [rad].
+    Coordinates of the pin [m], direction of the arm [rad].
     """
     link = crank_motion(crank, grid)
     return pin_on_crank(crank, link), Transfer(crank.start + crank.direction * grid.angle, link.angle_1, link.angle_2)
@@ -216,21 +198,9 @@ def pin_on_crank(crank: Crank, link: LinkMotion) -> PointMotion:
 
 
 def point_on_link(link: LinkMotion, along: Value, across: Value, name: str = "") -> PointMotion:
-    """Return the motion of a point that moves with a link.
+    """Return the motion of a point that moves with a link. [m]
 
-    Parameters
-    ----------
-    link : LinkMotion of (n,)
-        The frame of the link.
-    along, across : float
-        Coordinates in that frame. [m]
-    name : str
-        What the point is called.
-
-    Returns
-    -------
-    PointMotion, arrays of shape (n,)
-        r = o + d, r' = o' + J d theta', r'' = o'' + J d theta'' - d theta'^2. [m]
+    r = o + d, r' = o' + J d theta', r'' = o'' + J d theta'' - d theta'^2.
     """
     (x, x_1, x_2), (y, y_1, y_2) = link.origin
     if is_known(along) and is_nothing(along) and is_nothing(across):
@@ -273,20 +243,10 @@ def guide_on_link(link: LinkMotion, guide: Guide) -> LinkMotion:
 
 
 def seen_from(link: LinkMotion, point: PointMotion) -> PointMotion:
-    """Return the motion of a point as seen from a link: its coordinates in the frame of the link.
+    """Return the motion of a point as seen from a link: its coordinates in the frame of the link. [m]
 
-    Parameters
-    ----------
-    link : LinkMotion
-        The frame.
-    point : PointMotion, arrays of shape (n,)
-        The point. [m]
-
-    Returns
-    -------
-    PointMotion, arrays of shape (n,)
-        Along and across, with their own derivatives: what is left of the acceleration after guiding and
-        Coriolis parts are taken off. [m]
+    Along and across, with their own derivatives: what is left of the acceleration after guiding and Coriolis parts
+    are taken off.
     """
     cos, sin = link.cos, link.sin
     (x, x_1, x_2), (y, y_1, y_2) = point
@@ -309,15 +269,7 @@ def seen_from(link: LinkMotion, point: PointMotion) -> PointMotion:
 
 
 def point_on_guide(guide: LinkMotion, slide: Transfer) -> PointMotion:
-    """Return the motion of a point that slides along a guide, with its Coriolis part where the guide turns.
-
-    Parameters
-    ----------
-    guide : LinkMotion
-        The line.
-    slide : Transfer, arrays of shape (n,)
-        Distance along it. [m]
-    """
+    """Return the motion of a point that slides along a guide, with its Coriolis part where the guide turns."""
     s, s_1, s_2 = slide
     cos, sin = guide.cos, guide.sin
     (x, x_1, x_2), (y, y_1, y_2) = guide.origin
@@ -354,30 +306,14 @@ class RRRMotion(NamedTuple):
 
 
 def rrr_motion(dyad: RRR, a: PointMotion, b: PointMotion) -> RRRMotion:
-    """Return the motion of the joint and the links of an RRR dyad.
+    """Return the motion of the joint and the links of an RRR dyad (artobolevsky_1988, ch. 4).
 
-    Parameters
-    ----------
-    dyad : RRR
-        The two links.
-    a, b : PointMotion, arrays of shape (n,)
-        Motion of the known points. [m]
+    Joint [m], frames of the links, closure; NaN where the links do not meet.
 
-    Returns
-    -------
-    RRRMotion
-        Joint [m], frames of the links, closure; NaN where the links do not meet.
-
-    Notes
-    -----
     With d from a to b, u and v from a and b to the joint, and c = (p^2 - q^2 + d^2) / 2:
     h = u x v = branch sqrt(((p + q)^2 - d^2)(d^2 - (p - q)^2)) / 2, twice the area of the triangle, and
     u = (c d + h J d) / d^2. The loop a' + theta_a' J u = b' + theta_b' J v gives theta_a' = (b' - a') v / h and
     theta_b' = (b' - a') u / h, its derivative the same with b'' - a'' + theta_a'^2 u - theta_b'^2 v.
-
-    References
-    ----------
-    artobolevsky_1988, ch. 4.
     """
     p, q, name = dyad.length_a, dyad.length_b, dyad.point
     (ax, ax_1, ax_2), (ay, ay_1, ay_2) = a
@@ -420,31 +356,13 @@ class RRPMotion(NamedTuple):
 
 
 def rrp_motion(dyad: RRP, joint: PointMotion, guide: LinkMotion) -> RRPMotion:
-    """Return the motion of the slider and the link of an RRP dyad.
+    """Return the motion of the slider and the link of an RRP dyad (artobolevsky_1988, ch. 4).
 
-    Parameters
-    ----------
-    dyad : RRP
-        The link.
-    joint : PointMotion, arrays of shape (n,)
-        Motion of the point the link hangs on. [m]
-    guide : LinkMotion
-        The line the slider runs on.
+    Slider point, distance along the guide [m], frames, closure; NaN where the link does not reach the guide.
 
-    Returns
-    -------
-    RRPMotion
-        Slider point, distance along the guide [m], frames, closure; NaN where the link does not reach the guide.
-
-    Notes
-    -----
     Seen from the guide the joint has the coordinates s_joint and u; the link gives u^2 + h^2 = l^2 and
     s = s_joint + h with the sign of h the branch. Its angle to the guide has the derivative g' = -u' / h, so that
     h' = g' u. Coriolis enters through u' and u'', which are those seen from the guide.
-
-    References
-    ----------
-    artobolevsky_1988, ch. 4.
     """
     length, link_, piece = dyad.length, dyad.link, dyad.piece
     (along, along_1, along_2), (u, u_1, u_2) = named_coordinates(seen_from(guide, joint), dyad.joint)

@@ -17,12 +17,8 @@ _MAX_STEPS = 40
 def closed_in(function: Callable[[Array], Array], low: Array, high: Array, at_low: Array, at_high: Array) -> Array:
     """Return a root between each pair of angles at which a function has different signs, to the last bit.
 
-    Parameters
-    ----------
-    function : callable
-        Takes and returns an array of shape (n,). [deg] -> any
-    low, high, at_low, at_high : array, shape (n,)
-        The ends of the ranges [deg], and the function there.
+    `function`: takes and returns an array of shape (n,). [deg] -> any; `low`, `high`, `at_low` and `at_high`: the
+    ends of the ranges [deg], and the function there.
     """
     root = high
     for _ in range(_MAX_STEPS):
@@ -42,14 +38,7 @@ def closed_in(function: Callable[[Array], Array], low: Array, high: Array, at_lo
 def reached(function: Callable[[Array], Array], wanted: float, start: float, end: float) -> float:
     """Return where a function that grows or falls all the way reaches a value; the nearer end if it does not.
 
-    Parameters
-    ----------
-    function : callable
-        Takes and returns an array of shape (n,). [deg] -> any
-    wanted : float
-        The value. [its unit]
-    start, end : float
-        Range to search. [deg]
+    `function`: takes and returns an array of shape (n,). [deg] -> any; `start` and `end`: range to search [deg].
     """
     ends = np.array([[start], [end]], dtype=float)
     at_start, at_end = (function(one) - wanted for one in ends)
@@ -59,20 +48,8 @@ def reached(function: Callable[[Array], Array], wanted: float, start: float, end
 
 
 def dead_centres(slider_crank: SliderCrank) -> tuple[float, float]:
-    """Return the crank angles of top and bottom dead centre.
+    """Return the crank angles of top and bottom dead centre. [deg]
 
-    Parameters
-    ----------
-    slider_crank : SliderCrank
-        The dimensions.
-
-    Returns
-    -------
-    tuple of float
-        Top and bottom. [deg]
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 6; crank and rod in line.
+    Source: kolchin_demidov_2008, ch. 6; crank and rod in line.
     """
     return math.degrees(slider_crank.top_dead_centre), math.degrees(slider_crank.bottom_dead_centre)

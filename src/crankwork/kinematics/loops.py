@@ -69,17 +69,8 @@ class _Row(NamedTuple):
 class ChainPath:
     """Positions of a chain along the way of the crank, from the stated start; all others are solved from these.
 
-    Parameters
-    ----------
-    chain : Chain
-        The links and the stated start.
-    grid : CrankGrid, shape (n,)
-        Crank angles to be reached. [rad]
-    around : callable
-        What is placed before, as a function of the crank angles.
+    `around` gives what is placed before, as a function of the crank angles.
 
-    Notes
-    -----
     F(q, phi) = 0; q' and q'' solve J q' = -F' and J q'' = -F'' with the same Jacobian, where F' and F'' are the
     derivatives of the equations with the unknown one set to zero (uicker_2011).
     """
@@ -395,14 +386,8 @@ def _as_motion(
 def as_chain(dyad: Dyad, placed: Mapping[str, LinkMotion], start: float) -> Chain:
     """Return a dyad as a chain that starts from a solved position, to be solved the other way.
 
-    Parameters
-    ----------
-    dyad : Dyad
-        The two links.
-    placed : mapping of str to LinkMotion
-        Solved frames of links, of which the first position is taken.
-    start : float
-        Crank angle of the first position. [rad]
+    `placed`: solved frames of links, of which the first position is taken; `start`: crank angle of the first position
+    [rad].
     """
 
     def link(name: str, **own: Point) -> ChainLink:

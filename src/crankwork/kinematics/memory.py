@@ -50,17 +50,8 @@ class Near:
 def remembered_motion(mechanism: Mechanism, moved: Motion) -> Motion:
     """Return the motion of a mechanism as knowns.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A crank and groups.
-    moved : Motion
-        Its motion in numbers, which says how many turns its links make.
-
-    Returns
-    -------
-    Motion
-        The same, each value a known that remembers how it follows from lengths and crank angle.
+    The same, each value a known that remembers how it follows from lengths and crank angle. `moved`: its motion in
+    numbers, which says how many turns its links make.
     """
     crank, reached = mechanism.crank, (float(moved.grid.degrees[0]), float(moved.grid.degrees[-1]))
     grid = _untyped(CrankAngle(start=reached[0], end=reached[1]))
@@ -78,37 +69,19 @@ def remembered_motion(mechanism: Mechanism, moved: Motion) -> Motion:
 
 
 def course_of(grid: Any) -> Callable[[Mapping[str, Known]], OverCycle]:  # noqa: ANN401 - typed as a grid
-    """Return what follows columns over the crank angles of a remembered motion.
-
-    Parameters
-    ----------
-    grid : CrankAngle
-        Of the motion.
-    """
+    """Return what follows columns over the crank angles of a remembered motion."""
     course: Callable[[Mapping[str, Known]], OverCycle] = grid.over
     return course
 
 
 def angle_of(grid: Any) -> Known:  # noqa: ANN401 - typed as a grid
-    """Return the crank angle of a remembered motion.
-
-    Parameters
-    ----------
-    grid : CrankAngle
-        Of the motion.
-    """
+    """Return the crank angle of a remembered motion."""
     angle: Known = grid.angle
     return angle
 
 
 def given_mechanism(mechanism: Mechanism) -> Mechanism:
-    """Return a mechanism whose lengths, angles and masses are given values; what is zero is absent.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        The same in numbers.
-    """
+    """Return a mechanism whose lengths, angles and masses are given values; what is zero is absent."""
     crank: Any = mechanism.crank
     ground: dict[str, Any] = {name: _point(name, at, f"fixed_points.{name}") for name, at in mechanism.ground.items()}
     pivot = next((name for name, at in mechanism.ground.items() if at == crank.pivot), "")

@@ -48,15 +48,7 @@ class Motion:
 
 
 class Directions(Mapping[str, Transfer]):
-    """Directions of links as angles, worked out when asked for: an arc tangent costs as much as half a dyad.
-
-    Parameters
-    ----------
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    frames : mapping of str to LinkMotion
-        The links.
-    """
+    """Directions of links as angles, worked out when asked for: an arc tangent costs as much as half a dyad."""
 
     def __init__(self, grid: CrankGrid, frames: Mapping[str, LinkMotion]) -> None:
         self._grid, self._frames = grid, frames
@@ -76,22 +68,10 @@ class Directions(Mapping[str, Transfer]):
 
 
 def direction(grid: CrankGrid, link: LinkMotion) -> Transfer:
-    """Return the direction of a link, free of jumps by a turn.
+    """Return the direction of a link, free of jumps by a turn. [rad]
 
-    Parameters
-    ----------
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    link : LinkMotion
-        The frame of the link.
+    Angle from the x axis, from -pi to pi at the first position, and its derivatives.
 
-    Returns
-    -------
-    Transfer of array, shape (n,)
-        Angle from the x axis, from -pi to pi at the first position, and its derivatives. [rad]
-
-    Notes
-    -----
     Between neighbours the angle grows by about the mean rate times the step, which says how many turns to add.
     """
     still = np.zeros_like(grid.angle)
@@ -105,26 +85,8 @@ def direction(grid: CrankGrid, link: LinkMotion) -> Transfer:
 def motion(mechanism: Mechanism, grid: CrankGrid, method: Method = EXACT) -> Motion:
     """Return the motion of a mechanism.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A crank and dyads.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    method : Method
-        Anything but exact is defined for a slider-crank only.
-
-    Returns
-    -------
-    Motion
-        Positions and transfer functions of points, links and sliders. [m], [rad]
-
-    Raises
-    ------
-    GeometryError
-        If the mechanism cannot be assembled at some angle.
-    MethodError
-        If a series or textbook is asked for where none exists.
+    Positions and transfer functions of points, links and sliders [m], [rad]. `method`: anything but exact is defined
+    for a slider-crank only.
     """
     lengths, rod = as_slider_crank(mechanism), only_rod(mechanism)
     if lengths is None or rod is None:
@@ -138,25 +100,8 @@ def motion(mechanism: Mechanism, grid: CrankGrid, method: Method = EXACT) -> Mot
 def linkage_motion(mechanism: Mechanism, grid: CrankGrid, *, partial: bool = False) -> Motion:
     """Return the exact motion of a mechanism, group after group.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A crank and groups.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    partial : bool
-        Keep the positions that the crank can reach, with NaN and a status at the others, instead of refusing.
-
-    Returns
-    -------
-    Motion
-        Positions and transfer functions. [m], [rad]
-
-    Raises
-    ------
-    GeometryError
-        If a group cannot be assembled or is singular at an angle or between two that follow each other, with
-        its links, the angle and the length that is missing.
+    Positions and transfer functions [m], [rad]. `partial`: keep the positions that the crank can reach, with NaN and
+    a status at the others, instead of refusing.
     """
     if not partial:
         return _as_motion(assembled(mechanism, grid), np.zeros(len(grid), dtype=np.int8))

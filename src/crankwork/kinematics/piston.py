@@ -39,27 +39,10 @@ class PistonMotion(NamedTuple):
 
 
 def piston_motion(slider_crank: SliderCrank, grid: CrankGrid, method: Method = EXACT) -> PistonMotion:
-    """Return the motion of piston and rod by the method asked for.
+    """Return the motion of piston and rod by the method asked for (kolchin_demidov_2008, ch. 6).
 
-    The rod angle itself is exact in every method; the textbook takes its derivatives to first order.
-
-    Parameters
-    ----------
-    slider_crank : SliderCrank
-        The dimensions.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    method : Method
-        Exact, series or textbook.
-
-    Returns
-    -------
-    PistonMotion
-        Displacement, dx/dphi and d2x/dphi2 of the piston [m]; angle and derivatives of the rod [rad].
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 6.
+    The rod angle itself is exact in every method; the textbook takes its derivatives to first order. Displacement,
+    dx/dphi and d2x/dphi2 of the piston [m]; angle and derivatives of the rod [rad].
     """
     lam = slider_crank.rod_ratio
     swing = rod_swing(slider_crank, grid, lam)
@@ -77,29 +60,10 @@ def piston_motion(slider_crank: SliderCrank, grid: CrankGrid, method: Method = E
 def piston_transfer(
     slider_crank: SliderCrank, grid: CrankGrid, method: Method, swing: RodSwing | None = None, lam: Value = None
 ) -> Transfer:
-    """Return the motion of the piston by the method asked for.
+    """Return the motion of the piston by the method asked for (kolchin_demidov_2008, ch. 6). [m]
 
-    Parameters
-    ----------
-    slider_crank : SliderCrank
-        The dimensions.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    method : Method
-        Exact, series or textbook.
-    swing : RodSwing, optional
-        Functions of the rod angle there, where they are known already.
-    lam : array, optional
-        Its rod ratio, where that is known already. [-]
-
-    Returns
-    -------
-    Transfer of array, shape (n,)
-        x, dx/dphi, d2x/dphi2. [m]
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 6.
+    `swing`: functions of the rod angle there, where they are known already; `lam`: its rod ratio, where that is known
+    already.
     """
     lam = slider_crank.rod_ratio if lam is None else lam
     if method.kinematics == "textbook":
@@ -110,27 +74,9 @@ def piston_transfer(
 
 
 def exact_piston(slider_crank: SliderCrank, grid: CrankGrid, swing: RodSwing, lam: Value = None) -> Transfer:
-    """Return the closed-form displacement of the piston and its derivatives.
+    """Return the closed-form displacement of the piston and its derivatives (kolchin_demidov_2008, ch. 6). [m]
 
-    Parameters
-    ----------
-    slider_crank : SliderCrank
-        The dimensions.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    swing : RodSwing
-        Functions of the rod angle there.
-    lam : array, optional
-        Its rod ratio, where that is known already. [-]
-
-    Returns
-    -------
-    Transfer of array, shape (n,)
-        x, dx/dphi, d2x/dphi2. [m]
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 6.
+    `lam`: its rod ratio, where that is known already.
     """
     r, l, e = slider_crank  # noqa: E741
     return Transfer(
@@ -141,25 +87,9 @@ def exact_piston(slider_crank: SliderCrank, grid: CrankGrid, swing: RodSwing, la
 
 
 def textbook_piston(slider_crank: SliderCrank, grid: CrankGrid, lam: Value = None) -> Transfer:
-    """Return the two-term displacement of the piston and its derivatives.
+    """Return the two-term displacement of the piston and its derivatives (kolchin_demidov_2008, ch. 6). [m]
 
-    Parameters
-    ----------
-    slider_crank : SliderCrank
-        The dimensions.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    lam : array, optional
-        Its rod ratio, where that is known already. [-]
-
-    Returns
-    -------
-    Transfer of array, shape (n,)
-        x, dx/dphi, d2x/dphi2. [m]
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 6.
+    `lam`: its rod ratio, where that is known already.
     """
     r, _, e = slider_crank
     lam = slider_crank.rod_ratio if lam is None else lam
@@ -171,18 +101,7 @@ def textbook_piston(slider_crank: SliderCrank, grid: CrankGrid, lam: Value = Non
 
 
 def as_slider_crank(mechanism: Mechanism) -> SliderCrank | None:
-    """Return the three lengths of a mechanism that is a slider-crank, or None if it is another one.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A crank and dyads.
-
-    Returns
-    -------
-    SliderCrank or None
-        Radius, rod length and offset. [m]
-    """
+    """Return the three lengths of a mechanism that is a slider-crank, or None if it is another one. [m]"""
     crank, rod = mechanism.crank, only_rod(mechanism)
     if rod is None:
         return None

@@ -60,24 +60,8 @@ class Placed:
 def place(mechanism: Mechanism, grid: CrankGrid, *, plain: Mechanism | None = None) -> Placed:
     """Return where everything is, without asking whether it can be assembled.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A crank and groups.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    plain : Mechanism, optional
-        The same in numbers, where lengths and crank angle are knowns.
-
-    Returns
-    -------
-    Placed
-        Points, links and sliders; NaN or infinite where a group does not close.
-
-    Raises
-    ------
-    GeometryError
-        If a group rests on a point or link that nothing has placed.
+    Points, links and sliders; NaN or infinite where a group does not close. `plain`: the same in numbers, where
+    lengths and crank angle are knowns.
     """
     crank = mechanism.crank
     arm = crank_motion(crank, grid)
@@ -157,15 +141,7 @@ def _place_group(mechanism: Mechanism, index: int, placed: Placed) -> Closure | 
 
 
 class ChainRoot:
-    """The coordinates of the links of one chain of a mechanism, its way along the crank solved once.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        Whose chain it is.
-    index : int
-        Number of the group.
-    """
+    """The coordinates of the links of one chain of a mechanism, its way along the crank solved once."""
 
     def __init__(self, mechanism: Mechanism, index: int) -> None:
         self._earlier = replace(mechanism, dyads=mechanism.dyads[:index])
@@ -189,17 +165,7 @@ class ChainRoot:
 def assembled(mechanism: Mechanism, grid: CrankGrid) -> Placed:
     """Return where everything is, of a mechanism that can be assembled at and between all angles.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A crank and groups.
-    grid : CrankGrid, shape (n,)
-        Crank angles; what lies between them is looked at where they ascend. [rad]
-
-    Raises
-    ------
-    GeometryError
-        If a group does not close or becomes singular, with its name, the angle and the length that is missing.
+    `grid`: crank angles; what lies between them is looked at where they ascend [rad].
     """
     placed = place(mechanism, grid)
     for index, (group, closure) in enumerate(zip(mechanism.dyads, placed.closures, strict=True)):
@@ -216,15 +182,8 @@ def assembled(mechanism: Mechanism, grid: CrankGrid) -> Placed:
 def reached(mechanism: Mechanism, placed: Placed) -> NDArray[np.int8]:
     """Return the status of each position: 0 reached, 1 cannot be assembled, 2 assembled but not to be reached.
 
-    Reached are the positions that the crank can turn to without passing a singular one, from the first
-    position that can be assembled.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A crank and groups.
-    placed : Placed
-        Where everything is.
+    Reached are the positions that the crank can turn to without passing a singular one, from the first position that
+    can be assembled.
     """
     grid = placed.grid
     bad = np.zeros(grid.angle.shape, dtype=bool)

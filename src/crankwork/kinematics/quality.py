@@ -34,21 +34,10 @@ class Grashof(NamedTuple):
 
 
 def grashof(crank: float, coupler: float, rocker: float, ground: float) -> Grashof:
-    """Return the type of a four-bar linkage.
+    """Return the type of a four-bar linkage (norton_2012, ch. 2).
 
-    Parameters
-    ----------
-    crank, coupler, rocker, ground : float
-        The lengths; the crank is the link that drives. [m]
-
-    Returns
-    -------
-    Grashof
-        Type and margin; `change point` where the links can all come into line.
-
-    References
-    ----------
-    norton_2012, ch. 2.
+    Type and margin; `change point` where the links can all come into line. `crank`, `coupler`, `rocker` and `ground`:
+    the lengths; the crank is the link that drives [m].
     """
     lengths = (crank, coupler, rocker, ground)
     shortest, longest = min(lengths), max(lengths)
@@ -75,36 +64,14 @@ class Limits(NamedTuple):
 def limits(mechanism: Mechanism, output: str) -> Limits:
     """Return the dead positions of an output, and its stroke or swing.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A mechanism whose crank turns fully.
-    output : str
-        Name of a sliding piece, or of a link.
-
-    Returns
-    -------
-    Limits
-        Where the first transfer function is zero; empty for a link that turns fully.
-
-    Raises
-    ------
-    GeometryError
-        If the mechanism cannot be assembled at some angle.
+    Where the first transfer function is zero; empty for a link that turns fully. `output`: name of a sliding piece,
+    or of a link.
     """
     return limits_of_all(mechanism, [output])[0]
 
 
 def limits_of_all(mechanism: Mechanism, outputs: Sequence[str]) -> list[Limits]:
-    """Return the dead positions of several outputs, found together.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A mechanism whose crank turns fully.
-    outputs : sequence of str
-        Names of sliding pieces or links.
-    """
+    """Return the dead positions of several outputs, found together."""
     grid = CrankGrid.from_degrees(np.linspace(0.0, 360.0, _SCAN + 1))
     scanned = assembled(mechanism, grid)
     coarse = [_output(scanned, one) for one in outputs]
@@ -147,28 +114,9 @@ def _output(placed: Placed, output: str) -> Transfer:
 
 
 def time_ratio(mechanism: Mechanism, output: str) -> float:
-    """Return the time of the slower stroke over that of the faster one, at constant crank speed.
+    """Return the time of the slower stroke over that of the faster one, at constant crank speed. [-]
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A mechanism whose crank turns fully.
-    output : str
-        Name of a sliding piece or link with two dead positions.
-
-    Returns
-    -------
-    float
-        K = (180 + theta) / (180 - theta). [-]
-
-    Raises
-    ------
-    GeometryError
-        If the output has not exactly two dead positions.
-
-    References
-    ----------
-    artobolevsky_1988, ch. 27.
+    `output`: name of a sliding piece or link with two dead positions. Source: artobolevsky_1988, ch. 27.
     """
     found = limits(mechanism, output)
     if found.degrees.size != 2:
@@ -185,26 +133,10 @@ def stroke_ratio(found: Limits) -> float:
 
 
 def transmission_angle(mechanism: Mechanism, group: int, grid: CrankGrid) -> Array:
-    """Return the transmission angle of a dyad.
+    """Return the transmission angle of a dyad (norton_2012, ch. 2, 4). [deg]
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A mechanism.
-    group : int
-        Number of the dyad, from 0.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-
-    Returns
-    -------
-    array, shape (n,)
-        RRR: angle between the links, from 0 to 180 degrees. RRP: angle between the link and the normal of the
-        guide, from 0 to 90; 90 less it is the pressure angle. RPR: always 90 degrees. [deg]
-
-    References
-    ----------
-    norton_2012, ch. 2, 4.
+    RRR: angle between the links, from 0 to 180 degrees. RRP: angle between the link and the normal of the guide, from
+    0 to 90; 90 less it is the pressure angle. RPR: always 90 degrees.
     """
     return np.degrees(_transmission(mechanism.dyads[group], assembled(mechanism, grid)))
 
@@ -227,21 +159,9 @@ def _transmission(dyad: Dyad | Chain, placed: Placed) -> Array:
 
 
 def pressure_angle(mechanism: Mechanism, group: int, grid: CrankGrid) -> Array:
-    """Return the pressure angle of a dyad, by which the force departs from the way of the driven link.
+    """Return the pressure angle of a dyad, by which the force departs from the way of the driven link. [deg]
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A mechanism.
-    group : int
-        Number of the dyad, from 0.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-
-    Returns
-    -------
-    array, shape (n,)
-        Departure of the transmission angle from 90 degrees. [deg]
+    Departure of the transmission angle from 90 degrees.
     """
     return np.abs(90.0 - transmission_angle(mechanism, group, grid))
 
@@ -258,15 +178,6 @@ class Extremes(NamedTuple):
 def transmission_extremes(mechanism: Mechanism, groups: Sequence[int]) -> list[Extremes]:
     """Return the least and greatest transmission angles over a turn of the crank.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A mechanism whose crank turns fully.
-    groups : sequence of int
-        Numbers of the dyads, from 0.
-
-    Notes
-    -----
     What surrounds the least and greatest angles of a scan is looked at ever closer, of all dyads at once: to place the
     mechanism for each of them would take a time that grows with the square of their number.
     """
@@ -298,17 +209,9 @@ class CrankRange(NamedTuple):
 
 
 def crank_ranges(mechanism: Mechanism) -> list[CrankRange]:
-    """Return the ranges of the crank in which a mechanism can be assembled; their ends are singular positions.
+    """Return the ranges of the crank in which a mechanism can be assembled; their ends are singular positions. [deg]
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A crank and dyads.
-
-    Returns
-    -------
-    list of CrankRange
-        Ascending; a range over zero ends beyond 360. One from 0 to 360 if the crank turns fully. [deg]
+    Ascending; a range over zero ends beyond 360. One from 0 to 360 if the crank turns fully.
     """
     degrees = np.linspace(0.0, 360.0, _SCAN + 1)
     works = _works(mechanism, degrees)
@@ -348,21 +251,6 @@ def _failing(mechanism: Mechanism, degrees: float) -> int | None:
 
 
 def coupler_curve(mechanism: Mechanism, point: str, grid: CrankGrid) -> tuple[Array, Array]:
-    """Return the path of a point.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A mechanism.
-    point : str
-        Name of the point.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-
-    Returns
-    -------
-    tuple of array, shape (n,)
-        Coordinates. [m]
-    """
+    """Return the path of a point. [m]"""
     motion = assembled(mechanism, grid).points[point]
     return motion.x.position, motion.y.position

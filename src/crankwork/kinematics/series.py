@@ -23,28 +23,12 @@ _KEYS = ("piston_displacement", "piston_transfer_1", "piston_transfer_2")
 
 
 def acceleration_harmonic(rod_ratio: float, order: int) -> float:
-    """Return the coefficient A of cos(order phi) in x''/r of a central slider-crank.
+    """Return the coefficient A of cos(order phi) in x''/r of a central slider-crank. [-]
 
-    Parameters
-    ----------
-    rod_ratio : float
-        Crank radius over rod length, below 1. [-]
-    order : int
-        Order: 1, or an even number; other odd orders are absent.
+    `order`: order: 1, or an even number; other odd orders are absent. Source: taylor_1985, vol. 2, ch. 8.
 
-    Returns
-    -------
-    float
-        The coefficient. [-]
-
-    Notes
-    -----
     A_2m = (2m)^2/lambda sum over k >= m of C(1/2, k) (-1)^(k+m) lambda^2k 2^(1-2k) C(2k, k-m), from the
     binomial series of the square root. All terms of one sum have one sign, so nothing cancels.
-
-    References
-    ----------
-    taylor_1985, vol. 2, ch. 8.
 
     Examples
     --------
@@ -79,24 +63,10 @@ class Harmonics(NamedTuple):
 
 
 def acceleration_harmonics(slider_crank: SliderCrank, order: int) -> Harmonics:
-    """Return the Fourier coefficients of d2x/dphi2 for orders 1 to `order`.
+    """Return the Fourier coefficients of d2x/dphi2 for orders 1 to `order`, shape (order,). [m]
 
-    Parameters
-    ----------
-    slider_crank : SliderCrank
-        The dimensions.
-    order : int
-        Highest order.
-
-    Returns
-    -------
-    Harmonics of array, shape (order,)
-        Coefficients; closed form for a central mechanism, transform of the exact motion with an offset or a
-        rod hardly longer than the crank. [m]
-
-    References
-    ----------
-    taylor_1985, vol. 2, ch. 8.
+    Coefficients; closed form for a central mechanism, transform of the exact motion with an offset or a rod hardly
+    longer than the crank. Source: taylor_1985, vol. 2, ch. 8.
     """
     orders = range(1, order + 1)
     ratio = float(slider_crank.rod_ratio)
@@ -154,16 +124,7 @@ def series_transfer_2_term(a_k: Value, cos_kphi: Value, b_k: Value, sin_kphi: Va
 def order_terms(grid: CrankGrid, order: int, a_k: Value, b_k: Value, start: tuple[Value, Value]) -> Transfer:
     """Return one order of displacement, dx/dphi and d2x/dphi2.
 
-    Parameters
-    ----------
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    order : int
-        The order.
-    a_k, b_k : float
-        Cosine and sine coefficient of d2x/dphi2. [m]
-    start : tuple of float
-        Cosine and sine of order times the crank angle where the displacement is to be zero. [-]
+    `start`: cosine and sine of order times the crank angle where the displacement is to be zero.
     """
     sin, cos = grid.multiple(order).sin, grid.multiple(order).cos
     return Transfer(
@@ -174,25 +135,9 @@ def order_terms(grid: CrankGrid, order: int, a_k: Value, b_k: Value, start: tupl
 
 
 def series_transfer(slider_crank: SliderCrank, grid: CrankGrid, order: int) -> Transfer:
-    """Return displacement, dx/dphi and d2x/dphi2 as sums of the orders 1 to `order`.
+    """Return displacement, dx/dphi and d2x/dphi2 as sums of the orders 1 to `order`. [m]
 
-    Parameters
-    ----------
-    slider_crank : SliderCrank
-        The dimensions.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    order : int
-        Highest order.
-
-    Returns
-    -------
-    Transfer of array, shape (n,)
-        x, x', x''; the displacement is zero at the top dead centre of the mechanism. [m]
-
-    References
-    ----------
-    taylor_1985, vol. 2, ch. 8.
+    x, x', x''; the displacement is zero at the top dead centre of the mechanism. Source: taylor_1985, vol. 2, ch. 8.
     """
     lengths = SliderCrank(*map(plain, slider_crank))
     dead_centre, remembers = lengths.top_dead_centre, is_known(*slider_crank)
@@ -212,14 +157,7 @@ def remembered_order(
 ) -> tuple[Known, Known, tuple[Known, Known]]:
     """Return the coefficients of one order as knowns; of a central mechanism those of the sines are absent.
 
-    Parameters
-    ----------
-    slider_crank : SliderCrank of Known
-        The dimensions.
-    a_k, b_k : float
-        Cosine and sine coefficient of d2x/dphi2. [m]
-    start : tuple of float
-        Cosine and sine of order times the crank angle where the displacement is to be zero. [-]
+    `start`: cosine and sine of order times the crank angle where the displacement is to be zero.
     """
     first = Known(Found(a_k, "harmonic", slider_crank))
     if b_k == 0 and start == (1.0, 0.0):

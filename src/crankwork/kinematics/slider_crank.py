@@ -157,29 +157,12 @@ class SliderCrank(NamedTuple):
 
 
 def turns_fully(slider_crank: SliderCrank) -> bool:
-    """Return whether the rod is longer than crank and offset together, by more than rounding.
-
-    Parameters
-    ----------
-    slider_crank : SliderCrank
-        The dimensions.
-    """
+    """Return whether the rod is longer than crank and offset together, by more than rounding."""
     return bool(np.all(slider_crank.clearance > _ROUNDING * np.asarray(slider_crank.rod_length)))
 
 
 def check_slider_crank(slider_crank: SliderCrank) -> None:
-    """Raise if the crank cannot turn fully.
-
-    Parameters
-    ----------
-    slider_crank : SliderCrank
-        The dimensions.
-
-    Raises
-    ------
-    GeometryError
-        If the rod is not longer than crank and offset together, with the length that is missing.
-    """
+    """Raise if the crank cannot turn fully."""
     r, l, e = (float(np.max(np.abs(one))) for one in slider_crank)  # noqa: E741
     if np.any(np.less_equal(slider_crank.crank_radius, 0)) or np.any(np.less_equal(slider_crank.rod_length, 0)):
         raise GeometryError("crank radius and rod length must be more than zero")
@@ -200,27 +183,10 @@ class RodSwing(NamedTuple):
 
 
 def rod_swing(slider_crank: SliderCrank, grid: CrankGrid, lam: Value = None, *, part: str = "") -> RodSwing:
-    """Return the sines and cosines of the rod angle and of crank and rod angle together.
+    """Return the sines and cosines of the rod angle and of crank and rod angle together. [-]
 
-    Parameters
-    ----------
-    slider_crank : SliderCrank
-        The dimensions.
-    grid : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    lam : array, optional
-        Its rod ratio, where that is known already. [-]
-    part : str
-        What tells this rod from another of the same memory, `.master`.
-
-    Returns
-    -------
-    RodSwing of array, shape (n,)
-        Functions of the angles. [-]
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 6, for sin(beta).
+    `lam`: its rod ratio, where that is known already; `part`: what tells this rod from another of the same memory,
+    `.master`. Source: kolchin_demidov_2008, ch. 6, for sin(beta).
     """
     r, l, e = slider_crank  # noqa: E741
     sin_beta = called(rod_sine(slider_crank.rod_ratio if lam is None else lam, grid.sin, e, r), f"rod_sine{part}")

@@ -95,29 +95,14 @@ class RPRMotion(NamedTuple):
 
 
 def rpr_motion(dyad: RPR, joint: PointMotion, pivot: PointMotion) -> RPRMotion:
-    """Return the motion of a slotted lever and its block.
+    """Return the motion of a slotted lever and its block (artobolevsky_1988, ch. 4).
 
-    Parameters
-    ----------
-    dyad : RPR
-        Lever and block.
-    joint, pivot : PointMotion, arrays of shape (n,)
-        Motion of the pin of the block and of the pivot of the lever. [m]
+    Distance along the slot [m], frames, closure; NaN where the pin is nearer to the pivot than the slot. `joint` and
+    `pivot`: motion of the pin of the block and of the pivot of the lever [m].
 
-    Returns
-    -------
-    RPRMotion
-        Distance along the slot [m], frames, closure; NaN where the pin is nearer to the pivot than the slot.
-
-    Notes
-    -----
     With d from pivot to pin, t along the slot and n across, e the distance of the slot from the pivot:
     d = s t + e n, hence s = branch sqrt(d^2 - e^2), theta' = d' n / s, s' = d' t + e theta', and once more
     theta'' = (d'' n - 2 s' theta' + e theta'^2) / s with the Coriolis term, s'' = d'' t + s theta'^2 + e theta''.
-
-    References
-    ----------
-    artobolevsky_1988, ch. 4.
     """
     along, e = _in_slot_axes(dyad.slot)
     name, block_ = dyad.link, dyad.block
@@ -168,27 +153,11 @@ class PRPMotion(NamedTuple):
 
 
 def prp_motion(dyad: PRP, a: LinkMotion, b: LinkMotion) -> PRPMotion:
-    """Return the motion of two blocks on one pin where two guides cross.
+    """Return the motion of two blocks on one pin where two guides cross (artobolevsky_1988, ch. 4).
 
-    Parameters
-    ----------
-    dyad : PRP
-        The blocks.
-    a, b : LinkMotion
-        The guides.
+    Pin, distances along the guides [m], frames, closure: the square of the sine of the angle between the guides.
 
-    Returns
-    -------
-    PRPMotion
-        Pin, distances along the guides [m], frames, closure: the square of the sine of the angle between the guides.
-
-    Notes
-    -----
     s_a t_a - s_b t_b = q_b - q_a, and its derivatives with what the turning guides add.
-
-    References
-    ----------
-    artobolevsky_1988, ch. 4.
     """
     zero: Value
     if is_known(a.cos, b.cos):
@@ -240,30 +209,12 @@ class RPPMotion(NamedTuple):
 
 
 def rpp_motion(dyad: RPP, joint: PointMotion, guide: LinkMotion) -> RPPMotion:
-    """Return the motion of a yoke along its guide and of the block in its slot.
+    """Return the motion of a yoke along its guide and of the block in its slot (artobolevsky_1988, ch. 4).
 
-    Parameters
-    ----------
-    dyad : RPP
-        Yoke and block.
-    joint : PointMotion, arrays of shape (n,)
-        Motion of the pin of the block. [m]
-    guide : LinkMotion
-        What the yoke slides on.
+    Distances along guide and slot [m], frames, closure: the square of the sine of the angle between guide and slot.
 
-    Returns
-    -------
-    RPPMotion
-        Distances along guide and slot [m], frames, closure: the square of the sine of the angle between guide and slot.
-
-    Notes
-    -----
     Seen from the guide, the pin is s + p_t + p cos(gamma) along and p_n + p sin(gamma) across, with the point
     (p_t, p_n) and the angle gamma of the slot in the yoke. Both are linear in s and p.
-
-    References
-    ----------
-    artobolevsky_1988, ch. 4.
     """
     (x, y), gamma = dyad.slot.point, dyad.slot.angle
     cos, sin = (

@@ -60,22 +60,7 @@ def together(parts: Iterable[AppliedLoads]) -> AppliedLoads:
 
 
 def check_name(what: str, name: str, known: Iterable[str]) -> None:
-    """Refuse the name of a point, link or sliding piece that does not exist.
-
-    Parameters
-    ----------
-    what : str
-        What it should be the name of.
-    name : str
-        The name.
-    known : iterable of str
-        The names there are.
-
-    Raises
-    ------
-    GeometryError
-        With the names to choose from.
-    """
+    """Refuse the name of a point, link or sliding piece that does not exist."""
     known = list(known)
     if name not in known:
         raise GeometryError(f"there is no {what} {name} to load; choose from {', '.join(known)}")
@@ -86,18 +71,7 @@ def force_at(
 ) -> AppliedLoads:
     """Return a force at a named point; nothing if the point is fixed.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        Whose point it is.
-    motion : Motion
-        Where the point is.
-    point : str
-        Its name.
-    force : tuple of array, shape (n,)
-        Components along the fixed axes. [N]
-    link : str
-        The link it acts on; empty for the first one of those that meet there.
+    `link`: the link it acts on; empty for the first one of those that meet there.
     """
     bearer = bearers(mechanism)
     check_name("point", point, bearer)
@@ -111,14 +85,7 @@ def force_at(
 def force_along_guide(motion: Motion, slider: str, force: Value) -> AppliedForce:
     """Return a force on a sliding piece, along its guide and through the origin of its frame.
 
-    Parameters
-    ----------
-    motion : Motion
-        Where the piece is.
-    slider : str
-        Its name.
-    force : array, shape (n,)
-        Positive in the direction in which the distance of the piece counts. [N]
+    `force`: positive in the direction in which the distance of the piece counts [N].
     """
     frame = motion.frames[slider]
     x, y = named(force * frame.cos, f"load_x.{slider}"), named(force * frame.sin, f"load_y.{slider}")
@@ -126,36 +93,16 @@ def force_along_guide(motion: Motion, slider: str, force: Value) -> AppliedForce
 
 
 def torque_on(motion: Motion, link: str, torque: Value) -> AppliedLoads:
-    """Return a torque on a link.
-
-    Parameters
-    ----------
-    motion : Motion
-        How the link turns.
-    link : str
-        Its name.
-    torque : array, shape (n,)
-        Positive anticlockwise. [N m]
-    """
+    """Return a torque on a link."""
     check_name("link", link, {**motion.links, **motion.frames})
     rate = everywhere(_rate(motion, link), motion.grid)
     return AppliedLoads(torques=(AppliedTorque(link, everywhere(torque, motion.grid), rate),))
 
 
 def carried_point(link: LinkMotion, point: PointMotion) -> PointMotion:
-    """Return the motion of the point of a link that is, at each angle, where another point passes.
+    """Return the motion of the point of a link that is, at each angle, where another point passes. [m]
 
-    Parameters
-    ----------
-    link : LinkMotion, arrays of shape (n,)
-        The frame of the link. [m]
-    point : PointMotion, arrays of shape (n,)
-        The point that passes. [m]
-
-    Returns
-    -------
-    PointMotion, arrays of shape (n,)
-        The place of the one, with the transfer functions of the other. [m]
+    The place of the one, with the transfer functions of the other.
     """
     place = point.x.position, point.y.position
     x, y = carried(link, place[0] - link.origin.x.position, place[1] - link.origin.y.position)

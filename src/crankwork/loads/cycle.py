@@ -13,23 +13,11 @@ _WIDTH = 15.0
 
 
 def quadrature(breaks: Array, *, width: float = _WIDTH) -> tuple[Array, Array]:
-    """Return Gauss-Legendre nodes and weights between the breaks.
+    """Return Gauss-Legendre nodes and weights between the breaks (press_2007, sec. 4.6).
 
-    Parameters
-    ----------
-    breaks : array, shape (m,)
-        Ascending crank angles between which the integrand is smooth. [deg]
-    width : float
-        Longest interval that gets one set of eight nodes. [deg]
-
-    Returns
-    -------
-    tuple of array, shape (n,)
-        Crank angles [deg] and weights [rad]; the sum of weight times integrand is the integral over angle.
-
-    References
-    ----------
-    press_2007, sec. 4.6.
+    Crank angles [deg] and weights [rad]; the sum of weight times integrand is the integral over angle. `breaks`:
+    ascending crank angles between which the integrand is smooth [deg]; `width`: longest interval that gets one set of
+    eight nodes [deg].
     """
     edges = np.concatenate([
         np.linspace(start, end, max(1, int(np.ceil((end - start) / width))), endpoint=False)

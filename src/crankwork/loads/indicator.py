@@ -23,6 +23,7 @@ from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
 
 Law = Literal["constant", "polytropic", "rounded"]
+# Cylinder volume [m3], or its derivative [m3/rad], of crank angles [deg].
 VolumeAt = Callable[[Array], Array]
 
 _CLOSING = 1e-3
@@ -85,18 +86,7 @@ class Segment:
         return hermite(self.knots, self.pressures, self.slopes, degrees)
 
     def pressure(self, degrees: Array, volume: Array) -> Array:
-        """Return the pressure at crank angles of this segment.
-
-        Parameters
-        ----------
-        degrees, volume : array, shape (n,)
-            Crank angles and the cylinder volume there. [deg], [m3]
-
-        Returns
-        -------
-        array, shape (n,)
-            Pressure. [Pa]
-        """
+        """Return the pressure at crank angles of this segment. [Pa]"""
         if self.law == "constant":
             return np.full_like(degrees, self.pressures[0])
         if self.law == "polytropic":
@@ -105,21 +95,9 @@ class Segment:
         return self.rounded(degrees)
 
     def work(self, volume_at: VolumeAt) -> float:
-        """Return the integral of pressure by volume over the segment.
+        """Return the integral of pressure by volume over the segment (heywood_1988, sec. 2.4). [J]
 
-        Parameters
-        ----------
-        volume_at : callable
-            Cylinder volume of an array of crank angles. [deg] -> [m3]
-
-        Returns
-        -------
-        float
-            Work; closed form for constants and polytropes, by parts for curves. [J]
-
-        References
-        ----------
-        heywood_1988, sec. 2.4.
+        Work; closed form for constants and polytropes, by parts for curves.
         """
         ends = np.array([self.start, self.end])
         volume = volume_at(ends)
@@ -155,37 +133,14 @@ class IndicatorDiagram:
         return np.array(sorted({*np.concatenate(knots).tolist(), self.segments[-1].end}))
 
     def work(self, volume_at: VolumeAt) -> float:
-        """Return the area of the diagram over the cylinder volume.
+        """Return the area of the diagram over the cylinder volume (heywood_1988, sec. 2.4). [J]
 
-        Parameters
-        ----------
-        volume_at : callable
-            Cylinder volume of an array of crank angles. [deg] -> [m3]
-
-        Returns
-        -------
-        float
-            Work of the gas on the piston over one cycle. [J]
-
-        References
-        ----------
-        heywood_1988, sec. 2.4.
+        Work of the gas on the piston over one cycle.
         """
         return sum(segment.work(volume_at) for segment in self.segments)
 
     def pressure(self, degrees: Array, volume: Array) -> Array:
-        """Return the pressure at ascending crank angles within one cycle.
-
-        Parameters
-        ----------
-        degrees, volume : array, shape (n,)
-            Ascending crank angles and the cylinder volume there. [deg], [m3]
-
-        Returns
-        -------
-        array, shape (n,)
-            Pressure. [Pa]
-        """
+        """Return the pressure at ascending crank angles within one cycle. [Pa]"""
         ends = [segment.end for segment in self.segments]
         edges = [0, *np.searchsorted(degrees, ends, side="right")]
         edges[-1] = len(degrees)
@@ -206,28 +161,7 @@ def solve_diagram(
 ) -> IndicatorDiagram:
     """Return the diagram that named points and laws describe.
 
-    Parameters
-    ----------
-    points : mapping of str to DiagramPoint
-        The named points.
-    pieces : tuple of Piece
-        Laws in the order of the crank angle, each starting where the one before ends.
-    cycle : float
-        Length of the cycle. [deg]
-    volume_at : callable
-        Cylinder volume of an array of crank angles. [deg] -> [m3]
-    dead_centres : tuple of float
-        Top and bottom dead centre within one revolution. [deg]
-
-    Returns
-    -------
-    IndicatorDiagram
-        Segments from 0 to `cycle`.
-
-    Raises
-    ------
-    DiagramError
-        With the key at fault, if a point is unknown or incomplete, or the pieces leave a gap.
+    `pieces`: laws in the order of the crank angle, each starting where the one before ends.
     """
     solver = _Solver(points, volume_at, dead_centres, cycle)
     segments = [solver.segment(number, piece) for number, piece in enumerate(pieces)]

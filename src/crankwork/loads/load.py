@@ -38,19 +38,7 @@ Load = ProcessForce | ProcessForceAtPoint | ForceOnPoint | TorqueOnLink | Spring
 def applied_loads(mechanism: Mechanism, motion: Motion, loads: Iterable[Load]) -> AppliedLoads:
     """Return the forces and torques on the links of a mechanism.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        What is loaded.
-    motion : Motion
-        How it moves.
-    loads : iterable of Load
-        What pushes it.
-
-    Returns
-    -------
-    AppliedLoads
-        Forces at moving points and torques, arrays of shape (n,). [N], [N m]
+    Forces at moving points and torques, arrays of shape (n,) [N], [N m].
     """
     return together(_applied(load, mechanism, motion) for load in loads)
 

@@ -30,29 +30,11 @@ class MeasuredPressure:
 def measured_diagram(
     measured: MeasuredPressure, cycle: float, *, shift: float = 0.0, step: float | None = None
 ) -> tuple[IndicatorDiagram, int, float]:
-    """Return the diagram of measured pressure, cycles averaged and resampled if asked.
+    """Return the diagram of measured pressure, cycles averaged and resampled if asked. [Pa]
 
-    Parameters
-    ----------
-    measured : MeasuredPressure
-        The samples.
-    cycle : float
-        Length of the cycle. [deg]
-    shift : float
-        Added to every angle, so that zero is top dead centre. [deg]
-    step : float, optional
-        Resample at this step; otherwise the samples of the first cycle set the angles. [deg]
-
-    Returns
-    -------
-    tuple of IndicatorDiagram, int, float
-        The closed diagram, the number of cycles averaged, and by how much the pressure at the end of the
-        cycle differs from that at its start. [Pa]
-
-    Raises
-    ------
-    DiagramError
-        If angles go backwards, leave a gap or do not cover a cycle, naming the line of the file.
+    The closed diagram, the number of cycles averaged, and by how much the pressure at the end of the cycle differs
+    from that at its start. `shift`: added to every angle, so that zero is top dead centre [deg]; `step`: resample at
+    this step; otherwise the samples of the first cycle set the angles [deg].
     """
     _check_angles(measured, cycle)
     start, end = measured.degrees[0], measured.degrees[-1]
@@ -130,19 +112,6 @@ def _wrap_step(measured: MeasuredPressure, cycle: float) -> float:
 
 
 def wrap_is_rough(diagram: IndicatorDiagram, wrap: float) -> bool:
-    """Return whether the step between end and start of the cycle is worth a warning.
-
-    Parameters
-    ----------
-    diagram : IndicatorDiagram
-        The closed diagram.
-    wrap : float
-        Pressure step across the wrap. [Pa]
-
-    Returns
-    -------
-    bool
-        True above 5 % of the range of pressures.
-    """
+    """Return whether the step between end and start of the cycle is worth a warning."""
     pressures = diagram.segments[0].pressures
     return abs(wrap) > _WRAP * float(np.ptp(pressures))

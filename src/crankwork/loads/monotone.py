@@ -11,23 +11,11 @@ from crankwork.kinematics.crank_grid import Array
 
 
 def monotone_slopes(x: Array, y: Array, *, periodic: bool = False) -> Array:
-    """Return slopes at the points such that the cubic Hermite curve never overshoots them.
+    """Return slopes at the points such that the cubic Hermite curve never overshoots them. [Pa/deg]
 
-    Parameters
-    ----------
-    x, y : array, shape (n,)
-        Ascending abscissas and ordinates; with `periodic` the last point repeats the first one period on. [deg], [Pa]
-    periodic : bool
-        Whether slopes at both ends are those of one closed curve.
-
-    Returns
-    -------
-    array, shape (n,)
-        Slopes; zero at local extremes. [Pa/deg]
-
-    References
-    ----------
-    fritsch_butland_1984, weighted harmonic mean; three-point end slopes.
+    Slopes; zero at local extremes. `x` and `y`: ascending abscissas and ordinates; with `periodic` the last point
+    repeats the first one period on [deg], [Pa]; `periodic`: whether slopes at both ends are those of one closed
+    curve. Source: fritsch_butland_1984, weighted harmonic mean; three-point end slopes.
     """
     if periodic:
         x = np.concatenate([[x[0] - (x[-1] - x[-2])], x, [x[-1] + x[1] - x[0]]])
@@ -57,23 +45,10 @@ def _end_slope(near: float, far: float, delta_near: float, delta_far: float) -> 
 
 
 def hermite(x: Array, y: Array, slopes: Array, at: Array) -> Array:
-    """Return the piecewise cubic with given ordinates and slopes.
+    """Return the piecewise cubic with given ordinates and slopes (fritsch_carlson_1980, eq. 2). [Pa]
 
-    Parameters
-    ----------
-    x, y, slopes : array, shape (n,)
-        Points and slopes. [deg], [Pa], [Pa/deg]
-    at : array, shape (m,)
-        Abscissas between the first and the last point. [deg]
-
-    Returns
-    -------
-    array, shape (m,)
-        Ordinates. [Pa]
-
-    References
-    ----------
-    fritsch_carlson_1980, eq. 2.
+    `x`, `y` and `slopes`: points and slopes [deg], [Pa], [Pa/deg]; `at`: abscissas between the first and the last
+    point [deg].
     """
     i = np.clip(np.searchsorted(x, at, side="right") - 1, 0, len(x) - 2)
     h = x[i + 1] - x[i]
@@ -88,23 +63,10 @@ def hermite(x: Array, y: Array, slopes: Array, at: Array) -> Array:
 
 
 def hermite_slope(x: Array, y: Array, slopes: Array, at: Array) -> Array:
-    """Return the derivative of the piecewise cubic with given ordinates and slopes.
+    """Return the derivative of the piecewise cubic with given ordinates and slopes. [Pa/deg]
 
-    Parameters
-    ----------
-    x, y, slopes : array, shape (n,)
-        Points and slopes. [deg], [Pa], [Pa/deg]
-    at : array, shape (m,)
-        Abscissas between the first and the last point. [deg]
-
-    Returns
-    -------
-    array, shape (m,)
-        Slopes. [Pa/deg]
-
-    References
-    ----------
-    fritsch_carlson_1980, eq. 2.
+    `x`, `y` and `slopes`: points and slopes [deg], [Pa], [Pa/deg]; `at`: abscissas between the first and the last
+    point [deg]. Source: fritsch_carlson_1980, eq. 2.
     """
     i = np.clip(np.searchsorted(x, at, side="right") - 1, 0, len(x) - 2)
     h = x[i + 1] - x[i]

@@ -15,48 +15,20 @@ _SAME_VOLUME = 1e-12
 
 
 def remembered_pressure(diagram: IndicatorDiagram, volume: Known) -> Known:
-    """Return the pressure of a diagram as the laws that follow one another.
-
-    Parameters
-    ----------
-    diagram : IndicatorDiagram
-        The solved diagram.
-    volume : Known
-        Volume of the cylinder over the crank angle. [m3]
-    """
+    """Return the pressure of a diagram as the laws that follow one another."""
     laws = tuple(_law(diagram, segment, volume) for segment in diagram.segments)
     ends = [segment.end for segment in diagram.segments]
     return Known(Pieces(ends, laws, diagram.breaks.tolist()), "diagram_pressure")
 
 
 def at_angle(column: Known, degrees: float, key: str) -> Known:
-    """Return what a column amounts to at one crank angle, under a name of its own.
-
-    Parameters
-    ----------
-    column : Known
-        The column.
-    degrees : float
-        The crank angle. [deg]
-    key : str
-        The name.
-    """
+    """Return what a column amounts to at one crank angle, under a name of its own."""
     value = float(replay(column, CrankGrid.from_degrees([degrees]))[0])
     return Known(Found(value, "at", (column,), degrees), key)
 
 
 def polytrope_origin(diagram: IndicatorDiagram, segment: Segment, volume: Known) -> tuple[Known, Known, Known]:
-    """Return pressure and volume of the state that a polytrope passes through, and its exponent.
-
-    Parameters
-    ----------
-    diagram : IndicatorDiagram
-        The solved diagram.
-    segment : Segment
-        One of its polytropes.
-    volume : Known
-        Volume of the cylinder over the crank angle. [m3]
-    """
+    """Return pressure and volume of the state that a polytrope passes through, and its exponent."""
     pressure, state_volume, exponent = segment.state
     name = segment.origin
     if segment.of:

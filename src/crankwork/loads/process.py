@@ -79,15 +79,7 @@ class _Way(NamedTuple):
 
 
 def process_force(load: ProcessForce, motion: Motion) -> AppliedLoads:
-    """Return the force of a process on a sliding piece.
-
-    Parameters
-    ----------
-    load : ProcessForce
-        The process.
-    motion : Motion
-        Where the piece is.
-    """
+    """Return the force of a process on a sliding piece."""
     check_name("sliding piece", load.slider, motion.sliders)
     slide = motion.sliders[load.slider]
     start: Value = load.start
@@ -100,17 +92,7 @@ def process_force(load: ProcessForce, motion: Motion) -> AppliedLoads:
 
 
 def process_force_at_point(load: ProcessForceAtPoint, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
-    """Return the force of a process at a point.
-
-    Parameters
-    ----------
-    load : ProcessForceAtPoint
-        The process.
-    mechanism : Mechanism
-        Whose point it is.
-    motion : Motion
-        Where the point is.
-    """
+    """Return the force of a process at a point."""
     check_name("point", load.point, motion.points)
     x, y = motion.points[load.point]
     cos, sin = np.cos(load.direction), np.sin(load.direction)
@@ -156,17 +138,7 @@ def _rounded(end: float, *, back: bool) -> float:
 
 
 def constant_force(load: ForceOnPoint, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
-    """Return a constant force at a point.
-
-    Parameters
-    ----------
-    load : ForceOnPoint
-        The force.
-    mechanism : Mechanism
-        Whose point it is.
-    motion : Motion
-        Where the point is.
-    """
+    """Return a constant force at a point."""
     force: tuple[Value, Value] = np.array(load.x), np.array(load.y)
     if is_known(motion.grid.angle):
         force = given(f"load_x.{load.point}", load.x, "loads"), given(f"load_y.{load.point}", load.y, "loads")
@@ -174,15 +146,7 @@ def constant_force(load: ForceOnPoint, mechanism: Mechanism, motion: Motion) -> 
 
 
 def link_torque(load: TorqueOnLink, motion: Motion) -> AppliedLoads:
-    """Return a torque on a link.
-
-    Parameters
-    ----------
-    load : TorqueOnLink
-        The torque.
-    motion : Motion
-        How the link turns.
-    """
+    """Return a torque on a link."""
     torque: Value
     if is_known(motion.grid.angle):
         key = f"link_torque.{load.link}"

@@ -35,14 +35,7 @@ class Within:
 def by_angle(curve: Curve, angle: Known, key: str) -> Known:
     """Return a curve over the crank angle. [rad]
 
-    Parameters
-    ----------
-    curve : callable
-        What is given; a table says where it has corners, and so does whatever has `corners`. [rad]
-    angle : Known
-        The crank angle.
-    key : str
-        Key of the load.
+    `curve`: what is given; a table says where it has corners, and so does whatever has `corners` [rad].
     """
     corners = [math.degrees(one) for one in _corners(curve)]
     if isinstance(curve, LoadTable) and not _varies(curve):
@@ -51,19 +44,7 @@ def by_angle(curve: Curve, angle: Known, key: str) -> Known:
 
 
 def by_column(curve: Curve, column: Known, course: Course, key: str) -> Known:
-    """Return a curve over a column, with its corners at the crank angles where the column passes them.
-
-    Parameters
-    ----------
-    curve : callable
-        What is given.
-    column : Known
-        What it is read at.
-    course : callable
-        Follows columns over the cycle.
-    key : str
-        Key of the load.
-    """
+    """Return a curve over a column, with its corners at the crank angles where the column passes them."""
     if isinstance(curve, LoadTable) and not _varies(curve):
         return given(key, curve.values[0], "loads")
     over, corners = course({"": column}), _corners(curve)

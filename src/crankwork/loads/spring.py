@@ -66,22 +66,7 @@ def _stated(stiffness: Value, free: Value, preload: Value, name: str, length: Va
 
 
 def point_spring(load: Spring, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
-    """Return the forces of a spring on the two links that it joins.
-
-    Parameters
-    ----------
-    load : Spring
-        The spring.
-    mechanism : Mechanism
-        Whose points they are.
-    motion : Motion
-        Where they are.
-
-    Raises
-    ------
-    GeometryError
-        If the ends meet at some angle, where the spring has no direction.
-    """
+    """Return the forces of a spring on the two links that it joins."""
     for name in (load.start, load.end):
         check_name("point", name, motion.points)
     start, end = motion.points[load.start], motion.points[load.end]
@@ -102,17 +87,6 @@ def point_spring(load: Spring, mechanism: Mechanism, motion: Motion) -> AppliedL
 def slider_spring(load: SliderSpring, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
     """Return the forces of a spring on a sliding piece and on the link that carries its guide.
 
-    Parameters
-    ----------
-    load : SliderSpring
-        The spring.
-    mechanism : Mechanism
-        Which link carries the guide.
-    motion : Motion
-        Where the piece is.
-
-    Notes
-    -----
     On a carrier the force acts at the point of it where the piece is: it moves with the carrier, not with the piece.
     """
     check_name("sliding piece", load.slider, motion.sliders)

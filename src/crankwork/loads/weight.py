@@ -29,17 +29,7 @@ def weight_along(m_i: Value, g: Value, cos_th: Value) -> Value:
 
 
 def weight(load: Weight, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
-    """Return the weights of the bodies of a mechanism.
-
-    Parameters
-    ----------
-    load : Weight
-        Gravity.
-    mechanism : Mechanism
-        Whose bodies they are.
-    motion : Motion
-        Where they are.
-    """
+    """Return the weights of the bodies of a mechanism."""
     gravity: Value = load.gravity
     if is_known(motion.grid.angle):
         gravity = given("gravity", load.gravity, "method.gravity")

@@ -21,15 +21,7 @@ _LINE = re.compile(r'^"?([^"#=\s]+)"? = "(.*)"$', re.MULTILINE)
 
 @functools.cache
 def texts(room: str, language: Language) -> MappingProxyType[str, str]:
-    """Return all texts of a room by name.
-
-    Parameters
-    ----------
-    room : str
-        Name of its file.
-    language : str
-        Whose texts.
-    """
+    """Return all texts of a room by name."""
     written = read_resource("locale", language, f"{room}.toml")
     found = dict(_LINE.findall(written))
     if "\\" in written:
@@ -39,15 +31,6 @@ def texts(room: str, language: Language) -> MappingProxyType[str, str]:
 
 def say(key: str, language: Language, **values: object) -> str:
     """Return a text, with values put in where it has braces; without values it is returned as it stands.
-
-    Parameters
-    ----------
-    key : str
-        Room and name, `report.method`.
-    language : str
-        Language of the text.
-    **values : object
-        What stands in the braces, by name.
 
     Examples
     --------

@@ -17,18 +17,9 @@ from crankwork.mechanism.structure import known_points, structure
 def mechanism_of(linkage: Linkage, solved: Mapping[str, Point] | None = None) -> tuple[Mechanism | None, list[Problem]]:
     """Return the mechanism that a linkage is, or every problem that keeps it from being one.
 
-    Parameters
-    ----------
-    linkage : Linkage
-        Crank, links and sliding pieces in any order.
-    solved : mapping of str to tuple of float, optional
-        Where points are at a crank angle of zero, as far as the groups before have been solved. A branch is that of the
-        stated position of a joint, seen from the points that it hangs on. [m]
-
-    Returns
-    -------
-    tuple of Mechanism or None and list of Problem
-        Dyads and chains in the order in which they are solved, with the points and masses that go along.
+    Dyads and chains in the order in which they are solved, with the points and masses that go along. `solved`: where
+    points are at a crank angle of zero, as far as the groups before have been solved. A branch is that of the stated
+    position of a joint, seen from the points that it hangs on [m].
     """
     found, problems = structure(linkage)
     if found is None:

@@ -27,16 +27,8 @@ _DIRECTIONS: dict[str, Branch] = {"anticlockwise": 1, "clockwise": -1}
 def mechanism_from(tables: Table) -> tuple[Mechanism | None, list[Problem]]:
     """Return the mechanism that some tables describe, or every problem that is in them.
 
-    Parameters
-    ----------
-    tables : mapping
-        Tables `fixed_points`, `crank`, `links`, `guides`, `sliders`, `branch`, `positions` with plain values in
-        SI units, angles in radians.
-
-    Returns
-    -------
-    tuple of Mechanism or None and list of Problem
-        The mechanism where there is no problem.
+    The mechanism where there is no problem. `tables`: tables `fixed_points`, `crank`, `links`, `guides`, `sliders`,
+    `branch`, `positions` with plain values in SI units, angles in radians.
 
     Examples
     --------
@@ -61,15 +53,7 @@ def mechanism_from(tables: Table) -> tuple[Mechanism | None, list[Problem]]:
 def linkage_from(tables: Table) -> tuple[Linkage | None, list[Problem]]:
     """Return the linkage that some tables describe, or every problem that is in them.
 
-    Parameters
-    ----------
-    tables : mapping
-        As of `mechanism_from`.
-
-    Returns
-    -------
-    tuple of Linkage or None and list of Problem
-        The linkage where there is no problem.
+    The linkage where there is no problem.
     """
     reader = _Reader(tables)
     linkage = reader.linkage()

@@ -40,11 +40,6 @@ def joints(mechanism: Mechanism) -> tuple[Joint, ...]:
     """Return the joints of a mechanism, the pivot of the crank first, then group after group.
 
     Of three and more links on one pin the first that is placed carries the pin, and the others hang on it.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A crank and groups.
     """
     bearer = bearers(mechanism)
     crank = mechanism.crank.link
@@ -59,13 +54,7 @@ def joints(mechanism: Mechanism) -> tuple[Joint, ...]:
 
 
 def bearers(mechanism: Mechanism) -> dict[str, str]:
-    """Return the link, or `ground`, that each named point belongs to; the first one of those that meet there.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A crank and groups.
-    """
+    """Return the link, or `ground`, that each named point belongs to; the first one of those that meet there."""
     bearer = {**dict.fromkeys(mechanism.ground, GROUND), mechanism.crank.pin: mechanism.crank.link}
     bearer |= {one.name: one.link for one in mechanism.points}
     for group in mechanism.dyads:
@@ -84,13 +73,7 @@ def bearers(mechanism: Mechanism) -> dict[str, str]:
 
 
 def group_links(group: Dyad | Chain) -> tuple[str, ...]:
-    """Return the names of the links of a group.
-
-    Parameters
-    ----------
-    group : Dyad or Chain
-        The group.
-    """
+    """Return the names of the links of a group."""
     match group:
         case RRR():
             return group.link_a, group.link_b

@@ -56,14 +56,8 @@ class Body:
 def body_at(link: str, mass: float, inertia: float, point: str) -> Body:
     """Return a moving mass whose centre is a named point.
 
-    Parameters
-    ----------
-    link : str
-        Name of the link or slider that carries the mass.
-    mass, inertia : float
-        Mass, and moment of inertia about the centre of mass. [kg], [kg m2]
-    point : str
-        Name of the centre of mass.
+    `link`: name of the link or slider that carries the mass; `mass` and `inertia`: mass, and moment of inertia about
+    the centre of mass [kg], [kg m2].
     """
     return Body(link, mass, inertia, point, point, 0.0)
 
@@ -82,17 +76,8 @@ class Mechanism:
 def slider_crank(crank_radius: float, rod_length: float, offset: float = 0.0) -> Mechanism:
     """Return the slider-crank of an upright engine, its crank turning clockwise.
 
-    Parameters
-    ----------
-    crank_radius, rod_length : float
-        The lengths. [m]
-    offset : float
-        Distance of the cylinder axis from the crankshaft axis, towards the crankpin at 90 degrees. [m]
-
-    Returns
-    -------
-    Mechanism
-        Points `crank_pin` and `piston_pin`, links `crank` and `rod`.
+    Points `crank_pin` and `piston_pin`, links `crank` and `rod`. `offset`: distance of the cylinder axis from the
+    crankshaft axis, towards the crankpin at 90 degrees [m].
     """
     up = math.pi / 2
     crank = Crank(crank_radius, start=up, direction=-1)

@@ -57,14 +57,8 @@ class Structure:
 def mobility(linkage: Linkage) -> Known:
     """Return the degrees of freedom of a linkage.
 
-    Parameters
-    ----------
-    linkage : Linkage
-        Crank, links and sliding pieces; a pin of k links counts k - 1 joints.
-
-    References
-    ----------
-    artobolevsky_1988, ch. 2; Chebyshev's formula without higher pairs.
+    `linkage`: crank, links and sliding pieces; a pin of k links counts k - 1 joints. Source: artobolevsky_1988, ch.
+    2; Chebyshev's formula without higher pairs.
     """
     links, joints = given("moving_links", 1.0 + len(linkage.members)), given("lower_pairs", float(_joints(linkage)))
     found: Known = chain_mobility(links, joints)
@@ -77,21 +71,9 @@ def _joints(linkage: Linkage) -> int:
 
 
 def structure(linkage: Linkage) -> tuple[Structure | None, list[Problem]]:
-    """Return the structure of a linkage, or what keeps it from having one.
+    """Return the structure of a linkage, or what keeps it from having one (artobolevsky_1988, ch. 2-3).
 
-    Parameters
-    ----------
-    linkage : Linkage
-        Crank, links and sliding pieces.
-
-    Returns
-    -------
-    tuple of Structure or None and list of Problem
-        The structure where there is no problem.
-
-    References
-    ----------
-    artobolevsky_1988, ch. 2-3.
+    The structure where there is no problem.
     """
     problems = _loose_ends(linkage)
     if problems:

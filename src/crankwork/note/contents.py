@@ -26,13 +26,7 @@ def note_of(results: Results, options: NoteOptions | None = None) -> Note:
 
 
 def sheets_of(results: Results, options: NoteOptions | None = None) -> dict[str, bytes]:
-    """Return the drawing sheets of a machine in every format, by the ending of their files.
-
-    Raises
-    ------
-    MissingExtraError
-        If Typst or ezdxf is not installed.
-    """
+    """Return the drawing sheets of a machine in every format, by the ending of their files."""
     options = options or NoteOptions()
     # few notes have sheets
     from crankwork.note import sheets  # noqa: PLC0415 - loaded where it is needed

@@ -40,17 +40,7 @@ _ORDERS: dict[str, tuple[Section, ...]] = {
 
 
 def engine_note(results: Results, options: NoteOptions) -> Note:
-    """Return the note of an engine, or of a crank gear of which less is known.
-
-    Raises
-    ------
-    CrankworkError
-        If no school has this name.
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 4-9.
-    """
+    """Return the note of an engine, or of a crank gear of which less is known (kolchin_demidov_2008, ch. 4-9)."""
     if options.order not in _ORDERS:
         raise CrankworkError(f'no school of notes is called "{options.order}"; take en, ru or vi')
     machine = results.machine

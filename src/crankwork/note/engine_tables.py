@@ -111,19 +111,7 @@ def value_table(caption: str, rows: Iterable[tuple[Cell, ...]], words: EngineWor
 
 
 def value_row(key: str, value: float, words: EngineWords, *, area: float | None = None) -> tuple[Cell, ...]:
-    """Return name, symbol, value and unit of a single value.
-
-    Parameters
-    ----------
-    key : str
-        Its key.
-    value : float
-        The value. [SI]
-    words : EngineWords
-        The language.
-    area : float, optional
-        Piston area by which forces are divided. [m2]
-    """
+    """Return name, symbol, value and unit of a single value."""
     kind = key.partition(".")[0]
     shown = words.symbol(key) if kind in QUANTITIES else symbol(key, words.language)
     return (

@@ -18,15 +18,7 @@ _UNNUMBERED = ("preface", "conclusion", "sources", "appendix")
 
 
 class EngineWords(NoteWords):
-    """What the note of an engine says, in one language.
-
-    Parameters
-    ----------
-    language : str
-        The language.
-    per_area : bool
-        Whether forces are divided by the piston area.
-    """
+    """What the note of an engine says, in one language, forces divided by the piston area if wanted."""
 
     def __init__(self, language: Language, *, per_area: bool = False) -> None:
         super().__init__(language)

@@ -57,17 +57,7 @@ class PrintedEquation(NamedTuple):
 
 
 def printed_equation(block: Equation, language: Language, limit: float = LINE_WIDTH) -> PrintedEquation:
-    """Return the lines of an equation.
-
-    Parameters
-    ----------
-    block : Equation
-        A step or a formula.
-    language : str
-        Language of symbols, units and the decimal mark.
-    limit : float
-        Widest line. [em]
-    """
+    """Return the lines of an equation."""
     left = symbol_box(block.symbol or equation_symbol(block.step, language))
     parts: list[Box] = []
     for part in (*_definition(block, language), *_parts(block.step, language)):

@@ -41,23 +41,8 @@ def explanation(
 ) -> str:
     """Return how a value came about, down to what is given.
 
-    Parameters
-    ----------
-    results : Results
-        Of any machine.
-    key : str
-        Key of a column, of a single value, or of what lies between them.
-    at : float, optional
-        Crank angle of what varies. [deg]
-    language : str
-        Language of words, symbols and the decimal mark.
-    place : callable
-        Says where the machine file states a path.
-
-    Raises
-    ------
-    CrankworkError
-        As `Results.value` does.
+    `key`: key of a column, of a single value, or of what lies between them; `at`: crank angle of what varies [deg];
+    `place`: says where the machine file states a path.
     """
     value = results.value(key, at)
     known = results.memory.get(key)

@@ -15,15 +15,7 @@ _MODULES: dict[str, dict[str, str]] = {".pdf": {"typst": "report"}, ".docx": {"d
 
 
 def check_format(name: str, *, with_figures: bool = False, with_sheets: bool = False) -> None:
-    """Raise unless a note of this format can be written, before anything is computed.
-
-    Raises
-    ------
-    CrankworkError
-        With the endings that there are.
-    MissingExtraError
-        With everything that is to be installed.
-    """
+    """Raise unless a note of this format can be written, before anything is computed."""
     if PurePath(name).suffix.lower() not in WRITERS:
         raise CrankworkError(f"{name}: no format of a note has this ending; end it in {', '.join(WRITERS)}")
     modules = _MODULES[PurePath(name).suffix.lower()]

@@ -34,12 +34,7 @@ _OF_TABLE: tuple[Section, ...] = (
 
 
 def linkage_note(results: Results, options: NoteOptions) -> Note:
-    """Return the note of a linkage, or of a table of transfer functions.
-
-    References
-    ----------
-    artobolevsky_1988, ch. 2-16.
-    """
+    """Return the note of a linkage, or of a table of transfer functions (artobolevsky_1988, ch. 2-16)."""
     material = Material(results, options)
     words, of_table = material.words, isinstance(results.machine, TabulatedMachine)
     sections = _OF_TABLE if of_table else _REPORT if options.order == "en" else _COURSE

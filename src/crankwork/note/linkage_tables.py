@@ -34,16 +34,7 @@ class Column:
 def quantity_column(key: str, values: Array, words: Words, *, digits: int = 4) -> Column:
     """Return a column of a quantity in its unit.
 
-    Parameters
-    ----------
-    key : str
-        Key of the quantity, `joint_force.A` for what belongs to a point or link.
-    values : array, shape (n,)
-        Its values. [SI]
-    words : Words
-        The language.
-    digits : int
-        Digits of the largest value.
+    `key`: key of the quantity, `joint_force.A` for what belongs to a point or link.
     """
     return Column(words.titled(key), words.column_texts(in_display_unit(key, values.tolist()), digits=digits))
 
@@ -64,20 +55,7 @@ def position_tables(
 ) -> Iterator[Table]:
     """Yield a table over the positions of the crank, in parts if it has too many columns.
 
-    Parameters
-    ----------
-    caption : str
-        Key of its caption.
-    degrees : array, shape (n,)
-        Crank angles. [deg]
-    columns : sequence of Column
-        What stands beside them.
-    words : Words
-        The language.
-    first : int, optional
-        Number of the first position; without it positions have no numbers.
-    label : str
-        By which sentences refer to it.
+    `first`: number of the first position; without it positions have no numbers, optional.
     """
     if not columns:
         return

@@ -37,13 +37,7 @@ class Numbering(NamedTuple):
 
 
 def numbering(note: Note) -> Numbering:
-    """Return the numbers of everything that a note numbers.
-
-    Raises
-    ------
-    CrankworkError
-        If two blocks have one label, or a source is not in the bibliography.
-    """
+    """Return the numbers of everything that a note numbers."""
     counts: Counter[str] = Counter()
     sections = [0, 0, 0]
     numbers: list[str] = []

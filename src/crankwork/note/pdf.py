@@ -13,15 +13,7 @@ _NO_GLYPH = re.compile(r'the text `"(?P<text>.+?)"` could not be displayed', re.
 
 
 def pdf(note: Note) -> bytes:
-    """Return a note as a PDF file.
-
-    Raises
-    ------
-    MissingExtraError
-        If Typst is not installed.
-    CrankworkError
-        If the note has a character that its fonts lack.
-    """
+    """Return a note as a PDF file."""
     try:
         import typst  # noqa: PLC0415 - an optional part
     except ImportError:
@@ -46,13 +38,7 @@ def _missing_character(text: str) -> CrankworkError:
 
 
 def png(svg: bytes, pixels_per_inch: float = 110.0) -> bytes:
-    """Return a drawing as a picture of pixels, for programs that know no SVG.
-
-    Raises
-    ------
-    MissingExtraError
-        If Typst, which draws it, is not installed.
-    """
+    """Return a drawing as a picture of pixels, for programs that know no SVG."""
     try:
         import typst  # noqa: PLC0415 - an optional part
     except ImportError:

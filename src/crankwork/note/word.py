@@ -57,13 +57,7 @@ _WIDEST = 481.0
 
 
 def word(note: Note) -> bytes:
-    """Return a note as a Word file.
-
-    Raises
-    ------
-    MissingExtraError
-        If python-docx is not installed.
-    """
+    """Return a note as a Word file."""
     try:
         import docx  # noqa: PLC0415 - an optional part
     except ImportError:

@@ -40,26 +40,10 @@ def moving_drawing(
 ) -> str:
     """Return the mechanism of a machine as an SVG that moves by itself, one revolution after the other.
 
-    Lengths are to scale and the motion is exact; strokes, joints, blocks and letters have their own size.
-
-    Parameters
-    ----------
-    machine : Machine, LinkageMachine or Mechanism
-        What is drawn; bore and clearance of a machine, if known, give the cylinder.
-    language : str
-        Language of title, description and numbers.
-    seconds : float
-        Time of one revolution. [s]
-    frames : int
-        Positions per revolution; between them points move on straight lines.
-    links : sequence of str
-        The moving links in the order of their numbers, as `Structure.links` gives them; where it is left
-        out, those of a LinkageMachine, or group after group.
-
-    Raises
-    ------
-    CrankworkError
-        If the mechanism cannot turn, or fewer than 8 frames or no time are asked for.
+    Lengths are to scale and the motion is exact; strokes, joints, blocks and letters have their own size. `machine`:
+    what is drawn; bore and clearance of a machine, if known, give the cylinder; `frames`: positions per revolution;
+    between them points move on straight lines; `links`: the moving links in the order of their numbers, as
+    `Structure.links` gives them; where it is left out, those of a LinkageMachine, or group after group.
     """
     if frames < 8 or not 0 < seconds < math.inf:
         raise CrankworkError("a moving drawing needs at least 8 frames and a time above zero")

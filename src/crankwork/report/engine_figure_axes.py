@@ -42,19 +42,9 @@ class Row(NamedTuple):
 
 
 def round_ticks(low: float, high: float, most: int = 8) -> Array:
-    """Return round numbers within a range.
+    """Return round numbers within a range. [its unit]
 
-    Parameters
-    ----------
-    low, high : float
-        Ends of the range. [its unit]
-    most : int
-        How many there may be.
-
-    Returns
-    -------
-    array, shape (n,)
-        Multiples of 1, 2, 2.5 or 5 times a power of ten. [its unit]
+    Multiples of 1, 2, 2.5 or 5 times a power of ten.
     """
     span = (high - low) or 1.0
     power = 10.0 ** math.floor(math.log10(span / most))
@@ -64,19 +54,7 @@ def round_ticks(low: float, high: float, most: int = 8) -> Array:
 
 
 class Graph:
-    """Axes on paper with scales that are set once.
-
-    Parameters
-    ----------
-    paper : Paper
-        Where to draw.
-    box : Box
-        Where the graph stands.
-    x, y : tuple of float
-        Ends of the scales: left and right, lower and upper edge. [their units]
-    language : str
-        Language of the numbers.
-    """
+    """Axes on paper with scales that are set once: x from left to right, y from the lower to the upper edge."""
 
     def __init__(
         self, paper: Paper, box: Box, x: tuple[float, float], y: tuple[float, float], language: Language
@@ -108,35 +86,13 @@ class Graph:
         width: float = 1.2,
         colour: str = BLACK,
     ) -> None:
-        """Draw a curve that can be found again by its name.
-
-        Parameters
-        ----------
-        name : str
-            By which `curves` and the file hold it.
-        x, y : sequence, shape (n,)
-            In the units of the scales. [their units]
-        style : str or tuple
-            Dashes.
-        width : float
-            Of the line. [pt]
-        colour : str
-            As SVG writes it.
-        """
+        """Draw a curve that can be found again by its name."""
         x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
         self.curves[name] = (x, y)
         self.paper.line(self.across(x), self.down(y), style=style, width=width, colour=colour, name=name)
 
     def frame(self, x_ticks: Array, y_ticks: Array, *, labels: tuple[bool, bool] = (True, True)) -> None:
-        """Draw grid, ticks and numbers; the horizontal axis goes through zero where it is in reach.
-
-        Parameters
-        ----------
-        x_ticks, y_ticks : array
-            Values with a number. [their units]
-        labels : tuple of bool
-            Whether numbers stand below and at the left.
-        """
+        """Draw grid, ticks and numbers; the horizontal axis goes through zero where it is in reach."""
         left, top, width, height = self.box
         right, bottom = left + width, top + height
         across, down = self.across(x_ticks), self.down(y_ticks)
@@ -171,19 +127,7 @@ class Graph:
             self.paper.upward_text(x, self.box.top + self.box.height / 2, one, size=size)
 
     def mark(self, name: str, x: float, y: float, text: str, *, below: bool = False) -> None:
-        """Mark a point of a curve with a dot and a text over or under it, inside the edges of the graph.
-
-        Parameters
-        ----------
-        name : str
-            By which `curves` holds it.
-        x, y : float
-            The point. [their units]
-        text : str
-            What stands beside it.
-        below : bool
-            Whether under it.
-        """
+        """Mark a point of a curve with a dot and a text over or under it, inside the edges of the graph."""
         self.curves[name] = np.array([x]), np.array([y])
         at, level = self.point(x, y)
         self.paper.dot(at, level, 2.0)
@@ -226,19 +170,9 @@ def _draw_legend(paper: Paper, lines: Sequence[tuple[Row | None, str]], top: flo
 
 
 def limits(*values: Array, margin: float = 0.06) -> tuple[float, float]:
-    """Return ends of a scale that holds zero and all values.
+    """Return ends of a scale that holds zero and all values. [its unit]
 
-    Parameters
-    ----------
-    *values : array
-        What is to be shown. [its unit]
-    margin : float
-        Room beyond the largest and the least, as a share of the range.
-
-    Returns
-    -------
-    tuple of float
-        Lower and upper end. [its unit]
+    `margin`: room beyond the largest and the least, as a share of the range.
     """
     low = min(0.0, *(float(np.min(one)) for one in values))
     high = max(0.0, *(float(np.max(one)) for one in values))
@@ -251,20 +185,7 @@ def over_cycle(
 ) -> Graph:
     """Return a graph over the crank angle with its frame drawn.
 
-    Parameters
-    ----------
-    paper : Paper
-        Where to draw.
-    box : Box
-        Where the graph stands.
-    y : tuple of float
-        Ends of the vertical scale. [its unit]
-    cycle : float
-        End of the crank angle. [deg]
-    language : str
-        Language of the numbers.
-    numbers : bool
-        Whether numbers stand under the graph.
+    `cycle`: end of the crank angle [deg].
     """
     graph = Graph(paper, box, (0.0, cycle), y, language)
     ticks = np.arange(0.0, cycle + 1, 90.0 if cycle > 360 else 30.0)
@@ -273,22 +194,7 @@ def over_cycle(
 
 
 def sheet(height: float, rows: Sequence[Row] = (), *, below: float = BOTTOM) -> tuple[Paper, Box]:
-    """Return paper with a legend on it, and the place for a graph below the legend.
-
-    Parameters
-    ----------
-    height : float
-        Of the graph. [pt]
-    rows : sequence of Row
-        The legend.
-    below : float
-        Room below the graph. [pt]
-
-    Returns
-    -------
-    tuple of Paper, Box
-        Both. [pt]
-    """
+    """Return paper with a legend on it, and the place for a graph below the legend. [pt]"""
     lines = _legend_lines(rows)
     above = LEGEND_ROW * len(lines) + 5.0 if lines else 0.0
     paper = Paper(WIDTH, TOP + above + height + below)

@@ -99,14 +99,8 @@ def _short(name: str) -> str:
 def mark_points(graph: Graph, points: Sequence[tuple[str, float, float]], *lines: Array) -> None:
     """Mark named points of a graph, their names clear of its lines and axes.
 
-    Parameters
-    ----------
-    graph : Graph
-        Where they are.
-    points : sequence of (str, float, float)
-        Name and place in the units of the scales. [their units]
-    *lines : array, shape (n, 2)
-        Points along lines. [pt]
+    `points`: name and place in the units of the scales [their units]; `*lines`: points along lines [pt], shape (n,
+    2).
     """
     left, top, width, height = graph.box
     level = float(graph.down(0.0)) if min(graph.y) < 0 < max(graph.y) else top + height

@@ -39,20 +39,7 @@ class EngineDrawn:
         return EngineDiagrams(self.drawn.results)
 
     def shown(self, key: str, values: Array | float) -> Array:
-        """Return SI values in the display unit of a quantity.
-
-        Parameters
-        ----------
-        key : str
-            The quantity.
-        values : array or float
-            Its values. [SI]
-
-        Returns
-        -------
-        array
-            Values. [display unit]
-        """
+        """Return SI values in the display unit of a quantity. [display unit]"""
         return np.asarray(values) * displayed(key, 1.0, per_area=self.drawn.area)
 
     def unit(self, key: str) -> str:
@@ -73,17 +60,7 @@ class EngineDrawn:
         return f"{self.symbol(key)} – {QUANTITIES[key].label(self.language)}"
 
     def value(self, key: str, value: float, digits: int = 4) -> str:
-        """Return an SI value with its unit.
-
-        Parameters
-        ----------
-        key : str
-            The quantity.
-        value : float
-            Its value. [SI]
-        digits : int
-            How many significant ones.
-        """
+        """Return an SI value with its unit."""
         shown = self.number(float(self.shown(key, value)), digits)
         unit = self.unit(key)
         return f"{shown}{unit}" if unit in ("", "°") else f"{shown}\N{NO-BREAK SPACE}{unit}"

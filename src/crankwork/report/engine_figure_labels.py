@@ -17,18 +17,7 @@ _REACHES = (7.0, 10.0, 14.0, 19.0, 25.0, 32.0)
 
 
 def spread(x: Array, y: Array) -> Array:
-    """Return points along a line at even distances.
-
-    Parameters
-    ----------
-    x, y : array, shape (n,)
-        The line. [pt]
-
-    Returns
-    -------
-    array, shape (m, 2)
-        Points. [pt]
-    """
+    """Return points along a line at even distances, shape (m, 2). [pt]"""
     length = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
     even = np.arange(0.0, length[-1] + _SPACING, _SPACING)
     return np.column_stack([np.interp(even, length, x), np.interp(even, length, y)])
@@ -45,18 +34,7 @@ def label_marks(
 ) -> None:
     """Draw marks with their names; those that fall together share one mark, far names get a thin line.
 
-    Parameters
-    ----------
-    paper : Paper
-        Where to draw.
-    marks : sequence of (str, float, float)
-        Name, and where it stands. [pt]
-    obstacles : array, shape (n, 2)
-        Points to keep clear of. [pt]
-    size, dot : float
-        Of the letters, and radius of the marks. [pt]
-    frame : Box or None
-        What names should stay inside of. [pt]
+    `obstacles`: points to keep clear of [pt], shape (n, 2).
     """
     marks = _merged(marks)
     places = np.array([(x, y) for _, x, y in marks])

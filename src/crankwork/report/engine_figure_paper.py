@@ -91,34 +91,13 @@ def _runs(text: str) -> tuple[_Run, ...]:
 
 @lru_cache(maxsize=2048)
 def text_width(text: str, size: float) -> float:
-    """Return how wide a text is.
-
-    Parameters
-    ----------
-    text : str
-        With symbols between dollar signs.
-    size : float
-        Of the letters. [pt]
-
-    Returns
-    -------
-    float
-        Width. [pt]
-    """
+    """Return how wide a text is. [pt]"""
     widths = (sum(_letter(run.font, one).advance for one in run.letters) * run.size for run in _runs(text))
     return size * sum(widths) / _EM
 
 
 def fitted_lines(text: str, size: float, width: float) -> tuple[str, ...]:
-    """Return a text on as many lines as it needs.
-
-    Parameters
-    ----------
-    text : str
-        With symbols between dollar signs.
-    size, width : float
-        Of the letters, and of the lines. [pt]
-    """
+    """Return a text on as many lines as it needs."""
     lines: list[str] = []
     for word in text.split(" "):
         joined = f"{lines[-1]} {word}" if lines else word
@@ -132,12 +111,7 @@ def fitted_lines(text: str, size: float, width: float) -> tuple[str, ...]:
 def path_data(x: Array, y: Array, *, closed: bool = False) -> str:
     """Return points joined by straight lines as the data of an SVG path.
 
-    Parameters
-    ----------
-    x, y : array, shape (n,)
-        To the right and downward. [pt]
-    closed : bool
-        Whether the last is joined with the first.
+    `closed`: whether the last is joined with the first.
     """
     numbers = np.round(np.column_stack([x, y]), 2).tolist()
     return "M" + "L".join(f"{a:g} {b:g}" for a, b in numbers) + ("Z" if closed else "")
@@ -154,13 +128,7 @@ def _scale(size: float) -> str:
 
 
 class Paper:
-    """A sheet that collects what is drawn; coordinates to the right and downward from its upper left corner. [pt]
-
-    Parameters
-    ----------
-    width, height : float
-        Its size. [pt]
-    """
+    """A sheet that collects what is drawn; coordinates to the right and downward from its upper left corner. [pt]"""
 
     def __init__(self, width: float, height: float) -> None:
         self.width, self.height = width, height
@@ -180,18 +148,7 @@ class Paper:
     ) -> None:
         """Draw a line through points.
 
-        Parameters
-        ----------
-        x, y : sequence, shape (n,)
-            Points. [pt]
-        style : str or tuple
-            Dashes as a style of `figure_look`.
-        width : float
-            Of the line. [pt]
-        colour : str
-            As SVG writes it.
-        name : str
-            By which the line is found again in the file.
+        `name`: by which the line is found again in the file.
         """
         data = path_data(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
         named = f' class="{escape(name)}"' if name else ""
@@ -200,31 +157,14 @@ class Paper:
     def area(
         self, x: Sequence[float] | Array, y: Sequence[float] | Array, *, fill: str = "#ffffff", width: float = 0.0
     ) -> None:
-        """Fill an area, with a black outline if it has a width.
-
-        Parameters
-        ----------
-        x, y : sequence, shape (n,)
-            Its corners. [pt]
-        fill : str
-            As SVG writes it.
-        width : float
-            Of the outline. [pt]
-        """
+        """Fill an area, with a black outline if it has a width."""
         data = path_data(np.asarray(x, dtype=float), np.asarray(y, dtype=float), closed=True)
         self._path(data, f' fill="{fill}"' + (f' stroke="{BLACK}" stroke-width="{width:g}"' if width else ""))
 
     def segments(self, ends: Array, *, width: float = 0.5, colour: str = BLACK) -> None:
         """Draw many straight lines at once, such as hatching.
 
-        Parameters
-        ----------
-        ends : array, shape (n, 4)
-            x and y of the start, x and y of the end of each. [pt]
-        width : float
-            Of the lines. [pt]
-        colour : str
-            As SVG writes it.
+        `ends`: x and y of the start, x and y of the end of each [pt], shape (n, 4).
         """
         if len(ends):
             data = "".join(f"M{a:g} {b:g}L{c:g} {d:g}" for a, b, c, d in np.round(ends, 2).tolist())
@@ -234,32 +174,12 @@ class Paper:
         self._parts.append(f'<path d="{data}"{paint} stroke-linejoin="round"/>')
 
     def dot(self, x: float, y: float, radius: float = 1.5, *, fill: str = BLACK, width: float = 0.0) -> None:
-        """Draw a dot, or a circle.
-
-        Parameters
-        ----------
-        x, y, radius : float
-            Middle, radius. [pt]
-        fill : str
-            As SVG writes it.
-        width : float
-            Of the line. [pt]
-        """
+        """Draw a dot, or a circle."""
         stroke = f' stroke="{BLACK}" stroke-width="{width:g}"' if width else ""
         self._parts.append(f'<circle cx="{x:.2f}" cy="{y:.2f}" r="{radius:g}" fill="{fill}"{stroke}/>')
 
     def arrow(self, start: Sequence[float], end: Sequence[float], *, width: float = 1.0, colour: str = BLACK) -> None:
-        """Draw an arrow with a filled head; one too short for a head is a line.
-
-        Parameters
-        ----------
-        start, end : sequence of float
-            Where from and to. [pt]
-        width : float
-            Of the line. [pt]
-        colour : str
-            As SVG writes it.
-        """
+        """Draw an arrow with a filled head; one too short for a head is a line."""
         (x, y), (u, v) = start, end
         length = math.hypot(u - x, v - y)
         head = min(4.0 + 1.6 * width, 0.7 * length)
@@ -277,18 +197,8 @@ class Paper:
     ) -> None:
         """Write a text.
 
-        Parameters
-        ----------
-        x, y : float
-            Where its base line begins, ends or has its middle. [pt]
-        text : str
-            With symbols `base_subscript` between dollar signs.
-        size : float
-            Of the letters. [pt]
-        anchor : str
-            start, middle or end: which point of the text stands at x, y.
-        colour : str
-            As SVG writes it.
+        `x` and `y`: where its base line begins, ends or has its middle [pt]; `anchor`: start, middle or end: which
+        point of the text stands at x, y.
         """
         width = text_width(text, size)
         x -= {"start": 0.0, "middle": width / 2, "end": width}[anchor]
@@ -297,17 +207,7 @@ class Paper:
         self._write(text, f'{paint} transform="translate({x:.2f} {y:.2f}) {_scale(size)}"')
 
     def upward_text(self, x: float, y: float, text: str, *, size: float = 9.0) -> None:
-        """Write a text that runs upward.
-
-        Parameters
-        ----------
-        x, y : float
-            Its base line and its middle. [pt]
-        text : str
-            With symbols `base_subscript` between dollar signs.
-        size : float
-            Of the letters. [pt]
-        """
+        """Write a text that runs upward."""
         half = text_width(text, size) / 2
         self.texts.append((text, x - 0.75 * size, y - half, x + 0.25 * size, y + half))
         self._write(text, f' transform="translate({x:.2f} {y + half:.2f}) rotate(-90) {_scale(size)}"')

@@ -46,13 +46,7 @@ class Drawn(NamedTuple):
 
 
 def drawn_from(results: Results, language: Language, *, per_area: bool) -> Drawn:
-    """Return what the figures share, computed finer than the tables.
-
-    Raises
-    ------
-    CrankworkError
-        If forces per area are asked for where no bore is known.
-    """
+    """Return what the figures share, computed finer than the tables."""
     area = results.summary.get("piston_area") if per_area else None
     if per_area and area is None and "piston_force" in results.columns:
         raise CrankworkError("forces per piston area need cylinder.bore")

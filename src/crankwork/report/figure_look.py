@@ -62,13 +62,7 @@ class Curve(NamedTuple):
 
 
 def drawing_library() -> ModuleType:
-    """Return matplotlib, imported even where the environment asks for a way to show figures that is not installed.
-
-    Raises
-    ------
-    MissingExtraError
-        If matplotlib is not installed.
-    """
+    """Return matplotlib, imported even where the environment asks for a way to show figures that is not installed."""
     known = "matplotlib" in sys.modules
     # matplotlib does not load at all where a notebook has left its own way to the programs that it starts
     shown_by = None if known else os.environ.pop("MPLBACKEND", None)
@@ -124,30 +118,14 @@ def quantity_title(key: str, language: Language, *, per_area: bool = False) -> s
 
 
 def new_figure(height: float, width: float = WIDTH) -> Figure:
-    """Return an empty figure.
-
-    Parameters
-    ----------
-    height, width : float
-        Size. [inch]
-    """
+    """Return an empty figure."""
     from matplotlib.figure import Figure  # noqa: PLC0415 - an optional part
 
     return Figure(figsize=(width, height))
 
 
 def add_axes(figure: Figure, language: Language, bottom: float, height: float, *, right: float = _RIGHT) -> Axes:
-    """Return axes across the figure, numbers printed as the language does.
-
-    Parameters
-    ----------
-    figure : Figure
-        Where.
-    language : str
-        Language of the numbers.
-    bottom, height, right : float
-        Place, and margin to the right. [inch]
-    """
+    """Return axes across the figure, numbers printed as the language does."""
     from matplotlib.ticker import FuncFormatter  # noqa: PLC0415 - an optional part
 
     width, full = figure.get_size_inches()
@@ -163,17 +141,7 @@ def add_axes(figure: Figure, language: Language, bottom: float, height: float, *
 def single_axes(
     language: Language, legend_rows: int, *, height: float = 3.0, above: float = 0.0
 ) -> tuple[Figure, Axes]:
-    """Return a figure with one pair of axes and room for a legend above it.
-
-    Parameters
-    ----------
-    language : str
-        Language of the numbers.
-    legend_rows : int
-        Lines of the legend.
-    height, above : float
-        Height of the axes, further room above them. [inch]
-    """
+    """Return a figure with one pair of axes and room for a legend above it."""
     legend = _LEGEND_ROW * legend_rows + 0.06 if legend_rows else 0.0
     figure = new_figure(BOTTOM + height + _TOP + legend + above)
     return figure, add_axes(figure, language, BOTTOM, height)

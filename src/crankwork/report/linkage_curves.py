@@ -51,23 +51,8 @@ def curves(
 ) -> bytes:
     """Return quantities over the crank angle, one panel below the other.
 
-    Parameters
-    ----------
-    degrees : array, shape (n,)
-        Crank angles. [deg]
-    columns : mapping of str to array, shape (n,)
-        Values in SI by key, `joint_force.A` for what belongs to a point or link.
-    panels : sequence of str or sequence of str
-        Keys of each panel; those of one panel share a unit.
-    title : str
-        For readers who cannot see it.
-    style : Style
-        Language, and how the numbers were made.
-
-    Raises
-    ------
-    CrankworkError
-        If a key is not known, has no column, or its unit differs from that of its panel.
+    `columns`: values in SI by key, `joint_force.A` for what belongs to a point or link; `panels`: keys of each panel;
+    those of one panel share a unit.
     """
     sets = [_panel((one,) if isinstance(one, str) else tuple(one), columns) for one in panels]
     if not sets:

@@ -31,16 +31,8 @@ if TYPE_CHECKING:
 def wittenbauer(inertia: Array, energy: Array, wanted: Fluctuation, degrees: Array, style: Style = PLAIN) -> bytes:
     """Return the energy-mass diagram, its tangents and the piece kl that they cut from the energy axis.
 
-    Parameters
-    ----------
-    inertia, energy : array, shape (n,)
-        Reduced moment of inertia [kg m2] and change of the kinetic energy [J] over one cycle.
-    wanted : Fluctuation
-        Mean speed and coefficient.
-    degrees : array, shape (n,)
-        Crank angles; every thirtieth degree is marked. [deg]
-    style : Style
-        Language, and how the numbers were made.
+    `inertia` and `energy`: reduced moment of inertia [kg m2] and change of the kinetic energy [J] over one cycle;
+    `degrees`: crank angles; every thirtieth degree is marked [deg].
     """
     found, language = tangents(inertia, energy, wanted), style.language
     with figure_look():
@@ -96,17 +88,7 @@ def _angle(axes: Axes, slope: float, name: str, language: Language) -> str:
 
 
 def speed_curve(degrees: Array, speed: Array, style: Style = PLAIN) -> bytes:
-    """Return the angular speed of the crank over one cycle, with its largest, mean and smallest value.
-
-    Parameters
-    ----------
-    degrees : array, shape (n,)
-        Crank angles. [deg]
-    speed : array, shape (n,)
-        Angular speed. [rad/s]
-    style : Style
-        Language, and how the numbers were made.
-    """
+    """Return the angular speed of the crank over one cycle, with its largest, mean and smallest value."""
     language, row = style.language, quantity_of("speed")
     low, high = float(np.min(speed)), float(np.max(speed))
     with figure_look():

@@ -27,13 +27,7 @@ _PER_PANEL = 4
 
 
 def linkage_figures(results: Results, *, language: Language = "en") -> dict[str, bytes]:
-    """Return the figures of a linkage as SVG by name; those for which nothing is known are left out.
-
-    Raises
-    ------
-    MissingExtraError
-        If matplotlib is not installed.
-    """
+    """Return the figures of a linkage as SVG by name; those for which nothing is known are left out."""
     machine, style = results.machine, Style(language, (), results_method(results, language))
     if not isinstance(machine, LinkageMachine):
         return _dynamics(results.grid.degrees, results.columns, style)

@@ -39,13 +39,7 @@ def linkage_title(name: str, language: Language) -> str:
 
 @contextmanager
 def figure_look() -> Iterator[None]:
-    """Draw in the one look of all figures, whatever the settings of matplotlib are, and leave those alone.
-
-    Raises
-    ------
-    MissingExtraError
-        If matplotlib is not installed.
-    """
+    """Draw in the one look of all figures, whatever the settings of matplotlib are, and leave those alone."""
     mpl = drawing_library()
     with mpl.rc_context():
         mpl.rcdefaults()
@@ -54,13 +48,7 @@ def figure_look() -> Iterator[None]:
 
 
 def quantity_of(key: str) -> Quantity:
-    """Return the quantity of a key; that of `joint_force.A` is `joint_force`, with A added to name and symbol.
-
-    Raises
-    ------
-    CrankworkError
-        If the table has no such key.
-    """
+    """Return the quantity of a key; that of `joint_force.A` is `joint_force`, with A added to name and symbol."""
     base = key.partition(".")[0]
     if base not in QUANTITIES:
         raise CrankworkError(f"{base} is not a quantity that figures know")

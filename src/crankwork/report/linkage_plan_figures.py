@@ -50,21 +50,7 @@ class _Kind(NamedTuple):
 
 
 def velocity_plan(mechanism: Mechanism, moving: Moving, index: int, speed: float, style: Style = PLAIN) -> bytes:
-    """Return the velocity plan of a linkage at one crank angle.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A crank and groups.
-    moving : Moving
-        Where it is.
-    index : int
-        Which of the crank angles.
-    speed : float
-        Of the crank. [rad/s]
-    style : Style
-        Language, order of the links.
-    """
+    """Return the velocity plan of a linkage at one crank angle."""
     kind = _Kind("velocity_plan", "v", "m/s", symbol("speed", style.language), "rad/s", "p")
     return _figure(velocities(mechanism, moving, index, speed, style.links), kind, moving.degrees[index], style)
 
@@ -77,21 +63,7 @@ def acceleration_plan(
     angular_acceleration: float = 0.0,
     style: Style = PLAIN,
 ) -> bytes:
-    """Return the acceleration plan of a linkage at one crank angle.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A crank and groups.
-    moving : Moving
-        Where it is.
-    index : int
-        Which of the crank angles.
-    speed, angular_acceleration : float
-        Of the crank. [rad/s], [rad/s2]
-    style : Style
-        Language, order of the links.
-    """
+    """Return the acceleration plan of a linkage at one crank angle."""
     plan = accelerations(mechanism, moving, index, speed, angular_acceleration, style.links)
     pole = "q" if style.language == "en" else "π"
     kind = _Kind("acceleration_plan", "a", "m/s2", symbol("angular_acceleration", style.language), "rad/s2", pole)

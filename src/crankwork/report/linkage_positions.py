@@ -57,21 +57,8 @@ def position_plans(
 ) -> bytes:
     """Return the position plans of a linkage over each other.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A crank and groups.
-    degrees : sequence of float
-        Crank angles of the plans, numbered from 0. [deg]
-    main : int
-        The plan that is drawn bold, with names of points.
-    style : Style
-        Language, order of the links.
-
-    Raises
-    ------
-    GeometryError
-        If the mechanism cannot turn.
+    `degrees`: crank angles of the plans, numbered from 0 [deg]; `main`: the plan that is drawn bold, with names of
+    points.
     """
     shape = skeleton(mechanism, style.links)
     moved = moving(mechanism, np.union1d(np.arange(0.0, 360.0 + _STEP, _STEP), degrees))

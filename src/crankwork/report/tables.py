@@ -92,13 +92,7 @@ def _quoted(heading: str) -> str:
 
 
 def workbook(results: Results, *, language: Language = "en", per_area: bool = False) -> bytes:
-    """Return all tables and the summary as an XLSX workbook.
-
-    Raises
-    ------
-    MissingExtraError
-        If XlsxWriter is not installed.
-    """
+    """Return all tables and the summary as an XLSX workbook."""
     try:
         import xlsxwriter  # noqa: PLC0415 - an optional part
     except ImportError:

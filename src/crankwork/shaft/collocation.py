@@ -62,56 +62,29 @@ def panel_points(edges: Array) -> Array:
 def tails(values: Array) -> Array:
     """Return, for each panel, how large the last two Legendre coefficients of a function are, shape (n,).
 
-    Parameters
-    ----------
-    values : array, shape (n, 8)
-        The function at the Gauss points. [its unit]
+    `values`: the function at the Gauss points [its unit], shape (n, 8).
     """
     series = np.abs(values @ _TO_SERIES.T)
     return np.asarray(series[:, -1] + series[:, -2])
 
 
 def integrate(rate: Rate, edges: Array, start: float, *, guess: Array | None = None, positive: bool = False) -> Panels:
-    """Return the solution with a given first value.
+    """Return the solution with a given first value (hairer_wanner_1996, sec. IV.5, Gauss methods).
 
-    Parameters
-    ----------
-    rate : callable
-        f(x, y), of arrays of any one shape.
-    edges : array, shape (n + 1,)
-        Panels to begin with; f is smooth inside each. [unit of x]
-    start : float
-        The first value. [unit of y]
-    guess : array, shape (n + 1,), optional
-        Values at the edges to begin with. [unit of y]
-    positive : bool
-        Whether the solution must stay above zero.
-
-    References
-    ----------
-    hairer_wanner_1996, sec. IV.5, Gauss methods.
+    `rate`: f(x, y), of arrays of any one shape; `edges`: panels to begin with; f is smooth inside each [unit of x],
+    shape (n + 1,); `guess`: values at the edges to begin with [unit of y], shape (n + 1,); `positive`: whether the
+    solution must stay above zero.
     """
     values = np.full_like(edges, start) if guess is None else guess
     return _refined(rate, edges, values, start, positive=positive)
 
 
 def integrate_periodic(rate: Rate, edges: Array, guess: Array, *, positive: bool = False) -> Panels:
-    """Return the solution whose last value is its first.
+    """Return the solution whose last value is its first (hairer_wanner_1996, sec. IV.5, Gauss methods).
 
-    Parameters
-    ----------
-    rate : callable
-        f(x, y), of arrays of any one shape; it must depend on y.
-    edges : array, shape (n + 1,)
-        Panels to begin with, over one period. [unit of x]
-    guess : array, shape (n + 1,)
-        Values at the edges to begin with. [unit of y]
-    positive : bool
-        Whether the solution must stay above zero.
-
-    References
-    ----------
-    hairer_wanner_1996, sec. IV.5, Gauss methods.
+    `rate`: f(x, y), of arrays of any one shape; it must depend on y; `edges`: panels to begin with, over one period
+    [unit of x], shape (n + 1,); `guess`: values at the edges to begin with [unit of y], shape (n + 1,); `positive`:
+    whether the solution must stay above zero.
     """
     return _refined(rate, edges, guess, None, positive=positive)
 

@@ -57,12 +57,7 @@ class Curve:
     def linear(cls, angle: ArrayLike, value: ArrayLike) -> Self:
         """Return the broken line through given corners; an angle given twice is a jump.
 
-        Parameters
-        ----------
-        angle : array, shape (n,)
-            Angles that do not descend, over one whole cycle. [rad]
-        value : array, shape (n,)
-            The quantity there. [its unit]
+        `angle`: angles that do not descend, over one whole cycle [rad].
 
         Examples
         --------
@@ -77,15 +72,7 @@ class Curve:
 
     @classmethod
     def hermite(cls, angle: ArrayLike, value: ArrayLike, slope: ArrayLike) -> Self:
-        """Return the piecewise cubic with given values and slopes.
-
-        Parameters
-        ----------
-        angle : array, shape (n,)
-            Ascending angles over one whole cycle. [rad]
-        value, slope : array, shape (n,)
-            The quantity and its derivative by the angle. [its unit], [its unit / rad]
-        """
+        """Return the piecewise cubic with given values and slopes."""
         angle, value = _checked(angle, value)
         slope = np.asarray(slope, dtype=float)
         h = np.diff(angle)
@@ -100,12 +87,7 @@ class Curve:
     def smooth(cls, angle: ArrayLike, value: ArrayLike) -> Self:
         """Return the smooth closed curve through given points that never overshoots them.
 
-        Parameters
-        ----------
-        angle : array, shape (n,)
-            Ascending angles over one whole cycle. [rad]
-        value : array, shape (n,)
-            The quantity there; the last repeats the first. [its unit]
+        `value`: the quantity there; the last repeats the first [its unit].
         """
         angle, value = _checked(angle, value)
         return cls.hermite(angle, value, monotone_slopes(angle, value, periodic=True))
@@ -114,14 +96,8 @@ class Curve:
     def fitted(cls, function: Callable[[Array], Array], breaks: ArrayLike, *, width: float = np.pi / 24) -> Self:
         """Return the polynomials that agree with a function at Gauss points between the breaks.
 
-        Parameters
-        ----------
-        function : callable
-            The quantity at ascending angles, smooth between the breaks. [rad] -> [its unit]
-        breaks : array, shape (m,)
-            Ascending angles over one whole cycle; the function is never asked at a break itself. [rad]
-        width : float
-            Longest interval of one polynomial. [rad]
+        `function`: the quantity at ascending angles, smooth between the breaks. [rad] -> [its unit]; `breaks`:
+        ascending angles over one whole cycle; the function is never asked at a break itself [rad].
 
         Examples
         --------
@@ -142,12 +118,8 @@ class Curve:
     def legendre(cls, angle: ArrayLike, coefficients: ArrayLike) -> Self:
         """Return the curve of Legendre polynomials, each over its own interval.
 
-        Parameters
-        ----------
-        angle : array, shape (n + 1,)
-            Ascending angles over one whole cycle. [rad]
-        coefficients : array, shape (n, k)
-            Coefficients of ascending degrees on each interval. [its unit]
+        `angle`: ascending angles over one whole cycle [rad], shape (n + 1,); `coefficients`: coefficients of
+        ascending degrees on each interval [its unit], shape (n, k).
 
         Examples
         --------
@@ -160,13 +132,7 @@ class Curve:
 
     @classmethod
     def constant(cls, value: float, cycle: float = 2 * np.pi) -> Self:
-        """Return a quantity that does not change.
-
-        Parameters
-        ----------
-        value, cycle : float
-            The quantity, and the length of the cycle. [its unit], [rad]
-        """
+        """Return a quantity that does not change."""
         return cls(np.array([0.0, cycle]), np.array([[float(value)]]))
 
     @property
@@ -249,13 +215,7 @@ class Curve:
         return self + -other
 
     def delayed(self, by: float) -> Self:
-        """Return the same quantity, every value later by an angle: the next cylinder of an engine.
-
-        Parameters
-        ----------
-        by : float
-            The angle. [rad]
-        """
+        """Return the same quantity, every value later by an angle: the next cylinder of an engine."""
         if self.growth:
             raise MethodError("a quantity that grows from cycle to cycle cannot be delayed")
         first, last = self.angle[0], self.angle[-1]

@@ -26,25 +26,8 @@ def energy_machine(
 ) -> EnergyMachine:
     """Return a mechanism with springs and a constant torque on its crank, for motion by energy quadrature.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        Its bodies have the masses.
-    drive : float
-        Constant torque on the crank. [N m]
-    springs : tuple of Spring
-        Springs between named points.
-    inertia : float
-        Moment of inertia that turns with the crank, besides the bodies. [kg m2]
-    fast : bool
-        Whether to compile; for a crank and RRR dyads, with the extra `fast`.
-
-    Raises
-    ------
-    MissingExtraError
-        If `fast` is asked for and Numba is not installed.
-    MethodError
-        If it is asked for a mechanism of other groups, or a spring is preloaded.
+    `inertia`: moment of inertia that turns with the crank, besides the bodies [kg m2]; `fast`: whether to compile;
+    for a crank and RRR dyads, with the extra `fast`.
     """
     if any(spring.preload for spring in springs):
         raise MethodError("motion by energy takes springs without preload; give the length at which they do not pull")

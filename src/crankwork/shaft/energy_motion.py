@@ -50,38 +50,15 @@ class Moment:
 def moment_after(
     machine: EnergyMachine, time: float, *, angle: float = 0.0, speed: float = 0.0, panels: int = _SMALLEST
 ) -> Moment:
-    """Return crank angle and speed after a time.
+    """Return crank angle and speed after a time (artobolevsky_1988, ch. 15).
 
-    Parameters
-    ----------
-    machine : EnergyMachine
-        The machine.
-    time : float
-        Time from the start. [s]
-    angle, speed : float
-        Crank angle and speed at the start; from rest the torque must be positive. [rad], [rad/s]
-    panels : int
-        Panels of 14 Gauss points per cycle to begin with; doubled until they are enough.
+    Angle and speed; the speed is that of the energy, so that energy does not drift. `angle` and `speed`: crank angle
+    and speed at the start; from rest the torque must be positive [rad], [rad/s]; `panels`: panels of 14 Gauss points
+    per cycle to begin with; doubled until they are enough.
 
-    Returns
-    -------
-    Moment
-        Angle and speed; the speed is that of the energy, so that energy does not drift.
-
-    Raises
-    ------
-    MethodError
-        If the machine does not start, or stands still before that time, with the angle.
-
-    Notes
-    -----
     With T(phi) = T_0 + M (phi - phi_0) - V(phi) + V(phi_0) the time is t(phi) = integral of sqrt(J / (2 T)). Where
     it starts from rest the integrand is infinite, and phi = phi_0 + h s^2 makes it smooth on the first panels,
     where T is the integral of the torque, because a difference of potentials would be all rounding.
-
-    References
-    ----------
-    artobolevsky_1988, ch. 15.
     """
     if time < 0 or speed < 0:
         raise MethodError("time and speed must not be negative")

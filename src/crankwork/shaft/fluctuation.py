@@ -66,19 +66,9 @@ class ExcessWork:
 def excess_work(torque: Curve) -> ExcessWork:
     """Return the excess work of a torque that a constant one balances.
 
-    Parameters
-    ----------
-    torque : Curve
-        Torque of engine or load over the crank angle; a load is negative. [N m]
-
-    Returns
-    -------
-    ExcessWork
-        Global extremes over all crossings of the mean, exact across the corners of the torque.
-
-    References
-    ----------
-    khurmi_gupta_2005, ch. 16; artobolevsky_1988, ch. 16.
+    Global extremes over all crossings of the mean, exact across the corners of the torque. `torque`: torque of engine
+    or load over the crank angle; a load is negative [N m]. Source: khurmi_gupta_2005, ch. 16; artobolevsky_1988, ch.
+    16.
 
     Examples
     --------
@@ -127,33 +117,11 @@ class TrueSpeed:
         return (self.extremes.largest - self.extremes.least) / self.mean_speed
 
     def speed(self, angle: ArrayLike) -> Array:
-        """Return the speed at crank angles.
-
-        Parameters
-        ----------
-        angle : array, shape (n,)
-            Crank angles. [rad]
-
-        Returns
-        -------
-        array, shape (n,)
-            Speed. [rad/s]
-        """
+        """Return the speed at crank angles. [rad/s]"""
         return np.asarray(speed_of_energy(self.energy + self.excess(angle), self.inertia(angle)))
 
     def acceleration(self, angle: ArrayLike) -> Array:
-        """Return the angular acceleration at crank angles.
-
-        Parameters
-        ----------
-        angle : array, shape (n,)
-            Crank angles. [rad]
-
-        Returns
-        -------
-        array, shape (n,)
-            Acceleration. [rad/s2]
-        """
+        """Return the angular acceleration at crank angles. [rad/s2]"""
         J, J_1 = self.inertia(angle), self.inertia_1(angle)
         return np.asarray(acceleration_of_crank(self.torque(angle), self.speed(angle), J, J_1))
 
@@ -161,27 +129,8 @@ class TrueSpeed:
 def true_speed(inertia: Curve, torque: Curve, mean_speed: float) -> TrueSpeed:
     """Return the speed over one cycle of steady motion, where all torques depend on the angle alone.
 
-    Parameters
-    ----------
-    inertia : Curve
-        Moment of inertia reduced to the crank, flywheel included. [kg m2]
-    torque : Curve
-        Torque over the angle, balanced by a constant one. [N m]
-    mean_speed : float
-        Mean of the least and the greatest speed. [rad/s]
-
-    Returns
-    -------
-    TrueSpeed
-        w = sqrt(2 (T_0 + A) / J), with T_0 found from the mean speed.
-
-    Raises
-    ------
-    MethodError
-        If the machine would stop: the excess work asks for more energy than it has at that speed.
-
-    References
-    ----------
+    w = sqrt(2 (T_0 + A) / J), with T_0 found from the mean speed. `inertia`: moment of inertia reduced to the crank,
+    flywheel included [kg m2]; `torque`: torque over the angle, balanced by a constant one [N m]. Source:
     artobolevsky_1988, ch. 16.
     """
     excess = excess_work(torque).curve

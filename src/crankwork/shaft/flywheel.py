@@ -92,21 +92,10 @@ class MassEnergyCurve:
 def mass_energy_curve(inertia: Curve, excess: Curve, slope_largest: float, slope_least: float) -> MassEnergyCurve:
     """Return the mass-energy curve with its tangents of given slopes.
 
-    Parameters
-    ----------
-    inertia, excess : Curve
-        Reduced moment of inertia without flywheel, excess work. [kg m2], [J]
-    slope_largest, slope_least : float
-        Half the squares of the greatest and the least speed. [J/(kg m2)]
-
-    Returns
-    -------
-    MassEnergyCurve
-        Tangents from above with the one slope and from below with the other, over the whole cycle.
-
-    References
-    ----------
-    wittenbauer_1923; artobolevsky_1988, ch. 16.
+    Tangents from above with the one slope and from below with the other, over the whole cycle. `inertia` and
+    `excess`: reduced moment of inertia without flywheel, excess work [kg m2], [J]; `slope_largest` and `slope_least`:
+    half the squares of the greatest and the least speed [J/(kg m2)]. Source: wittenbauer_1923; artobolevsky_1988, ch.
+    16.
     """
     above = (excess - inertia * slope_largest).extremes()
     below = (excess - inertia * slope_least).extremes()
@@ -133,42 +122,19 @@ def flywheel(
 ) -> Flywheel:
     """Return the flywheel for a wanted fluctuation of the speed, where all torques depend on the angle alone.
 
-    Parameters
-    ----------
-    inertia : Curve
-        Moment of inertia of the machine reduced to the crank, without the flywheel. [kg m2]
-    torque : Curve
-        Torque over the angle, of engine or load (negative), which a constant torque balances. [N m]
-    mean_speed, fluctuation : float
-        Mean of the extreme speeds; their difference over it. [rad/s], [-]
-    way : {"energy", "mertsalov", "wittenbauer", "exact"}
-        Constant inertia; energy of the second group of bodies at mean speed; tangents without the square of the
-        fluctuation; tangents with it, which is Gutyar's exact condition.
-    constant_part : float, optional
-        For Mertsalov: what of the inertia belongs to the first group, of bodies that turn with the crank; if it is
-        not given, the least value of the inertia. [kg m2]
+    Its inertia, and the fluctuation that the machine really has with it. `inertia`: moment of inertia of the machine
+    reduced to the crank, without the flywheel [kg m2]; `torque`: torque over the angle, of engine or load (negative),
+    which a constant torque balances [N m]; `mean_speed` and `fluctuation`: mean of the extreme speeds; their
+    difference over it [rad/s]; `way`: constant inertia; energy of the second group of bodies at mean speed; tangents
+    without the square of the fluctuation; tangents with it, which is Gutyar's exact condition; `constant_part`: for
+    Mertsalov: what of the inertia belongs to the first group, of bodies that turn with the crank; if it is not given,
+    the least value of the inertia [kg m2]. Source: artobolevsky_1988, ch. 16; wittenbauer_1923.
 
-    Returns
-    -------
-    Flywheel
-        Its inertia, and the fluctuation that the machine really has with it.
-
-    Raises
-    ------
-    MethodError
-        If the fluctuation is not between 0 and 2, beyond which the least speed is negative.
-
-    Notes
-    -----
     T_0 + A(phi) = (J_f + J(phi)) w^2 / 2 stays below the line of slope w_max^2 / 2 and above that of slope
     w_min^2 / 2 in the plane of J and A, and touches both. With a and b the ordinates where they cut the axis,
     J_f = (a - b) / (w_max^2 / 2 - w_min^2 / 2), and w_max^2 - w_min^2 = 2 delta w^2 exactly. Mertsalov gives
     both lines the slope w^2 / 2; constant inertia makes all ways the same. The relative error vanishes with
     delta for Mertsalov and with its square for Wittenbauer.
-
-    References
-    ----------
-    artobolevsky_1988, ch. 16; wittenbauer_1923.
     """
     check_fluctuation(fluctuation, mean_speed)
     excess = excess_work(torque)
@@ -189,15 +155,7 @@ def flywheel(
 def check_fluctuation(fluctuation: float, mean_speed: float) -> None:
     """Raise if no flywheel can give a fluctuation of the speed.
 
-    Parameters
-    ----------
-    fluctuation, mean_speed : float
-        Greatest less least speed over the mean; the mean. [-], [rad/s]
-
-    Raises
-    ------
-    MethodError
-        If the fluctuation is not between 0 and 2, or there is no speed.
+    `fluctuation` and `mean_speed`: greatest less least speed over the mean; the mean [rad/s].
     """
     if not 0 < fluctuation < 2 or mean_speed <= 0:
         raise MethodError(
@@ -235,18 +193,8 @@ def flywheels(
 ) -> tuple[Flywheel, ...]:
     """Return the flywheel in all four ways, side by side.
 
-    Parameters
-    ----------
-    inertia, torque : Curve
-        Reduced moment of inertia without flywheel, torque over the angle. [kg m2], [N m]
-    mean_speed, fluctuation : float
-        Mean of the extreme speeds; their difference over it. [rad/s], [-]
-    constant_part : float, optional
-        For Mertsalov: what of the inertia belongs to the bodies that turn with the crank. [kg m2]
-
-    Returns
-    -------
-    tuple of Flywheel
-        Energy, Mertsalov, Wittenbauer, exact.
+    `inertia` and `torque`: reduced moment of inertia without flywheel, torque over the angle [kg m2], [N m];
+    `mean_speed` and `fluctuation`: mean of the extreme speeds; their difference over it [rad/s]; `constant_part`: for
+    Mertsalov: what of the inertia belongs to the bodies that turn with the crank [kg m2].
     """
     return tuple(flywheel(inertia, torque, mean_speed, fluctuation, way, constant_part=constant_part) for way in WAYS)

@@ -71,23 +71,7 @@ class AsynchronousMotor:
     ) -> Self:
         """Return the motor of a line of a catalogue.
 
-        Parameters
-        ----------
-        rated_power, rated_speed : float
-            Power on the shaft, speed at that power. [W], [rad/s]
-        overload : float
-            Greatest torque over rated torque. [-]
-        frequency : float
-            Frequency of the mains. [Hz]
-        pole_pairs : int
-            Pairs of poles.
-        resistance_ratio : float
-            Resistance of the stator over that of the rotor. [-]
-
-        Raises
-        ------
-        MethodError
-            If the rated speed is not below the synchronous one, or the overload capacity not above one.
+        `resistance_ratio`: resistance of the stator over that of the rotor.
         """
         w_0 = float(synchronous_speed(frequency, pole_pairs, math.pi))
         if not 0 < rated_speed < w_0 or overload <= 1:
@@ -109,10 +93,7 @@ class AsynchronousMotor:
     def torque(self, speed: ArrayLike) -> Array:
         """Return the torque on its own shaft.
 
-        Parameters
-        ----------
-        speed : array, shape (..., n)
-            Speed of its shaft. [rad/s]
+        `speed`: speed of its shaft [rad/s], shape (..., n).
         """
         slip = 1 - np.asarray(speed) / self.synchronous_speed
         return np.asarray(kloss_torque(self.breakdown_torque, self.breakdown_slip, self.resistance_ratio, slip))
@@ -129,37 +110,23 @@ class LinearMotor:
     def of_rating(cls, rated_power: float, rated_speed: float, no_load_speed: float) -> Self:
         """Return the line through the rated point.
 
-        Parameters
-        ----------
-        rated_power, rated_speed, no_load_speed : float
-            Power on the shaft, speed at that power, speed without load. [W], [rad/s], [rad/s]
+        `rated_power`, `rated_speed` and `no_load_speed`: power on the shaft, speed at that power, speed without load
+        [W], [rad/s], [rad/s].
         """
         return cls(rated_power / rated_speed / (no_load_speed - rated_speed), no_load_speed)
 
     @classmethod
     def of_direct_current(cls, voltage: float, resistance: float, flux: float) -> Self:
-        """Return a direct-current motor with constant flux.
+        """Return a direct-current motor with constant flux (chilikin_sandler_1981, ch. 2).
 
-        Parameters
-        ----------
-        voltage, resistance : float
-            Voltage of the armature, its resistance. [V], [ohm]
-        flux : float
-            Torque per current, which is also voltage per speed. [N m/A]
-
-        References
-        ----------
-        chilikin_sandler_1981, ch. 2.
+        `flux`: torque per current, which is also voltage per speed [N m/A].
         """
         return cls(flux**2 / resistance, voltage / flux)
 
     def torque(self, speed: ArrayLike) -> Array:
         """Return the torque on its own shaft.
 
-        Parameters
-        ----------
-        speed : array, shape (..., n)
-            Speed of its shaft. [rad/s]
+        `speed`: speed of its shaft [rad/s], shape (..., n).
         """
         return np.asarray(self.stiffness * (self.no_load_speed - np.asarray(speed)))
 
@@ -174,16 +141,9 @@ class SeriesMotor:
     flux_per_current: float  # Torque per square of the current [N m/A2]
 
     def torque(self, speed: ArrayLike) -> Array:
-        """Return the torque on its own shaft.
+        """Return the torque on its own shaft (chilikin_sandler_1981, ch. 2).
 
-        Parameters
-        ----------
-        speed : array, shape (..., n)
-            Speed of its shaft. [rad/s]
-
-        References
-        ----------
-        chilikin_sandler_1981, ch. 2.
+        `speed`: speed of its shaft [rad/s], shape (..., n).
         """
         current = self.voltage / (self.resistance + self.flux_per_current * np.asarray(speed))
         return np.asarray(self.flux_per_current * current**2)
@@ -198,10 +158,7 @@ class ConstantMotor:
     def torque(self, speed: ArrayLike) -> Array:
         """Return the torque on its own shaft.
 
-        Parameters
-        ----------
-        speed : array, shape (..., n)
-            Speed of its shaft. [rad/s]
+        `speed`: speed of its shaft [rad/s], shape (..., n).
         """
         return np.full_like(np.asarray(speed, dtype=float), self.value)
 
@@ -217,10 +174,7 @@ class TableMotor:
     def torque(self, speed: ArrayLike) -> Array:
         """Return the torque on its own shaft.
 
-        Parameters
-        ----------
-        speed : array, shape (..., n)
-            Speed of its shaft. [rad/s]
+        `speed`: speed of its shaft [rad/s], shape (..., n).
         """
         return np.asarray(np.interp(np.asarray(speed, dtype=float), self.speeds, self.torques))
 
@@ -242,10 +196,7 @@ class GearedMotor:
     def torque(self, speed: ArrayLike) -> Array:
         """Return the torque on the crank.
 
-        Parameters
-        ----------
-        speed : array, shape (..., n)
-            Speed of the crank. [rad/s]
+        `speed`: speed of the crank [rad/s], shape (..., n).
         """
         torque = self.ratio * self.motor.torque(self.ratio * np.asarray(speed))
         return np.where(torque > 0, torque * self.efficiency, torque / self.efficiency)

@@ -36,23 +36,11 @@ class MotorNeed:
 
 
 def motor_need(load: Curve, speed: float, *, efficiency: float = 1.0, safety: float = 1.0) -> MotorNeed:
-    """Return what a load asks of its motor.
+    """Return what a load asks of its motor (chilikin_sandler_1981, ch. 5: method of mean losses as rms torque).
 
-    Parameters
-    ----------
-    load : Curve
-        Torque that drives the crank against the load at constant speed, positive. [N m]
-    speed, efficiency, safety : float
-        Speed of the crank [rad/s], efficiency from motor to crank [-], safety factor on the power [-].
-
-    Returns
-    -------
-    MotorNeed
-        Torques at the crank, powers at the motor.
-
-    References
-    ----------
-    chilikin_sandler_1981, ch. 5: method of mean losses as rms torque.
+    Torques at the crank, powers at the motor. `load`: torque that drives the crank against the load at constant
+    speed, positive [N m]; `speed`, `efficiency` and `safety`: speed of the crank [rad/s], efficiency from motor to
+    crank [-], safety factor on the power [-].
     """
     extremes, mean, rms = load.extremes(), load.mean, load.rms
     return MotorNeed(
@@ -102,16 +90,8 @@ class MotorCheck:
 def check_motor(need: MotorNeed, motor: CatalogueMotor, *, efficiency: float = 1.0, heating: bool = True) -> MotorCheck:
     """Return whether a motor bears the load: its power, its heating, its greatest torque.
 
-    Parameters
-    ----------
-    need : MotorNeed
-        What the machine asks.
-    motor : CatalogueMotor
-        A line of a catalogue.
-    efficiency : float
-        Of the transmission from motor to crank. [-]
-    heating : bool
-        Whether the rms torque decides, as without a flywheel; with one that evens the load out the mean does.
+    `efficiency`: of the transmission from motor to crank; `heating`: whether the rms torque decides, as without a
+    flywheel; with one that evens the load out the mean does.
     """
     ratio = motor.speed / need.speed
     power = max(need.mean_power, need.rms_power) if heating else need.mean_power
@@ -135,21 +115,7 @@ def choose_motor(
 ) -> MotorCheck:
     """Return the smallest motor of a catalogue that does.
 
-    Parameters
-    ----------
-    need : MotorNeed
-        What the machine asks.
-    catalogue : iterable of CatalogueMotor
-        The choice.
-    efficiency : float
-        Of the transmission from motor to crank. [-]
-    heating : bool
-        Whether the rms torque decides.
-
-    Raises
-    ------
-    MethodError
-        If none does, with what the strongest lacks.
+    `efficiency`: of the transmission from motor to crank.
     """
     checks = [check_motor(need, one, efficiency=efficiency, heating=heating) for one in catalogue]
     if not checks:
@@ -162,15 +128,7 @@ def choose_motor(
 
 
 def first_angle_beyond(load: Curve, torque: float) -> float | None:
-    """Return the first angle of the cycle where the load exceeds a torque, or None if it never does. [rad]
-
-    Parameters
-    ----------
-    load : Curve
-        Torque that the load asks of the crank. [N m]
-    torque : float
-        What the motor has. [N m]
-    """
+    """Return the first angle of the cycle where the load exceeds a torque, or None if it never does. [rad]"""
     over = load - torque
     edges = np.unique(np.concatenate([over.angle[:-1], over.zeros()]))
     middles = (edges + np.append(edges[1:], over.angle[-1])) / 2

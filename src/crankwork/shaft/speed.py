@@ -36,15 +36,10 @@ class ReducedMachine:
     def of_curves(cls, inertia: Curve, load: Curve, motor: Motor | None = None, *, flywheel: float = 0.0) -> Self:
         """Return the machine of a moment of inertia and a torque over the angle, with a motor and a flywheel.
 
-        Parameters
-        ----------
-        inertia, load : Curve
-            Reduced moment of inertia without flywheel, reduced torque of all but the motor, negative where it
-            brakes. [kg m2], [N m]
-        motor : Motor, optional
-            Torque of the motor on the crank over the speed of the crank.
-        flywheel : float
-            Moment of inertia added: of the flywheel, and of the motor times the square of its ratio. [kg m2]
+        `inertia` and `load`: reduced moment of inertia without flywheel, reduced torque of all but the motor,
+        negative where it brakes [kg m2], [N m]; `motor`: torque of the motor on the crank over the speed of the
+        crank; `flywheel`: moment of inertia added: of the flywheel, and of the motor times the square of its ratio
+        [kg m2].
         """
         whole, derivative = inertia + flywheel, inertia.derivative
 
@@ -55,13 +50,7 @@ class ReducedMachine:
         return cls(lambda angle: (whole(angle), derivative(angle)), torque, load.cycle, corners)
 
     def edges(self, start: float, end: float) -> Array:
-        """Return panels from one crank angle to another that meet at the corners.
-
-        Parameters
-        ----------
-        start, end : float
-            The crank angles. [rad]
-        """
+        """Return panels from one crank angle to another that meet at the corners."""
         first, last = math.floor(start / self.cycle), math.ceil(end / self.cycle)
         corners = (self.corners + self.cycle * np.arange(first, last + 1)[:, None]).ravel()
         gap = 1e-12 * max(self.cycle, abs(end))
@@ -74,13 +63,7 @@ class ReducedMachine:
         return np.concatenate([pieces, breaks[-1:]])
 
     def speed(self, angle: Array, energy: Array) -> Array:
-        """Return the speed at crank angles and kinetic energies.
-
-        Parameters
-        ----------
-        angle, energy : array, shape (n,)
-            Crank angles, kinetic energies. [rad], [J]
-        """
+        """Return the speed at crank angles and kinetic energies."""
         return np.asarray(speed_of_energy(energy, self.inertia(angle)[0]))
 
     def power(self) -> Callable[[Array, Array], Array]:
@@ -99,13 +82,7 @@ class ReducedMachine:
         return torque
 
     def acceleration(self, angle: Array, speed: Array) -> Array:
-        """Return the angular acceleration at crank angles and speeds.
-
-        Parameters
-        ----------
-        angle, speed : array, shape (n,)
-            Crank angles, speeds. [rad], [rad/s]
-        """
+        """Return the angular acceleration at crank angles and speeds."""
         J, J_1 = self.inertia(angle)
         return np.asarray(acceleration_of_crank(self.torque(angle, speed), speed, J, J_1))
 
@@ -143,27 +120,12 @@ class SpeedRun:
 
 
 def steady_speed(machine: ReducedMachine, speed: float) -> SpeedRun:
-    """Return steady motion: the speed over one cycle that repeats itself.
+    """Return steady motion: the speed over one cycle that repeats itself (artobolevsky_1988, ch. 15).
 
-    Parameters
-    ----------
-    machine : ReducedMachine
-        Its torque must depend on the speed; where it does not, `fluctuation.true_speed` gives the motion.
-    speed : float
-        Roughly the speed to be found. [rad/s]
+    Status `steady`; or `not solved`, where the search found no steady motion near that speed. `machine`: its torque
+    must depend on the speed; where it does not, `fluctuation.true_speed` gives the motion.
 
-    Returns
-    -------
-    SpeedRun
-        Status `steady`; or `not solved`, where the search found no steady motion near that speed.
-
-    Notes
-    -----
     The unknown is T = J w^2 / 2 with dT/dphi = M(phi, w), shot over all panels at once with T(cycle) = T(0).
-
-    References
-    ----------
-    artobolevsky_1988, ch. 15.
     """
     edges = machine.edges(0.0, machine.cycle)
     guess = np.asarray(kinetic_energy(machine.inertia(edges)[0], speed))
@@ -179,17 +141,7 @@ def steady_speed(machine: ReducedMachine, speed: float) -> SpeedRun:
 
 
 def described(machine: ReducedMachine, solved: Panels, status: Status) -> SpeedRun:
-    """Return speed, acceleration, time and extremes of a solution for the energy.
-
-    Parameters
-    ----------
-    machine : ReducedMachine
-        The machine.
-    solved : Panels
-        Kinetic energy over the crank angle.
-    status : str
-        How the motion ended.
-    """
+    """Return speed, acceleration, time and extremes of a solution for the energy."""
     angle = solved.edges
     speed = machine.speed(angle, solved.values)
     h = np.diff(angle)
@@ -213,15 +165,7 @@ def described(machine: ReducedMachine, solved: Panels, status: Status) -> SpeedR
 
 
 def energy_drift(machine: ReducedMachine, solved: Panels) -> float:
-    """Return kinetic energy gained less work done, over the largest energy, on halved panels. [-]
-
-    Parameters
-    ----------
-    machine : ReducedMachine
-        The machine.
-    solved : Panels
-        Kinetic energy over the crank angle.
-    """
+    """Return kinetic energy gained less work done, over the largest energy, on halved panels. [-]"""
     edges = np.sort(np.concatenate([solved.edges, (solved.edges[1:] + solved.edges[:-1]) / 2]))
     points = panel_points(edges)
     work = np.diff(edges) * (machine.power()(points, solved(points.ravel()).reshape(points.shape)) @ WEIGHTS)

@@ -43,12 +43,4 @@ class CalculatedPressure(Protocol):
     """A calculation of the working cycle, waiting for a cylinder."""
 
     def pressure(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
-        """Return the diagram in a cylinder.
-
-        Parameters
-        ----------
-        volume_at, volume_rate_at : callable
-            Cylinder volume of an array of crank angles, and its derivative. [deg] -> [m3], [deg] -> [m3/rad]
-        dead_centres : tuple of float
-            Top and bottom dead centre within one revolution. [deg]
-        """
+        """Return the diagram in a cylinder."""

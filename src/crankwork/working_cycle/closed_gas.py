@@ -97,19 +97,9 @@ class ClosedGas:
         return np.asarray(woschni.wall_heat_rate(coefficient, area, temperature, data.wall_temperature, self.speed))
 
     def rates(self, degrees: Array, pressure: Array, stage: Stage) -> Array:
-        """Return what pressure, work and heat to the walls do per radian.
+        """Return what pressure, work and heat to the walls do per radian, shape (3, n).
 
-        Parameters
-        ----------
-        degrees, pressure : array, shape (n,)
-            Crank angles and pressures. [deg], [Pa]
-        stage : Stage
-            The part of the closed period.
-
-        Returns
-        -------
-        array, shape (3, n)
-            Rates. [Pa/rad], [J/rad], [J/rad]
+        Rates [Pa/rad], [J/rad], [J/rad].
         """
         data = self.data
         volume, growth = self.volume_at(degrees), self.volume_rate_at(degrees)
@@ -128,18 +118,9 @@ class ClosedGas:
     def integrated(self, stage: Stage, pressure: float, relative: float, absolute: float) -> tuple[VolumeAt, Array]:
         """Return the solution of the first law over one part of the closed period.
 
-        Parameters
-        ----------
-        stage : Stage
-            The part.
-        pressure, relative, absolute : float
-            Pressure at its start; relative and absolute tolerance, the latter by the size of each unknown.
-            [Pa], [-], [-]
-
-        Returns
-        -------
-        tuple of callable, array
-            Pressure, work and heat to the walls within it and at its end. [Pa], [J], [J]
+        Pressure, work and heat to the walls within it and at its end [Pa], [J], [J]. `pressure`, `relative` and
+        `absolute`: pressure at its start; relative and absolute tolerance, the latter by the size of each unknown
+        [Pa].
         """
         try:
             from scipy.integrate import solve_ivp  # noqa: PLC0415 - loaded where it is needed
@@ -191,29 +172,7 @@ def closed_gas(
     dead_centres: tuple[float, float],
     worked: Worked,
 ) -> ClosedGas:
-    """Return the gas enclosed at intake closing, its constants worked out.
-
-    Parameters
-    ----------
-    data : HeatReleaseData
-        What the cycle is made of.
-    volume_at, volume_rate_at : callable
-        Cylinder volume and its derivative. [deg] -> [m3], [deg] -> [m3/rad]
-    dead_centres : tuple of float
-        Top and bottom dead centre within one revolution. [deg]
-    worked : Worked
-        Where they are kept.
-
-    Returns
-    -------
-    ClosedGas
-        The gas.
-
-    Raises
-    ------
-    CrankworkError
-        If a number makes no sense.
-    """
+    """Return the gas enclosed at intake closing, its constants worked out."""
     check_heat_release(data)
     shut, begin, end = (one.start for one in stages(data, dead_centres))
     clearance, largest, shut_volume = (float(one) for one in volume_at(np.array([*dead_centres, shut])))

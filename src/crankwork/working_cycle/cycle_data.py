@@ -93,23 +93,7 @@ _RESIDUAL = {"petrol": 1.15, "diesel": 1.05}
 
 
 def with_usual_values(data: GrinevetskyData) -> tuple[GrinevetskyData, tuple[str, ...]]:
-    """Return data with what is usual where nothing is given, and the names of what was taken.
-
-    Parameters
-    ----------
-    data : GrinevetskyData
-        What is given.
-
-    Returns
-    -------
-    tuple
-        Complete data, names of what they took.
-
-    Raises
-    ------
-    CycleError
-        If something given cannot be.
-    """
+    """Return data with what is usual where nothing is given, and the names of what was taken."""
     check_data(data)
     usual: dict[str, float] = dict(_USUAL[data.kind])
     if data.intake_pressure is not None:
@@ -153,10 +137,7 @@ _LEFT_OUT = {"power", "stroke", "pi"}
 def what_is_given(data: GrinevetskyData, full: GrinevetskyData) -> Worked:
     """Return the calculation before its first step: every number of the data as a known.
 
-    Parameters
-    ----------
-    data, full : GrinevetskyData
-        What was given, and the same with what is usual where nothing was.
+    `data` and `full`: what was given, and the same with what is usual where nothing was.
     """
     worked = Worked()
     for one in fields(data):
@@ -192,18 +173,7 @@ _ANY_SIGN = {"heating", "cooler_drop"}
 
 
 def check_data(data: GrinevetskyData) -> None:
-    """Raise unless a cycle can follow from the data.
-
-    Parameters
-    ----------
-    data : GrinevetskyData
-        What is given.
-
-    Raises
-    ------
-    CycleError
-        With the field at fault.
-    """
+    """Raise unless a cycle can follow from the data."""
     if data.kind not in _USUAL:
         raise CycleError(f'kind is "{data.kind}"; write petrol or diesel')
     _check_signs(data)

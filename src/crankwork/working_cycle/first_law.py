@@ -34,25 +34,10 @@ def pressure_rise(  # noqa: PLR0913 - one argument per symbol
 
 
 def internal_energy_change(heat_constant: float, ratio: float, ratio_slope: float, start: float, end: float) -> float:
-    """Return the change of internal energy between two temperatures.
+    """Return the change of internal energy between two temperatures (heywood_1988, ch. 9). [J]
 
-    Parameters
-    ----------
-    heat_constant : float
-        Mass times specific gas constant. [J/K]
-    ratio, ratio_slope : float
-        Ratio of specific heats at 0 K and its change with temperature. [-], [1/K]
-    start, end : float
-        Temperatures. [K]
-
-    Returns
-    -------
-    float
-        Integral of m R / (gamma - 1) over the temperature. [J]
-
-    References
-    ----------
-    heywood_1988, ch. 9.
+    Integral of m R / (gamma - 1) over the temperature. `ratio` and `ratio_slope`: ratio of specific heats at 0 K and
+    its change with temperature [1/K].
     """
     first = ratio + ratio_slope * start - 1
     growth = ratio_slope * (end - start) / first

@@ -48,17 +48,7 @@ def air_amount_needed(C_f: Value, H_f: Value, O_f: Value) -> Value:
 def burning(worked: Worked, fuel: Fuel) -> None:
     """Work the heat that 1 kg of fuel gives and the air that it needs.
 
-    Parameters
-    ----------
-    worked : Worked
-        Where it is kept.
-    fuel : Fuel
-        The fuel; its heating value is calculated unless it is given.
-
-    Raises
-    ------
-    CycleError
-        If the elements are not those of 1 kg of a fuel.
+    `fuel`: the fuel; its heating value is calculated unless it is given.
     """
     elements = fuel[:3]
     if min(elements) < 0 or abs(sum(elements) - 1) > 0.02 or fuel.carbon + fuel.hydrogen <= 0:

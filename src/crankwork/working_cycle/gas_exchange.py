@@ -24,19 +24,7 @@ Knot = tuple[float, float, float]
 def passage(start: Knot, end: Knot) -> Segment:
     """Return one cubic between two knots, its slopes reduced where it would overshoot them.
 
-    Parameters
-    ----------
-    start, end : tuple of float
-        Crank angle, pressure and slope. [deg, Pa, Pa/deg]
-
-    Returns
-    -------
-    Segment
-        A rounded segment.
-
-    References
-    ----------
-    fritsch_carlson_1980, sec. 3; slopes of one sign, at most three times the chord.
+    Source: fritsch_carlson_1980, sec. 3; slopes of one sign, at most three times the chord.
     """
     chord = (end[1] - start[1]) / (end[0] - start[0])
     slopes = [np.sign(chord) * min(abs(one), 3 * abs(chord)) if one * chord > 0 else 0.0 for one in (start[2], end[2])]
@@ -53,17 +41,7 @@ def passage(start: Knot, end: Knot) -> Segment:
 def constant_pressure(start: float, end: float, pressure: Known) -> Segment:
     """Return a segment of constant pressure.
 
-    Parameters
-    ----------
-    start, end : float
-        Crank angles. [deg]
-    pressure : Known
-        The pressure. [Pa]
-
-    Returns
-    -------
-    Segment
-        A constant segment.
+    `start` and `end`: crank angles [deg].
     """
     return Segment(
         start, end, "constant", np.array([start, end]), np.full(2, pressure.value), np.zeros(2), of=(pressure,)
@@ -73,17 +51,7 @@ def constant_pressure(start: float, end: float, pressure: Known) -> Segment:
 def clipped(segment: Segment, start: float, end: float) -> Segment:
     """Return the part of a segment between two crank angles; it is the same curve there.
 
-    Parameters
-    ----------
-    segment : Segment
-        What to cut from.
-    start, end : float
-        Crank angles within it. [deg]
-
-    Returns
-    -------
-    Segment
-        The part.
+    `start` and `end`: crank angles within it [deg].
     """
     edges = np.array([start, end])
     if segment.law != "rounded":
@@ -106,17 +74,9 @@ def _around(ends: Array, inside: Array) -> Array:
 
 
 def from_before_zero(dead_centres: tuple[float, float]) -> tuple[float, float]:
-    """Return the dead centres with a top that lies before 0 written as a negative angle.
+    """Return the dead centres with a top that lies before 0 written as a negative angle. [deg]
 
-    Parameters
-    ----------
-    dead_centres : tuple of float
-        Top and bottom within one revolution. [deg]
-
-    Returns
-    -------
-    tuple of float
-        Top within half a revolution of 0, bottom after it. [deg]
+    Top within half a revolution of 0, bottom after it.
     """
     top, bottom = dead_centres
     top = top - 360.0 if top > 180.0 else top
@@ -126,17 +86,8 @@ def from_before_zero(dead_centres: tuple[float, float]) -> tuple[float, float]:
 def within_cycle(segments: Sequence[Segment], cycle: float) -> tuple[Segment, ...]:
     """Return segments of one whole cycle, begun anywhere, as segments from 0 to its end.
 
-    Parameters
-    ----------
-    segments : sequence of Segment
-        In order, together one cycle long; of constant pressure or rounded.
-    cycle : float
-        Length of the cycle. [deg]
-
-    Returns
-    -------
-    tuple of Segment
-        The same curves, the one across the end of the cycle cut in two.
+    The same curves, the one across the end of the cycle cut in two. `segments`: in order, together one cycle long; of
+    constant pressure or rounded.
     """
     parts = []
     for segment in segments:

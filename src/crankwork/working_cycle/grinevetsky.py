@@ -38,24 +38,9 @@ _SHOWN = (
 def grinevetsky(data: GrinevetskyData) -> CalculatedCycle:
     """Return the working cycle of an engine.
 
-    Parameters
-    ----------
-    data : GrinevetskyData
-        What is known; with power, or bore and stroke, the engine is sized too.
-
-    Returns
-    -------
-    CalculatedCycle
-        What was found in the order of textbooks, corners of the theoretical diagram, notices.
-
-    Raises
-    ------
-    CycleError
-        If no cycle follows from the data.
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 1, 3, 4; nguyen_tat_tien_2000.
+    What was found in the order of textbooks, corners of the theoretical diagram, notices. `data`: what is known; with
+    power, or bore and stroke, the engine is sized too. Source: kolchin_demidov_2008, ch. 1, 3, 4;
+    nguyen_tat_tien_2000.
     """
     full, assumed = with_usual_values(data)
     worked = what_is_given(data, full)

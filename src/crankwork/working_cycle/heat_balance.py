@@ -17,16 +17,7 @@ PARTS = {
 def heat_balance(worked: Worked, data: GrinevetskyData) -> None:
     """Work the heat balance of a sized engine: power, coolant, exhaust, unburnt, rest, and their shares.
 
-    Parameters
-    ----------
-    worked : Worked
-        Knows charge, products, power and fuel; where it is kept.
-    data : GrinevetskyData
-        Of the engine.
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 4.
+    `worked`: knows charge, products, power and fuel; where it is kept. Source: kolchin_demidov_2008, ch. 4.
     """
     worked(engine_size.heat_supplied)
     worked(engine_size.heat_to_coolant)

@@ -177,16 +177,7 @@ def law_zero(law: HeatLaw) -> float:
 def as_counted(worked: Worked, law: HeatLaw, temperature: Known, name: str) -> Known:
     """Return a temperature of the gas as a law counts it.
 
-    Parameters
-    ----------
-    worked : Worked
-        Knows the zero of the law.
-    law : {"kolchin", "vietnamese", "linear"}
-        The law.
-    temperature : Known
-        Absolute temperature. [K]
-    name : str
-        What the gas is.
+    `worked`: knows the zero of the law.
     """
     if not _LAWS[law].zero:
         return temperature
@@ -197,47 +188,21 @@ def as_counted(worked: Worked, law: HeatLaw, temperature: Known, name: str) -> K
 def product_coefficients(worked: Worked, law: HeatLaw) -> None:
     """Work constant and slope of the heat of the products at the end of burning.
 
-    Parameters
-    ----------
-    worked : Worked
-        Knows the products, or the excess air; where they are kept.
-    law : {"kolchin", "vietnamese", "linear"}
-        The law.
+    `worked`: knows the products, or the excess air; where they are kept.
     """
     for one in _LAWS[law].rich if worked["excess_air"].value < 1 else _LAWS[law].lean:
         worked(one)
 
 
 def fresh_heat(worked: Worked, law: HeatLaw, at: Known, key: str = "") -> Known:
-    """Return the heat of the fresh charge. [kJ/(kmol K)]
-
-    Parameters
-    ----------
-    worked : Worked
-        Where it is kept.
-    law : {"kolchin", "vietnamese", "linear"}
-        The law.
-    at : Known
-        Temperature as the law counts it. [K]
-    key : str
-        Key of the heat.
-    """
+    """Return the heat of the fresh charge. [kJ/(kmol K)]"""
     return worked(_LAWS[law].fresh, key, **{"t_c" if law == "kolchin" else "T_c": at})
 
 
 def residual_heat(worked: Worked, law: HeatLaw, at: Known, key: str = "") -> Known:
     """Return the heat of the products below the heat of burning. [kJ/(kmol K)]
 
-    Parameters
-    ----------
-    worked : Worked
-        Knows the products, or the coefficients of a law that is the same at all temperatures; where it is kept.
-    law : {"kolchin", "vietnamese", "linear"}
-        The law.
-    at : Known
-        Temperature as the law counts it. [K]
-    key : str
-        Key of the heat.
+    `worked`: knows the products, or the coefficients of a law that is the same at all temperatures; where it is kept.
     """
     if law == "kolchin":
         return worked(heat_of_gases, key, t_gas=at)

@@ -65,22 +65,7 @@ class Stage(NamedTuple):
 def stages(data: HeatReleaseData, dead_centres: tuple[float, float]) -> tuple[Stage, Stage, Stage]:
     """Return compression, burning and expansion.
 
-    Parameters
-    ----------
-    data : HeatReleaseData
-        Valves and burning.
-    dead_centres : tuple of float
-        Top and bottom dead centre within one revolution. [deg]
-
-    Returns
-    -------
-    tuple of Stage
-        In order; some may have no length.
-
-    Raises
-    ------
-    CrankworkError
-        If burning does not lie within the closed period.
+    In order; some may have no length.
     """
     top, bottom = dead_centres
     closes = data.intake_closes
@@ -122,18 +107,7 @@ _NOT_NEGATIVE = (
 
 
 def check_heat_release(data: HeatReleaseData) -> None:
-    """Raise unless every number makes sense by itself.
-
-    Parameters
-    ----------
-    data : HeatReleaseData
-        What was given.
-
-    Raises
-    ------
-    CrankworkError
-        Naming what is wrong.
-    """
+    """Raise unless every number makes sense by itself."""
     wrong = [name for name in _POSITIVE if not getattr(data, name) > 0]
     if wrong:
         raise CrankworkError(f"{', '.join(wrong)} must be above zero; write such a number")

@@ -20,22 +20,7 @@ Notice = tuple[str, Mapping[str, float | str]]
 
 
 def heat_notices(data: HeatReleaseData, gas: ClosedGas, values: Mapping[str, float]) -> tuple[Notice, ...]:
-    """Return what is beyond the usual; it is said, and used.
-
-    Parameters
-    ----------
-    data : HeatReleaseData
-        What was given.
-    gas : ClosedGas
-        The enclosed gas.
-    values : mapping of str to float
-        What was found. [SI]
-
-    Returns
-    -------
-    tuple of (str, mapping)
-        Code and numbers of each notice.
-    """
+    """Return what is beyond the usual; it is said, and used."""
     hottest = values["cylinder_temperature_max"]
     found: list[Notice] = []
     if gas.heat:

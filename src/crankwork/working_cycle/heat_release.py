@@ -67,19 +67,7 @@ def cylinder_volumes(
 ) -> tuple[VolumeAt, VolumeAt]:
     """Return the volume of a cylinder and its derivative as functions of the crank angle.
 
-    Parameters
-    ----------
-    lengths : SliderCrank
-        The crank gear.
-    bore, clearance : float
-        Bore and clearance volume. [m], [m3]
-    method : Method
-        How the piston moves.
-
-    Returns
-    -------
-    tuple of callable
-        [deg] -> [m3] and [deg] -> [m3/rad].
+    [deg] -> [m3] and [deg] -> [m3/rad].
     """
     area = float(gas_formulas.piston_area(method.pi, bore))
 
@@ -96,32 +84,9 @@ def cylinder_volumes(
 def heat_release(
     data: HeatReleaseData, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
 ) -> HeatReleaseResult:
-    """Return the cycle that a release of heat makes.
+    """Return the cycle that a release of heat makes (heywood_1988, ch. 9 and 12).
 
-    Parameters
-    ----------
-    data : HeatReleaseData
-        State at intake closing, heat, burning, gas, walls, valves.
-    volume_at, volume_rate_at : callable
-        Cylinder volume of an array of crank angles, and its derivative. [deg] -> [m3], [deg] -> [m3/rad]
-    dead_centres : tuple of float
-        Top and bottom dead centre within one revolution. [deg]
-
-    Returns
-    -------
-    HeatReleaseResult
-        The closed diagram, energies, extremes and notices.
-
-    Raises
-    ------
-    CrankworkError
-        If burning does not lie between intake closing and exhaust opening, or a number makes no sense.
-    MissingExtraError
-        If SciPy is not installed.
-
-    References
-    ----------
-    heywood_1988, ch. 9 and 12.
+    `data`: state at intake closing, heat, burning, gas, walls, valves.
     """
     dead_centres = from_before_zero(dead_centres)
     worked = Worked()

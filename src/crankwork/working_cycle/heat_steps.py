@@ -15,17 +15,7 @@ from crankwork.working_cycle.closed_gas import ClosedGas
 
 
 def work_peak(gas: ClosedGas, memory: Mapping[str, Known], worked: Worked) -> None:
-    """Work out burning, heat to the walls and pressure rise at the greatest pressure.
-
-    Parameters
-    ----------
-    gas : ClosedGas
-        The enclosed gas.
-    memory : mapping of str to Known
-        With the greatest pressure and its crank angle.
-    worked : Worked
-        Where it is kept.
-    """
+    """Work out burning, heat to the walls and pressure rise at the greatest pressure."""
     data, (start, end) = gas.data, gas.burning
     pressure = memory["cylinder_pressure_max"].named("cylinder_pressure")
     degrees = math.degrees(memory["cylinder_pressure_max_angle"].value)

@@ -43,25 +43,9 @@ class IdealData:
 def ideal_cycle(data: IdealData) -> CalculatedCycle:
     """Return an ideal cycle.
 
-    Parameters
-    ----------
-    data : IdealData
-        What is known.
-
-    Returns
-    -------
-    CalculatedCycle
-        States `state_pressure.1`, `state_temperature.1` and so on, heats, work, efficiency both as work over heat
-        and in closed form (`thermal_efficiency.closed`), mean pressure.
-
-    Raises
-    ------
-    CycleError
-        If no cycle follows from the data.
-
-    References
-    ----------
-    cengel_boles_2015, ch. 9; kolchin_demidov_2008, ch. 2.
+    States `state_pressure.1`, `state_temperature.1` and so on, heats, work, efficiency both as work over heat and in
+    closed form (`thermal_efficiency.closed`), mean pressure. Source: cengel_boles_2015, ch. 9; kolchin_demidov_2008,
+    ch. 2.
     """
     _check(data)
     worked = _given(data)

@@ -70,16 +70,8 @@ def heat_lost_incomplete(alpha_air: Value, L_air: Value) -> Value:
 def mixture(worked: Worked) -> None:
     """Work charge and products of 1 kg of fuel.
 
-    Parameters
-    ----------
-    worked : Worked
-        Knows the fuel, the air that it needs, the excess air and the share of hydrogen in the products of a rich
-        mixture; where it is kept.
-
-    Raises
-    ------
-    CycleError
-        If so little air is there that more carbon would burn halfway than the fuel has.
+    `worked`: knows the fuel, the air that it needs, the excess air and the share of hydrogen in the products of a
+    rich mixture; where it is kept.
     """
     worked(fresh_charge_amount)
     excess_air = worked["excess_air"].value

@@ -31,15 +31,7 @@ class CornerPressure:
     rounding: Rounding = field(default_factory=Rounding)  # How they are rounded
 
     def pressure(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
-        """Return the diagram in a cylinder.
-
-        Parameters
-        ----------
-        volume_at, volume_rate_at : callable
-            Cylinder volume of an array of crank angles, and its derivative. [deg] -> [m3], [deg] -> [m3/rad]
-        dead_centres : tuple of float
-            Top and bottom dead centre within one revolution. [deg]
-        """
+        """Return the diagram in a cylinder."""
         del volume_rate_at
         cycle = self.cycle
         points, pieces = theoretical_diagram(cycle.corners, cycle.angle, volume_at, dead_centres)
@@ -81,15 +73,7 @@ class HeatReleasePressure:
     data: HeatReleaseData  # Burning, gas, walls and valves
 
     def pressure(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
-        """Return the diagram in a cylinder.
-
-        Parameters
-        ----------
-        volume_at, volume_rate_at : callable
-            Cylinder volume of an array of crank angles, and its derivative. [deg] -> [m3], [deg] -> [m3/rad]
-        dead_centres : tuple of float
-            Top and bottom dead centre within one revolution. [deg]
-        """
+        """Return the diagram in a cylinder."""
         return self._solved(volume_at, volume_rate_at, dead_centres).calculated
 
     def _solved(

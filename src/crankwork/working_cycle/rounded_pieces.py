@@ -41,18 +41,7 @@ class Part:
 
 
 def without_auxiliary(diagram: IndicatorDiagram) -> IndicatorDiagram:
-    """Return a diagram without the names of points that only shape its curves.
-
-    Parameters
-    ----------
-    diagram : IndicatorDiagram
-        As solved.
-
-    Returns
-    -------
-    IndicatorDiagram
-        The same curves.
-    """
+    """Return a diagram without the names of points that only shape its curves."""
     named = {name: at for name, at in diagram.named.items() if not name.startswith(AUXILIARY)}
     return IndicatorDiagram(diagram.segments, named, diagram.jumps)
 
@@ -62,19 +51,8 @@ def written(
 ) -> tuple[dict[str, DiagramPoint], tuple[Piece, ...]]:
     """Return points and pieces of parts that together make one cycle, begun anywhere.
 
-    Parameters
-    ----------
-    parts : sequence of Part
-        In order of the crank angle; parts without length are left out.
-    cycle : float
-        Length of the cycle. [deg]
-    references : dict of str to DiagramPoint
-        States that polytropes pass through.
-
-    Returns
-    -------
-    tuple of dict and tuple
-        Points and pieces from 0 to the end of the cycle.
+    Points and pieces from 0 to the end of the cycle. `parts`: in order of the crank angle; parts without length are
+    left out.
     """
     points, pieces = dict(references), []
     inside = [one for part in parts for one in _within(part, cycle)]

@@ -57,32 +57,8 @@ def rounded_diagram(
 ) -> RoundedDiagram:
     """Return the diagram with rounded corners.
 
-    Parameters
-    ----------
-    theory : mapping of str to float
-        `p_r`, `p_a`, `p_z`, `n1`, `n2` and for a diesel `rho` of the theoretical cycle; `p_c`, `p_b` and
-        `epsilon` are only compared. [SI]
-    timing : Timing
-        Valves and ignition.
-    rounding : Rounding
-        School and levels.
-    volume_at : callable
-        Cylinder volume of an array of crank angles. [deg] -> [m3]
-    dead_centres : tuple of float
-        Top and bottom dead centre within one revolution. [deg]
-
-    Returns
-    -------
-    RoundedDiagram
-        Points, pieces, the solved diagram, the filling factor obtained.
-
-    Raises
-    ------
-    CrankworkError
-        If timings or pressures cannot make a diagram.
-
-    References
-    ----------
+    Points, pieces, the solved diagram, the filling factor obtained. `theory`: `p_r`, `p_a`, `p_z`, `n1`, `n2` and for
+    a diesel `rho` of the theoretical cycle; `p_c`, `p_b` and `epsilon` are only compared [SI]. Source:
     kolchin_demidov_2008, ch. 5; nguyen_tat_tien_2000.
     """
     corners = corners_of(theory, timing, rounding, volume_at, dead_centres)
@@ -140,25 +116,10 @@ def _filling(corners: RoundedCorners, diagram: IndicatorDiagram) -> float:
 
 
 def theoretical_work(theory: Mapping[str, float], volume_at: VolumeAt, angles: tuple[float, float, float]) -> float:
-    """Return the work of compression, combustion and expansion without any rounding.
+    """Return the work of compression, combustion and expansion without any rounding. [J]
 
-    Parameters
-    ----------
-    theory : mapping of str to float
-        `p_a`, `p_z`, `n1`, `n2` and for a diesel `rho`. [SI]
-    volume_at : callable
-        Cylinder volume of an array of crank angles. [deg] -> [m3]
-    angles : tuple of float
-        Where compression begins, top dead centre, where expansion ends. [deg]
-
-    Returns
-    -------
-    float
-        Work. [J]
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 4.
+    `theory`: `p_a`, `p_z`, `n1`, `n2` and for a diesel `rho` [SI]; `angles`: where compression begins, top dead
+    centre, where expansion ends [deg]. Source: kolchin_demidov_2008, ch. 4.
     """
     start, least, end = (float(one) for one in volume_at(np.array(angles)))
     burnt = theory.get("rho", 1.0) * least
@@ -218,29 +179,10 @@ def filling_factor(
     volume_at: VolumeAt,
     dead_centres: tuple[float, float],
 ) -> float:
-    """Return the work of a diagram from compression to expansion over that of the theoretical lines.
+    """Return the work of a diagram from compression to expansion over that of the theoretical lines. [-]
 
-    Parameters
-    ----------
-    theory : mapping of str to float
-        As for `rounded_diagram`. [SI]
-    timing : Timing
-        Of two strokes the ports, which bound compression and expansion; of four strokes the cycle alone counts.
-    diagram : IndicatorDiagram
-        Any diagram in absolute pressure over the same cycle.
-    volume_at : callable
-        Cylinder volume of an array of crank angles. [deg] -> [m3]
-    dead_centres : tuple of float
-        Top and bottom dead centre within one revolution. [deg]
-
-    Returns
-    -------
-    float
-        Filling factor. [-]
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 4.
+    `timing`: of two strokes the ports, which bound compression and expansion; of four strokes the cycle alone counts;
+    `diagram`: any diagram in absolute pressure over the same cycle. Source: kolchin_demidov_2008, ch. 4.
     """
     bare = replace(timing, ignition_advance=0.0, ignition_delay=0.0)
     return _filling(corners_of(theory, bare, Rounding(), volume_at, dead_centres), diagram)

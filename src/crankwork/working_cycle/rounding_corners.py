@@ -69,31 +69,7 @@ def corners_of(
     volume_at: VolumeAt,
     dead_centres: tuple[float, float],
 ) -> RoundedCorners:
-    """Return what the corners of a theoretical diagram are made of.
-
-    Parameters
-    ----------
-    theory : mapping of str to float
-        As for `rounding.rounded_diagram`. [SI]
-    timing : Timing
-        Valves and ignition.
-    rounding : Rounding
-        School and levels.
-    volume_at : callable
-        Cylinder volume of an array of crank angles. [deg] -> [m3]
-    dead_centres : tuple of float
-        Top and bottom dead centre within one revolution. [deg]
-
-    Returns
-    -------
-    RoundedCorners
-        Angles, volumes and lines.
-
-    Raises
-    ------
-    CrankworkError
-        If timings or pressures cannot make a diagram.
-    """
+    """Return what the corners of a theoretical diagram are made of."""
     _check(theory, timing)
     dead_centres = from_before_zero(dead_centres)
     top, bottom = dead_centres[0] + 360.0, dead_centres[1] + 360.0

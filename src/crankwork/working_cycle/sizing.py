@@ -17,15 +17,7 @@ _LONGEST = 200
 
 
 def work_power(worked: Worked, data: GrinevetskyData) -> None:
-    """Work power, torque and fuel per time of a sized engine.
-
-    Parameters
-    ----------
-    worked : Worked
-        Where it is kept.
-    data : GrinevetskyData
-        Of the engine.
-    """
+    """Work power, torque and fuel per time of a sized engine."""
     worked(engine_size.effective_power)
     worked(engine_size.effective_torque, pi=data.pi)
     worked(engine_size.fuel_rate)
@@ -35,25 +27,8 @@ def work_power(worked: Worked, data: GrinevetskyData) -> None:
 def sized(worked: Worked, data: GrinevetskyData) -> list[Notice]:
     """Work the size of the engine.
 
-    Parameters
-    ----------
-    worked : Worked
-        Knows the indicated mean pressure; where it is kept.
-    data : GrinevetskyData
-        With power, or with bore and stroke.
+    A notice where the size was rounded. `worked`: knows the indicated mean pressure; where it is kept.
 
-    Returns
-    -------
-    list
-        A notice where the size was rounded.
-
-    Raises
-    ------
-    CycleError
-        If mechanical losses leave no power.
-
-    Notes
-    -----
     Losses depend on the mean piston speed and that on the stroke to be found: the calculation is repeated until the
     stroke stays, and its last pass is the one that is shown.
     """

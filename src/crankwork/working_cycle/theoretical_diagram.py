@@ -21,33 +21,9 @@ def theoretical_diagram(
 ) -> tuple[Points, tuple[Piece, ...]]:
     """Return points and laws of the theoretical diagram on a cylinder, absolute pressures.
 
-    Four strokes: r, d begin the intake, a ends it; c, z (z' before it where burning goes on at constant pressure),
-    b, e and r end the cycle. Two strokes: c, z, b at the opening of the ports, e and a at their shutting.
-
-    Parameters
-    ----------
-    corners : Corners
-        What the cycle gave.
-    cycle : float
-        720 or 360. [deg]
-    volume_at : callable
-        Cylinder volume of an array of crank angles. [deg] -> [m3]
-    dead_centres : tuple of float
-        Top and bottom dead centre within one revolution. [deg]
-
-    Returns
-    -------
-    tuple
-        Named points and pieces for `loads.indicator.solve_diagram`.
-
-    Raises
-    ------
-    CycleError
-        If the piston does not sweep the volumes that the cycle needs.
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 3; nguyen_tat_tien_2000.
+    Four strokes: r, d begin the intake, a ends it; c, z (z' before it where burning goes on at constant pressure), b,
+    e and r end the cycle. Two strokes: c, z, b at the opening of the ports, e and a at their shutting. Named points
+    and pieces for `loads.indicator.solve_diagram`. Source: kolchin_demidov_2008, ch. 3; nguyen_tat_tien_2000.
     """
     top = dead_centres[0] % 360
     # a top dead centre just before 0 begins its cycle at the end of the one before

@@ -55,19 +55,7 @@ LARGEST_DEVIATION = 0.10
 def cycle_notices(kind: str, law: HeatLaw, values: Mapping[str, float]) -> tuple[Notice, ...]:
     """Return what is unusual in a cycle.
 
-    Parameters
-    ----------
-    kind : {"petrol", "diesel"}
-        Kind of engine.
-    law : {"kolchin", "vietnamese", "linear"}
-        Law of heats, for the range of its table.
-    values : mapping of str to float
-        Data and results by key. [SI]
-
-    Returns
-    -------
-    tuple
-        Code and numbers, in display units.
+    `law`: law of heats, for the range of its table.
     """
     found: list[Notice] = []
     for key, usual in USUAL[kind].items():

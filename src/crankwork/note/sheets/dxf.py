@@ -36,13 +36,7 @@ _SPARE = 1.5
 
 
 def sheet_dxf(sheet: Sheet) -> bytes:
-    """Return a sheet as DXF in model space, a drawing unit for a millimetre.
-
-    Raises
-    ------
-    MissingExtraError
-        If ezdxf is not installed.
-    """
+    """Return a sheet as DXF in model space, a drawing unit for a millimetre."""
     try:
         import ezdxf  # noqa: PLC0415 - an optional part
     except ImportError:

@@ -46,16 +46,7 @@ class OverCycle(NamedTuple):
 def over_cycle(drawn: Drawn, extra: Mapping[str, Array | float], key: str, kind: str) -> OverCycle | None:
     """Return values that somebody else has computed, or None if there are none.
 
-    Parameters
-    ----------
-    drawn : Drawn
-        What the graphs share.
-    extra : mapping of str to array, shape (n,)
-        With `crank_angle` [rad], or evenly over the cycle without it. [SI]
-    key : str
-        Which of them.
-    kind : str
-        Quantity whose display unit they have.
+    `extra`: with `crank_angle` [rad], or evenly over the cycle without it. [SI].
     """
     if key not in extra:
         return None
@@ -74,19 +65,7 @@ def crankpin_name(extra: Mapping[str, Array | float], language: Language) -> str
 
 
 def forces(drawn: Drawn, name: str, box: Box, words: Words) -> Graph:
-    """Return `piston_forces`, `rod_forces` or `crankpin_forces` over the cycle.
-
-    Parameters
-    ----------
-    drawn : Drawn
-        What the graphs share.
-    name : str
-        Which.
-    box : Box
-        Where. [mm]
-    words : Words
-        Language.
-    """
+    """Return `piston_forces`, `rod_forces` or `crankpin_forces` over the cycle."""
     kinds = {key: kind for key, kind in _LINES[name].items() if key in drawn.columns}
     curves = [
         Curve(key, words.symbol(key), words.label(key), drawn.degrees, drawn.values(key), kind)
@@ -105,16 +84,7 @@ def _common(curves: list[Curve]) -> str:
 def torque(drawn: Drawn, extra: Mapping[str, Array | float], box: Box, words: Words) -> Graph:
     """Return the torque of one cylinder, that of all if it is known, and the mean.
 
-    Parameters
-    ----------
-    drawn : Drawn
-        What the graphs share.
-    extra : mapping of str to array or float
-        With `total_torque` and `total_torque_mean`, as `engine_sheets` says.
-    box : Box
-        Where. [mm]
-    words : Words
-        Language.
+    `extra`: with `total_torque` and `total_torque_mean`, as `engine_sheets` says.
     """
     values, total = drawn.values("crank_torque"), over_cycle(drawn, extra, "total_torque", "crank_torque")
     sign, unit = words.symbol("crank_torque"), words.unit("N*m")
@@ -165,16 +135,8 @@ def _pin(drawn: Drawn, extra: Mapping[str, Array | float], words: Words) -> _Pin
 def polar(drawn: Drawn, extra: Mapping[str, Array | float], box: Box, words: Words) -> Graph:
     """Return the load on the crankpin as its end runs: tangential to the right, radial downward, marks every 30 deg.
 
-    Parameters
-    ----------
-    drawn : Drawn
-        What the graphs share.
-    extra : mapping of str to array or float
-        With `crankpin_tangential` and what belongs to it, as `engine_sheets` says; the force of this one rod otherwise.
-    box : Box
-        Where. [mm]
-    words : Words
-        Language.
+    `extra`: with `crankpin_tangential` and what belongs to it, as `engine_sheets` says; the force of this one rod
+    otherwise.
     """
     degrees, across, along, inertia, sign = _pin(drawn, extra, words)
     reach = np.append(along, [0.0, -inertia])
@@ -225,16 +187,7 @@ def _equal(x: Side, y: Side, box: Box) -> tuple[Side, Side]:
 def unrolled(drawn: Drawn, extra: Mapping[str, Array | float], box: Box, words: Words) -> Graph:
     """Return the size of the load on the crankpin over the cycle, and its mean.
 
-    Parameters
-    ----------
-    drawn : Drawn
-        What the graphs share.
-    extra : mapping of str to array or float
-        With `crankpin_load` and `crankpin_load_mean`, as `engine_sheets` says; that of this one rod otherwise.
-    box : Box
-        Where. [mm]
-    words : Words
-        Language.
+    `extra`: with `crankpin_load` and `crankpin_load_mean`, as `engine_sheets` says; that of this one rod otherwise.
     """
     load = over_cycle(drawn, extra, "crankpin_load", "piston_force")
     if load is None:

@@ -23,12 +23,7 @@ _TOP_CENTRE = 19.0
 def displacement_scale(drawn: Drawn, box: Box, semicircle: Box) -> float:
     """Return how much of the stroke a millimetre is, so that diagram and semicircle both fit. [mm/mm]
 
-    Parameters
-    ----------
-    drawn : Drawn
-        What the graphs share.
-    box, semicircle : Box
-        Of the indicator diagram and of the Brix semicircle. [mm]
+    `box` and `semicircle`: of the indicator diagram and of the Brix semicircle [mm].
     """
     stroke = _stroke(drawn)
     longest = stroke
@@ -42,17 +37,7 @@ def _stroke(drawn: Drawn) -> float:
 
 
 def top_centre(drawn: Drawn, box: Box, scale: float) -> float:
-    """Return where top dead centre is along the sheet: behind the clearance volume, if there is gas. [mm]
-
-    Parameters
-    ----------
-    drawn : Drawn
-        What the graphs share.
-    box : Box
-        Of the indicator diagram. [mm]
-    scale : float
-        Of the stroke. [mm/mm]
-    """
+    """Return where top dead centre is along the sheet: behind the clearance volume, if there is gas. [mm]"""
     space = drawn.results.solved.space
     return box.left + _TOP_CENTRE + (space.clearance / space.area * 1e3 / scale if space is not None else 0.0)
 
@@ -60,16 +45,8 @@ def top_centre(drawn: Drawn, box: Box, scale: float) -> float:
 def indicator(drawn: Drawn, box: Box, words: Words, pressure_scale: float, scale: float) -> Graph:
     """Return the pressure over the volume, with dead centres and the named points of the diagram.
 
-    Parameters
-    ----------
-    drawn : Drawn
-        What the graphs share.
-    box : Box
-        Where. [mm]
-    words : Words
-        Language.
-    pressure_scale, scale : float
-        Of pressure [MPa/mm] and of the stroke [mm/mm]; a volume is an area times a displacement.
+    `pressure_scale` and `scale`: of pressure [MPa/mm] and of the stroke [mm/mm]; a volume is an area times a
+    displacement.
     """
     space = drawn.results.solved.space
     volume, pressure = drawn.values("cylinder_volume"), drawn.values("gas_pressure")
@@ -89,16 +66,7 @@ def indicator(drawn: Drawn, box: Box, words: Words, pressure_scale: float, scale
 def developed(drawn: Drawn, box: Box, words: Words, pressure_scale: float) -> Graph:
     """Return the pressure over the crank angle with the named points, in the scale of the indicator diagram.
 
-    Parameters
-    ----------
-    drawn : Drawn
-        What the graphs share.
-    box : Box
-        Where; of the same height and foot as that of the indicator diagram. [mm]
-    words : Words
-        Language.
-    pressure_scale : float
-        Of pressure. [MPa/mm]
+    `box`: where; of the same height and foot as that of the indicator diagram [mm].
     """
     pressure, y = drawn.values("gas_pressure"), pressure_side(drawn, words, pressure_scale)
     curve = Curve("gas_pressure", y.symbol, "", drawn.degrees, pressure)
@@ -119,16 +87,7 @@ def pressure_side(drawn: Drawn, words: Words, scale: float | None = None) -> Sid
 def value_side(key: str, values: list[Array], words: Words, scale: float | None = None) -> Side:
     """Return the axis of a quantity, with zero on it.
 
-    Parameters
-    ----------
-    key : str
-        Of the quantity.
-    values : list of array, shape (n,)
-        What it has to show, in the display unit.
-    words : Words
-        Language, forces as they are or per piston area.
-    scale : float, optional
-        Given scale. [unit/mm]
+    `values`: what it has to show, in the display unit; `words`: language, forces as they are or per piston area.
     """
     low = min(0.0, *(float(np.min(one)) for one in values))
     high = max(0.0, *(float(np.max(one)) for one in values))
@@ -166,22 +125,7 @@ def _dead_centres(drawn: Drawn, shown: Graph, words: Words) -> list[Item]:
 def brix(drawn: Drawn, box: Box, words: Words, scale: float, at: float) -> Graph:
     """Return the semicircle of Brix: rays from the shifted pole cut off the displacements of the piston.
 
-    Parameters
-    ----------
-    drawn : Drawn
-        What the graphs share; of an engine whose cylinder is not offset.
-    box : Box
-        Where. [mm]
-    words : Words
-        Language.
-    scale : float
-        Of the stroke. [mm/mm]
-    at : float
-        Where top dead centre is along the sheet. [mm]
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 6.
+    `drawn`: what the graphs share; of an engine whose cylinder is not offset. Source: kolchin_demidov_2008, ch. 6.
     """
     lengths = drawn.results.solved.lengths
     radius, shift = lengths.crank_radius * 1e3 / scale, lengths.crank_radius * lengths.rod_ratio / 2 * 1e3 / scale

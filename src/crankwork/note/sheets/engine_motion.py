@@ -18,17 +18,6 @@ def motion_graph(drawn: Drawn, noun: str, box: Box, words: Words) -> Graph:
     """Return displacement, velocity or acceleration over one revolution.
 
     An approximate method shows the two orders it is made of.
-
-    Parameters
-    ----------
-    drawn : Drawn
-        What the graphs share.
-    noun : str
-        `displacement`, `velocity` or `acceleration`.
-    box : Box
-        Where. [mm]
-    words : Words
-        Language.
     """
     key = f"piston_{noun}"
     keys = [one for one in (key, f"{key}_first_order", f"{key}_second_order") if one in drawn.columns]
@@ -44,22 +33,7 @@ def motion_graph(drawn: Drawn, noun: str, box: Box, words: Words) -> Graph:
 def tolle(drawn: Drawn, box: Box, words: Words, scale: float, at: float) -> Graph:
     """Return the acceleration over the displacement, with the lines that envelop it by Tolle's construction.
 
-    Parameters
-    ----------
-    drawn : Drawn
-        What the graphs share; of an engine whose cylinder is not offset.
-    box : Box
-        Where. [mm]
-    words : Words
-        Language.
-    scale : float
-        Of the stroke. [mm/mm]
-    at : float
-        Where top dead centre is along the sheet. [mm]
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 6.
+    `drawn`: what the graphs share; of an engine whose cylinder is not offset. Source: kolchin_demidov_2008, ch. 6.
     """
     half = drawn.degrees <= 180
     x, y = drawn.values("piston_displacement")[half], drawn.values("piston_acceleration")[half]
@@ -72,13 +46,10 @@ def tolle(drawn: Drawn, box: Box, words: Words, scale: float, at: float) -> Grap
 
 
 def tolle_corners(drawn: Drawn) -> Array:
-    """Return the points C, E, F and D of the construction: displacement and acceleration, shape (4, 2).
+    """Return the points C, E, F and D of the construction: displacement and acceleration, shape (4, 2), shape (4, 2).
 
-    Returns
-    -------
-    array, shape (4, 2)
-        C above top and D below bottom dead centre at the accelerations there, E where CD cuts the axis, and
-        F under E at -3 lambda r w^2. [mm], [m/s2]
+    C above top and D below bottom dead centre at the accelerations there, E where CD cuts the axis, and F under E at
+    -3 lambda r w^2 [mm], [m/s2].
     """
     solved = drawn.results.solved
     r, ratio = solved.lengths.crank_radius, solved.lengths.rod_ratio

@@ -25,16 +25,7 @@ _BETWEEN = 12
 def wear(drawn: Drawn, extra: Mapping[str, Array | float], box: Box, words: Words) -> Graph | None:
     """Return the wear diagram, or None where no sums are known.
 
-    Parameters
-    ----------
-    drawn : Drawn
-        What the graphs share.
-    extra : mapping of str to array or float
-        With `wear_sums` and `wear_angle`, as `engine_sheets` says.
-    box : Box
-        Where. [mm]
-    words : Words
-        Language.
+    `extra`: with `wear_sums` and `wear_angle`, as `engine_sheets` says.
     """
     if "wear_sums" not in extra:
         return None

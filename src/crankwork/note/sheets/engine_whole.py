@@ -10,15 +10,12 @@ from crankwork.machine import Machine
 
 
 def whole_engine_extra(results: Results) -> dict[str, Array | float]:
-    """Return what `engine_sheets` takes as `extra`, on a grid of its own however coarse the tables are.
+    """Return what `engine_sheets` takes as `extra`, on a grid of its own however coarse the tables are. [SI]
 
-    Returns
-    -------
-    dict of str to array or float
-        `crank_angle`, `total_torque` and `total_torque_mean` of several cylinders, and of the first crankpin
-        `crankpin_load`, `crankpin_load_mean`, `crankpin_tangential`, `crankpin_radial`, `crankpin_inertia`,
-        `crankpin_rods`, `crankpin` where others are unlike it, `wear_sums`, `wear_angle` and `oil_hole_angle`; nothing
-        where the forces or the cylinders are not known. [SI]
+    `crank_angle`, `total_torque` and `total_torque_mean` of several cylinders, and of the first crankpin
+    `crankpin_load`, `crankpin_load_mean`, `crankpin_tangential`, `crankpin_radial`, `crankpin_inertia`,
+    `crankpin_rods`, `crankpin` where others are unlike it, `wear_sums`, `wear_angle` and `oil_hole_angle`; nothing
+    where the forces or the cylinders are not known.
     """
     machine, summary = results.machine, results.summary
     if not isinstance(machine, Machine) or machine.engine is None or "crank_torque" not in results.columns:

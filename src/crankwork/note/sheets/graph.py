@@ -140,22 +140,8 @@ def graph(  # noqa: PLR0913 - what it shows, and two choices
 ) -> Graph:
     """Return a graph of curves that share their axes.
 
-    Parameters
-    ----------
-    name : str
-        Key of its title among the words of sheets.
-    box : Box
-        What it fills, title and labels included. [mm]
-    sides : tuple of Side
-        What its axes show, the horizontal one first.
-    curves : sequence of Curve
-        Its lines.
-    words : Words
-        Language.
-    legend : bool
-        Name the lines, if there are several.
-    of : str
-        Which of several things it shows, for its title.
+    `name`: key of its title among the words of sheets; `sides`: what its axes show, the horizontal one first;
+    `legend`: name the lines, if there are several; `of`: which of several things it shows, for its title.
     """
     entries = curves if legend and len(curves) > 1 else ()
     room = box.inset(_LEFT, _BOTTOM, 0.0, heading_height(entries, box))
@@ -250,17 +236,6 @@ def heading(title: str, scales: Sequence[str], curves: Sequence[Curve], box: Box
     """Return the title of a graph, its scales, and the names of its lines, from the top of its box down.
 
     Title and scales stand in the middle, where the cell in the corner of a sheet does not cover them.
-
-    Parameters
-    ----------
-    title : str
-        What the graph shows.
-    scales : sequence of str
-        Scales as they are written.
-    curves : sequence of Curve
-        The lines that are named.
-    box : Box
-        The box of the graph. [mm]
     """
     height = TITLE if text_width(title, TITLE) <= box.width - 2 else TEXT
     middle = box.left + box.width / 2

@@ -44,13 +44,7 @@ _TORQUES = ("static_torque", "dynamic_torque", "driving_torque")
 
 
 def linkage_sheets(results: Results, language: Language = "en", *, paper: Paper = PLAIN) -> tuple[Sheet, ...]:
-    """Return the sheets of a linkage, or of a table of transfer functions; what is not known is left out.
-
-    Raises
-    ------
-    CrankworkError
-        If the machine is an engine.
-    """
+    """Return the sheets of a linkage, or of a table of transfer functions; what is not known is left out."""
     words = Words(language)
     if isinstance(results.machine, Machine):
         raise CrankworkError("sheets of a linkage need a linkage; take engine_sheets for this machine")

@@ -25,20 +25,8 @@ def over_angle(
 ) -> Graph | None:
     """Return quantities of one unit over the crank angle, or None if none of them is known.
 
-    Parameters
-    ----------
-    name : str
-        Key of the title among the words of sheets.
-    keys : sequence of str
-        Keys of the columns; the first five that are there are drawn.
-    known : mapping of str to array, shape (n,)
-        Columns. [SI]
-    degrees : array, shape (n,)
-        Crank angles. [deg]
-    box : Box
-        Where. [mm]
-    words : Words
-        Language.
+    `name`: key of the title among the words of sheets; `keys`: keys of the columns; the first five that are there are
+    drawn.
     """
     present = [key for key in keys if key in known and np.any(known[key])][:MOST]
     if not present:
@@ -74,21 +62,7 @@ def _angles(curves: Sequence[Curve], words: Words) -> Side:
 
 
 def wittenbauer(known: Mapping[str, Array], degrees: Array, wanted: Fluctuation, box: Box, words: Words) -> Graph:
-    """Return the energy-mass diagram, its tangents and the piece kl that they cut from the energy axis.
-
-    Parameters
-    ----------
-    known : mapping of str to array, shape (n,)
-        With `reduced_inertia` and `kinetic_energy_change`. [SI]
-    degrees : array, shape (n,)
-        Crank angles. [deg]
-    wanted : Fluctuation
-        Mean speed and its fluctuation.
-    box : Box
-        Where. [mm]
-    words : Words
-        Language.
-    """
+    """Return the energy-mass diagram, its tangents and the piece kl that they cut from the energy axis."""
     inertia, energy = known["reduced_inertia"], known["kinetic_energy_change"]
     found = tangents(inertia, energy, wanted)
     feet, slopes = (found.foot_max, found.foot_min), (found.slope_max, found.slope_min)

@@ -33,21 +33,7 @@ class Numbered(NamedTuple):
 def vector_plans(
     of: Of, plans: Sequence[Numbered], box: Box, columns: int, words: Words
 ) -> tuple[list[Graph], list[Item]]:
-    """Return plans side by side in a box, each as a graph of its own.
-
-    Parameters
-    ----------
-    of : str
-        `velocity_plans` or `acceleration_plans`.
-    plans : sequence of Numbered
-        What is drawn.
-    box : Box
-        Where. [mm]
-    columns : int
-        How many plans stand in a row.
-    words : Words
-        Language.
-    """
+    """Return plans side by side in a box, each as a graph of its own."""
     rows = -(-len(plans) // columns)
     width, height = box.width / columns, (box.height - _HEAD) / rows
     scale = max(_least_scale(one.plan, width, height) for one in plans)

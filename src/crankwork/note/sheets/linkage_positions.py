@@ -24,20 +24,7 @@ _HEAD = 15.0
 def position_plans(shape: Skeleton, moving: Moving, plans: list[int], main: int, box: Box, words: Words) -> Graph:
     """Return the position plans.
 
-    Parameters
-    ----------
-    shape : Skeleton
-        The mechanism as it is drawn.
-    moving : Moving
-        Where it is over a revolution.
-    plans : list of int
-        Which crank angles are drawn, numbered from 0.
-    main : int
-        The plan that is bold, with names of points.
-    box : Box
-        Where. [mm]
-    words : Words
-        Language.
+    `plans`: which crank angles are drawn, numbered from 0; `main`: the plan that is bold, with names of points.
     """
     room = box.inset(6.0, 6.0, 6.0, _HEAD + 4.0)
     drawn, scale = _to_scale(shape, moving, room)

@@ -15,13 +15,7 @@ _PAGE = """#let data = sys.inputs
 
 
 def sheet_pdf(sheet: Sheet) -> bytes:
-    """Return a sheet as PDF, in true millimetres, the same bytes every time.
-
-    Raises
-    ------
-    MissingExtraError
-        If typst is not installed.
-    """
+    """Return a sheet as PDF, in true millimetres, the same bytes every time."""
     try:
         import typst  # noqa: PLC0415 - an optional part
     except ImportError:

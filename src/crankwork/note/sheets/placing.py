@@ -29,16 +29,8 @@ def names_beside(
 ) -> list[Item]:
     """Return dots at points and their names, with a thin line to a name that had to go further away.
 
-    Parameters
-    ----------
-    points : sequence of Named
-        What is named; points that fall together share one dot.
-    lines : iterable of array, shape (n, 2)
-        What to keep clear of. [mm]
-    room : Box
-        Where names may go. [mm]
-    height, dot : float
-        Height of the letters, radius of the dots or 0 for none. [mm]
+    `points`: what is named; points that fall together share one dot; `lines`: what to keep clear of [mm], shape (n,
+    2); `height` and `dot`: height of the letters, radius of the dots or 0 for none [mm].
     """
     points = _merged(points)
     if not points:

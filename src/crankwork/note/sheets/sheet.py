@@ -48,10 +48,8 @@ class Paper(NamedTuple):
     def part(self, left: float, bottom: float, width: float, height: float) -> Box:
         """Return a box of a layout.
 
-        Parameters
-        ----------
-        left, bottom, width, height : float
-            On a field of 816 x 580 mm, which A1 has; larger paper stretches it. [mm]
+        `left`, `bottom`, `width` and `height`: on a field of 816 x 580 mm, which A1 has; larger paper stretches it
+        [mm].
         """
         x, y = self.frame.width / _FIELD[0], (self.frame.height - 4.0) / _FIELD[1]
         return Box(self.frame.left + x * left, self.frame.bottom + y * bottom, x * width, y * height).inset(1, 1, 1, 1)
@@ -84,13 +82,7 @@ class Sheet(NamedTuple):
         return tuple(drawn)
 
     def graph(self, name: str) -> Graph:
-        """Return a graph by its name.
-
-        Raises
-        ------
-        CrankworkError
-            If the sheet has none of that name.
-        """
+        """Return a graph by its name."""
         found = next((one for one in self.graphs if one.name == name), None)
         if found is None:
             raise CrankworkError(

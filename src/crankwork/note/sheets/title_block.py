@@ -39,16 +39,7 @@ class TitleBlock(NamedTuple):
 def title_block(block: TitleBlock, title: str, place: Box, words: Words) -> list[Item]:
     """Return the title block.
 
-    Parameters
-    ----------
-    block : TitleBlock
-        What it says.
-    title : str
-        What the sheet shows, where the block has no name of its own.
-    place : Box
-        Where it is. [mm]
-    words : Words
-        Language of its heads.
+    `title`: what the sheet shows, where the block has no name of its own.
     """
     items = [rectangle(place, "thick", 1.0), *_lines(place), *_people(block, place, words)]
     right = [
@@ -71,15 +62,7 @@ def title_block(block: TitleBlock, title: str, place: Box, words: Words) -> list
 
 
 def corner_cell(block: TitleBlock, frame: Box) -> list[Item]:
-    """Return the cell in the upper left corner, 70 x 14 mm, with the designation upside down.
-
-    Parameters
-    ----------
-    block : TitleBlock
-        With the designation.
-    frame : Box
-        The frame of the sheet. [mm]
-    """
+    """Return the cell in the upper left corner, 70 x 14 mm, with the designation upside down."""
     cell = Box(frame.left, frame.top - 14.0, 70.0, 14.0)
     text = printable(block.designation, _LONGEST)
     height = _fitting(text, cell.width - 4, TITLE)

@@ -72,14 +72,8 @@ class Words(NamedTuple):
     def scale(self, sign: str, value: float, unit: str) -> str:
         """Return a scale as drawings state it, `μ_p = 0.02 MPa/mm`.
 
-        Parameters
-        ----------
-        sign : str
-            Symbol of the quantity, its index marked or none.
-        value : float
-            How much of it a millimetre of paper is. [unit/mm]
-        unit : str
-            Display unit of the quantity.
+        `sign`: symbol of the quantity, its index marked or none; `value`: how much of it a millimetre of paper is
+        [unit/mm].
         """
         name = self.unit(unit)
         name = f"({name})" if "/" in name else name
