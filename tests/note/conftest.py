@@ -72,7 +72,7 @@ def sample(language: Language) -> Note:
         Bibliography(),
     )
     date = dt.date(2026, 11, 21)
-    return Note(HOSTILE, language, blocks, "Thuyết minh Ậỗữ", ("А. Б. <c@d>", "Nguyễn"), date, ("dubbel",))
+    return Note(HOSTILE, language, blocks, "Thuyết minh Ậỗữ", ("А. Б. <c@d>", "Nguyễn"), date, ("den_hartog_1956",))
 
 
 @pytest.fixture(params=["en", "ru", "vi"])

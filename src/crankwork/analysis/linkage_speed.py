@@ -25,12 +25,12 @@ from crankwork.shaft.flywheel import (
     Flywheel,
     flywheels,
     inertia_for_fluctuation,
+    inertia_on_other_shaft,
     slope_largest,
     slope_least,
     wittenbauer_slope_largest,
     wittenbauer_slope_least,
 )
-from crankwork.shaft.flywheel_body import inertia_on_other_shaft
 from crankwork.shaft.flywheel_parts import flywheel_beside_machine, work_of_mean_torque
 from crankwork.shaft.motor import GearedMotor
 from crankwork.shaft.motor_choice import first_angle_beyond, motor_need, needed_power

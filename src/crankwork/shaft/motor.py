@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
 from crankwork.kinematics.crank_grid import Array
-from crankwork.shaft.flywheel_body import inertia_on_other_shaft
+from crankwork.shaft.flywheel import inertia_on_other_shaft
 
 
 @formula("synchronous_speed", "chilikin_sandler_1981, ch. 2")
