@@ -29,7 +29,7 @@ def _largest_and_least(machine: SliderCrank, order: int, method: Method = EXACT)
     angle: Any = KnownAngle()
     moving = piston_motion(lengths, angle, method).piston
     over = OverCycle({"": moving[order]}, CrankGrid.from_degrees, 360.0)
-    return over.largest(""), over.least("")
+    return over.largest_and_least[""]
 
 
 def _displacement(machine: SliderCrank) -> Callable[[Any], Any]:

@@ -29,6 +29,7 @@ from crankwork.cylinders.ellipse import Ellipse, OrderBalance, balance_sum, unit
 from crankwork.cylinders.journal_loads import unbalance_force
 from crankwork.cylinders.layout import Layout
 from crankwork.formula.known import Found, Known, given, in_order
+from crankwork.formula.replay import replay
 from crankwork.kinematics.crank_grid import CrankGrid
 
 _SAMPLES = 720
@@ -114,7 +115,7 @@ def _harmonics(whole: WholeEngine) -> InertiaHarmonics:
             lengths = lengths._replace(rod_length=lengths.crank_radius / ratio)
         return inertia_harmonics(lengths, ORDERS, method)
     turn = CrankGrid.from_degrees(np.arange(_SAMPLES) * 360 / _SAMPLES)
-    rows = [one.motion(turn).piston.position_2 for one in whole.cylinders]
+    rows = [replay(one.memory["piston_transfer_2"], turn) for one in whole.cylinders]
     return sampled_harmonics(np.stack(rows), lengths.crank_radius, ORDERS)
 
 

@@ -11,7 +11,6 @@ from crankwork.analysis.motion import (
     MovingCylinder,
     harmonic_memory,
     inertia_acceleration,
-    moving_cylinder,
 )
 from crankwork.analysis.solved import Solved
 from crankwork.cylinders.articulated_forces import slave_forces
@@ -36,10 +35,11 @@ def cylinder_memory(solved: Solved) -> dict[str, Known]:
 
     Source: kolchin_demidov_2008, ch. 6 and 7.
     """
-    moving = moving_cylinder(solved)
-    memory = moving.memory
+    moving = solved.moving
+    memory = dict(moving.memory)
+    moving = moving._replace(memory=memory)
     memory |= space_memory(solved, moving)
-    memory |= harmonic_memory(solved, moving)
+    memory |= harmonic_memory(solved)
     if solved.space is not None:
         memory |= gas_memory(solved, solved.space, moving)
     if solved.machine.masses is not None:
@@ -74,7 +74,7 @@ def _axial_forces(solved: Solved, moving: MovingCylinder) -> Iterator[Known]:
     machine, memory = solved.machine, moving.memory
     inertia, weight = absent("inertia_force"), absent("weight_force")
     if machine.masses is not None:
-        mass, acceleration = memory["reciprocating_mass"], inertia_acceleration(solved, moving)
+        mass, acceleration = memory["reciprocating_mass"], inertia_acceleration(solved)
         if acceleration is not memory["piston_acceleration"]:
             yield acceleration
         inertia = forces.inertia_force(mass, acceleration)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+import math
+from typing import TYPE_CHECKING, NamedTuple
 
-from crankwork.analysis.solved import Solved
-from crankwork.cylinders.articulated import ArticulatedMotion, articulated_motion
+from crankwork.cylinders.articulated import ArticulatedMotion, ArticulatedRod, articulated_motion
 from crankwork.dynamics.piston_forces import angular_speed, piston_acceleration, piston_velocity
 from crankwork.formula.expression import Value
 from crankwork.formula.known import Known, KnownAngle, absent, given
@@ -14,6 +14,11 @@ from crankwork.kinematics.rod_functions import pin_distance, rod_angular_acceler
 from crankwork.kinematics.series import acceleration_harmonics, order_terms, remembered_order
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.kinematics.transfer import Transfer
+from crankwork.machine import Machine
+from crankwork.method import Method
+
+if TYPE_CHECKING:
+    from crankwork.analysis.solved import Solved
 
 KINEMATICS = (
     "piston_displacement", "piston_velocity", "piston_acceleration",
@@ -38,23 +43,24 @@ class MovingCylinder(NamedTuple):
     slave: ArticulatedMotion | None = None
 
 
-def moving_cylinder(solved: Solved) -> MovingCylinder:
-    """Return the motion of a cylinder by its method, remembered (kolchin_demidov_2008, ch. 6)."""
-    machine = solved.machine
+def moving_cylinder(
+    machine: Machine, method: Method, sizes: SliderCrank, rod: ArticulatedRod | None = None
+) -> MovingCylinder:
+    """Return the motion of a cylinder by a method, remembered; `rod` is its own where that hangs on the master rod."""
     angle: Value = KnownAngle()
-    r, l, e = (float(one) for one in solved.lengths)  # noqa: E741
+    r, l, e = (float(one) for one in sizes)  # noqa: E741
     lengths = SliderCrank(
         given("crank_radius", r, "crank.radius"),
         given("rod_length", l, "rod"),
         given("offset", e, "cylinder.offset") if e else absent("offset"),
     )
-    speed = angular_speed(solved.method.pi, given("", solved.revolutions, "crank.speed"))
+    speed = angular_speed(method.pi, given("", machine.speed * 30 / math.pi, "crank.speed"))
     rate = machine.angular_acceleration
     eps = given("angular_acceleration", rate, "crank.angular_acceleration") if rate else absent("angular_acceleration")
-    if solved.slave is None:
-        slave, motion = None, piston_motion(lengths, angle, solved.method)
+    if rod is None:
+        slave, motion = None, piston_motion(lengths, angle, method)
     else:
-        slave = articulated_motion(lengths, solved.slave, angle)
+        slave = articulated_motion(lengths, rod, angle)
         motion = PistonMotion(slave.piston, slave.rod, slave.swing)
     memory = {one.key: one for one in (lengths.crank_radius, lengths.rod_length, lengths.offset, speed)}
     return MovingCylinder(
@@ -80,8 +86,9 @@ _SWING = ("rod_sine", "rod_cosine", "crank_rod_sine", "crank_rod_cosine")
 _PISTON = ("piston_displacement", "piston_transfer_1", "piston_transfer_2")
 
 
-def inertia_acceleration(solved: Solved, moving: MovingCylinder) -> Known:
+def inertia_acceleration(solved: Solved) -> Known:
     """Return the acceleration behind the inertia force, with its own rod ratio where a document has one."""
+    moving = solved.moving
     ratio = solved.method.inertia_rod_ratio
     if ratio is None or ratio == solved.lengths.rod_ratio or solved.method.is_exact:
         return moving.memory["piston_acceleration"]
@@ -96,12 +103,14 @@ def inertia_acceleration(solved: Solved, moving: MovingCylinder) -> Known:
     return acceleration.named("inertia_acceleration")
 
 
-def harmonic_memory(solved: Solved, moving: MovingCylinder) -> dict[str, Known]:
-    """Return the first- and second-order parts of piston displacement, velocity and acceleration.
+def harmonic_memory(solved: Solved) -> dict[str, Known]:
+    """Return the first- and second-order parts of displacement, velocity and acceleration: of the textbook its own two.
 
-    `solved`: machine and method; the textbook has its own two terms, the other methods true harmonics. Source:
+    References
+    ----------
     kolchin_demidov_2008, ch. 6; taylor_1985, vol. 2, ch. 8.
     """
+    moving = solved.moving
     lengths, found = moving.lengths, dict[str, Known]()
     for order, word in ((1, "first_order"), (2, "second_order")):
         x, x_1, x_2 = _order(solved, lengths, moving.angle, order)

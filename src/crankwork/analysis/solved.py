@@ -4,21 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from crankwork.analysis.motion import MovingCylinder, moving_cylinder
 from crankwork.dynamics.piston_forces import angular_speed
 from crankwork.errors import CrankworkError
 from crankwork.formula.known import Found, Known
+from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.extremes import dead_centres
 from crankwork.kinematics.lengths import stroke_central, stroke_offset
-from crankwork.kinematics.piston import PistonMotion, as_slider_crank, piston_motion, piston_transfer
+from crankwork.kinematics.piston import as_slider_crank
 from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank
-from crankwork.kinematics.transfer import Transfer
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.indicator import IndicatorDiagram, solve_diagram
 from crankwork.loads.measured import measured_diagram, wrap_is_rough
@@ -60,8 +61,8 @@ class WorkingSpace(NamedTuple):
 class Solved:
     """A machine made ready for one method: lengths, speed and diagram known.
 
-    `speed` is the angular speed with the method's own pi [rad/s]; `slave` the articulated rod of a cylinder that hangs
-    on the master rod.
+    `speed` is the angular speed with the method's own pi [rad/s]; `moving` the remembered motion; `slave` the
+    articulated rod of a cylinder that hangs on the master rod.
     """
 
     machine: Machine
@@ -69,23 +70,9 @@ class Solved:
     lengths: SliderCrank
     speed: float
     space: WorkingSpace | None
-    notices: tuple[Notice, ...]
+    moving: MovingCylinder = field(compare=False)
+    notices: tuple[Notice, ...] = ()
     slave: ArticulatedRod | None = None
-
-    def motion(self, grid: CrankGrid) -> PistonMotion:
-        """Return the motion of piston and rod at crank angles of this cylinder."""
-        if self.slave is None:
-            return piston_motion(self.lengths, grid, self.method)
-        from crankwork.cylinders.articulated import articulated_motion  # noqa: PLC0415 - few engines have such rods
-
-        moving = articulated_motion(self.lengths, self.slave, grid)
-        return PistonMotion(moving.piston, moving.rod, moving.swing)
-
-    def piston(self, grid: CrankGrid) -> Transfer:
-        """Return the motion of the piston alone at crank angles of this cylinder."""
-        if self.slave is None:
-            return piston_transfer(self.lengths, grid, self.method)
-        return self.motion(grid).piston
 
     @property
     def revolutions(self) -> float:
@@ -137,7 +124,7 @@ def solve(machine: Machine, method: Method) -> Solved:
         notices.append(Notice("ambient", {"pressure": machine.gas.ambient / 1e6}))
     if machine.masses is not None and machine.masses.rod_inertia_excess and method.rod != "rigid":
         notices.append(Notice("no_couple", {}))
-    solved = Solved(machine, method, lengths, float(speed), None, ())
+    solved = Solved(machine, method, lengths, float(speed), None, moving_cylinder(machine, method, lengths))
     return _with_space(solved, notices)
 
 
@@ -146,7 +133,8 @@ def solve_slave(solved: Solved, slave: ArticulatedRod) -> Solved:
 
     The same machine with the stroke, dead centres and diagram of that rod.
     """
-    return _with_space(replace(solved, slave=slave, space=None, notices=()), [])
+    moving = moving_cylinder(solved.machine, solved.method, solved.lengths, slave)
+    return _with_space(replace(solved, slave=slave, moving=moving, space=None, notices=()), [])
 
 
 def _with_space(solved: Solved, notices: list[Notice]) -> Solved:
@@ -161,19 +149,15 @@ def _with_space(solved: Solved, notices: list[Notice]) -> Solved:
     clearance = _clearance(cylinder, swept)
     ambient = gas.ambient if gas.is_absolute else 0.0
 
-    last: list[tuple[Array, Transfer]] = []
-
-    def piston_at(degrees: Array) -> Transfer:
-        # volume and its derivative are asked for at the same angles, one after the other
-        if not last or last[0][0] is not degrees:
-            last[:] = [(degrees, solved.piston(CrankGrid.from_degrees(degrees)))]
-        return last[0][1]
+    position = Program({"": solved.moving.memory["piston_displacement"]})
+    rate = Program({"": solved.moving.memory["piston_transfer_1"]})
 
     def volume_at(degrees: Array) -> Array:
-        return np.asarray(gas_formulas.cylinder_volume(clearance, area, piston_at(degrees).position))
+        moved = position(CrankGrid.from_degrees(degrees))[""]
+        return np.asarray(gas_formulas.cylinder_volume(clearance, area, moved))
 
     def volume_rate_at(degrees: Array) -> Array:
-        return np.asarray(area * piston_at(degrees).position_1)
+        return np.asarray(area * rate(CrankGrid.from_degrees(degrees))[""])
 
     calculated = None
     if gas.calculated is not None:

@@ -22,6 +22,7 @@ from crankwork.cylinders.balance import (
 )
 from crankwork.cylinders.counterweights import counterweight_moment, rotating_unbalances, turning_forces
 from crankwork.cylinders.journal_loads import unbalance_force
+from crankwork.formula.replay import replay
 from crankwork.formula.steps import AnyStep, Given, Step, product_step, renamed, sum_step, worked_step
 from crankwork.kinematics.crank_grid import CrankGrid
 
@@ -56,7 +57,7 @@ def _coefficients(whole: WholeEngine) -> Mapping[str, np.ndarray[tuple[int], np.
     if number:
         turn = CrankGrid.from_degrees(np.arange(_SAMPLES) * 360 / _SAMPLES)
         pair = {".1": whole.master, f".{number}": whole.cylinders[number - 1]}
-        rows = np.stack([one.motion(turn).piston.position_2 for one in pair.values()])
+        rows = np.stack([replay(one.memory["piston_transfer_2"], turn) for one in pair.values()])
         found = np.abs(sampled_harmonics(rows, lengths.crank_radius).coefficients)
         return dict(zip(pair, found, strict=True))
     ratio = method.inertia_rod_ratio

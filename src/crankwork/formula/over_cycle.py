@@ -8,6 +8,7 @@ what it amounts to is replayed.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import cached_property
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -20,15 +21,19 @@ from crankwork.formula.replay import Angles, Program
 
 _NODES, _WEIGHTS = legendre.leggauss(12)
 _DEGREES = np.arange(_NODES.size)
-_FROM_VALUES = (legendre.legvander(_NODES, _NODES.size - 1) * _WEIGHTS[:, None]).T * ((2 * _DEGREES + 1) / 2)[:, None]
+_AT_NODES = legendre.legvander(_NODES, _NODES.size - 1)
+_FROM_VALUES = (_AT_NODES * _WEIGHTS[:, None]).T * ((2 * _DEGREES + 1) / 2)[:, None]
 _LOOK = np.linspace(-1.0, 1.0, 25)
 _AT_LOOK = legendre.legvander(_LOOK, _NODES.size - 1)
-_EDGES = np.array([-1.0, 1.0])
+# derivatives of the Legendre polynomials: at both ends, and as sums of them
+_SLOPE_AT_ENDS = np.stack([(-1.0) ** (_DEGREES + 1), np.ones(_NODES.size)]) * _DEGREES * (_DEGREES + 1) / 2
+_DERIVATIVE = np.pad(legendre.legder(np.eye(_NODES.size)), ((0, 1), (0, 0)))
 _WIDTH = 30.0
 _CONVERGED = 1e-12
-_HALVINGS = 14
+_PARTS = 3
+_CUTS = 9
 _NO_BETTER = 0.3
-_PATIENT = 2
+_PATIENT = 1
 # of equal values, whatever rounding says, the first counts
 _PLATEAU = 1e-13
 _NEAR_TOP = 0.05
@@ -45,15 +50,6 @@ class Extreme(NamedTuple):
 
     value: float
     at: float
-
-
-class _Seen(NamedTuple):
-    """Crank angles to be looked at, and peaks inside intervals: which, where from -1 to 1, and their polynomials."""
-
-    angles: Array
-    interval: NDArray[np.intp]
-    u: Array
-    coefficients: Array
 
 
 class OverCycle:
@@ -100,21 +96,21 @@ class OverCycle:
         size = np.maximum(np.max(np.abs(coefficients).sum(axis=2), axis=1), 1e-300)
         self._scale = size[[self._row[size_of.get(key, key)] for key in self._row]]
         rounding = np.zeros(coefficients.shape[:2], dtype=bool)
-        for halving in range(_HALVINGS):
+        for cut in range(_CUTS):
             left = np.where(rounding, 0.0, self._left_out(coefficients))
             coarse = np.flatnonzero(np.max(left, axis=0, initial=0.0) > _CONVERGED)
             if not coarse.size:
                 break
-            middle = (low[coarse] + high[coarse]) / 2
-            fine_low, fine_high = np.concatenate([low[coarse], middle]), np.concatenate([middle, high[coarse]])
+            between = np.linspace(low[coarse], high[coarse], _PARTS + 1)
+            fine_low, fine_high = between[:-1].ravel(), between[1:].ravel()
             kept = np.delete(np.arange(low.size), coarse)
             low, high = np.concatenate([low[kept], fine_low]), np.concatenate([high[kept], fine_high])
             fine = self._fit(fine_low, fine_high)
             coefficients = np.concatenate([coefficients[:, kept], fine], axis=1)
-            # what is no nearer in either half is rounding, and no polynomial follows it
-            better = self._left_out(fine).reshape(-1, 2, coarse.size).min(axis=1)
-            hopeless = rounding[:, coarse] | ((better > _NO_BETTER * left[:, coarse]) & (halving >= _PATIENT))
-            rounding = np.concatenate([rounding[:, kept], hopeless, hopeless], axis=1)
+            # what is no nearer in any part is rounding, and no polynomial follows it
+            better = self._left_out(fine).reshape(-1, _PARTS, coarse.size).min(axis=1)
+            hopeless = rounding[:, coarse] | ((better > _NO_BETTER * left[:, coarse]) & (cut >= _PATIENT))
+            rounding = np.concatenate([rounding[:, kept], *[hopeless] * _PARTS], axis=1)
         order = np.argsort(low)
         self._low, self._high, self._coefficients = low[order], high[order], coefficients[:, order]
         self.error = float(np.max(self._left_out(self._coefficients), initial=0.0))
@@ -194,87 +190,96 @@ class OverCycle:
                 signs.append(negative)
         return ends, signs
 
-    def largest(self, key: str) -> Extreme:
-        """Return the largest value of a column and where it stands."""
-        return self._found([(key, 1.0)])[0]
-
-    def least(self, key: str) -> Extreme:
-        """Return the least value of a column and where it stands."""
-        return self._found([(key, -1.0)])[0]
-
     def extremes(self, *keys: str) -> dict[str, Known]:
         """Return the extremes of columns and their crank angles as `KEY_max`, `KEY_max_angle` and so on."""
-        words = (("max", 1.0), ("min", -1.0))
-        found = iter(self._found([(key, sign) for key in keys for _, sign in words]))
         result = {}
         for key in keys:
             kind, dot, name = key.partition(".")
             of = (self.knowns[key],)
-            for word, _ in words:
-                value, at = next(found)
+            for word, found in zip(("max", "min"), self.largest_and_least[key], strict=True):
                 extreme, angle = f"{kind}_{word}{dot}{name}", f"{kind}_{word}_angle{dot}{name}"
-                result[extreme] = Known(Found(value, word, of, at), extreme)
-                result[angle] = Known(Found(float(np.radians(at)), f"{word}_angle", of, at), angle)
+                result[extreme] = Known(Found(found.value, word, of, found.at), extreme)
+                result[angle] = Known(Found(float(np.radians(found.at)), f"{word}_angle", of, found.at), angle)
         return result
 
     def errors(self, *keys: str) -> dict[str, Known]:
         """Return the largest of columns by size, each under its own key."""
-        found = iter(self._found([(key, sign) for key in keys for sign in (1.0, -1.0)]))
         result = {}
         for key in keys:
-            largest, least = next(found), next(found)
+            largest, least = self.largest_and_least[key]
             worst = largest if largest.value >= -least.value else least
             result[key] = Known(Found(abs(worst.value), "error", (self.knowns[key],), worst.at), key)
         return result
 
-    def _found(self, wanted: list[tuple[str, float]]) -> list[Extreme]:
-        """Return extremes, largest where the sign is 1 and least where it is -1, all replayed together."""
-        seen = [self._seen(*one) for one in wanted]
-        counts = np.cumsum([one.interval.size for one in seen])[:-1]
-        peaks = np.split(self._peaks(seen), counts) if seen else []
-        places = [distinct(np.concatenate([one.angles, found])) for one, found in zip(seen, peaks, strict=True)]
-        every = distinct(np.concatenate(places)) if places else np.empty(0)
-        columns = Program({key: self.knowns[key] for key, _ in wanted})(self._angles_at(every)) if places else {}
-        return [
-            self._first_of_equal(near, sign * columns[key][np.searchsorted(every, near)], sign)
-            for (key, sign), near in zip(wanted, places, strict=True)
-        ]
+    @cached_property
+    def largest_and_least(self) -> dict[str, tuple[Extreme, Extreme]]:
+        """The largest and the least of every column, all replayed together."""
+        places = [self._may_stand(sign) for sign in (1.0, -1.0)]
+        every = distinct(np.concatenate([angles for _, angles in places]))
+        columns = self._program(self._angles_at(every))
+        values = np.stack([columns[key] for key in self._row]) if columns else np.empty((0, every.size))
+        largest, least = (
+            self._first_of_equal(*place, every, sign * values) for place, sign in zip(places, (1.0, -1.0), strict=True)
+        )
+        at = zip(values[np.arange(len(largest)), largest], every[largest], strict=True)
+        found = zip(at, zip(values[np.arange(len(least)), least], every[least], strict=True), strict=True)
+        return {
+            key: (Extreme(*map(float, one)), Extreme(*map(float, other)))
+            for key, (one, other) in zip(self._row, found, strict=True)
+        }
 
-    def _seen(self, key: str, sign: float) -> _Seen:
-        """Return where the extreme of a column may stand: edges, jumps, and inside intervals roughly."""
-        coefficients = sign * self._coefficients[self._row[key]]
+    def _may_stand(self, sign: float) -> tuple[NDArray[np.intp], Array]:
+        """Return at which crank angles the largest of a column times the sign may stand: edges, jumps and peaks."""
+        coefficients = sign * self._coefficients
         looked = coefficients @ _AT_LOOK.T
-        floor = float(np.max(looked)) - _NEAR_TOP * float(np.ptp(looked))
-        jumps = np.flatnonzero(np.abs(looked[1:, 0] - looked[:-1, -1]) > _JUMP * self._scale[self._row[key]]) + 1
-        angles = np.concatenate([self._low, self._high, np.nextafter(self._low[jumps], np.inf)])
-        inner = looked[:, 1:-1]
-        interval, place = np.nonzero((inner >= looked[:, :-2]) & (inner >= looked[:, 2:]) & (inner >= floor))
+        top, span = looked.max(axis=(1, 2), initial=-np.inf), np.ptp(looked, axis=(1, 2)) if looked.size else 0.0
+        high_up = looked >= (top - _NEAR_TOP * span)[:, None, None]
+        edges = np.concatenate([self._low, self._high])
+        row_of_jump, jump = np.nonzero(np.abs(looked[:, 1:, 0] - looked[:, :-1, -1]) > _JUMP * self._scale[:, None])
+        inner = looked[:, :, 1:-1]
+        row, interval, place = np.nonzero(
+            (inner >= looked[:, :, :-2]) & (inner >= looked[:, :, 2:]) & high_up[:, :, 1:-1]
+        )
         # a peak may hide between an edge and the first look beside it: there the column rises away from the edge
-        slope = legendre.legval(_EDGES, legendre.legder(coefficients.T))
-        low = np.flatnonzero((looked[:, 0] >= looked[:, 1]) & (slope[:, 0] > 0) & (looked[:, 0] >= floor))
-        high = np.flatnonzero((looked[:, -1] >= looked[:, -2]) & (slope[:, 1] < 0) & (looked[:, -1] >= floor))
+        slope = coefficients @ _SLOPE_AT_ENDS.T
+        low = np.nonzero((looked[:, :, 0] >= looked[:, :, 1]) & (slope[:, :, 0] > 0) & high_up[:, :, 0])
+        high = np.nonzero((looked[:, :, -1] >= looked[:, :, -2]) & (slope[:, :, 1] < 0) & high_up[:, :, -1])
         beside = (_LOOK[1] + _LOOK[0]) / 2
-        which = np.concatenate([interval, low, high])
-        start = np.concatenate([_LOOK[place + 1], np.full(low.size, beside), np.full(high.size, -beside)])
-        return _Seen(angles, which, start, coefficients[which])
+        row, interval = np.concatenate([row, low[0], high[0]]), np.concatenate([interval, low[1], high[1]])
+        u = np.concatenate([_LOOK[place + 1], np.full(low[0].size, beside), np.full(high[0].size, -beside)])
+        # the size of a vector that vanishes has a corner there, its square has none
+        corner = np.nonzero((self._left_out(coefficients) > _CONVERGED) & high_up.any(axis=2))
+        squared = sign * np.square(coefficients[corner] @ _AT_NODES.T) @ _FROM_VALUES.T
+        smooth = np.concatenate([coefficients[row, interval], squared])
+        row, interval = np.concatenate([row, corner[0]]), np.concatenate([interval, corner[1]])
+        peaks = self._peaks(smooth, interval, np.concatenate([u, _LOOK[(squared @ _AT_LOOK.T).argmax(axis=1)]]))
+        rows = np.concatenate([np.repeat(np.arange(len(looked)), edges.size), row_of_jump, row])
+        after = np.nextafter(self._low[jump + 1], np.inf)
+        return rows, np.concatenate([np.tile(edges, len(looked)), after, peaks])
 
-    def _first_of_equal(self, near: Array, values: Array, sign: float) -> Extreme:
-        spare = _PLATEAU * (float(np.ptp(values)) + float(np.max(np.abs(values))))
-        equal = np.flatnonzero(values >= np.max(values) - spare)
+    def _first_of_equal(self, rows: NDArray[np.intp], angles: Array, every: Array, values: Array) -> NDArray[np.intp]:
+        """Return for each row at which of the angles its value is largest, of those that it may stand at."""
+        seen = np.full(values.shape, -np.inf)
+        at = np.searchsorted(every, angles)
+        seen[rows, at] = values[rows, at]
+        largest = seen.max(axis=1, initial=-np.inf)
+        least = np.where(np.isinf(seen), np.inf, seen).min(axis=1, initial=np.inf)
+        spare = _PLATEAU * (largest - least + np.maximum(np.abs(largest), np.abs(least)))
+        equal = seen >= (largest - spare)[:, None]
+        first = equal.argmax(axis=1)
         # an edge is meant where rounding alone tells the angle from it
-        at = next((i for i in equal if near[i] in self._low and near[i] - near[equal[0]] < _AT_EDGE), equal[0])
-        return Extreme(sign * float(values[at]), float(near[at]))
+        near = equal & np.isin(every, self._low) & (every - every[first][:, None] < _AT_EDGE)
+        return np.asarray(np.where(near.any(axis=1), near.argmax(axis=1), first))
 
-    def _peaks(self, seen: list[_Seen]) -> Array:
-        """Return the crank angles of peaks inside intervals, those of all columns together. [deg]"""
-        interval, u = (np.concatenate([one[at] for one in seen]) for at in (1, 2))
+    def _peaks(self, coefficients: Array, interval: NDArray[np.intp], u: Array) -> Array:
+        """Return the crank angles of peaks inside intervals, each near a place from -1 to 1. [deg]"""
         if not interval.size:
             return np.empty(0)
-        first = legendre.legder(np.concatenate([one.coefficients for one in seen]).T)
-        second, step = legendre.legder(first), _LOOK[1] - _LOOK[0]
+        first = _DERIVATIVE @ coefficients.T
+        slopes, step = np.stack([first, _DERIVATIVE @ first], axis=1), _LOOK[1] - _LOOK[0]
         low, high = np.maximum(u - step, -1.0), np.minimum(u + step, 1.0)
         for _ in range(_NEWTON):
-            slope, bend = legendre.legval(u, first, tensor=False), legendre.legval(u, second, tensor=False)
+            slope, bend = legendre.legval(u, slopes, tensor=False)
             moved = np.clip(u - np.divide(slope, bend, out=np.zeros_like(u), where=bend != 0), low, high)
             change, u = np.max(np.abs(moved - u), initial=0.0), moved
             if change < _SETTLED:
