@@ -74,11 +74,10 @@ def curve_harmonics(curve: Curve, count: int) -> TorqueHarmonics:
     """
     cycle = curve.cycle
     orders: Array = np.arange(1.0, count + 1) * (2 * math.pi / cycle)
-    pieces = [
-        np.linspace(one, other, math.ceil((other - one) * orders[-1]) + 1)[:-1]
-        for one, other in zip(curve.angle[:-1], curve.angle[1:], strict=True)
-    ]
-    edges = np.append(np.concatenate(pieces), curve.angle[-1])
+    width = np.diff(curve.angle)
+    parts = np.ceil(width * orders[-1]).astype(int)
+    within = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
+    edges = np.append(np.repeat(curve.angle[:-1], parts) + within * np.repeat(width / parts, parts), curve.angle[-1])
     points, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
     half = np.diff(edges) / 2
     angle = (edges[:-1] + half)[:, None] + half[:, None] * points

@@ -38,11 +38,12 @@ _PATIENT = 1
 _PLATEAU = 1e-13
 _NEAR_TOP = 0.05
 _NEWTON = 12
-_SETTLED = 1e-15
+_STEPS = 60
+# Newton's next step would be the square of this
+_SETTLED = 1e-9
 _JUMP = 1e-10
 _AT_EDGE = 0.05
 _ZERO = 1e-14
-_BISECTIONS = 60
 
 
 class Extreme(NamedTuple):
@@ -165,13 +166,9 @@ class OverCycle:
         looked[np.abs(looked) <= _ZERO * max(self._scale[row], abs(level))] = 0.0
         below = looked < 0
         interval, place = np.nonzero(below[:, 1:] != below[:, :-1])
-        low, high, start = _LOOK[place], _LOOK[place + 1], below[interval, place]
-        for _ in range(_BISECTIONS if interval.size else 0):
-            middle = (low + high) / 2
-            same = (legendre.legval(middle, coefficients[interval].T, tensor=False) < 0) == start
-            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        inside = self._zeros(coefficients[interval], _LOOK[place], _LOOK[place + 1], below[interval, place])
         middle, half = (self._low + self._high) / 2, (self._high - self._low) / 2
-        inside = middle[interval] + half[interval] * (low + high) / 2
+        inside = middle[interval] + half[interval] * inside
         return distinct(np.concatenate([inside, self._high[:-1][below[:-1, -1] != below[1:, 0]]]))
 
     def stretches(self, key: str) -> tuple[list[float], list[bool]]:
@@ -270,6 +267,21 @@ class OverCycle:
         # an edge is meant where rounding alone tells the angle from it
         near = equal & np.isin(every, self._low) & (every - every[first][:, None] < _AT_EDGE)
         return np.asarray(np.where(near.any(axis=1), near.argmax(axis=1), first))
+
+    def _zeros(self, coefficients: Array, low: Array, high: Array, starts_below: NDArray[np.bool_]) -> Array:
+        """Return the zero of each polynomial between two places of different sign, by Newton's steps kept between them."""
+        both = np.stack([coefficients.T, _DERIVATIVE @ coefficients.T], axis=1)
+        u = (low + high) / 2
+        for _ in range(_STEPS if u.size else 0):
+            value, slope = legendre.legval(u, both, tensor=False)
+            before = (value < 0) == starts_below
+            low, high = np.where(before, u, low), np.where(before, high, u)
+            moved = u - np.divide(value, slope, out=np.full_like(u, np.inf), where=slope != 0)
+            moved = np.where((moved > low) & (moved < high), moved, (low + high) / 2)
+            change, u = np.max(np.abs(moved - u)), moved
+            if change < _SETTLED:
+                break
+        return u
 
     def _peaks(self, coefficients: Array, interval: NDArray[np.intp], u: Array) -> Array:
         """Return the crank angles of peaks inside intervals, each near a place from -1 to 1. [deg]"""
