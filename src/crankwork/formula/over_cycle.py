@@ -212,7 +212,7 @@ class OverCycle:
     def largest_and_least(self) -> dict[str, tuple[Extreme, Extreme]]:
         """The largest and the least of every column, all replayed together."""
         places = [self._may_stand(sign) for sign in (1.0, -1.0)]
-        every = distinct(np.concatenate([angles for _, angles in places]))
+        every = distinct(np.concatenate([self.edges, *(angles for _, angles in places)]))
         columns = self._program(self._angles_at(every))
         values = np.stack([columns[key] for key in self._row]) if columns else np.empty((0, every.size))
         largest, least = (
@@ -226,12 +226,11 @@ class OverCycle:
         }
 
     def _may_stand(self, sign: float) -> tuple[NDArray[np.intp], Array]:
-        """Return at which crank angles the largest of a column times the sign may stand: edges, jumps and peaks."""
+        """Return rows and crank angles where, but for edges, the largest of a column times the sign may stand."""
         coefficients = sign * self._coefficients
         looked = coefficients @ _AT_LOOK.T
         top, span = looked.max(axis=(1, 2), initial=-np.inf), np.ptp(looked, axis=(1, 2)) if looked.size else 0.0
         high_up = looked >= (top - _NEAR_TOP * span)[:, None, None]
-        edges = np.concatenate([self._low, self._high])
         row_of_jump, jump = np.nonzero(np.abs(looked[:, 1:, 0] - looked[:, :-1, -1]) > _JUMP * self._scale[:, None])
         inner = looked[:, :, 1:-1]
         row, interval, place = np.nonzero(
@@ -250,17 +249,16 @@ class OverCycle:
         smooth = np.concatenate([coefficients[row, interval], squared])
         row, interval = np.concatenate([row, corner[0]]), np.concatenate([interval, corner[1]])
         peaks = self._peaks(smooth, interval, np.concatenate([u, _LOOK[(squared @ _AT_LOOK.T).argmax(axis=1)]]))
-        rows = np.concatenate([np.repeat(np.arange(len(looked)), edges.size), row_of_jump, row])
         after = np.nextafter(self._low[jump + 1], np.inf)
-        return rows, np.concatenate([np.tile(edges, len(looked)), after, peaks])
+        return np.concatenate([row_of_jump, row]), np.concatenate([after, peaks])
 
     def _first_of_equal(self, rows: NDArray[np.intp], angles: Array, every: Array, values: Array) -> NDArray[np.intp]:
         """Return for each row at which of the angles its value is largest, of those that it may stand at."""
-        seen = np.full(values.shape, -np.inf)
-        at = np.searchsorted(every, angles)
-        seen[rows, at] = values[rows, at]
-        largest = seen.max(axis=1, initial=-np.inf)
-        least = np.where(np.isinf(seen), np.inf, seen).min(axis=1, initial=np.inf)
+        counts = np.zeros(values.shape, dtype=bool)
+        counts[:, np.searchsorted(every, self.edges)] = True
+        counts[rows, np.searchsorted(every, angles)] = True
+        seen = np.where(counts, values, -np.inf)
+        largest, least = seen.max(axis=1, initial=-np.inf), values.min(axis=1, where=counts, initial=np.inf)
         spare = _PLATEAU * (largest - least + np.maximum(np.abs(largest), np.abs(least)))
         equal = seen >= (largest - spare)[:, None]
         first = equal.argmax(axis=1)
