@@ -11,6 +11,7 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.slider_crank import SliderCrank
 
 _SCAN = 720
+_NEAR = 65
 _MAX_STEPS = 40
 
 
@@ -40,11 +41,15 @@ def reached(function: Callable[[Array], Array], wanted: float, start: float, end
 
     `function`: takes and returns an array of shape (n,). [deg] -> any; `start` and `end`: range to search [deg].
     """
-    ends = np.array([[start], [end]], dtype=float)
-    at_start, at_end = (function(one) - wanted for one in ends)
-    if at_start[0] * at_end[0] >= 0:
-        return start if abs(at_start[0]) < abs(at_end[0]) else end
-    return float(closed_in(lambda degrees: function(degrees) - wanted, ends[0], ends[1], at_start, at_end)[0])
+    angles = np.linspace(start, end, _NEAR)
+    apart = function(angles) - wanted
+    if apart[0] * apart[-1] >= 0:
+        return start if abs(apart[0]) < abs(apart[-1]) else end
+    at = int(np.argmax(np.sign(apart[1:]) != np.sign(apart[0])))
+    low, high = slice(at, at + 1), slice(at + 1, at + 2)
+    return float(
+        closed_in(lambda degrees: function(degrees) - wanted, angles[low], angles[high], apart[low], apart[high])[0]
+    )
 
 
 def dead_centres(slider_crank: SliderCrank) -> tuple[float, float]:

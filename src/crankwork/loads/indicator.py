@@ -94,13 +94,27 @@ class Segment:
             return np.asarray(polytropic_pressure(pressure, reference, volume, exponent))
         return self.rounded(degrees)
 
-    def work(self, volume_at: VolumeAt) -> float:
-        """Return the integral of pressure by volume over the segment (heywood_1988, sec. 2.4). [J]
+    def work(self, volume_at: VolumeAt, volume: Array | None = None) -> float:
+        """Return the integral of pressure by volume over the segment.
 
-        Work; closed form for constants and polytropes, by parts for curves.
+        Parameters
+        ----------
+        volume_at : callable
+            Cylinder volume of an array of crank angles. [deg] -> [m3]
+        volume : array, shape (2,), optional
+            That at both ends, where it is known already. [m3]
+
+        Returns
+        -------
+        float
+            Work; closed form for constants and polytropes, by parts for curves. [J]
+
+        References
+        ----------
+        heywood_1988, sec. 2.4.
         """
         ends = np.array([self.start, self.end])
-        volume = volume_at(ends)
+        volume = volume_at(ends) if volume is None else volume
         pressure = self.pressure(ends, volume)
         if self.law == "constant":
             return float(pressure[0] * (volume[1] - volume[0]))
@@ -137,7 +151,8 @@ class IndicatorDiagram:
 
         Work of the gas on the piston over one cycle.
         """
-        return sum(segment.work(volume_at) for segment in self.segments)
+        ends = volume_at(np.array([(one.start, one.end) for one in self.segments]).ravel()).reshape(-1, 2)
+        return sum(one.work(volume_at, volume) for one, volume in zip(self.segments, ends, strict=True))
 
     def pressure(self, degrees: Array, volume: Array) -> Array:
         """Return the pressure at ascending crank angles within one cycle. [Pa]"""

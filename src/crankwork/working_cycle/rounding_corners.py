@@ -5,7 +5,8 @@ A corner whose timing is zero is left as it is.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import cache
 from itertools import pairwise
 from typing import Literal, NamedTuple
 
@@ -30,6 +31,7 @@ class RoundedCorners(NamedTuple):
     timing: Timing
     rounding: Rounding
     volume_at: VolumeAt
+    volume_of: Callable[[float], float]
     dead_centres: tuple[float, float]
     kind: Literal["petrol", "diesel"]
     start: float
@@ -49,8 +51,7 @@ class RoundedCorners(NamedTuple):
         return self._on((self.theory["p_z"], self.burnt_volume), self.theory["n2"], angle)
 
     def _on(self, state: tuple[float, float], exponent: float, angle: float) -> float:
-        volume = float(self.volume_at(np.array([angle]))[0])
-        return float(polytropic_pressure(*state, volume, exponent))
+        return float(polytropic_pressure(*state, self.volume_of(angle), exponent))
 
     def slope(self, line: str, angle: float, step: float = 0.01) -> float:
         """Return the slope of a polytrope by crank angle. [Pa/deg]"""
@@ -83,6 +84,7 @@ def corners_of(
         timing,
         rounding,
         volume_at,
+        cache(lambda angle: float(volume_at(np.array([angle]))[0])),
         dead_centres,
         "diesel" if rho > 1 else "petrol",
         start,
