@@ -37,6 +37,8 @@ _PATIENT = 1
 # of equal values, whatever rounding says, the first counts
 _PLATEAU = 1e-13
 _NEAR_TOP = 0.05
+_NOTHING = 1e-4
+_INSIDE = 1 - 1e-9
 _NEWTON = 12
 _STEPS = 60
 # Newton's next step would be the square of this
@@ -102,7 +104,7 @@ class OverCycle:
             coarse = np.flatnonzero(np.max(left, axis=0, initial=0.0) > _CONVERGED)
             if not coarse.size:
                 break
-            between = np.linspace(low[coarse], high[coarse], _PARTS + 1)
+            between = self._cuts(coefficients[:, coarse], low[coarse], high[coarse])
             fine_low, fine_high = between[:-1].ravel(), between[1:].ravel()
             kept = np.delete(np.arange(low.size), coarse)
             low, high = np.concatenate([low[kept], fine_low]), np.concatenate([high[kept], fine_high])
@@ -124,6 +126,20 @@ class OverCycle:
             np.stack([columns[key].reshape(degrees.shape) for key in self._row]) if columns else np.empty((0, 0, 0))
         )
         return np.asarray(values @ _FROM_VALUES.T)
+
+    def _cuts(self, coefficients: Array, low: Array, high: Array) -> Array:
+        """Return where intervals are cut, shape (_PARTS + 1, n): evenly, or where the worst column comes to nothing."""
+        worst = coefficients[self._left_out(coefficients).argmax(axis=0), np.arange(low.size)]
+        # the size of a vector has a corner where that vanishes, its square has none
+        squared = np.square(worst @ _AT_NODES.T) @ _FROM_VALUES.T
+        looked = squared @ _AT_LOOK.T
+        u = self._flat(squared, _LOOK[looked.argmin(axis=1)])
+        is_corner = legendre.legval(u, squared.T, tensor=False) < _NOTHING * looked.max(axis=1)
+        is_corner &= ((worst @ _AT_LOOK[[0, -1]].T).prod(axis=1) > 0) & (np.abs(u) < _INSIDE)
+        cuts = np.linspace(np.full(low.size, -1.0), 1.0, _PARTS + 1)
+        nearest = np.abs(cuts[1:-1] - u).argmin(axis=0) + 1
+        cuts[nearest[is_corner], np.flatnonzero(is_corner)] = u[is_corner]
+        return np.asarray((low + high) / 2 + (high - low) / 2 * cuts)
 
     def _left_out(self, coefficients: Array) -> Array:
         return np.asarray(np.abs(coefficients[:, :, -2:]).sum(axis=2) / self._scale[:, None])
@@ -243,12 +259,8 @@ class OverCycle:
         beside = (_LOOK[1] + _LOOK[0]) / 2
         row, interval = np.concatenate([row, low[0], high[0]]), np.concatenate([interval, low[1], high[1]])
         u = np.concatenate([_LOOK[place + 1], np.full(low[0].size, beside), np.full(high[0].size, -beside)])
-        # the size of a vector that vanishes has a corner there, its square has none
-        corner = np.nonzero((self._left_out(coefficients) > _CONVERGED) & high_up.any(axis=2))
-        squared = sign * np.square(coefficients[corner] @ _AT_NODES.T) @ _FROM_VALUES.T
-        smooth = np.concatenate([coefficients[row, interval], squared])
-        row, interval = np.concatenate([row, corner[0]]), np.concatenate([interval, corner[1]])
-        peaks = self._peaks(smooth, interval, np.concatenate([u, _LOOK[(squared @ _AT_LOOK.T).argmax(axis=1)]]))
+        u = self._flat(coefficients[row, interval], u)
+        peaks = (self._low[interval] + self._high[interval]) / 2 + (self._high - self._low)[interval] / 2 * u
         after = np.nextafter(self._low[jump + 1], np.inf)
         return np.concatenate([row_of_jump, row]), np.concatenate([after, peaks])
 
@@ -267,7 +279,7 @@ class OverCycle:
         return np.asarray(np.where(near.any(axis=1), near.argmax(axis=1), first))
 
     def _zeros(self, coefficients: Array, low: Array, high: Array, starts_below: NDArray[np.bool_]) -> Array:
-        """Return the zero of each polynomial between two places of different sign, by Newton's steps kept between them."""
+        """Return the zero of each polynomial between two places of different sign: Newton's steps, kept between them."""
         both = np.stack([coefficients.T, _DERIVATIVE @ coefficients.T], axis=1)
         u = (low + high) / 2
         for _ in range(_STEPS if u.size else 0):
@@ -281,17 +293,15 @@ class OverCycle:
                 break
         return u
 
-    def _peaks(self, coefficients: Array, interval: NDArray[np.intp], u: Array) -> Array:
-        """Return the crank angles of peaks inside intervals, each near a place from -1 to 1. [deg]"""
-        if not interval.size:
-            return np.empty(0)
+    def _flat(self, coefficients: Array, u: Array) -> Array:
+        """Return where each polynomial is flat, near a place from -1 to 1."""
         first = _DERIVATIVE @ coefficients.T
         slopes, step = np.stack([first, _DERIVATIVE @ first], axis=1), _LOOK[1] - _LOOK[0]
         low, high = np.maximum(u - step, -1.0), np.minimum(u + step, 1.0)
-        for _ in range(_NEWTON):
+        for _ in range(_NEWTON if u.size else 0):
             slope, bend = legendre.legval(u, slopes, tensor=False)
             moved = np.clip(u - np.divide(slope, bend, out=np.zeros_like(u), where=bend != 0), low, high)
             change, u = np.max(np.abs(moved - u), initial=0.0), moved
             if change < _SETTLED:
                 break
-        return np.asarray((self._low[interval] + self._high[interval]) / 2 + (self._high - self._low)[interval] / 2 * u)
+        return u
