@@ -279,7 +279,7 @@ class OverCycle:
         return np.asarray(np.where(near.any(axis=1), near.argmax(axis=1), first))
 
     def _zeros(self, coefficients: Array, low: Array, high: Array, starts_below: NDArray[np.bool_]) -> Array:
-        """Return the zero of each polynomial between two places of different sign: Newton's steps, kept between them."""
+        """Return the zero of each polynomial between two places of different sign: Newton steps, kept between them."""
         both = np.stack([coefficients.T, _DERIVATIVE @ coefficients.T], axis=1)
         u = (low + high) / 2
         for _ in range(_STEPS if u.size else 0):
