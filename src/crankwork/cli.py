@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import io
 import json
+import math
 import os
 import re
 import sys
@@ -132,7 +133,7 @@ def commands() -> None:
 @click.option("-o", "--output", metavar="FILE", help="Write here instead of to the screen.")
 @click.option("--overwrite", is_flag=True, help="Replace a file that is there.")
 def new(name: str | None, output: str | None, *, overwrite: bool) -> None:
-    """Write a commented machine file to start from: engine, slider-crank or compressor."""
+    """Write a commented machine file to start from; without a name, list those there are."""
     from crankwork import files
     from crankwork.description.machine_file import template, template_names
 
@@ -286,7 +287,7 @@ def report(  # noqa: PLR0913 - one argument per option of the command
 @commands.command()
 @click.argument("file")
 @click.argument("key", required=False)
-@click.option("--at", metavar="DEG", type=float, help="Crank angle, for what varies with it.")
+@click.option("--at", metavar="DEG", help="Crank angle, for what varies with it.")
 @click.option("--list", "with_keys", is_flag=True, help="Print the keys.")
 @click.option("--method", metavar="NAME", help="exact, textbook or series:N, instead of the file's own.")
 @click.option("--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the output.")
@@ -294,7 +295,7 @@ def report(  # noqa: PLR0913 - one argument per option of the command
 def explain(  # noqa: PLR0913 - one argument per option of the command
     file: str,
     key: str | None,
-    at: float | None,
+    at: str | None,
     method: str | None,
     language: Language,
     settings: tuple[str, ...],
@@ -308,13 +309,13 @@ def explain(  # noqa: PLR0913 - one argument per option of the command
 
     if key is None and not with_keys:
         raise CrankworkError(_refusal("explain_what"))
-    overrides = _overrides(settings, None, method)
+    overrides, angle = _overrides(settings, None, method), None if at is None else _angle(at)
     results = analyse(read(file, overrides))
     if key is None or with_keys:
         click.echo("\n".join(key_lines(results, language)))
         return
     origin = origins(file, overrides)
-    click.echo(explanation(results, key, at, language, lambda path: place_text(origin(path), language)), nl=False)
+    click.echo(explanation(results, key, angle, language, lambda path: place_text(origin(path), language)), nl=False)
 
 
 @commands.command()
@@ -364,6 +365,17 @@ def _doubt(file: str, results: Results, language: Language) -> None:
 def _degrees(text: str) -> str:
     """Return a step with its unit, which may be left out."""
     return f"{text} deg" if text.strip()[-1:].isdecimal() else text
+
+
+def _angle(text: str) -> float:
+    """Return a crank angle [deg], as a person writes it: without a unit, or with the decimal comma that is printed."""
+    from crankwork.units import parse
+
+    try:
+        value, _ = parse(_degrees(text), ("angle",), decimal_comma=True)
+    except ValueError as error:
+        raise CrankworkError(_refusal("option_wrong", option="--at", mistake=error.args[0])) from None
+    return round(math.degrees(value), 9)
 
 
 def _with_progress(steps: Iterable[dict[str, bytes]], count: int) -> dict[str, bytes]:

@@ -135,7 +135,7 @@ def _check_new(path: Path, *, overwrite: bool) -> None:
 def write_files(contents: Mapping[str | Path, bytes], *, overwrite: bool = False) -> None:
     """Write files into folders that are there, so that a failure leaves what was there before."""
     check_files(*contents, overwrite=overwrite)
-    path = Path()
+    path = Path(next(iter(contents), ""))
     try:
         with contextlib.ExitStack() as stack:
             staging = {

@@ -105,6 +105,24 @@ def test_a_wrong_command_is_answered_in_one_line(crankwork, check_mistakes, argu
     assert answered in answer.err
 
 
+@pytest.mark.parametrize("at", ["390.5", "390,5", "390.5 deg", "6.815510728937 rad"])
+def test_an_angle_is_read_as_it_is_printed(crankwork, machine_file, at) -> None:
+    answer = crankwork("explain", machine_file(), "piston_velocity", "--at", at, "--lang", "ru")
+    assert "(390,5°)" in answer.out.partition("\n")[0]
+
+
+def test_an_angle_that_is_none_is_told_in_the_language(crankwork, machine_file, check_mistakes) -> None:
+    answer = crankwork("explain", machine_file(), "piston_velocity", "--at", "abc", "--lang", "vi")
+    check_mistakes(answer)
+    assert answer.err == '--at: "abc": không phải số kèm đơn vị; hãy ghi như "30 deg"\n'
+
+
+def test_a_result_that_the_method_does_not_give_is_told_with_the_method(crankwork, machine_file) -> None:
+    answer = crankwork("explain", machine_file(), "rod_transverse_force", "--method", "textbook")
+    assert answer.code == 2
+    assert "by its method, textbook" in answer.err
+
+
 def test_a_setting_replaces_what_says_the_same(crankwork, machine_file) -> None:
     name = machine_file()
     plain, changed = (_summary(crankwork("run", name, "--json", *one)) for one in ((), ("--set", "rod.ratio=0.34")))

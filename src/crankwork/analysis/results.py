@@ -19,6 +19,7 @@ from crankwork.formula.steps import AnyStep
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.locale import Language, Refusal
 from crankwork.method import Method
+from crankwork.quantities import QUANTITIES
 
 if TYPE_CHECKING:
     from crankwork.linkage_machine import AnyMachine
@@ -236,7 +237,9 @@ class Results:
 
     def _unknown(self, key: str, known: Iterable[str]) -> UnknownKeyError:
         """Return the refusal of a key, with the nearest that there are."""
-        known = list(known)
+        known, kind = list(known), key.partition(".")[0]
+        if kind in QUANTITIES and not any(one.partition(".")[0] == kind for one in known):
+            return UnknownKeyError(Refusal("result_absent", key=_printable(key), method=self.method.name))
         near = difflib.get_close_matches(key, known, n=3, cutoff=0.7) or [one for one in known if key in one][:3]
         if near:
             return UnknownKeyError(Refusal("result_unknown_near", key=_printable(key), nearest=tuple(near)))

@@ -16,6 +16,7 @@ from crankwork.cylinders.standard_orders import StandardOrder, standard_orders
 from crankwork.description.schema import Reader
 from crankwork.errors import CrankworkError, GeometryError
 from crankwork.kinematics.slider_crank import SliderCrank
+from crankwork.locale import Refusal
 from crankwork.machine import Bearings, Engine
 
 _ONLY_FOR = {
@@ -198,6 +199,10 @@ def _slaves(
             "engine.articulated.rod_length",
             f"would be {length * 1e3:.6g} mm, master rod less knuckle radius; write the length, or a smaller radius",
         )
+        return ()
+    if radius >= lengths[1]:
+        told = Refusal("knuckle_far", radius=f"{radius * 1e3:.6g}", rod=f"{lengths[1] * 1e3:.6g}")
+        reader.complain("engine.articulated.knuckle_radius", told)
         return ()
     of_number = dict(zip(between, angles, strict=True))
     rods = [

@@ -37,7 +37,7 @@ ENGINE = Table({
                   "angles of the crank throws from the first, with the rotation; by default from the firing order"),
     "pin_offset": Key(_ANGLE, "between the two pins of a split crankpin of a V"),
     "numbering": Key(Choice(("banks", "pairs")), "of a V: one bank after the other, or throw by throw"),
-    "spacing": Key(_SPACING, "between neighbouring crank throws along the shaft"),
+    "spacing": Key(_LENGTH, "between neighbouring crank throws along the shaft"),
     "bank_stagger": Key(_SPACING, "between the rods of one throw along the shaft"),
     "uneven": Key(Flag(), "say true where uneven firing intervals are meant"),
     "articulated": Key(_ARTICULATED, "rods of a radial or V engine that turn on the master rod"),
