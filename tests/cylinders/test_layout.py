@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from crankwork.cylinders.arrangement import arranged
-from crankwork.cylinders.engines import boxer, inline, radial, standard_layout, vee, w
+from crankwork.cylinders.engines import boxer, inline, radial, standard_layout, vee
 from crankwork.cylinders.firing import LayoutError, order_text, wrapped
 from crankwork.cylinders.layout import Banks
 from crankwork.cylinders.standard_orders import STANDARD_ORDERS
@@ -88,7 +88,7 @@ def test_a_flat_engine_with_common_pins_is_a_v_of_180_degrees_and_no_boxer():
 
 
 def test_a_v_of_15_degrees_has_throws_of_its_own():
-    layout, notices = w(6, (1, 5, 3, 6, 2, 4), (-7.5, 7.5), numbering="pairs", own_throws=True)
+    layout, notices = arranged(Banks("W", 6, (-7.5, 7.5), numbering="pairs", own_throws=True), (1, 5, 3, 6, 2, 4))
     assert notices == ()
     assert _pins(layout) == [0, 255, 120, 135, 240, 15]
     assert [place.throw for place in layout.places] == [0, 1, 2, 3, 4, 5]
@@ -192,9 +192,9 @@ def test_the_second_bank_of_a_v_may_hang_on_the_first():
         (lambda: inline(4, (1, 3, 4, 2), throws=(0, 180)), "engine.throws", ["2 angles", "4 throws"]),
         (lambda: vee(7, (1, 2, 3, 4, 5, 6, 7), 90.0), "engine.cylinders", ["a multiple of 2"]),
         (lambda: vee(2, (1, 2), 0.0), "engine.bank_angle", ["same direction"]),
-        (lambda: w(3, (1, 2, 3), (-60, 0, 300)), "engine.bank_angles", ["same direction"]),
+        (lambda: arranged(Banks("W", 3, (-60, 0, 300)), (1, 2, 3)), "engine.bank_angles", ["same direction"]),
         (
-            lambda: w(6, (1, 2, 3, 4, 5, 6), (-60, 0, 60)),
+            lambda: arranged(Banks("W", 6, (-60, 0, 60)), (1, 2, 3, 4, 5, 6)),
             "engine.firing_order",
             ["cylinders 1 and 3 are on one throw"],
         ),

@@ -9,7 +9,7 @@ from crankwork.cylinders.articulated import ArticulatedRod, articulated_motion
 from crankwork.cylinders.engines import radial, vee
 from crankwork.cylinders.throw import throw_mechanism
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.motion import motion
+from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank
 
@@ -21,7 +21,7 @@ LENGTHS = SliderCrank(0.06, 0.21, 0.004)
 def test_rods_on_one_crankpin_move_like_single_cylinders():
     layout = vee(2, (1, 2), 70.0, throws=(0.0,), uneven=True)[0]
     grid = CrankGrid.from_degrees(np.arange(0.0, 360.0, 7.0))
-    moving = motion(throw_mechanism(layout, LENGTHS), grid)
+    moving = linkage_motion(throw_mechanism(layout, LENGTHS), grid)
     for place in layout.places:
         own = CrankGrid.from_degrees(grid.degrees - (place.axis - layout.places[0].axis))
         expected = piston_motion(LENGTHS, own).piston
@@ -36,7 +36,7 @@ def test_articulated_rods_move_like_their_own_formulas():
     lengths = SliderCrank(0.06, 0.25)
     slaves = [None, *(ArticulatedRod(0.19, 0.055, one.axis + 1.5, one.axis) for one in layout.places[1:])]
     grid = CrankGrid.from_degrees(np.arange(0.0, 360.0, 7.0))
-    moving = motion(throw_mechanism(layout, lengths, slaves), grid)
+    moving = linkage_motion(throw_mechanism(layout, lengths, slaves), grid)
     for place, rod in zip(layout.places[1:], slaves[1:], strict=True):
         own = CrankGrid.from_degrees(grid.degrees - place.axis)
         expected = articulated_motion(lengths, rod, own).piston

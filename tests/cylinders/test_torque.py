@@ -17,7 +17,6 @@ from crankwork.cylinders.torque import (
     firing_intervals,
     mean_torque_of_work,
     torques_along_shaft,
-    total_torque,
 )
 from crankwork.cylinders.torque_harmonics import (
     curve_harmonics,
@@ -100,7 +99,7 @@ def test_torque_along_the_shaft_of_a_four_cylinder_engine():
     shaft = torques_along_shaft(torques, _standard("inline", 4))
     assert np.transpose(shaft.journals).tolist() == [[0, 10, 30, 70, 150], [0, 1, 3, 7, 15]]
     assert np.transpose(shaft.crankpins).tolist() == [[5, 20, 50, 110], [0.5, 2, 5, 11]]
-    assert np.array_equal(shaft.journals[-1], total_torque(torques))
+    assert np.array_equal(shaft.journals[-1], torques.sum(axis=0))
 
 
 def test_cylinders_of_one_throw_act_together_whatever_their_numbers():
@@ -121,7 +120,7 @@ def test_torques_must_be_a_row_per_cylinder():
 def test_the_mean_of_the_sum_is_the_work_of_all_over_the_cycle(standard, wave):
     layout, _ = standard_layout(standard)
     torque = _wave(wave)
-    total = total_torque(torque(_cylinder_angles(EVEN, layout)))
+    total = torque(_cylinder_angles(EVEN, layout)).sum(axis=0)
     work = float(np.mean(torque(EVEN))) * CYCLE
     size = 50 + sum(map(sum, np.abs(wave)))
     count = len(layout.places)
@@ -185,7 +184,7 @@ def test_too_few_samples_are_refused():
 def test_the_harmonics_of_the_sum_are_those_of_one_times_the_phase_star(standard, wave):
     layout, _ = standard_layout(standard)
     torque = _wave(wave)
-    summed = torque_harmonics(total_torque(torque(_cylinder_angles(EVEN, layout))), 720.0, 24)
+    summed = torque_harmonics(torque(_cylinder_angles(EVEN, layout)).sum(axis=0), 720.0, 24)
     by_star = total_harmonics(torque_harmonics(torque(EVEN), 720.0, 24), layout)
     size = len(layout.places) * (50 + sum(map(sum, np.abs(wave))))
     for one, other in zip(summed[:5], by_star[:5], strict=True):

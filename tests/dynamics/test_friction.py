@@ -12,7 +12,7 @@ from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.running import Running
 from crankwork.errors import MethodError
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.motion import linkage_motion, motion
+from crankwork.kinematics.motion import linkage_motion
 from crankwork.loads.load import ForceOnPoint, ProcessForce, TorqueOnLink, Weight, applied_loads
 from crankwork.mechanism.catalog import crank_shaper, four_bar, scotch_yoke, slotted_press
 from crankwork.mechanism.dyads import RPP, RRP, Guide
@@ -25,7 +25,7 @@ GRID = CrankGrid.from_degrees(np.arange(2.5, 360, 5))
 
 
 def running_of(mechanism, *loads, speed=10.0, grid=GRID):
-    moved = motion(mechanism, grid)
+    moved = linkage_motion(mechanism, grid)
     return Running(mechanism, moved, speed, applied_loads(mechanism, moved, loads))
 
 

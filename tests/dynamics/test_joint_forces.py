@@ -9,7 +9,7 @@ from crankwork.dynamics.force_system import solve_positions, system_joint_forces
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.running import Running
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.motion import linkage_motion, motion
+from crankwork.kinematics.motion import linkage_motion
 from crankwork.loads.load import ForceOnPoint, ProcessForce, TorqueOnLink, applied_loads
 from crankwork.mechanism.catalog import crank_shaper, four_bar, scotch_yoke
 from crankwork.mechanism.dyads import PRP, RRP, Guide
@@ -21,7 +21,7 @@ GRID = CrankGrid.from_degrees(np.arange(7.0, 360, 10))
 
 
 def at_rest(mechanism, *loads, grid=GRID):
-    moved = motion(mechanism, grid)
+    moved = linkage_motion(mechanism, grid)
     return Running(mechanism, moved, loads=applied_loads(mechanism, moved, loads))
 
 
@@ -39,7 +39,7 @@ def test_piston_force_divides_into_rod_force_and_side_force():
 
 def test_inertia_of_a_piston_is_minus_mass_times_acceleration():
     engine = replace(slider_crank(0.05, 0.2), bodies=(body_at("piston_pin", 2.0, 0.0, "piston_pin"),))
-    moved = motion(engine, GRID)
+    moved = linkage_motion(engine, GRID)
     found = joint_forces(Running(engine, moved, 100.0, angular_acceleration=50.0))
     _, first, second = moved.sliders["piston_pin"]
     assert found.pins["piston_pin"].y == pytest.approx(2 * (second * 100**2 + first * 50), rel=1e-12)

@@ -9,11 +9,10 @@ from hypothesis import strategies as st
 
 from crankwork.errors import GeometryError
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.motion import linkage_motion, motion
+from crankwork.kinematics.motion import linkage_motion
 from crankwork.mechanism.catalog import four_bar
 from crankwork.mechanism.dyads import RRP
-from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, slider_crank
-from crankwork.method import TEXTBOOK
+from crankwork.mechanism.mechanism import Crank, Mechanism
 
 pytestmark = pytest.mark.elsewhere
 
@@ -76,24 +75,6 @@ def test_a_mirrored_linkage_moves_as_in_a_mirror(coupler, rocker, ground):
         for order in range(3):
             assert first.points[name].x[order] == pytest.approx(second.points[name].x[order], abs=1e-12)
             assert first.points[name].y[order] == pytest.approx(-second.points[name].y[order], abs=1e-12)
-
-
-@settings(max_examples=25)
-@given(st.floats(0.05, 0.9), st.floats(-0.05, 0.05))
-def test_the_generic_dyad_is_the_slider_crank(ratio, offset):
-    machine = slider_crank(ratio, 1.0, offset)
-    machine = replace(machine, points=(LinkPoint("S", "rod", 0.3, 0.1),))
-    own, generic = motion(machine, TURN), linkage_motion(machine, TURN)
-    scale = 1 / (1 - ratio - abs(offset)) ** 2
-    for name in ("crank_pin", "piston_pin", "S"):
-        for order in range(3):
-            assert own.points[name].x[order] == pytest.approx(generic.points[name].x[order], abs=1e-13 * scale)
-            assert own.points[name].y[order] == pytest.approx(generic.points[name].y[order], abs=1e-13 * scale)
-
-
-def test_a_slider_crank_keeps_its_textbook_method_with_named_points():
-    machine = replace(slider_crank(0.05, 0.2), points=(LinkPoint("S", "rod", 0.1),), ground={"O": (0.0, 0.0)})
-    assert motion(machine, TURN, TEXTBOOK).method is TEXTBOOK
 
 
 def test_the_angle_of_a_link_that_turns_fully_has_no_jump():

@@ -19,7 +19,7 @@ import pytest
 from crankwork.dynamics.reduction import reduced_inertia
 from crankwork.errors import MethodError
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.motion import motion
+from crankwork.kinematics.motion import linkage_motion
 from crankwork.mechanism.mechanism import slider_crank
 from crankwork.shaft.energy_machine import energy_machine
 from crankwork.shaft.energy_motion import EnergyMachine, moment_after
@@ -94,7 +94,7 @@ def test_the_equation_of_motion_gives_the_same(andrews):
     conservative = energy_machine(andrews.MECHANISM, andrews.DRIVE, andrews.SPRINGS)
 
     def inertia(angle):
-        moved = motion(andrews.MECHANISM, CrankGrid.from_radians(np.sort(angle, axis=None)))
+        moved = linkage_motion(andrews.MECHANISM, CrankGrid.from_radians(np.sort(angle, axis=None)))
         found = reduced_inertia(andrews.MECHANISM, moved)
         order = np.argsort(np.argsort(angle, axis=None))
         return tuple(one[order].reshape(angle.shape) for one in found)

@@ -18,7 +18,7 @@ from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.reduction import crank_torque
 from crankwork.dynamics.running import Running
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.motion import motion
+from crankwork.kinematics.motion import linkage_motion
 from crankwork.loads.load import Weight, applied_loads
 from crankwork.mechanism.dyads import RRP
 from crankwork.mechanism.mechanism import Body, Crank, Mechanism, body_at
@@ -37,7 +37,7 @@ EXACT = 3415.7234
 
 
 def engine(speed: float) -> Running:
-    return Running(ENGINE, motion(ENGINE, GRID), speed)
+    return Running(ENGINE, linkage_motion(ENGINE, GRID), speed)
 
 
 def test_inertia_torque():

@@ -18,7 +18,7 @@ from crankwork.dynamics.running import Running
 from crankwork.dynamics.zhukovsky import virtual_work_torque, zhukovsky_torque
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.loops import as_chain
-from crankwork.kinematics.motion import linkage_motion, motion
+from crankwork.kinematics.motion import linkage_motion
 from crankwork.loads.load import (
     ForceOnPoint,
     Load,
@@ -123,7 +123,7 @@ def working(mechanism: Mechanism, seed: int = 1) -> Running:
         *(SliderSpring(slider, 1000.0, 0.01, 5.0) for slider in sliders),
         *(ProcessForce(slider, resistance) for slider in sliders),
     ]
-    moved = motion(mechanism, GRID)
+    moved = linkage_motion(mechanism, GRID)
     return Running(mechanism, moved, 30.0, applied_loads(mechanism, moved, loads), 15.0)
 
 

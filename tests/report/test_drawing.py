@@ -14,7 +14,7 @@ import pytest
 from crankwork.description.machine_file import read
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.motion import motion
+from crankwork.kinematics.motion import linkage_motion
 from crankwork.machine import Cylinder, Machine
 from crankwork.mechanism.mechanism import RRP, Crank, Mechanism, slider_crank
 from crankwork.quantities import LANGUAGES
@@ -69,7 +69,7 @@ def _scale(tree, machine):
 
 def test_links_lie_between_their_points_at_every_frame(machine):
     tree, crank = _tree(machine), machine.mechanism.crank
-    moving = motion(machine.mechanism, CrankGrid.from_degrees(np.arange(FRAMES + 1) * 360 / FRAMES))
+    moving = linkage_motion(machine.mechanism, CrankGrid.from_degrees(np.arange(FRAMES + 1) * 360 / FRAMES))
     scale = _scale(tree, machine)
     place = {name: scale * np.column_stack([one.x.position, -one.y.position]) for name, one in moving.points.items()}
     place["pivot"] = np.tile(scale * np.array([crank.pivot[0], -crank.pivot[1]]), (FRAMES + 1, 1))

@@ -21,7 +21,7 @@ from crankwork.analysis.plans import accelerations, velocities
 from crankwork.analysis.skeleton import skeleton
 from crankwork.errors import CrankworkError, MissingExtraError
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.motion import motion
+from crankwork.kinematics.motion import linkage_motion
 from crankwork.linkage_machine import LinkageMachine
 from crankwork.mechanism.catalog import (
     crank_shaper,
@@ -129,7 +129,7 @@ def _groups(tree, kind):
 
 def test_joints_are_where_the_motion_says(linkage):
     tree, shape = _tree(linkage), skeleton(linkage)
-    moving = motion(linkage, CrankGrid.from_degrees(np.arange(FRAMES + 1) * 360 / FRAMES))
+    moving = linkage_motion(linkage, CrankGrid.from_degrees(np.arange(FRAMES + 1) * 360 / FRAMES))
     crank = next(one for one in tree.iter(f"{SVG}line") if one.get("class") == f"link {linkage.crank.link}")
     scale = np.hypot(*(_track(crank, "x2", "y2") - _track(crank, "x1", "y1")).T).mean() / linkage.crank.radius
     drawn = [_track(one, "cx", "cy") for one in tree.iter(f"{SVG}circle")]

@@ -64,11 +64,6 @@ def test_hermite_has_the_slopes_asked_for():
     assert curve.derivative(angle[:-1]) == pytest.approx(np.cos(angle[:-1]))
 
 
-def test_smooth_goes_through_its_points():
-    angle = np.linspace(0, 2 * math.pi, 13)
-    assert Curve.smooth(angle, np.cos(angle))(angle) == pytest.approx(np.cos(angle))
-
-
 def test_extremes_between_the_points():
     angle = np.linspace(0, 2 * math.pi, 181) + 0.004
     curve = Curve.hermite(angle, np.sin(angle), np.cos(angle))

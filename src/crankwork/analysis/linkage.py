@@ -32,7 +32,6 @@ from crankwork.mechanism.structure import mobility
 from crankwork.method import Method
 
 _DENSE_STEP = 1.0
-_ROUNDING = 1e-12
 _MOST_COEFFICIENTS = 10_000_000
 DYNAMICS = (
     "reduced_inertia", "reduced_inertia_1", "static_torque", "dynamic_torque", "balancing_torque", "driving_torque",

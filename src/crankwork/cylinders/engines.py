@@ -83,32 +83,6 @@ def boxer(  # noqa: PLR0913 - each argument is a key of the description
     return arranged(banks, order, strokes=strokes, throws=throws, uneven=uneven)
 
 
-def w(  # noqa: PLR0913 - each argument is a key of the description
-    cylinders: int,
-    order: Sequence[int],
-    axes: Sequence[float],
-    *,
-    spacing: float = 0.0,
-    bank_stagger: float = 0.0,
-    numbering: str = "banks",
-    throws: Sequence[float] | None = None,
-    strokes: int = 4,
-    uneven: bool = False,
-    own_throws: bool = False,
-) -> tuple[Layout, tuple[LayoutNotice, ...]]:
-    """Return an engine of any number of banks.
-
-    `axes`: direction of each bank, positive with the rotation; the first holds cylinder 1 [deg]; `spacing` and
-    `bank_stagger`: distance between cylinders of a bank; how much farther along the shaft each next bank stands [m];
-    `numbering`: banks: along the first bank, then the next. pairs: across the banks, throw by throw; `throws`: angle
-    of each throw along the shaft ahead of the first, positive with the rotation; else from even firing [deg];
-    `uneven`: whether uneven intervals are wanted, so that there is no notice of them; `own_throws`: whether every
-    cylinder has a throw of its own, as in a V of 15 degrees, instead of one throw per row.
-    """
-    banks = Banks("W", cylinders, tuple(axes), spacing, bank_stagger, numbering=numbering, own_throws=own_throws)
-    return arranged(banks, order, strokes=strokes, throws=throws, uneven=uneven)
-
-
 def radial(
     cylinders: int,
     order: Sequence[int] | None = None,

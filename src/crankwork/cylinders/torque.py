@@ -59,14 +59,6 @@ def cylinder_angle(degrees: ArrayLike, place: Place, cycle: float) -> Array:
     return np.where(cycle - rest <= 1e-12 * cycle, 0.0, rest)
 
 
-def total_torque(torques: ArrayLike) -> Array:
-    """Return the sum of the torques of all cylinders. [N m]
-
-    `torques`: torque of each cylinder at the same crank angles of cylinder 1 [N m], shape (cylinders, n).
-    """
-    return np.asarray(np.sum(np.asarray(torques, dtype=float), axis=0))
-
-
 class TorquesAlongShaft(NamedTuple):
     """What each part of the shaft passes on towards the output end behind the last throw, shape (n,) each. [N m]
 

@@ -10,7 +10,6 @@ import numpy as np
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.slider_crank import SliderCrank
 
-_SCAN = 720
 _NEAR = 65
 _MAX_STEPS = 40
 

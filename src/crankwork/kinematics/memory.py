@@ -18,7 +18,6 @@ from crankwork.kinematics.transfer import Transfer
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide
 from crankwork.mechanism.mechanism import Body, LinkPoint, Mechanism
-from crankwork.method import EXACT
 
 
 class CrankAngle(NamedTuple):
@@ -65,7 +64,7 @@ def remembered_motion(mechanism: Mechanism, moved: Motion) -> Motion:
             turns = Known(HalfTurns(frame.sin, frame.cos, near), f"half_turns.{name}")
             angle = direction_of_slope(frame.sin, frame.cos, turns).named(f"link_angle.{name}")
             links[name] = Transfer(angle, frame.angle_1, frame.angle_2)
-    return Motion(grid, placed.points, links, placed.sliders, EXACT, placed.links)
+    return Motion(grid, placed.points, links, placed.sliders, placed.links)
 
 
 def course_of(grid: Any) -> Callable[[Mapping[str, Known]], OverCycle]:  # noqa: ANN401 - typed as a grid

@@ -9,24 +9,13 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from crankwork.errors import MethodError
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dyads import (
     LinkMotion,
-    crank_motion,
-    crank_pin_motion,
-    fixed_guide,
-    fixed_point,
-    point_on_guide,
-    point_on_link,
 )
-from crankwork.kinematics.piston import as_slider_crank, only_rod, piston_motion
 from crankwork.kinematics.placement import Placed, assembled, place, reached
-from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank
 from crankwork.kinematics.transfer import PointMotion, Transfer
-from crankwork.mechanism.dyads import RRP, Point
 from crankwork.mechanism.mechanism import Mechanism
-from crankwork.method import EXACT, Method
 
 Status = NDArray[np.int8]
 
@@ -40,7 +29,6 @@ class Motion:
     # Direction of each link that does not slide from the x axis, arrays of shape (n,) [rad]
     links: Mapping[str, Transfer]
     sliders: Mapping[str, Transfer]  # Distance of each slider along its guide, arrays of shape (n,) [m]
-    method: Method  # How it was made
     # Links and sliding pieces as frames, with origin and direction; empty where the motion comes from a table
     frames: Mapping[str, LinkMotion] = field(default_factory=dict)
     # 0 where the crank gets, 1 where the mechanism cannot be assembled, 2 where it can, but not be reached, shape (n,)
@@ -82,21 +70,6 @@ def direction(grid: CrankGrid, link: LinkMotion) -> Transfer:
     return Transfer(angle, rate, link.angle_2 + still)
 
 
-def motion(mechanism: Mechanism, grid: CrankGrid, method: Method = EXACT) -> Motion:
-    """Return the motion of a mechanism.
-
-    Positions and transfer functions of points, links and sliders [m], [rad]. `method`: anything but exact is defined
-    for a slider-crank only.
-    """
-    lengths, rod = as_slider_crank(mechanism), only_rod(mechanism)
-    if lengths is None or rod is None:
-        if not method.is_exact:
-            raise MethodError(f"method {method.name} exists for a slider-crank only; use exact")
-        return linkage_motion(mechanism, grid)
-    check_slider_crank(lengths)
-    return _slider_crank_motion(mechanism, rod, lengths, grid, method)
-
-
 def linkage_motion(mechanism: Mechanism, grid: CrankGrid, *, partial: bool = False) -> Motion:
     """Return the exact motion of a mechanism, group after group.
 
@@ -128,46 +101,9 @@ def _as_motion(placed: Placed, status: Status) -> Motion:
         frames = {name: _masked(link, full) for name, link in frames.items()}
     sliders = {name: transfer(one) for name, one in placed.sliders.items()}
     links = {name: frame for name, frame in frames.items() if name not in sliders}
-    return Motion(placed.grid, points, Directions(placed.grid, links), sliders, EXACT, frames, status)
+    return Motion(placed.grid, points, Directions(placed.grid, links), sliders, frames, status)
 
 
 def _masked(link: LinkMotion, full: Callable[[Array], Array]) -> LinkMotion:
     x, y = (Transfer(*(full(one) for one in side)) for side in link.origin)
     return LinkMotion(PointMotion(x, y), *(full(one) for one in link[1:]))
-
-
-def _slider_crank_motion(
-    mechanism: Mechanism, dyad: RRP, lengths: SliderCrank, grid: CrankGrid, method: Method
-) -> Motion:
-    """Return the motion with piston and rod by the engine's own formulas, in the frame of the mechanism."""
-    crank = mechanism.crank
-    (x, x_1, x_2), rod, swing = piston_motion(lengths, grid, method)
-    r, l, e = lengths  # noqa: E741
-    top = np.sqrt((r + l) ** 2 - e**2)
-    guide = fixed_guide(dyad.guide)
-    slider = Transfer(_along_guide(dyad, crank.pivot) + top - x, -x_1, -x_2)
-    piston = point_on_guide(guide, slider)
-    d, cos, sin = crank.direction, guide.cos, guide.sin
-    pin, arm = crank_pin_motion(crank, grid)
-    still = np.zeros_like(grid.angle)
-    frames = {
-        crank.link: crank_motion(crank, grid),
-        dyad.link: LinkMotion(
-            pin,
-            cos * swing.cos + d * sin * swing.sin,
-            sin * swing.cos - d * cos * swing.sin,
-            *(-d * one for one in rod[1:]),
-        ),
-        dyad.piece: LinkMotion(piston, cos + still, sin + still, still, still),
-    }
-    angle = Transfer(dyad.guide_angle - d * rod.position, -d * rod.position_1, -d * rod.position_2)
-    points = {crank.pin: pin, dyad.slider: piston}
-    points |= {name: fixed_point(place) for name, place in mechanism.ground.items()}
-    points |= {one.name: point_on_link(frames[one.link], one.along, one.across) for one in mechanism.points}
-    return Motion(grid, points, {crank.link: arm, dyad.link: angle}, {dyad.piece: slider}, method, frames)
-
-
-def _along_guide(rod: RRP, pivot: Point) -> float:
-    """Return where the foot of the crank pivot lies along the guide, counted from the guide point."""
-    (px, py), (qx, qy) = pivot, rod.guide_point
-    return (px - qx) * math.cos(rod.guide_angle) + (py - qy) * math.sin(rod.guide_angle)

@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from crankwork.errors import MethodError
 from crankwork.kinematics.crank_grid import Array
-from crankwork.loads.monotone import monotone_slopes
 
 # Where a polynomial is looked at for changes of sign, inside each of its intervals.
 _PARTS = 8
@@ -82,15 +81,6 @@ class Curve:
         second = (3 * rise - 2 * slope[:-1] - slope[1:]) / h
         third = (slope[:-1] + slope[1:] - 2 * rise) / h**2
         return cls(angle, np.stack([value[:-1], slope[:-1], second, third]))
-
-    @classmethod
-    def smooth(cls, angle: ArrayLike, value: ArrayLike) -> Self:
-        """Return the smooth closed curve through given points that never overshoots them.
-
-        `value`: the quantity there; the last repeats the first [its unit].
-        """
-        angle, value = _checked(angle, value)
-        return cls.hermite(angle, value, monotone_slopes(angle, value, periodic=True))
 
     @classmethod
     def fitted(cls, function: Callable[[Array], Array], breaks: ArrayLike, *, width: float = np.pi / 24) -> Self:
