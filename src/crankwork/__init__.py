@@ -39,8 +39,7 @@ if TYPE_CHECKING:
         whitworth,
     )
     from crankwork.method import Method
-    from crankwork.note.contents import note_of
-    from crankwork.note.formats import written_note
+    from crankwork.note.contents import note_of, written_note
     from crankwork.note.options import NoteOptions
     from crankwork.quantities import QUANTITIES
     from crankwork.report.figures import figures
@@ -82,7 +81,7 @@ _HOMES = {
     "watt_six_bar": "mechanism.catalog",
     "whitworth": "mechanism.catalog",
     "with_method": "analysis",
-    "written_note": "note.formats",
+    "written_note": "note.contents",
 }
 
 __all__ = [

@@ -258,7 +258,7 @@ def report(  # noqa: PLR0913 - one argument per option of the command
     overwrite: bool,
 ) -> None:
     """Write the calculation note of a machine as PDF, Word or web page."""
-    from crankwork.note.formats import check_format, written_note
+    from crankwork.note.contents import check_format, written_note
 
     # before anything else is loaded
     check_format(output, with_figures=not no_figures, with_sheets=sheets)

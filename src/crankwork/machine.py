@@ -15,7 +15,7 @@ from crankwork.method import EXACT, Method
 
 if TYPE_CHECKING:
     from crankwork.cylinders.articulated import ArticulatedRod
-    from crankwork.working_cycle.calculated import CalculatedPressure
+    from crankwork.working_cycle.calculated_cycle import CalculatedPressure
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,7 @@ import pytest
 
 import crankwork
 from crankwork import analyse, read_machine, template, template_names, with_method
-from crankwork.analysis.force_functions import force_functions
-from crankwork.analysis.forces import columns
+from crankwork.analysis.forces import columns, force_functions
 from crankwork.analysis.steps import worked_steps
 from crankwork.analysis.steps_torque import efficiency_steps
 from crankwork.dynamics.efficiency import Parallel, Series, efficiency

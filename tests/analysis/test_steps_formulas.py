@@ -12,11 +12,11 @@ from hypothesis import strategies as st
 
 from crankwork.dynamics import force_parts
 from crankwork.dynamics.tabulated import difference_derivative
-from crankwork.kinematics import lengths, rod_functions
+from crankwork.kinematics import slider_crank
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.extremes import dead_centres
 from crankwork.kinematics.slider_crank import SliderCrank, rod_angle, rod_swing
-from crankwork.mechanism.freedom import chain_mobility
+from crankwork.mechanism.structure import chain_mobility
 
 pytestmark = pytest.mark.elsewhere
 
@@ -36,13 +36,15 @@ def _slider_crank(radius, ratio, share):
 def test_stroke_and_dead_centres_are_those_of_the_mechanism(radius, ratio, share):
     one = _slider_crank(radius, ratio, share)
     r, l, e = one  # noqa: E741
-    assert lengths.stroke_offset(l, r, e) == pytest.approx(one.stroke, rel=1e-11)
+    assert slider_crank.stroke_offset(l, r, e) == pytest.approx(one.stroke, rel=1e-11)
     top, bottom = (math.radians(angle) for angle in dead_centres(one))
     if e >= 0:
-        assert lengths.top_dead_centre_angle(e, l, r) == pytest.approx(top, rel=1e-14, abs=1e-300)
+        assert slider_crank.top_dead_centre_angle(e, l, r) == pytest.approx(top, rel=1e-14, abs=1e-300)
     else:
-        assert lengths.top_dead_centre_angle_before(math.pi, e, l, r) == pytest.approx(top + 2 * math.pi, rel=1e-14)
-    assert lengths.bottom_dead_centre_angle(math.pi, e, l, r) == pytest.approx(bottom, rel=1e-14)
+        assert slider_crank.top_dead_centre_angle_before(math.pi, e, l, r) == pytest.approx(
+            top + 2 * math.pi, rel=1e-14
+        )
+    assert slider_crank.bottom_dead_centre_angle(math.pi, e, l, r) == pytest.approx(bottom, rel=1e-14)
 
 
 @given(RADII, RATIOS, SHARES, ANGLES)
@@ -64,9 +66,9 @@ def test_functions_of_the_rod_angle_in_thirty_digits(radius, ratio, share, angle
     found = {
         "angle": rod_angle(swing.sin, swing.cos),
         "cosine": swing.cos,
-        "radial": rod_functions.radial_factor(swing.cos_sum, swing.cos),
-        "tangential": rod_functions.tangential_factor(swing.sin_sum, swing.cos),
-        "pin": rod_functions.pin_distance(one.crank_radius, cos_phi, one.rod_length, swing.cos),
+        "radial": slider_crank.radial_factor(swing.cos_sum, swing.cos),
+        "tangential": slider_crank.tangential_factor(swing.sin_sum, swing.cos),
+        "pin": slider_crank.pin_distance(one.crank_radius, cos_phi, one.rod_length, swing.cos),
     }
     for key, value in expected.items():
         assert float(np.squeeze(found[key])) == pytest.approx(float(value), rel=1e-13, abs=2e-15), key

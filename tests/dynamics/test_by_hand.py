@@ -9,9 +9,9 @@ import pytest
 
 from crankwork.cylinders import articulated, load_vectors
 from crankwork.dynamics import force_parts, piston_forces
-from crankwork.kinematics import lengths, plane_motion, rod_functions, slider_crank, textbook, transfer_rates
-from crankwork.loads import gauge
-from crankwork.shaft import flywheel_parts
+from crankwork.kinematics import plane_motion, slider_crank, textbook, transfer
+from crankwork.loads import gas
+from crankwork.shaft import flywheel
 
 pytestmark = pytest.mark.elsewhere
 
@@ -26,31 +26,31 @@ pytestmark = pytest.mark.elsewhere
             (slider_crank.crank_rod_sine, (3 / 5, 12 / 13, 4 / 5, 5 / 13), 56 / 65),
             (slider_crank.crank_rod_cosine, (4 / 5, 12 / 13, 3 / 5, 5 / 13), 33 / 65),
             (slider_crank.rod_angle, (0.6, 0.8), math.asin(0.6)),
-            (rod_functions.rod_factor, (0.8,), 1.25),
-            (rod_functions.side_factor, (0.6, 0.8), 0.75),
-            (rod_functions.rod_angular_velocity, (-0.25, 80), -20),
-            (rod_functions.rod_angular_acceleration, (0.2, 10, 0.5, 8), 24),
-            (lengths.relative_offset, (0.01, 0.05), 0.2),
-            (lengths.stroke_central, (0.06,), 0.12),
+            (slider_crank.rod_factor, (0.8,), 1.25),
+            (slider_crank.side_factor, (0.6, 0.8), 0.75),
+            (slider_crank.rod_angular_velocity, (-0.25, 80), -20),
+            (slider_crank.rod_angular_acceleration, (0.2, 10, 0.5, 8), 24),
+            (slider_crank.relative_offset, (0.01, 0.05), 0.2),
+            (slider_crank.stroke_central, (0.06,), 0.12),
             (textbook.textbook_rod_transfer_1, (0.25, 0.8), 0.2),
             (textbook.textbook_rod_transfer_2, (0.25, 0.8), -0.2),
             (articulated.articulated_rod_cosine, (0.6, 4, 1, 5), 0.8),
             # a direction in the second quadrant lies a half turn from the arc tangent of its slope
             (plane_motion.direction_of_slope, (0.6, -0.8, 1), math.atan2(0.6, -0.8)),
-            (transfer_rates.link_angular_velocity, (0.3, 20), 6),
-            (transfer_rates.slider_velocity, (0.04, 50), 2),
-            (transfer_rates.slider_acceleration, (0.03, 20, 0.05, 40), 14),
-            (transfer_rates.point_velocity, (0.03, 0.04, 20), 1),
+            (transfer.link_angular_velocity, (0.3, 20), 6),
+            (transfer.slider_velocity, (0.04, 50), 2),
+            (transfer.slider_acceleration, (0.03, 20, 0.05, 40), 14),
+            (transfer.point_velocity, (0.03, 0.04, 20), 1),
             # 3 m/s2 along x and 4 m/s2 along y
-            (transfer_rates.point_acceleration, (0.02, 10, 0.05, 20, 0.03, 0.05), 5),
+            (transfer.point_acceleration, (0.02, 10, 0.05, 20, 0.03, 0.05), 5),
             (load_vectors.turned_along, (2, 3, 0.6, 0.8), -0.2),
             (load_vectors.turned_across, (2, 3, 0.6, 0.8), 3.6),
             (piston_forces.transverse_weight, (3, 9.81, 0.5), 14.715),
             (force_parts.balancing_torque_of_parts, (30, 12), 42),
             (force_parts.efficiency_share, (0.25, 0.8), 0.2),
-            (flywheel_parts.work_of_mean_torque, (25, 12), 300),
-            (flywheel_parts.flywheel_beside_machine, (5, 1.5), 3.5),
-            (gauge.gauge_pressure, (1.6e5, 1e5), 6e4),
+            (flywheel.work_of_mean_torque, (25, 12), 300),
+            (flywheel.flywheel_beside_machine, (5, 1.5), 3.5),
+            (gas.gauge_pressure, (1.6e5, 1e5), 6e4),
         )
     ],
 )

@@ -6,8 +6,15 @@ import numpy as np
 import pytest
 
 from crankwork.dynamics import friction as module
-from crankwork.dynamics.friction import CONVERGED, NO_POSITION, NOT_CONVERGED, SELF_LOCKING, friction_forces
-from crankwork.dynamics.friction_laws import GuideFriction, PinFriction
+from crankwork.dynamics.friction import (
+    CONVERGED,
+    NO_POSITION,
+    NOT_CONVERGED,
+    SELF_LOCKING,
+    GuideFriction,
+    PinFriction,
+    friction_forces,
+)
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.running import Running
 from crankwork.errors import MethodError

@@ -9,8 +9,7 @@ import pytest
 
 from crankwork.dynamics import piston_forces as forces
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.lengths import mean_piston_speed
-from crankwork.kinematics.slider_crank import SliderCrank, rod_swing
+from crankwork.kinematics.slider_crank import SliderCrank, mean_piston_speed, rod_swing
 
 pytestmark = pytest.mark.elsewhere
 

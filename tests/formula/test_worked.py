@@ -9,7 +9,7 @@ import pytest
 from crankwork.errors import CrankworkError
 from crankwork.formula.known import given
 from crankwork.formula.worked import Worked
-from crankwork.kinematics.lengths import mean_piston_speed
+from crankwork.kinematics.slider_crank import mean_piston_speed
 from crankwork.loads.gas import clearance_volume, polytropic_pressure
 
 

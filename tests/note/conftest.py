@@ -10,7 +10,7 @@ import pytest
 from crankwork.dynamics import piston_forces as forces
 from crankwork.formula.expression import FORMULAS, record
 from crankwork.formula.steps import Given, Step, sum_step, worked_step
-from crankwork.kinematics.lengths import mean_piston_speed
+from crankwork.kinematics.slider_crank import mean_piston_speed
 from crankwork.loads import gas
 from crankwork.note.document import (
     Bibliography,

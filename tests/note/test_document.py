@@ -13,14 +13,14 @@ from crankwork.dynamics import piston_forces as forces
 from crankwork.errors import CrankworkError, MissingExtraError
 from crankwork.formula.expression import FORMULAS
 from crankwork.formula.steps import Given, product_step, renamed, sum_step, worked_step
-from crankwork.kinematics.lengths import mean_piston_speed
+from crankwork.kinematics.slider_crank import mean_piston_speed
 from crankwork.loads import gas
 from crankwork.note.captions import caption, place_in_source
 from crankwork.note.characters import plain_text
+from crankwork.note.contents import WRITERS, check_format, written_note
 from crankwork.note.digits import enough_digits
 from crankwork.note.document import Citation, Equation, Figure, Heading, Note, Paragraph, Reference, Table
 from crankwork.note.equations import printed_equation, shown_values
-from crankwork.note.formats import WRITERS, check_format, written_note
 from crankwork.note.layout import SPACE, Fence, Row, Sign, Upright, row, width
 from crankwork.note.legends import legend
 from crankwork.note.numbering import numbering

@@ -22,9 +22,8 @@ from crankwork.dynamics.efficiency import Parallel, Series
 from crankwork.formula.expression import evaluate
 from crankwork.formula.steps import Step
 from crankwork.locale import say, texts
-from crankwork.note.contents import note_of, sheets_of
+from crankwork.note.contents import WRITERS, note_of, sheets_of
 from crankwork.note.document import Equation, Figure, Heading, ItemList, Math, Note, Paragraph, Table
-from crankwork.note.formats import WRITERS
 from crankwork.note.linkage_words import Words, subscript
 from crankwork.note.options import NoteOptions
 from crankwork.quantities import LANGUAGES

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from crankwork.analysis import analyse, with_method
-from crankwork.analysis.one_cylinder import as_engine
+from crankwork.analysis.whole_engine import as_engine
 from crankwork.description.machine_file import read, read_machine, template, template_names
 from crankwork.formula.lines import Moment
 from crankwork.formula.steps import Step

@@ -16,9 +16,8 @@ from typing import NamedTuple
 import pytest
 
 import crankwork
-from crankwork.note.contents import note_of
+from crankwork.note.contents import note_of, written_note
 from crankwork.note.document import Heading, Table
-from crankwork.note.formats import written_note
 from crankwork.note.options import NoteOptions
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

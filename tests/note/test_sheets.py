@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 
 from crankwork.analysis import analyse
 from crankwork.analysis.diagrams import brix_points
-from crankwork.analysis.one_cylinder import as_engine
 from crankwork.analysis.plans import Plan, Vector
+from crankwork.analysis.whole_engine import as_engine
 from crankwork.description.machine_file import read, read_machine, template
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import CrankGrid

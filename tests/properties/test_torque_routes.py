@@ -10,12 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from crankwork.dynamics.force_system import system_joint_forces
-from crankwork.dynamics.friction import CONVERGED, NOT_CONVERGED, friction_forces
-from crankwork.dynamics.friction_laws import GuideFriction, PinFriction
+from crankwork.dynamics.friction import CONVERGED, NOT_CONVERGED, GuideFriction, PinFriction, friction_forces
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.reduction import crank_torque
+from crankwork.dynamics.routes import virtual_work_torque, zhukovsky_torque
 from crankwork.dynamics.running import Running
-from crankwork.dynamics.zhukovsky import virtual_work_torque, zhukovsky_torque
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.loops import as_chain
 from crankwork.kinematics.motion import linkage_motion

@@ -16,16 +16,16 @@ from crankwork.analysis.solved import Solved, solve
 from crankwork.formula.known import Found, Known, given
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.lengths import (
+from crankwork.kinematics.slider_crank import (
     bottom_dead_centre_angle,
     mean_piston_speed,
     relative_offset,
+    rod_ratio,
     stroke_central,
     stroke_offset,
     top_dead_centre_angle,
     top_dead_centre_angle_before,
 )
-from crankwork.kinematics.slider_crank import rod_ratio
 from crankwork.loads import gas as gas_formulas
 from crankwork.machine import Machine
 from crankwork.method import Method

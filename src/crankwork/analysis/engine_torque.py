@@ -36,8 +36,12 @@ from crankwork.shaft.fluctuation import (
     speed_of_energy,
     true_speed,
 )
-from crankwork.shaft.flywheel import check_fluctuation, inertia_for_fluctuation
-from crankwork.shaft.flywheel_parts import flywheel_beside_machine, work_of_mean_torque
+from crankwork.shaft.flywheel import (
+    check_fluctuation,
+    flywheel_beside_machine,
+    inertia_for_fluctuation,
+    work_of_mean_torque,
+)
 
 _ORDERS = 12
 _SAMPLES = 1440

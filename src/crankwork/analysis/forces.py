@@ -12,13 +12,15 @@ from crankwork.analysis.motion import (
     harmonic_memory,
     inertia_acceleration,
 )
+from crankwork.analysis.results import Results
 from crankwork.analysis.solved import Solved
 from crankwork.cylinders.articulated_forces import slave_forces
 from crankwork.dynamics import piston_forces as forces
 from crankwork.dynamics.masses import CrankGearMasses, reciprocating_mass, rotating_mass
+from crankwork.errors import MethodError
 from crankwork.formula.known import Known, absent, given
 from crankwork.formula.replay import Program
-from crankwork.kinematics import rod_functions
+from crankwork.kinematics import slider_crank
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 
 FORCES = (
@@ -102,10 +104,10 @@ def _rod_forces(solved: Solved, moving: MovingCylinder) -> Iterator[Known]:
     across = memory.get("transverse_weight", absent("transverse_weight"))
     rod = forces.rod_forces(P, angle, swing, dN=dN, F_wn=across)
     yield from rod
-    yield rod_functions.side_factor(swing.sin, swing.cos)
-    yield rod_functions.rod_factor(swing.cos)
-    yield rod_functions.radial_factor(swing.cos_sum, swing.cos)
-    yield rod_functions.tangential_factor(swing.sin_sum, swing.cos)
+    yield slider_crank.side_factor(swing.sin, swing.cos)
+    yield slider_crank.rod_factor(swing.cos)
+    yield slider_crank.radial_factor(swing.cos_sum, swing.cos)
+    yield slider_crank.tangential_factor(swing.sin_sum, swing.cos)
     rotating = list(_rotating(solved, moving))
     yield from rotating
     weight = next((one for one in rotating if one.key == "rotating_torque"), absent("rotating_torque"))
@@ -143,3 +145,18 @@ def _slave_forces(solved: Solved, moving: MovingCylinder) -> Iterator[Known]:
 
 def _inclination(solved: Solved) -> float:
     return solved.machine.cylinder.inclination if solved.machine.cylinder is not None else 0.0
+
+
+FACTORS = ("side_factor", "rod_factor", "radial_factor", "tangential_factor")
+
+
+def force_functions(results: Results) -> dict[str, Array]:
+    """Return tan beta, 1 / cos beta, cos(phi + beta) / cos beta and sin(phi + beta) / cos beta. [-]
+
+    `side_factor`, `rod_factor`, `radial_factor`, `tangential_factor` at the crank angles of the columns. Source:
+    kolchin_demidov_2008, ch. 7.
+    """
+    solved = results.solved
+    if not isinstance(solved, Solved):
+        raise MethodError("functions of the rod angle exist for an engine only; give the results of one")
+    return columns(solved, results.grid, FACTORS)

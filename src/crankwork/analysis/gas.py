@@ -6,7 +6,7 @@ from crankwork.analysis.motion import MovingCylinder
 from crankwork.analysis.solved import Solved, WorkingSpace
 from crankwork.formula.known import Known, absent, given
 from crankwork.loads import gas
-from crankwork.loads.gauge import gauge_pressure
+from crankwork.loads.gas import gauge_pressure
 from crankwork.loads.pressure import at_angle, polytrope_origin, remembered_pressure
 
 

@@ -14,7 +14,7 @@ from crankwork.dynamics.reaction import JointForces
 from crankwork.dynamics.reduction import dynamic_torque, kinetic_energy, reduced_inertia, reduced_torque, static_torque
 from crankwork.dynamics.running import Running
 from crankwork.formula.known import Found, Known, Pieces, absent, given
-from crankwork.kinematics import transfer_rates as rates
+from crankwork.kinematics import transfer as rates
 from crankwork.kinematics.memory import angle_of, course_of, given_mechanism, remembered_motion
 from crankwork.kinematics.motion import Motion
 from crankwork.linkage_machine import Drive, LinkageMachine, TabulatedMachine

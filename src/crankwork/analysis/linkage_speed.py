@@ -23,6 +23,7 @@ from crankwork.shaft.energy_motion import moment_after
 from crankwork.shaft.fluctuation import excess_work, fluctuation_of_energy, speed_of_energy, true_speed
 from crankwork.shaft.flywheel import (
     Flywheel,
+    flywheel_beside_machine,
     flywheels,
     inertia_for_fluctuation,
     inertia_on_other_shaft,
@@ -30,8 +31,8 @@ from crankwork.shaft.flywheel import (
     slope_least,
     wittenbauer_slope_largest,
     wittenbauer_slope_least,
+    work_of_mean_torque,
 )
-from crankwork.shaft.flywheel_parts import flywheel_beside_machine, work_of_mean_torque
 from crankwork.shaft.motor import GearedMotor
 from crankwork.shaft.motor_choice import first_angle_beyond, motor_need, needed_power
 from crankwork.shaft.speed import ReducedMachine, steady_speed

@@ -10,9 +10,8 @@ from crankwork.dynamics.piston_forces import angular_speed, piston_acceleration,
 from crankwork.formula.expression import Value
 from crankwork.formula.known import Known, KnownAngle, absent, given
 from crankwork.kinematics.piston import PistonMotion, piston_motion, textbook_piston
-from crankwork.kinematics.rod_functions import pin_distance, rod_angular_acceleration, rod_angular_velocity
 from crankwork.kinematics.series import acceleration_harmonics, order_terms, remembered_order
-from crankwork.kinematics.slider_crank import SliderCrank
+from crankwork.kinematics.slider_crank import SliderCrank, pin_distance, rod_angular_acceleration, rod_angular_velocity
 from crankwork.kinematics.transfer import Transfer
 from crankwork.machine import Machine
 from crankwork.method import Method

@@ -17,9 +17,8 @@ from crankwork.formula.known import Found, Known
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.extremes import dead_centres
-from crankwork.kinematics.lengths import stroke_central, stroke_offset
 from crankwork.kinematics.piston import as_slider_crank
-from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank
+from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank, stroke_central, stroke_offset
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.indicator import IndicatorDiagram, solve_diagram
 from crankwork.loads.measured import measured_diagram, wrap_is_rough
@@ -28,7 +27,7 @@ from crankwork.method import Method
 
 if TYPE_CHECKING:
     from crankwork.cylinders.articulated import ArticulatedRod
-    from crankwork.working_cycle.calculated import Calculated
+    from crankwork.working_cycle.calculated_cycle import Calculated
 
 
 class Notice(NamedTuple):

@@ -11,11 +11,9 @@ from crankwork.formula.known import Known, Use, given, in_order
 from crankwork.formula.lines import Moment
 from crankwork.formula.steps import AnyStep, Given, Step, StepGroup, worked_step
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.mechanism.freedom import chain_mobility
-from crankwork.mechanism.structure import structure
+from crankwork.mechanism.structure import chain_mobility, structure
 from crankwork.shaft.fluctuation import fluctuation_of_energy
-from crankwork.shaft.flywheel import WAYS, inertia_on_other_shaft
-from crankwork.shaft.flywheel_parts import work_of_mean_torque
+from crankwork.shaft.flywheel import WAYS, inertia_on_other_shaft, work_of_mean_torque
 
 _MOTION = (
     "point_x", "point_y", "point_velocity", "point_acceleration", "link_angle", "link_angular_velocity",

@@ -18,8 +18,7 @@ from crankwork.cylinders.torque_harmonics import amplitude_of_harmonic, amplitud
 from crankwork.formula.steps import AnyStep, Given, StepGroup, renamed, sum_step, worked_step
 from crankwork.loads import gas as gas_formulas
 from crankwork.shaft.fluctuation import fluctuation_of_energy, fluctuation_of_inertia
-from crankwork.shaft.flywheel import inertia_for_fluctuation
-from crankwork.shaft.flywheel_parts import flywheel_beside_machine, work_of_mean_torque
+from crankwork.shaft.flywheel import flywheel_beside_machine, inertia_for_fluctuation, work_of_mean_torque
 from crankwork.working_cycle.engine_size import displacement
 
 _SHOWN_ORDERS = 3

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from crankwork.analysis.cylinders import WholeEngine, whole_engine
+from crankwork.analysis.engine import analyse_engine
 from crankwork.analysis.engine_balance import balance_checks, balance_listing, balance_memory, engine_balance
 from crankwork.analysis.engine_bearings import (
     bearing_columns,
@@ -26,10 +27,12 @@ from crankwork.analysis.engine_torque import (
 )
 from crankwork.analysis.results import Listing, Results
 from crankwork.analysis.solved import Notice
+from crankwork.cylinders.engines import inline
 from crankwork.formula.known import Known
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.machine import Engine, Machine
 
 _TORQUES = ("crank_torque.", "total_torque", "journal_torque.", "crankpin_torque.")
 _WHOLE_VALUES = ("cylinder_count", "displacement", "engine_indicated_power")
@@ -140,3 +143,17 @@ def whole_memory(whole: WholeEngine) -> tuple[dict[str, Known], OverCycle, dict[
     }
     over = OverCycle({first.key: first, **followed}, CrankGrid.from_degrees, whole.layout.cycle)
     return memory, over, over.extremes(*followed)
+
+
+_FOUR_STROKES = 720.0
+
+
+def as_engine(results: Results) -> Results:
+    """Return results with those of the whole engine; a crank gear of its own is an engine of one cylinder."""
+    machine = results.machine
+    if not isinstance(machine, Machine) or machine.engine is not None or "crank_torque" not in results.columns:
+        return results
+    layout, notices = inline(1, (1,), strokes=4 if machine.cycle == _FOUR_STROKES else 2)
+    if layout.cycle != machine.cycle:
+        return results
+    return analyse_engine(replace(machine, engine=Engine(layout, notices=notices)), results.grid, method=results.method)

@@ -16,8 +16,7 @@ from crankwork.kinematics.extremes import dead_centres
 from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
 from crankwork.machine import Gas
-from crankwork.working_cycle.calculated import CalculatedPressure
-from crankwork.working_cycle.calculated_cycle import CalculatedCycle
+from crankwork.working_cycle.calculated_cycle import CalculatedCycle, CalculatedPressure
 from crankwork.working_cycle.cycle_data import GrinevetskyData
 from crankwork.working_cycle.fuels import FUELS, Fuel
 from crankwork.working_cycle.grinevetsky import grinevetsky

@@ -7,11 +7,11 @@ from types import MappingProxyType
 
 import numpy as np
 
-from crankwork.dynamics.force_system import system_joint_forces
+from crankwork.dynamics.force_system import plain_loads, system_joint_forces
 from crankwork.dynamics.joint_forces import joint_forces
+from crankwork.dynamics.link_loads import cross
 from crankwork.dynamics.reduction import crank_torque
 from crankwork.dynamics.running import Running
-from crankwork.dynamics.zhukovsky import virtual_work_torque, zhukovsky_torque
 from crankwork.kinematics.crank_grid import Array
 
 
@@ -28,6 +28,41 @@ def whole_system(running: Running) -> Array:
 def energy(running: Running) -> Array:
     """Return the torque from the work of the loads and the change of the kinetic energy. [N m]"""
     return np.asarray(crank_torque(running).driving)
+
+
+def zhukovsky_torque(running: Running) -> Array:
+    """Return the balancing torque from the moments of all forces on the velocity plan turned by a right angle. [N m]
+
+    Torque on the crank, positive with the rotation. Source: artobolevsky_1988, ch. 15.
+
+    The plan is drawn for an angular speed of 1 rad/s and turned clockwise; each force stands at the end of the
+    velocity of its point. A torque is a pair of forces, square to its link at its origin and a unit length along it.
+    """
+    motion, loads = running.motion, plain_loads(running)
+    moment = np.zeros_like(motion.grid.angle)
+    for force in loads.forces:
+        moment += cross((force.at.y.position_1, -force.at.x.position_1), (force.x, force.y))
+    for one in loads.torques:
+        frame = motion.frames[one.link]
+        x, y = frame.origin.x.position_1, frame.origin.y.position_1
+        across = -frame.sin * one.torque, frame.cos * one.torque
+        end_x, end_y = x - frame.angle_1 * frame.sin, y + frame.angle_1 * frame.cos
+        moment += cross((end_y, -end_x), across) - cross((y, -x), across)
+    return -moment
+
+
+def virtual_work_torque(running: Running) -> Array:
+    """Return the balancing torque from the virtual work of loads and inertia (artobolevsky_1988, ch. 15). [N m]
+
+    Torque on the crank, positive with the rotation.
+    """
+    loads = plain_loads(running)
+    power = np.zeros_like(running.motion.grid.angle)
+    for force in loads.forces:
+        power += force.x * force.at.x.position_1 + force.y * force.at.y.position_1
+    for one in loads.torques:
+        power += one.torque * one.angle_1
+    return -power
 
 
 ROUTES: Mapping[str, Callable[[Running], Array]] = MappingProxyType({

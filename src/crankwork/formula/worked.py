@@ -27,7 +27,7 @@ class Worked:
 
     Examples
     --------
-    >>> from crankwork.kinematics.lengths import mean_piston_speed
+    >>> from crankwork.kinematics.slider_crank import mean_piston_speed
     >>> worked = Worked()
     >>> _ = worked.given("stroke", 0.09), worked.given("rotational_speed", 3000.0)
     >>> worked(mean_piston_speed).value

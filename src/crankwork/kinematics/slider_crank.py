@@ -204,3 +204,87 @@ def _difference(large: Value, small: Value, smaller: Value) -> Value:
     """Return large - small - smaller with the rounding of the first subtraction put back."""
     first = large - small
     return (first - smaller) + ((large - first) - small)
+
+
+@formula("side_factor", "kolchin_demidov_2008, ch. 7")
+def side_factor(sin_beta: Value, cos_beta: Value) -> Value:
+    """Side force per force on the piston pin, tan beta."""
+    return sin_beta / cos_beta
+
+
+@formula("rod_factor", "kolchin_demidov_2008, ch. 7")
+def rod_factor(cos_beta: Value) -> Value:
+    """Force along the rod per force on the piston pin."""
+    return 1 / cos_beta
+
+
+@formula("radial_factor", "kolchin_demidov_2008, ch. 7")
+def radial_factor(cos_phi_beta: Value, cos_beta: Value) -> Value:
+    """Radial force on the crankpin per force on the piston pin."""
+    return cos_phi_beta / cos_beta
+
+
+@formula("tangential_factor", "kolchin_demidov_2008, ch. 7")
+def tangential_factor(sin_phi_beta: Value, cos_beta: Value) -> Value:
+    """Tangential force on the crankpin per force on the piston pin."""
+    return sin_phi_beta / cos_beta
+
+
+@formula("pin_distance", "kolchin_demidov_2008, ch. 6")
+def pin_distance(r: Value, cos_phi: Value, l: Value, cos_beta: Value) -> Value:  # noqa: E741
+    """Distance of the piston pin from the crankshaft along the cylinder axis."""
+    return r * cos_phi + l * cos_beta
+
+
+@formula("rod_angular_velocity", "kolchin_demidov_2008, ch. 6")
+def rod_angular_velocity(beta_1: Value, w: Value) -> Value:
+    """Angular velocity of the rod."""
+    return beta_1 * w
+
+
+@formula("rod_angular_acceleration", "artobolevsky_1988, ch. 5")
+def rod_angular_acceleration(beta_2: Value, w: Value, beta_1: Value, eps: Value) -> Value:
+    """Angular acceleration of the rod, positive as the rod angle."""
+    return beta_2 * w**2 + beta_1 * eps
+
+
+@formula("mean_piston_speed", "kolchin_demidov_2008, ch. 6")
+def mean_piston_speed(stroke: Value, n: Value) -> Value:
+    """Mean piston speed."""
+    return stroke * n / 30
+
+
+@formula("relative_offset", "kolchin_demidov_2008, ch. 6")
+def relative_offset(e: Value, r: Value) -> Value:
+    """Cylinder offset over crank radius."""
+    return e / r
+
+
+@formula("stroke", "kolchin_demidov_2008, ch. 6")
+def stroke_central(r: Value) -> Value:
+    """Stroke of a central slider-crank."""
+    return 2 * r
+
+
+@formula("stroke", "kolchin_demidov_2008, ch. 6")
+def stroke_offset(l: Value, r: Value, e: Value) -> Value:  # noqa: E741
+    """Stroke of an offset slider-crank."""
+    return np.sqrt((l + r) ** 2 - e**2) - np.sqrt((l - r) ** 2 - e**2)
+
+
+@formula("top_dead_centre_angle", "kolchin_demidov_2008, ch. 6")
+def top_dead_centre_angle(e: Value, l: Value, r: Value) -> Value:  # noqa: E741
+    """Crank angle of top dead centre, rod and crank stretched."""
+    return np.arcsin(e / (l + r))
+
+
+@formula("top_dead_centre_angle", "kolchin_demidov_2008, ch. 6")
+def top_dead_centre_angle_before(pi: Value, e: Value, l: Value, r: Value) -> Value:  # noqa: E741
+    """Crank angle of top dead centre with a negative offset, where it comes before a whole turn."""
+    return 2 * pi + np.arcsin(e / (l + r))
+
+
+@formula("bottom_dead_centre_angle", "kolchin_demidov_2008, ch. 6")
+def bottom_dead_centre_angle(pi: Value, e: Value, l: Value, r: Value) -> Value:  # noqa: E741
+    """Crank angle of bottom dead centre, rod over crank."""
+    return pi + np.arcsin(e / (l - r))

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from crankwork.formula.expression import Value
+import numpy as np
+
+from crankwork.formula.expression import Value, formula
 
 
 class Transfer(NamedTuple):
@@ -20,3 +22,33 @@ class PointMotion(NamedTuple):
 
     x: Transfer
     y: Transfer
+
+
+@formula("link_angular_velocity", "artobolevsky_1988, ch. 5")
+def link_angular_velocity(theta_1: Value, w: Value) -> Value:
+    """Angular velocity of a link."""
+    return theta_1 * w
+
+
+@formula("slider_velocity", "artobolevsky_1988, ch. 5")
+def slider_velocity(s_1: Value, w: Value) -> Value:
+    """Velocity of a sliding piece along its guide."""
+    return s_1 * w
+
+
+@formula("slider_acceleration", "artobolevsky_1988, ch. 5")
+def slider_acceleration(s_2: Value, w: Value, s_1: Value, eps: Value) -> Value:
+    """Acceleration of a sliding piece along its guide when the crank speed changes."""
+    return s_2 * w**2 + s_1 * eps
+
+
+@formula("point_velocity", "artobolevsky_1988, ch. 5")
+def point_velocity(x_P1: Value, y_P1: Value, w: Value) -> Value:
+    """Magnitude of the velocity of a point."""
+    return np.sqrt(x_P1**2 + y_P1**2) * w
+
+
+@formula("point_acceleration", "artobolevsky_1988, ch. 5")
+def point_acceleration(x_P2: Value, w: Value, x_P1: Value, eps: Value, y_P2: Value, y_P1: Value) -> Value:
+    """Magnitude of the acceleration of a point when the crank speed changes."""
+    return np.sqrt((x_P2 * w**2 + x_P1 * eps) ** 2 + (y_P2 * w**2 + y_P1 * eps) ** 2)

@@ -65,3 +65,9 @@ def mean_torque(W: Value, phi_c: Value) -> Value:
 def indicated_power(W: Value, w: Value, phi_c: Value) -> Value:
     """Indicated power of one cylinder."""
     return W * w / phi_c
+
+
+@formula("gas_pressure", "kolchin_demidov_2008, ch. 7")
+def gauge_pressure(p_abs: Value, p_0: Value) -> Value:
+    """Pressure above that on the crankcase side."""
+    return p_abs - p_0

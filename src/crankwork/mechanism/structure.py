@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from crankwork.errors import Problem
+from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import Known, given
-from crankwork.mechanism.freedom import chain_mobility
 from crankwork.mechanism.linkage import GROUND, Linkage
 
 # sets of members looked at for one group; larger groups than any linkage has
@@ -230,3 +230,9 @@ def _too_still(slider: str, some: tuple[str, ...], bearer: str) -> str:
 
 def _key(linkage: Linkage, name: str) -> str:
     return f"{'sliders' if linkage.member(name).guide else 'links'}.{name}"
+
+
+@formula("mobility", "artobolevsky_1988, ch. 2")
+def chain_mobility(n_i: Value, p_5: Value) -> Value:
+    """Degrees of freedom of a planar chain without higher pairs."""
+    return 3 * n_i - 2 * p_5

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from pathlib import PurePath
 from typing import TYPE_CHECKING
 
+from crankwork.errors import CrankworkError, MissingExtraError, missing_extras
 from crankwork.machine import Machine
+from crankwork.note.document import Note
 from crankwork.note.options import NoteOptions
+from crankwork.note.pdf import pdf
+from crankwork.note.web import web
+from crankwork.note.word import word
 
 if TYPE_CHECKING:
     from crankwork.analysis import Results
@@ -33,7 +39,7 @@ def sheets_of(results: Results, options: NoteOptions | None = None) -> dict[str,
 
     paper = sheets.Paper(block=sheets.TitleBlock(drawn_by=options.author) if options.order == "ru" else None)
     if isinstance(results.machine, Machine):
-        from crankwork.analysis.one_cylinder import as_engine  # noqa: PLC0415 - loaded where it is needed
+        from crankwork.analysis.whole_engine import as_engine  # noqa: PLC0415 - loaded where it is needed
         from crankwork.note.sheets.engine_whole import whole_engine_extra  # noqa: PLC0415 - loaded where it is needed
 
         # sheets say what the note says, which takes a crank gear of its own as an engine of one cylinder
@@ -48,3 +54,26 @@ def sheets_of(results: Results, options: NoteOptions | None = None) -> dict[str,
         for number, one in enumerate(drawn, start=1)
         for ending, written in formats.items()
     }
+
+
+WRITERS = {".pdf": pdf, ".docx": word, ".html": web}
+_MODULES: dict[str, dict[str, str]] = {".pdf": {"typst": "report"}, ".docx": {"docx": "report"}, ".html": {}}
+
+
+def check_format(name: str, *, with_figures: bool = False, with_sheets: bool = False) -> None:
+    """Raise unless a note of this format can be written, before anything is computed."""
+    if PurePath(name).suffix.lower() not in WRITERS:
+        raise CrankworkError(f"{name}: no format of a note has this ending; end it in {', '.join(WRITERS)}")
+    modules = _MODULES[PurePath(name).suffix.lower()]
+    if with_figures:
+        modules = modules | {"matplotlib": "figures"}
+    if with_sheets:
+        modules = modules | {"typst": "report", "ezdxf": "report"}
+    if extras := missing_extras(modules):
+        raise MissingExtraError("this note", *extras)
+
+
+def written_note(note: Note, name: str) -> bytes:
+    """Return a note in the format that the ending of a file name asks for."""
+    check_format(name)
+    return WRITERS[PurePath(name).suffix.lower()](note)

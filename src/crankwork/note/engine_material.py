@@ -11,7 +11,7 @@ from typing import cast
 import numpy as np
 
 from crankwork.analysis import Array, Results
-from crankwork.analysis.force_functions import force_functions
+from crankwork.analysis.forces import force_functions
 from crankwork.analysis.steps import worked_steps
 from crankwork.formula.steps import AnyStep, Given, ProductStep, Step, StepGroup, SumStep
 from crankwork.machine import Machine

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from crankwork.analysis import Results
-from crankwork.analysis.one_cylinder import as_engine
+from crankwork.analysis.whole_engine import as_engine
 from crankwork.errors import CrankworkError
 from crankwork.machine import Machine
 from crankwork.note.document import Block, Contents, Note, PageBreak, TitlePage

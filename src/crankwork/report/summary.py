@@ -6,8 +6,11 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from crankwork.analysis import Results
+from crankwork.analysis.linkage import four_bar_type
+from crankwork.linkage_machine import LinkageMachine, TabulatedMachine
 from crankwork.locale import say
 from crankwork.machine import Machine
+from crankwork.mechanism.structure import structure
 from crankwork.quantities import Language
 from crankwork.report.language import (
     displayed,
@@ -97,7 +100,7 @@ def results_method(results: Results, language: Language) -> str:
     """Return how results were made, in words."""
     if not isinstance(results.machine, Machine):
         # an engine starts faster without these words
-        from crankwork.report.linkage_summary import method_words  # noqa: PLC0415 - loaded where it is needed
+        from crankwork.report.summary import method_words  # noqa: PLC0415 - loaded where it is needed
 
         return method_words(results.machine, language)
     method = results.method
@@ -135,7 +138,7 @@ def description_text(machine: AnyMachine, results: Results, language: Language =
 
 def _headline(machine: AnyMachine, summary: Mapping[str, float], language: Language) -> list[str]:
     if not isinstance(machine, Machine):
-        from crankwork.report.linkage_summary import headline  # noqa: PLC0415 - loaded where it is needed
+        from crankwork.report.summary import headline  # noqa: PLC0415 - loaded where it is needed
 
         return headline(machine, language)
     parts = [say("check.offset_slider_crank" if summary.get("offset") else "check.slider_crank", language)]
@@ -152,3 +155,36 @@ def _headline(machine: AnyMachine, summary: Mapping[str, float], language: Langu
         key = "check.engine" if count > 1 else "check.engine_of_one"
         lines.append(say(key, language, kind=kind, count=count, order=order))
     return lines
+
+
+def method_words(machine: LinkageMachine | TabulatedMachine, language: Language) -> str:
+    """Return how the results of a linkage are made, in words."""
+    if isinstance(machine, TabulatedMachine):
+        return say("report.tabulated", language)
+    return method_name("exact", 0, "", language)
+
+
+def headline(machine: LinkageMachine | TabulatedMachine, language: Language) -> list[str]:
+    """Return mobility, groups and formula of structure of a linkage, or the size of a table."""
+    if isinstance(machine, TabulatedMachine):
+        return [say("check.table", language, bodies=len(machine.bodies), positions=len(machine.angles))]
+    found, _ = structure(machine.linkage)
+    if found is None:
+        return [say("check.linkage", language)]
+    numbered = ", ".join(f"{number} {name}" for number, name in enumerate(found.links, start=1))
+    count, number = len(found.links), "I" * found.number if found.number < 4 else found.number
+    return [
+        say("check.links", language, count=count, names=numbered),
+        say("check.mobility", language, links=count, joints=found.joints, mobility=found.mobility),
+        say("check.structure", language, formula=found.formula, number=number),
+        *_grashof_lines(machine, language),
+    ]
+
+
+def _grashof_lines(machine: LinkageMachine, language: Language) -> list[str]:
+    """Return the type of a four-bar linkage by Grashof."""
+    kind = four_bar_type(machine)
+    if not kind:
+        return []
+    shown = kind if language == "en" else say(f"kinds.{kind.replace(' ', '_')}", language)
+    return [say("check.grashof", language, kind=shown)]

@@ -198,3 +198,15 @@ def flywheels(
     Mertsalov: what of the inertia belongs to the bodies that turn with the crank [kg m2].
     """
     return tuple(flywheel(inertia, torque, mean_speed, fluctuation, way, constant_part=constant_part) for way in WAYS)
+
+
+@formula("work_per_cycle", "khurmi_gupta_2005, ch. 16")
+def work_of_mean_torque(M_mean: Value, phi_c: Value) -> Value:
+    """Work of a torque over a cycle."""
+    return M_mean * phi_c
+
+
+@formula("flywheel_inertia", "artobolevsky_1988, ch. 16")
+def flywheel_beside_machine(J_sum: Value, J: Value) -> Value:
+    """Moment of inertia that the flywheel has to add to that of the machine."""
+    return J_sum - J

@@ -13,7 +13,7 @@ from crankwork.errors import CrankworkError, MissingExtraError
 from crankwork.formula.known import Found, Known, given
 from crankwork.formula.worked import Worked
 from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.lengths import mean_piston_speed
+from crankwork.kinematics.slider_crank import mean_piston_speed
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.indicator import VolumeAt
 from crankwork.working_cycle import first_law, wiebe, woschni

@@ -13,7 +13,6 @@ from crankwork.working_cycle import charge, combustion, performance
 from crankwork.working_cycle.calculated_cycle import CalculatedCycle, Corners, Notice
 from crankwork.working_cycle.cycle_data import GrinevetskyData, what_is_given, with_usual_values
 from crankwork.working_cycle.fuels import FUELS, CycleError, burning
-from crankwork.working_cycle.heat_balance import heat_balance
 from crankwork.working_cycle.heat_capacities import (
     fresh_heat,
     mixture_heat,
@@ -21,7 +20,7 @@ from crankwork.working_cycle.heat_capacities import (
     residual_heat,
 )
 from crankwork.working_cycle.mixture import mixture
-from crankwork.working_cycle.sizing import sized, work_power
+from crankwork.working_cycle.sizing import heat_balance, sized, work_power
 from crankwork.working_cycle.validity import cycle_notices
 
 # what was put in and belongs to the results

@@ -8,8 +8,7 @@ import numpy as np
 
 from crankwork.formula.known import Found, Known
 from crankwork.loads.indicator import IndicatorDiagram, Segment, VolumeAt, solve_diagram
-from crankwork.working_cycle.calculated import Calculated
-from crankwork.working_cycle.calculated_cycle import CalculatedCycle, Corners
+from crankwork.working_cycle.calculated_cycle import Calculated, CalculatedCycle, Corners
 from crankwork.working_cycle.heat_data import HeatReleaseData
 from crankwork.working_cycle.heat_release import HeatReleaseResult, heat_release
 from crankwork.working_cycle.rounding import Rounding, Timing, rounded_diagram

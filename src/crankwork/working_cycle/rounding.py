@@ -13,16 +13,18 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, VolumeAt, solve_diagram
+from crankwork.working_cycle.calculated_cycle import Notice
 from crankwork.working_cycle.gas_exchange import clipped
 from crankwork.working_cycle.rounded_pieces import without_auxiliary, written
 from crankwork.working_cycle.rounding_corners import (
     RoundedCorners,
+    Rounding,
+    Timing,
     burning_parts,
     compression_parts,
     corners_of,
     exchange_parts,
 )
-from crankwork.working_cycle.rounding_data import Rounding, Timing
 
 __all__ = ["RoundedDiagram", "Rounding", "Timing", "filling_factor", "rounded_diagram", "theoretical_work"]
 
@@ -33,8 +35,6 @@ _USUAL_RISE = (1.15, 1.25)
 _USUAL_PEAK = (10.0, 15.0)
 _DEVIATION = 0.01
 _ABOVE = 1.1
-
-Notice = tuple[str, Mapping[str, float | str]]
 
 
 class RoundedDiagram(NamedTuple):
