@@ -7,7 +7,7 @@ operations at the angles wanted.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Protocol, Self
 
 import numpy as np
@@ -218,8 +218,8 @@ def _piece_by_piece(node: Pieces, angles: Angles, values: Mapping[int, Array]) -
     """Return a column each stretch of which follows its own law."""
     law_of = np.minimum(np.searchsorted(node.ends, angles.degrees, side="left"), len(node.operands) - 1)
     result = np.empty(len(angles))
-    for at in sorted(set(law_of.tolist())):
-        rows, law = np.flatnonzero(law_of == at), node.operands[at]
+    for at, rows in _stretches(law_of):
+        law = node.operands[at]
         match law.node:
             case Use(formula=formula, inputs=inputs) if law.varies:
                 taken = [one[rows] if isinstance(one, np.ndarray) else one for one in _inputs(inputs, values)]
@@ -229,3 +229,13 @@ def _piece_by_piece(node: Pieces, angles: Angles, values: Mapping[int, Array]) -
             case inner:
                 result[rows] = law.value if not law.varies else values[id(inner)][rows]
     return result
+
+
+def _stretches(law_of: NDArray[np.intp]) -> Iterator[tuple[int, slice | NDArray[np.intp]]]:
+    """Yield each law that is followed and its rows: a slice where angles ascend, which copies nothing."""
+    step = np.diff(law_of)
+    if np.all(step >= 0):
+        edges = [0, *(np.flatnonzero(step) + 1).tolist(), law_of.size]
+        yield from ((int(law_of[first]), slice(first, end)) for first, end in itertools.pairwise(edges) if end > first)
+    else:
+        yield from ((at, np.flatnonzero(law_of == at)) for at in sorted(set(law_of.tolist())))

@@ -15,6 +15,7 @@ Array = NDArray[np.float64]
 # Angles closer than this are one row of a table. [deg]
 _SAME_ANGLE = 1e-9
 _DECIMALS = 9
+_EPSILON = float(np.finfo(float).eps)
 _SIN_OF_QUARTER = np.array([0.0, 1.0, 0.0, -1.0])
 _COS_OF_QUARTER = np.array([1.0, 0.0, -1.0, 0.0])
 
@@ -72,12 +73,14 @@ class CrankGrid:
     @cached_property
     def sin_2(self) -> Array:
         """Sine of twice the angle."""
-        return 2 * self.sin * self.cos
+        return 2 * self.sin * self.cos + 0.0
 
     @cached_property
     def cos_2(self) -> Array:
         """Cosine of twice the angle."""
-        return (self.cos - self.sin) * (self.cos + self.sin)
+        cosine = (self.cos - self.sin) * (self.cos + self.sin)
+        # at odd multiples of 45 degrees sine and cosine differ by rounding alone
+        return np.where(np.abs(cosine) < _EPSILON, 0.0, cosine)
 
     @cached_property
     def one_minus_sin(self) -> Array:
@@ -110,7 +113,9 @@ class CrankGrid:
         order : int
             The multiple.
         """
-        if order not in self._multiples:
+        if order == 2 and order not in self._multiples:
+            self._multiples[order] = type(self)(2 * self.degrees, 2 * self.angle, self.sin_2, self.cos_2)
+        elif order not in self._multiples:
             self._multiples[order] = type(self).from_degrees(order * self.degrees)
         return self._multiples[order]
 
