@@ -105,9 +105,7 @@ def inertia_acceleration(solved: Solved) -> Known:
 def harmonic_memory(solved: Solved) -> dict[str, Known]:
     """Return the first- and second-order parts of displacement, velocity and acceleration: of the textbook its own two.
 
-    References
-    ----------
-    kolchin_demidov_2008, ch. 6; taylor_1985, vol. 2, ch. 8.
+    Source: kolchin_demidov_2008, ch. 6; taylor_1985, vol. 2, ch. 8.
     """
     moving = solved.moving
     lengths, found = moving.lengths, dict[str, Known]()

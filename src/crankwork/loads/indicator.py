@@ -95,23 +95,10 @@ class Segment:
         return self.rounded(degrees)
 
     def work(self, volume_at: VolumeAt, volume: Array | None = None) -> float:
-        """Return the integral of pressure by volume over the segment.
+        """Return the integral of pressure by volume over the segment (heywood_1988, sec. 2.4). [J]
 
-        Parameters
-        ----------
-        volume_at : callable
-            Cylinder volume of an array of crank angles. [deg] -> [m3]
-        volume : array, shape (2,), optional
-            That at both ends, where it is known already. [m3]
-
-        Returns
-        -------
-        float
-            Work; closed form for constants and polytropes, by parts for curves. [J]
-
-        References
-        ----------
-        heywood_1988, sec. 2.4.
+        Work; closed form for constants and polytropes, by parts for curves. `volume`: that at both ends, where it is
+        known already [m3], shape (2,).
         """
         ends = np.array([self.start, self.end])
         volume = volume_at(ends) if volume is None else volume

@@ -62,12 +62,8 @@ def capital(words: str) -> str:
 class Refusal(str):
     """What is refused, in English; it keeps its key and values, so that `told` can say it in another language.
 
-    Parameters
-    ----------
-    name : str
-        Of a text in the room `refusals`.
-    **values : str, int, tuple or list
-        What stands in its braces; entries of a tuple are joined by "or", those of a list by "and".
+    The name is that of a text in the room `refusals`. Of the values entries of a tuple are joined by "or", those of a
+    list by "and".
 
     Examples
     --------
