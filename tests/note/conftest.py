@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import datetime as dt
+import functools
 import math
+from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
+import crankwork
 from crankwork.dynamics import piston_forces as forces
+from crankwork.errors import CrankworkError
 from crankwork.formula.expression import FORMULAS, record
 from crankwork.formula.steps import Given, Step, sum_step, worked_step
 from crankwork.kinematics.slider_crank import mean_piston_speed
@@ -38,6 +43,24 @@ SVG = (
     b'width="200pt" height="100pt" viewBox="0 0 200 100"><defs><path id="p" d="M0 0L200 100" stroke="black"/></defs>'
     b'<use xlink:href="#p"/></svg>'
 )
+
+
+@functools.cache
+def _results(file: Path | str, way: str) -> crankwork.Results:
+    settings = [f"method.kinematics={way}"]
+    try:
+        if isinstance(file, Path):
+            return crankwork.analyse(crankwork.read(file, settings))
+        return crankwork.analyse(crankwork.read_machine(crankwork.template(file), file, settings))
+    except CrankworkError:
+        assert way == "textbook"
+        return _results(file, "exact")
+
+
+@pytest.fixture(scope="session")
+def results_of() -> Callable[[Path | str, str], crankwork.Results]:
+    """Results of an example or a template by a method, exact where it has no other."""
+    return _results
 
 
 @pytest.fixture
