@@ -46,9 +46,8 @@ def arranged(
 ) -> tuple[Layout, tuple[LayoutNotice, ...]]:
     """Return the layout of any arrangement: W engines, narrow V engines and whatever has no name.
 
-    Notice `uneven_intervals` with the intervals, unless they are wanted. `throws`: angle of each throw along the
-    shaft ahead of the first, positive with the rotation; else from even firing [deg]; `uneven`: whether uneven
-    intervals are wanted, so that there is no notice of them.
+    Throws are angles along the shaft ahead of the first, positive with the rotation [deg]; without them they follow
+    from even firing. Uneven intervals that are not `uneven` on purpose are a notice.
 
     At the crank angle phi of cylinder 1 from its own axis, the crankpin of cylinder k stands at
     phi + axis_1 + pin_k, so its own crank angle is phi - (axis_k - axis_1 - pin_k): the bracket is its firing angle,

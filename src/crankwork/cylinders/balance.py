@@ -99,13 +99,11 @@ def free_forces(
     *,
     about: float = 0.0,
 ) -> tuple[OrderBalance, ...]:
-    """Return what the reciprocating masses leave free.
+    """Return force and moment [N], [N m] of each order that the reciprocating masses leave free.
 
-    Force and moment of each order of `harmonics` [N], [N m]. `mass` and `crank_radius`: reciprocating mass, crank
-    radius; of each cylinder where they differ [kg], [m], shape (cylinders,); `harmonics`: orders of the piston
-    acceleration, the same for all cylinders or one row for each; `about`: position along the shaft that moments are
-    about, by default the middle between the outermost cylinders [m]. Source: den_hartog_1956, ch. 5; taylor_1985,
-    vol. 2, ch. 8.
+    Masses and radii are of each cylinder where they differ, harmonics a row of each; moments are `about` a position
+    along the shaft [m], by default the middle between the outermost cylinders. For other layouts taylor_1985, vol. 2,
+    ch. 8. Source: den_hartog_1956, ch. 5.
     """
     places = layout.places
     if harmonics.coefficients.ndim > 1 and len(harmonics.coefficients) != len(places):

@@ -66,11 +66,10 @@ def big_end_bearing_load(load: BearingLoad, swing: RodSwing) -> BearingLoad:
 
 
 def small_end_bearing_load(pin_force: Value, side: Value, swing: RodSwing) -> BearingLoad:
-    """Return the load on the small-end bearing: the force of the piston pin on it, in the rod frame. [N]
+    """Return the load on the small-end bearing, the force of the piston pin on it, in the rod frame. [N]
 
-    Negative x presses the bearing towards the crankpin, as compression does. `pin_force`: axial force of the piston
-    on its pin, `piston_pin_force`, positive towards the crankshaft [N]; `side`: side force; where the cylinder leans,
-    with the weight of the piston group across the axis added [N]. Source: lukanin_shatrov_2007, ch. 1.
+    Negative x presses the bearing towards the crankpin, as compression does. The side force of a cylinder that leans
+    has the weight of the piston group across the axis in it. Source: lukanin_shatrov_2007.
 
     The piston hands on axially what acts on it and sideways what the wall gives back, so the force on the rod
     needs no rod mass. It is the force along the rod plus the inertia force that moves the rod's small-end mass.

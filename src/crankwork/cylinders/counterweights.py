@@ -68,10 +68,9 @@ def throw_counterweights(
 ) -> tuple[Unbalance, ...]:
     """Return one counterweight opposite each crankpin, for its rotating mass and a share of what reciprocates on it.
 
-    One for each crankpin, midway between its masses. `reciprocating` and `rotating`: masses of each cylinder; of a
-    crankpin that several share, the part of each [kg], shape (cylinders,); `share`: balanced share of the
-    reciprocating mass; one half removes all of the first order that turns forwards. Source: kolchin_demidov_2008, ch.
-    8; taylor_1985, vol. 2, ch. 8, for radial engines.
+    It stands midway between the masses of its crankpin; of one that several cylinders share, each mass is the part of
+    one. Half of the reciprocating mass removes all of the first order that turns forwards (kolchin_demidov_2008, ch. 8;
+    taylor_1985, vol. 2, ch. 8, for radial engines).
     """
     count = len(layout.places)
     moments = np.broadcast_to(

@@ -20,11 +20,7 @@ def inline(
     strokes: int = 4,
     uneven: bool = False,
 ) -> tuple[Layout, tuple[LayoutNotice, ...]]:
-    """Return an inline engine.
-
-    `throws`: angle of each throw ahead of the first, positive with the rotation; else from even firing [deg];
-    `uneven`: whether uneven intervals are wanted, so that there is no notice of them.
-    """
+    """Return an inline engine; throws [deg] and uneven intervals as for `arranged`."""
     return arranged(Banks("inline", cylinders, spacing=spacing), order, strokes=strokes, throws=throws, uneven=uneven)
 
 
@@ -42,15 +38,11 @@ def vee(  # noqa: PLR0913 - each argument is a key of the description
     uneven: bool = False,
     articulated: bool = False,
 ) -> tuple[Layout, tuple[LayoutNotice, ...]]:
-    """Return a V engine, two cylinders to a throw.
+    """Return a V engine, two cylinders to a throw; throws [deg] and uneven intervals as for `arranged`.
 
-    `bank_angle`: from the axis of the bank of cylinder 1 to the other, positive with the rotation [deg]; `spacing`
-    and `bank_stagger`: distance between cylinders of a bank; how much farther along the shaft the other bank stands
-    [m]; `pin_offset`: how far the crankpins of the other bank are ahead on the same throw; 0 is a common pin [deg];
-    `numbering`: banks: 1 to n/2 are the first bank. pairs: 1 and 2 are the first throw; `throws`: angle of each throw
-    ahead of the first, positive with the rotation; else from even firing [deg]; `uneven`: whether uneven intervals
-    are wanted, so that there is no notice of them; `articulated`: whether the rods of the other bank hang on those of
-    the first.
+    The bank angle goes from the bank of cylinder 1 to the other, positive with the rotation [deg], the pin offset is
+    how far the crankpins of the other bank are ahead on the same throw [deg]. Numbering is by `banks`, 1 to n/2 in the
+    first, or by `pairs`, 1 and 2 on the first throw.
     """
     axes = (-bank_angle / 2, bank_angle / 2)
     banks = Banks(
@@ -72,11 +64,8 @@ def boxer(  # noqa: PLR0913 - each argument is a key of the description
 ) -> tuple[Layout, tuple[LayoutNotice, ...]]:
     """Return a boxer engine: two opposed banks, each cylinder with a throw of its own.
 
-    `spacing` and `bank_stagger`: distance between neighbouring throws, half that between cylinders of a bank; how
-    much farther along the shaft the other bank stands, by default as much [m]; `numbering`: banks: 1 to n/2 are the
-    first bank. pairs: 1 and 2 are the first opposed pair; `throws`: angle of each throw along the shaft ahead of the
-    first, positive with the rotation; else from even firing [deg]; `uneven`: whether uneven intervals are wanted, so
-    that there is no notice of them.
+    The spacing is that of neighbouring throws, half that of cylinders of a bank; the other bank stands as much farther
+    along the shaft unless `bank_stagger` says otherwise [m]. All else as for `vee`.
     """
     stagger = spacing if bank_stagger is None else bank_stagger
     banks = Banks("boxer", cylinders, (-90.0, 90.0), 2 * spacing, stagger, numbering=numbering, own_throws=True)

@@ -35,15 +35,14 @@ def journal_share(z_b: Value, z_left: Value, z_right: Value) -> Value:
 def main_journal_loads(
     layout: Layout, loads: Sequence[BearingLoad], unbalances: Sequence[Unbalance], speed: Value
 ) -> tuple[BearingLoad, ...]:
-    """Return the force of every main bearing on its journal, in the shaft frame (kolchin_demidov_2008, ch. 7). [N]
+    """Return the force of every main bearing on its journal, in the frame of the crank of cylinder 1. [N]
 
-    By journal, in the frame of the crank of cylinder 1; `turned_by` its direction gives the block frame. `loads`:
-    force of each rod on its crankpin in the frame of its own crank, by cylinder, at the same instants [N];
-    `unbalances`: masses of the throws and counterweights; beyond the outermost journals they overhang the end throw.
-    The rod masses at the crankpins are in the loads already.
+    `loads` are the forces of each rod on its crankpin in the frame of its own crank, at the same instants, with the rod
+    masses in them; `unbalances` beyond the outermost journals overhang the end throw. `turned_by` gives the block
+    frame.
 
     Minus the sum of what the throws on both sides of the journal hand on, each by its lever. With every force in
-    the middle of its throw it is minus one half of the vector sum of the two throws.
+    the middle of its throw it is minus one half of the vector sum of the two throws (kolchin_demidov_2008, ch. 7).
     """
     if len(loads) != len(layout.places):
         raise CrankworkError(

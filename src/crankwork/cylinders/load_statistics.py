@@ -87,11 +87,9 @@ def polar_diagram(
 ) -> PolarDiagram:
     """Return the polar diagram of a load: y to the right, minus x downward, crank angles marked. [N]
 
-    Curve, pole and marks; from the pole, every vector is the whole load. `load`: the whole load, inertia of the rod
-    masses included [N]; `degrees`: ascending crank angles, with or without the end of the cycle [deg]; `inertia`:
-    inertia force of all rod masses at the crankpin, never positive: the curve is that of the rods without it, and the
-    pole lies as far below the origin. Without it the pole is the origin [N]; `step`: step of the marks [deg]. Source:
-    kolchin_demidov_2008, ch. 7.
+    Given the inertia force of all rod masses at the crankpin, never positive, the curve is that of the rods without it,
+    and the pole lies as far below the origin: from the pole every vector is the whole load. Marks are `step` apart
+    [deg]. Source: kolchin_demidov_2008, ch. 7.
     """
     cycle_shares(degrees, cycle)
     degrees = np.asarray(degrees, dtype=float)

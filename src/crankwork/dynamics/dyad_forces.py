@@ -81,13 +81,10 @@ class OnGuide(NamedTuple):
 
 
 def rrr_forces(a: Wrench, b: Wrench, u: Vector, v: Vector, name: str = "") -> tuple[Vector, Vector, Vector]:
-    """Return the forces in the pins of two links (artobolevsky_1988, ch. 13). [N]
+    """Return the forces on the first link from outside, on the second from the first, on the second from outside. [N]
 
-    On the first link from outside, on the second from the first, on the second from outside. `a` and `b`: what acts
-    on the links, moments about their outer pins [N]; `u` and `v`: from the outer pins of the links to the inner one
-    [m].
-
-    The moments about the outer pins, u x R = M_a and v x R = -M_b, give R = (M_a v + M_b u) / (u x v).
+    Moments of `a` and `b` are about the outer pins, from which `u` and `v` lead to the inner one [m]:
+    u x R = M_a and v x R = -M_b give R = (M_a v + M_b u) / (u x v) (artobolevsky_1988, ch. 13).
     """
     area = named(area_of_arms(u[0], v[1], u[1], v[0]), f"doubled_area.{name}_arms")
     inner = _vector(
@@ -97,14 +94,11 @@ def rrr_forces(a: Wrench, b: Wrench, u: Vector, v: Vector, name: str = "") -> tu
 
 
 def rrp_forces(link: Wrench, piece: Wrench, u: Vector, t: Vector, name: str = "") -> tuple[Vector, Vector, OnGuide]:
-    """Return the forces in the pins of a link and on the guide of its sliding piece (artobolevsky_1988, ch. 13).
+    """Return forces on a link from outside, on its sliding piece from the link, and on the piece from the guide. [N]
 
-    On the link from outside, on the piece from the link [N], on the piece from the guide. `link` and `piece`: what
-    acts on them, moments about outer and inner pin [N]; `u` and `t`: from the outer pin to the inner one [m],
-    direction of the guide [-].
-
-    Along the guide the piece gives R_t = -F_t; about the outer pin the link gives u x R = M, hence
-    R_n = (M + u_n R_t) / u_t.
+    Moments are about the outer and the inner pin, `u` leads from one to the other [m], `t` is the direction of the
+    guide. Along the guide the piece gives R_t = -F_t; about the outer pin the link gives u x R = M, hence R_n = (M +
+    u_n R_t) / u_t (artobolevsky_1988, ch. 13).
     """
     along, across = -force_along(piece.x, t[0], piece.y, t[1]), force_across(piece.y, t[0], piece.x, t[1])
     along, across = named(along, f"force_along.{name}"), named(across, f"force_across.{name}_piece")
@@ -116,13 +110,11 @@ def rrp_forces(link: Wrench, piece: Wrench, u: Vector, t: Vector, name: str = ""
 
 
 def rpr_forces(lever: Wrench, block: Wrench, u: Vector, t: Vector, name: str = "") -> tuple[Vector, OnGuide, Vector]:
-    """Return the forces in the pins of a slotted lever and its block, and between them (artobolevsky_1988, ch. 13).
+    """Return the forces on a block from its pin and from its slot, and on the slotted lever from its pivot. [N]
 
-    On the block from its pin [N], on the block from the slot, on the lever from its pivot [N]. `lever` and `block`:
-    what acts on them, moments about the pivot of the lever and the pin of the block [N]; `u` and `t`: from the pivot
-    to the pin [m], direction of the slot [-].
-
-    The block gives R_t = -F_t and takes its moment from the slot; the lever gives N = (M + M_block) / u_t.
+    Moments are about the pivot of the lever and the pin of the block, `u` leads from one to the other [m], `t` is the
+    direction of the slot. The block gives R_t = -F_t and takes its moment from the slot; the lever gives
+    N = (M + M_block) / u_t (artobolevsky_1988, ch. 13).
     """
     reach = named(along_guide(u[0], t[0], u[1], t[1]), f"guide_along.{name}_arm")
     normal = named(rpr_normal_force(lever.moment, block.moment, reach), f"normal_force.{name}")
@@ -131,12 +123,9 @@ def rpr_forces(lever: Wrench, block: Wrench, u: Vector, t: Vector, name: str = "
 
 
 def prp_forces(a: Wrench, b: Wrench, t_a: Vector, t_b: Vector, name: str = "") -> tuple[OnGuide, Vector, OnGuide]:
-    """Return the forces on the guides of two blocks and in the pin between them (artobolevsky_1988, ch. 13).
+    """Return forces on the first block from its guide, on the second from the first, on the second from its guide. [N]
 
-    On the first block from its guide, on the second block from the first [N], on the second from its guide. `a` and
-    `b`: what acts on the blocks, moments about the pin [N].
-
-    Along the guides R t_a = F_a t_a and R t_b = -F_b t_b.
+    Moments are about the pin. Along the guides R t_a = F_a t_a and R t_b = -F_b t_b (artobolevsky_1988, ch. 13).
     """
     sine = named(sine_between(t_a[0], t_b[1], t_a[1], t_b[0]), f"guide_sine.{name}")
     along_a, along_b = force_along(a.x, t_a[0], a.y, t_a[1]), -force_along(b.x, t_b[0], b.y, t_b[1])
@@ -152,13 +141,11 @@ def prp_forces(a: Wrench, b: Wrench, t_a: Vector, t_b: Vector, name: str = "") -
 def rpp_forces(
     yoke: Wrench, block: Wrench, u: Vector, slot: Vector, guide: Vector, name: str = ""
 ) -> tuple[Vector, OnGuide, OnGuide]:
-    """Return the forces in the pin of a block, in the slot of its yoke and on the guide of the yoke.
+    """Return the forces on a block from its pin and from the slot of its yoke, and on the yoke from its guide. [N]
 
-    On the block from its pin [N], on the block from the slot, on the yoke from its guide. `yoke` and `block`: what
-    acts on them, moments about the origin of the yoke and the pin of the block [N]; `u`, `slot` and `guide`: from the
-    origin of the yoke to the pin, directions of slot and guide [m]. Source: artobolevsky_1988, ch. 13.
-
-    Along the guide the yoke gives N n t = F t with the normal n of the slot; across it and about its origin the rest.
+    Moments are about the origin of the yoke and the pin of the block, `u` leads from one to the other [m]. Along the
+    guide the yoke gives N n t = F t with the normal n of the slot; across it and about its origin the rest
+    (artobolevsky_1988, ch. 13).
     """
     along = named(force_along(yoke.x, guide[0], yoke.y, guide[1]), f"force_along.{name}")
     sine = named(sine_between(slot[0], guide[1], slot[1], guide[0]), f"guide_sine.{name}")

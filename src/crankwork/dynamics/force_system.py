@@ -154,10 +154,7 @@ def _named_pair(joint: Joint, one: Known, other: Known) -> tuple[Known, Known]:
 
 
 def system_joint_forces(running: Running) -> JointForces:
-    """Return the forces in all joints and the balancing torque from one linear system (norton_2012, ch. 11).
-
-    The same as `joint_forces` gives group after group [N], [N m].
-    """
+    """Return what `joint_forces` gives group after group, from one linear system (norton_2012, ch. 11). [N], [N m]"""
     system = whole_system(running)
     wrenches = {link: Wrench(*one) for link, one in plain_wrenches(running).items()}
     unknowns = solve_positions(system.matrix, system.right_side(wrenches))

@@ -74,10 +74,7 @@ def link_angular_acceleration(theta_2: Value, w: Value, theta_1: Value, eps: Val
 
 
 def inertia_loads(running: Running) -> AppliedLoads:
-    """Return the inertia forces and torques of the bodies (artobolevsky_1988, ch. 12).
-
-    -m a at each centre of mass and -J eps on each link [N], [N m].
-    """
+    """Return -m a at each centre of mass [N] and -J eps on each link [N m] (artobolevsky_1988, ch. 12)."""
     w, eps = running.speed, running.angular_acceleration
     forces, torques = [], []
     bodies = body_motions(running.mechanism, running.motion)

@@ -36,8 +36,7 @@ def reduced_inertia_of_ratios(m_i: Value, v_w: Value, J_S: Value, w_w: Value) ->
 def difference_derivative(crank_angle: ArrayLike, values: ArrayLike, scheme: Differences = "central") -> Array:
     """Return the derivative by the crank angle of a column that repeats every revolution. [kg m2]
 
-    `crank_angle`: ascending angles of less than a revolution in all [rad]; `scheme`: to the next angle; from the last
-    to the next; of the trigonometric polynomial through all values.
+    Differences are to the next angle, from the last to the next, or of the trigonometric polynomial through all values.
 
     Forward and central differences are how documents are made. For a computed motion the exact derivative is at
     hand, see `reduction.reduced_inertia`.

@@ -111,10 +111,7 @@ def _slot_offset(dyad: RPR, square: float) -> float:
 def singular_between(
     grid: CrankGrid, closure: Closure, closure_at: Callable[[CrankGrid], Closure]
 ) -> Iterator[tuple[int, float]]:
-    """Yield the intervals between given angles in which a group does not close, and an angle in each.
-
-    Number of the interval, and the angle; none where the angles do not ascend, so that nothing lies between [-],
-    [rad].
+    """Yield the intervals between ascending angles in which a group does not close, and an angle in each. [rad]
 
     Where a smooth function is least it is convex, and there the secants of its neighbours bound it from below.
     Only an interval in which that bound is negative is looked at more closely.

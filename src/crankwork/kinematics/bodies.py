@@ -26,10 +26,7 @@ class BodyMotion(NamedTuple):
 
 
 def body_motions(mechanism: Mechanism, motion: Motion) -> tuple[BodyMotion, ...]:
-    """Return the motion of every body of a mechanism.
-
-    Centres of mass with first and second transfer functions [m], first and second rate of turning [-].
-    """
+    """Return centres of mass with first and second transfer functions [m], and the rates of turning, of every body."""
     return tuple(BodyMotion(body, centre_of_mass(body, motion), *_rates(body, motion)) for body in mechanism.bodies)
 
 

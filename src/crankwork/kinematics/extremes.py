@@ -15,11 +15,7 @@ _MAX_STEPS = 40
 
 
 def closed_in(function: Callable[[Array], Array], low: Array, high: Array, at_low: Array, at_high: Array) -> Array:
-    """Return a root between each pair of angles at which a function has different signs, to the last bit.
-
-    `function`: takes and returns an array of shape (n,). [deg] -> any; `low`, `high`, `at_low` and `at_high`: the
-    ends of the ranges [deg], and the function there.
-    """
+    """Return a root between each pair of angles at which a function has different signs, to the last bit. [deg]"""
     root = high
     for _ in range(_MAX_STEPS):
         # one that is found waits for the others, and between its ends nothing is left
@@ -36,10 +32,7 @@ def closed_in(function: Callable[[Array], Array], low: Array, high: Array, at_lo
 
 
 def reached(function: Callable[[Array], Array], wanted: float, start: float, end: float) -> float:
-    """Return where a function that grows or falls all the way reaches a value; the nearer end if it does not.
-
-    `function`: takes and returns an array of shape (n,). [deg] -> any; `start` and `end`: range to search [deg].
-    """
+    """Return where a function that grows or falls all the way reaches a value; the nearer end if it does not. [deg]"""
     angles = np.linspace(start, end, _NEAR)
     apart = function(angles) - wanted
     if apart[0] * apart[-1] >= 0:

@@ -134,9 +134,9 @@ class IndicatorDiagram:
         return np.array(sorted({*np.concatenate(knots).tolist(), self.segments[-1].end}))
 
     def work(self, volume_at: VolumeAt) -> float:
-        """Return the area of the diagram over the cylinder volume (heywood_1988, sec. 2.4). [J]
+        """Return the area of the diagram over the cylinder volume, the work of one cycle. [J]
 
-        Work of the gas on the piston over one cycle.
+        Source: heywood_1988, sec. 2.4.
         """
         ends = volume_at(np.array([(one.start, one.end) for one in self.segments]).ravel()).reshape(-1, 2)
         return sum(one.work(volume_at, volume) for one, volume in zip(self.segments, ends, strict=True))
@@ -163,7 +163,7 @@ def solve_diagram(
 ) -> IndicatorDiagram:
     """Return the diagram that named points and laws describe.
 
-    `pieces`: laws in the order of the crank angle, each starting where the one before ends.
+    Each piece starts where the one before ends; the dead centres are top and bottom within one revolution [deg].
     """
     solver = _Solver(points, volume_at, dead_centres, cycle)
     segments = [solver.segment(number, piece) for number, piece in enumerate(pieces)]

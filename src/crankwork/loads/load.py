@@ -36,10 +36,7 @@ Load = ProcessForce | ProcessForceAtPoint | ForceOnPoint | TorqueOnLink | Spring
 
 
 def applied_loads(mechanism: Mechanism, motion: Motion, loads: Iterable[Load]) -> AppliedLoads:
-    """Return the forces and torques on the links of a mechanism.
-
-    Forces at moving points and torques, arrays of shape (n,) [N], [N m].
-    """
+    """Return the forces at moving points [N] and the torques on links [N m] that act on a mechanism."""
     return together(_applied(load, mechanism, motion) for load in loads)
 
 

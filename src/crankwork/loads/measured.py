@@ -30,11 +30,10 @@ class MeasuredPressure:
 def measured_diagram(
     measured: MeasuredPressure, cycle: float, *, shift: float = 0.0, step: float | None = None
 ) -> tuple[IndicatorDiagram, int, float]:
-    """Return the diagram of measured pressure, cycles averaged and resampled if asked. [Pa]
+    """Return the closed diagram of measured pressure, how many cycles it averages, and its step from end to start. [Pa]
 
-    The closed diagram, the number of cycles averaged, and by how much the pressure at the end of the cycle differs
-    from that at its start. `shift`: added to every angle, so that zero is top dead centre [deg]; `step`: resample at
-    this step; otherwise the samples of the first cycle set the angles [deg].
+    `shift` is added to every angle, so that zero is top dead centre [deg]; without a `step` to resample at, the samples
+    of the first cycle set the angles [deg].
     """
     _check_angles(measured, cycle)
     start, end = measured.degrees[0], measured.degrees[-1]

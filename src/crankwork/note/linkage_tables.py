@@ -55,7 +55,7 @@ def position_tables(
 ) -> Iterator[Table]:
     """Yield a table over the positions of the crank, in parts if it has too many columns.
 
-    `first`: number of the first position; without it positions have no numbers, optional.
+    Positions are numbered from `first`, if it is given.
     """
     if not columns:
         return

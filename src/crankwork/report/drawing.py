@@ -40,10 +40,9 @@ def moving_drawing(
 ) -> str:
     """Return the mechanism of a machine as an SVG that moves by itself, one revolution after the other.
 
-    Lengths are to scale and the motion is exact; strokes, joints, blocks and letters have their own size. `machine`:
-    what is drawn; bore and clearance of a machine, if known, give the cylinder; `frames`: positions per revolution;
-    between them points move on straight lines; `links`: the moving links in the order of their numbers, as
-    `Structure.links` gives them; where it is left out, those of a LinkageMachine, or group after group.
+    Lengths are to scale and the motion is exact, points moving on straight lines between frames; strokes, joints,
+    blocks and letters have their own size. Links are in the order of their numbers, as `Structure.links` gives them;
+    without them those of a LinkageMachine, or group after group.
     """
     if frames < 8 or not 0 < seconds < math.inf:
         raise CrankworkError("a moving drawing needs at least 8 frames and a time above zero")

@@ -50,11 +50,10 @@ class Moment:
 def moment_after(
     machine: EnergyMachine, time: float, *, angle: float = 0.0, speed: float = 0.0, panels: int = _SMALLEST
 ) -> Moment:
-    """Return crank angle and speed after a time (artobolevsky_1988, ch. 15).
+    """Return crank angle and speed after a time (artobolevsky_1988, ch. 15). [rad], [rad/s]
 
-    Angle and speed; the speed is that of the energy, so that energy does not drift. `angle` and `speed`: crank angle
-    and speed at the start; from rest the torque must be positive [rad], [rad/s]; `panels`: panels of 14 Gauss points
-    per cycle to begin with; doubled until they are enough.
+    From rest the torque must be positive. The speed is that of the energy, so that energy does not drift. Panels of 14
+    Gauss points are doubled until they are enough.
 
     With T(phi) = T_0 + M (phi - phi_0) - V(phi) + V(phi_0) the time is t(phi) = integral of sqrt(J / (2 T)). Where
     it starts from rest the integrand is infinite, and phi = phi_0 + h s^2 makes it smooth on the first panels,

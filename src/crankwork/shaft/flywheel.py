@@ -90,12 +90,10 @@ class MassEnergyCurve:
 
 
 def mass_energy_curve(inertia: Curve, excess: Curve, slope_largest: float, slope_least: float) -> MassEnergyCurve:
-    """Return the mass-energy curve with its tangents of given slopes.
+    """Return the mass-energy curve with its tangents: from above with the one slope, from below with the other.
 
-    Tangents from above with the one slope and from below with the other, over the whole cycle. `inertia` and
-    `excess`: reduced moment of inertia without flywheel, excess work [kg m2], [J]; `slope_largest` and `slope_least`:
-    half the squares of the greatest and the least speed [J/(kg m2)]. Source: wittenbauer_1923; artobolevsky_1988, ch.
-    16.
+    Slopes are half the squares of the greatest and the least speed [J/(kg m2)]; the inertia is that without flywheel
+    (wittenbauer_1923; artobolevsky_1988, ch. 16).
     """
     above = (excess - inertia * slope_largest).extremes()
     below = (excess - inertia * slope_least).extremes()
@@ -122,13 +120,11 @@ def flywheel(
 ) -> Flywheel:
     """Return the flywheel for a wanted fluctuation of the speed, where all torques depend on the angle alone.
 
-    Its inertia, and the fluctuation that the machine really has with it. `inertia`: moment of inertia of the machine
-    reduced to the crank, without the flywheel [kg m2]; `torque`: torque over the angle, of engine or load (negative),
-    which a constant torque balances [N m]; `mean_speed` and `fluctuation`: mean of the extreme speeds; their
-    difference over it [rad/s]; `way`: constant inertia; energy of the second group of bodies at mean speed; tangents
-    without the square of the fluctuation; tangents with it, which is Gutyar's exact condition; `constant_part`: for
-    Mertsalov: what of the inertia belongs to the first group, of bodies that turn with the crank; if it is not given,
-    the least value of the inertia [kg m2]. Source: artobolevsky_1988, ch. 16; wittenbauer_1923.
+    With its inertia comes the fluctuation that the machine really has. The inertia given is that of the machine without
+    the flywheel, the torque that of engine or load (negative), which a constant torque balances; the mean speed is that
+    of the extremes. The ways are: constant inertia; Mertsalov's, energy of the second group of bodies at mean speed,
+    `constant_part` being what belongs to the first group, by default the least inertia; tangents without the square of
+    the fluctuation; tangents with it, which is Gutyar's exact condition (artobolevsky_1988, ch. 16; wittenbauer_1923).
 
     T_0 + A(phi) = (J_f + J(phi)) w^2 / 2 stays below the line of slope w_max^2 / 2 and above that of slope
     w_min^2 / 2 in the plane of J and A, and touches both. With a and b the ordinates where they cut the axis,

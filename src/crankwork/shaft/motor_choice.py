@@ -36,11 +36,10 @@ class MotorNeed:
 
 
 def motor_need(load: Curve, speed: float, *, efficiency: float = 1.0, safety: float = 1.0) -> MotorNeed:
-    """Return what a load asks of its motor (chilikin_sandler_1981, ch. 5: method of mean losses as rms torque).
+    """Return what a load asks of its motor: torques at the crank, powers at the motor (chilikin_sandler_1981, ch. 5).
 
-    Torques at the crank, powers at the motor. `load`: torque that drives the crank against the load at constant
-    speed, positive [N m]; `speed`, `efficiency` and `safety`: speed of the crank [rad/s], efficiency from motor to
-    crank [-], safety factor on the power [-].
+    The load is the torque that drives the crank against it at constant speed, positive; the method of mean losses is
+    taken as rms torque.
     """
     extremes, mean, rms = load.extremes(), load.mean, load.rms
     return MotorNeed(
@@ -90,8 +89,7 @@ class MotorCheck:
 def check_motor(need: MotorNeed, motor: CatalogueMotor, *, efficiency: float = 1.0, heating: bool = True) -> MotorCheck:
     """Return whether a motor bears the load: its power, its heating, its greatest torque.
 
-    `efficiency`: of the transmission from motor to crank; `heating`: whether the rms torque decides, as without a
-    flywheel; with one that evens the load out the mean does.
+    The efficiency is that from motor to crank. Heating is by the rms torque, as without a flywheel, or by the mean.
     """
     ratio = motor.speed / need.speed
     power = max(need.mean_power, need.rms_power) if heating else need.mean_power
@@ -113,10 +111,7 @@ def check_motor(need: MotorNeed, motor: CatalogueMotor, *, efficiency: float = 1
 def choose_motor(
     need: MotorNeed, catalogue: Iterable[CatalogueMotor], *, efficiency: float = 1.0, heating: bool = True
 ) -> MotorCheck:
-    """Return the smallest motor of a catalogue that does.
-
-    `efficiency`: of the transmission from motor to crank.
-    """
+    """Return the smallest motor of a catalogue that does; the efficiency is that from motor to crank."""
     checks = [check_motor(need, one, efficiency=efficiency, heating=heating) for one in catalogue]
     if not checks:
         raise MethodError("the catalogue of motors is empty")

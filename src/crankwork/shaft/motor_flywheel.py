@@ -27,10 +27,8 @@ def flywheel_by_simulation(
 ) -> SimulatedFlywheel:
     """Return the flywheel with which the steady speed of a machine with its motor has a wanted fluctuation.
 
-    With its residual. Where the motor itself evens the speed out more than asked, none is found. `machine`: the
-    machine with a flywheel of given moment of inertia [kg m2]; `speed`, `fluctuation` and `guess`: roughly its speed,
-    wanted fluctuation, roughly the inertia, such as that of `flywheel.flywheel` [rad/s], [kg m2]. Source:
-    artobolevsky_1988, ch. 16.
+    Where the motor itself evens the speed out more than asked, none is found. `speed` and `guess` are roughly the speed
+    and the inertia, such as that of `flywheel.flywheel` (artobolevsky_1988, ch. 16).
 
     The fluctuation falls about as the inverse of the inertia: the secant method acts on their logarithms.
     """

@@ -36,10 +36,9 @@ class ReducedMachine:
     def of_curves(cls, inertia: Curve, load: Curve, motor: Motor | None = None, *, flywheel: float = 0.0) -> Self:
         """Return the machine of a moment of inertia and a torque over the angle, with a motor and a flywheel.
 
-        `inertia` and `load`: reduced moment of inertia without flywheel, reduced torque of all but the motor,
-        negative where it brakes [kg m2], [N m]; `motor`: torque of the motor on the crank over the speed of the
-        crank; `flywheel`: moment of inertia added: of the flywheel, and of the motor times the square of its ratio
-        [kg m2].
+        The inertia is that without flywheel, the load the reduced torque of all but the motor, negative where it
+        brakes. The motor is its torque on the crank over the speed of the crank; the flywheel is all that is added, the
+        motor's own inertia times the square of its ratio included.
         """
         whole, derivative = inertia + flywheel, inertia.derivative
 

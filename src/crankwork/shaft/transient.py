@@ -41,10 +41,9 @@ def run(
 ) -> SpeedRun:
     """Return how a machine turns from a given speed: a start from rest, a run-down, or anything between.
 
-    Up to steady motion, to standstill (`stopped` where no motor acts any more is the same as `stalled` where one
-    does, so a machine that has ever gained speed stalls), or to the last cycle. What happens after a standstill, when
-    the load turns the crank back, is not followed. `until_steady`: whether to end where a cycle ends as fast as the
-    one before. Source: artobolevsky_1988, ch. 15.
+    Up to steady motion if wanted, to standstill (`stopped` where no motor acts any more is the same as `stalled` where
+    one does, so a machine that has ever gained speed stalls), or to the last cycle. What happens after a standstill,
+    when the load turns the crank back, is not followed (artobolevsky_1988, ch. 15).
 
     While it turns, the unknown is T = J w^2 / 2 over the crank angle; at rest, where w' is infinite over the angle,
     it is the crank angle over the speed: dphi/dw = J w / (M - w^2 J' / 2).

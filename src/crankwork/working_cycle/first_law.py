@@ -34,11 +34,7 @@ def pressure_rise(  # noqa: PLR0913 - one argument per symbol
 
 
 def internal_energy_change(heat_constant: float, ratio: float, ratio_slope: float, start: float, end: float) -> float:
-    """Return the change of internal energy between two temperatures (heywood_1988, ch. 9). [J]
-
-    Integral of m R / (gamma - 1) over the temperature. `ratio` and `ratio_slope`: ratio of specific heats at 0 K and
-    its change with temperature [1/K].
-    """
+    """Return the change of internal energy between two temperatures, of m R / (gamma - 1) (heywood_1988, ch. 9). [J]"""
     first = ratio + ratio_slope * start - 1
     growth = ratio_slope * (end - start) / first
     # ln(1 + g) / g keeps its digits as the slope goes to zero

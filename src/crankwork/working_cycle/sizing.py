@@ -26,9 +26,7 @@ def work_power(worked: Worked, data: GrinevetskyData) -> None:
 
 
 def sized(worked: Worked, data: GrinevetskyData) -> list[Notice]:
-    """Work the size of the engine.
-
-    A notice where the size was rounded. `worked`: knows the indicated mean pressure; where it is kept.
+    """Work the size of the engine of an indicated mean pressure, with a notice where it was rounded.
 
     Losses depend on the mean piston speed and that on the stroke to be found: the calculation is repeated until the
     stroke stays, and its last pass is the one that is shown.

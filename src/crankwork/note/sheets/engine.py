@@ -40,13 +40,12 @@ def engine_sheets(
 ) -> tuple[Sheet, ...]:
     """Return the sheets of an engine; graphs for which nothing is known are left out.
 
-    `results`: the results of a slider-crank; curves are computed afresh, finer than their table; `extra`: what is
-    known of the whole engine, in SI: `crank_angle` [rad] of the following, evenly over the cycle without it;
-    `total_torque` [N m] and `total_torque_mean`; `crankpin_load` [N], the size of the load on the crankpin, and
-    `crankpin_load_mean`; `crankpin_tangential` and `crankpin_radial` [N], the forces of all its rods, from whose
-    origin the pole is `crankpin_inertia` [N] away, that of `crankpin_rods` rods; `crankpin`, its number; `wear_sums`
-    [N], the sum of loads on each ray of the crankpin, and `wear_angle` [rad], where the rays are, from the outer side
-    of the pin with the rotation, evenly around it without it; `oil_hole_angle` [rad], where the oil hole is, on the
+    Curves are computed afresh, finer than the table of the results. `extra` is what is known of the whole engine, in
+    SI: `crank_angle` of the following, evenly over the cycle without it; `total_torque` and `total_torque_mean`;
+    `crankpin_load`, the size of the load on the crankpin, and `crankpin_load_mean`; `crankpin_tangential` and
+    `crankpin_radial`, the forces of all its rods, from whose origin the pole is `crankpin_inertia` away, that of
+    `crankpin_rods` rods; `crankpin`, its number; `wear_sums` on each ray of the crankpin, and `wear_angle`, where the
+    rays are, from the outer side of the pin with the rotation, evenly around it without it; `oil_hole_angle`, on the
     ray of the least sum without it.
     """
     if not isinstance(results.machine, Machine):
