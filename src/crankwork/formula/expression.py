@@ -11,6 +11,7 @@ import functools
 import inspect
 import math
 import operator
+import re
 import sys
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
@@ -252,6 +253,9 @@ _BINARY = {operator.add: (1, " + "), operator.sub: (1, " − "), operator.mul: (
 _SUPERSCRIPTS = {2: "²", 3: "³", 4: "⁴"}
 _RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 _SIGNED, _ATOM = 0, 5
+_FENCED = re.compile(r"\([^()]*\)")
+_BETWEEN_TERMS = (" + ", " − ")
+_FUNCTIONS_OF_ANGLES = ("sin", "cos", "tan", "tg")
 
 
 def text(tree: Expression, values: Mapping[str, str] | None = None, language: Language = "en") -> str:
@@ -276,7 +280,7 @@ def _text(tree: Expression, values: Mapping[str, str], language: Language) -> tu
             return values[name], _binding(values[name])
         case Symbol(name):
             shown = symbol(name, language)
-            return shown, 3 if " " in shown and not shown.endswith(")") else _ATOM
+            return shown, _binding(shown)
         case Number(value):
             shown = f"{value:.15g}".replace("-", "−").replace(".", "." if language == "en" else ",")
             return shown, _binding(shown)
@@ -288,7 +292,8 @@ def _text(tree: Expression, values: Mapping[str, str], language: Language) -> tu
                 return shown + _SUPERSCRIPTS[exponent.value], 3
             return f"{shown}^{_wrapped(exponent, 4, values, language)}", 3
         case Operation(function, (operand,)) if function is operator.neg:
-            return "−" + _wrapped(operand, 2, values, language), _SIGNED
+            shown = _wrapped(operand, 2, values, language)
+            return f"−({shown})" if shown.startswith("−") else f"−{shown}", _SIGNED
         case Operation(np.sqrt, (operand,)):
             return f"√({_text(operand, values, language)[0]})", _ATOM
         case Operation(function, operands):
@@ -298,11 +303,16 @@ def _text(tree: Expression, values: Mapping[str, str], language: Language) -> tu
     raise TypeError(f"{tree!r} is not part of a formula")
 
 
-def _binding(number: str) -> int:
-    """Return how tightly a printed number binds: 2·10⁻⁵ is a product, and 10⁻⁵ a power."""
-    if number.startswith(("-", "−")):
+def _binding(shown: str) -> int:
+    """Return how tightly a printed number or symbol binds: 2·10⁻⁵ is a product, v/ω a quotient, sin φ like a power."""
+    outside = _FENCED.sub("", shown)
+    if any(sign in outside for sign in _BETWEEN_TERMS):
+        return 1
+    if shown.startswith(("-", "−")):
         return _SIGNED
-    return 2 if "·" in number else 3 if number[-1] in _RAISED else _ATOM
+    if "·" in outside or "/" in outside:
+        return 2
+    return 3 if shown[-1] in _RAISED or shown.startswith(_FUNCTIONS_OF_ANGLES) else _ATOM
 
 
 _NAMES = {"log": "ln", "log10": "lg", "absolute": "abs", "maximum": "max", "minimum": "min"}
