@@ -12,7 +12,7 @@ NUMERIC = re.compile(r"\b(array|arrays|float|ArrayLike|Array|CrankGrid)\b")
 UNIT = re.compile(r"\[[^\]\s][^\]]*\]")
 SECTION = re.compile(r"^(\w+)\n-{3,}$", re.MULTILINE)
 # Rooms that are being rewritten, where sections go with what they describe.
-LATER = ("formula/", "analysis/engine_", "analysis/steps")
+LATER = ("formula/", "analysis/engine_")
 HEADER = re.compile(r"(?P<names>[*\w]+(?:, [*\w]+)*) : (?P<type>.+)")
 
 

@@ -10,8 +10,7 @@ from crankwork.dynamics.efficiency import driving_torque_as_motor
 from crankwork.dynamics.piston_forces import crank_torque, piston_force, tangential_force
 from crankwork.formula.expression import Expression, Number, Operation, Symbol, evaluate, fold, record, text
 from crankwork.formula.known import Known, OfAngle, Pieces, absent, delayed, given, total
-from crankwork.formula.lines import Moment
-from crankwork.formula.steps import Given, Step, SumStep, worked_step
+from crankwork.formula.lines import DelayedLine, FormulaLine, Moment, SumLine
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.series import series_transfer_2_term
 from crankwork.loads.gas import gas_force, polytropic_pressure
@@ -69,22 +68,40 @@ def test_of_pieces_the_law_of_the_angle_is_shown():
     assert [(one.key, one.value) for one in lines(force, 200.0)] == [("gas_pressure", 7.0), ("gas_force", 14.0)]
 
 
-def test_a_delay_shows_the_value_that_came_earlier():
-    (line,) = lines(delayed(SIN, 20.0, 720.0, "crank_torque.2"), 110.0)
-    assert isinstance(line, Given)
-    assert line.value == pytest.approx(1.0)
+def test_a_delay_shows_which_value_came_earlier():
+    (line,) = lines(delayed(SIN.named("crank_torque"), 80.0, 720.0, "crank_torque.2"), 10.0)
+    assert line == DelayedLine("crank_torque.2", "crank_torque", 650.0, pytest.approx(math.sin(math.radians(650))))
+
+
+def test_a_mark_tells_whose_values_vary():
+    force = tangential_force(
+        SIN.named("piston_force"), Known(OfAngle("sin")), given("rod_cosine", 0.5), absent(""), 1.0
+    )
+    own = crank_torque(force, given("crank_radius", 0.05), absent("rotating_torque"))
+    found = list(Moment(CrankGrid.from_degrees, 30.0, "2").steps([own]))
+    assert [one.key for one in found] == ["tangential_force.2", "crank_torque.2"]
+    assert dict(found[0].named) == {"P": "piston_force.2", "sin_phi_beta": "crank_sin.2"}
+    assert dict(found[1].named) == {"T": "tangential_force.2"}
+
+
+def test_the_angle_of_cylinder_1_has_no_mark():
+    of_first = Known(OfAngle("sin", shift=90.0), "crank_sin")
+    force = tangential_force(given("piston_force", 5.0), of_first, 1.0, absent(""), 1.0)
+    (line,) = Moment(CrankGrid.from_degrees, 0.0, "2").steps([force])
+    assert line.value == pytest.approx(5.0)
+    assert dict(line.named) == {"sin_phi_beta": "crank_sin"}
 
 
 def test_a_total_shows_its_terms():
     found = lines(total("total_torque", [given("crank_torque.1", 2.0), given("crank_torque.2", 3.0)]))
-    assert isinstance(found[-1], SumStep)
+    assert isinstance(found[-1], SumLine)
     assert [(one.key, one.value) for one in found[-1].terms] == [("crank_torque.1", 2.0), ("crank_torque.2", 3.0)]
 
 
 def test_a_line_evaluates_to_its_value():
     force = tangential_force(given("piston_force", 1000.0) + SIN, SIN * SIN, 2.0 - SIN, absent(""), 1.0)
     (line,) = lines(force, 77.0)
-    assert isinstance(line, Step)
+    assert isinstance(line, FormulaLine)
     assert evaluate(line.expression, line.values) == line.value
     sine = math.sin(math.radians(77))
     assert line.value == pytest.approx((1000 + sine) * sine**2 / (2 - sine), rel=1e-15)
@@ -104,7 +121,8 @@ def test_folding_keeps_the_numbers_of_a_formula():
 
 @pytest.mark.parametrize(("couple", "shown"), [(12.0, "(M_st + M_dyn)/η"), (None, "M_st/η")], ids=["given", "absent"])
 def test_a_step_leaves_out_what_nobody_stated(couple, shown):
-    step = worked_step(driving_torque_as_motor, 30.0, couple, 0.5)
+    dynamic = absent("dynamic_torque") if couple is None else given("dynamic_torque", couple)
+    (step,) = lines(driving_torque_as_motor(given("static_torque", 30.0), dynamic, given("efficiency", 0.5)))
     assert text(step.expression) == shown
     assert step.value == 60 + 2 * (couple or 0)
     assert ("M_dyn" in step.values) == (couple is not None)

@@ -14,9 +14,12 @@ import crankwork
 from crankwork.dynamics import piston_forces as forces
 from crankwork.errors import CrankworkError
 from crankwork.formula.expression import FORMULAS, record
-from crankwork.formula.steps import Given, Step, sum_step, worked_step
+from crankwork.formula.known import given, total
+from crankwork.formula.lines import FormulaLine, Moment
+from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import mean_piston_speed
 from crankwork.loads import gas
+from crankwork.machine import Machine
 from crankwork.note.document import (
     Bibliography,
     Bold,
@@ -34,7 +37,9 @@ from crankwork.note.document import (
     Table,
     TitlePage,
 )
+from crankwork.note.engine_lines import engine_lines
 from crankwork.note.legends import legend
+from crankwork.note.linkage_lines import linkage_lines
 from crankwork.quantities import Language
 
 HOSTILE = "# $x$ *a* _b_ @c <d> & \\e `f` ~g \"h\" 'i' #{panic()} ]] $ // /* ${k} </p> --"
@@ -63,17 +68,30 @@ def results_of() -> Callable[[Path | str, str], crankwork.Results]:
     return _results
 
 
+@pytest.fixture(scope="session")
+def groups_of():
+    """Give the groups of lines that a note shows, at chosen crank angles."""
+
+    def found(results, *degrees):
+        return (engine_lines if isinstance(results.machine, Machine) else linkage_lines)(results, *degrees)
+
+    return found
+
+
 @pytest.fixture
-def steps(formulas) -> list[Step]:
+def steps(formulas) -> list[FormulaLine]:
     """A step of every registered formula; what is put in matters only to how it is printed."""
-    return [Step(one.quantity, one, dict.fromkeys(one.arguments, 0.1234567), 0.7654321) for one in formulas.values()]
+    return [
+        FormulaLine(one.quantity, one, dict.fromkeys(one.arguments, 0.1234567), 0.7654321) for one in formulas.values()
+    ]
 
 
 def sample(language: Language) -> Note:
     """Return a note with every kind of block and text that every format could take for its own."""
-    area = worked_step(gas.piston_area, math.pi, 0.1058)
-    speed = worked_step(mean_piston_speed, 0.1058, 2300.0)
-    mass = sum_step("reciprocating_mass", [Given("piston_mass", 0.1395), Given("rod_small_end_mass", 0.065)])
+    line = Moment(CrankGrid.from_degrees, 0.0).step
+    area = line(gas.piston_area(math.pi, given("bore", 0.1058)))
+    speed = line(mean_piston_speed(given("stroke", 0.1058), given("", 2300.0)))
+    mass = line(total("reciprocating_mass", [given("piston_mass", 0.1395), given("rod_small_end_mass", 0.065)]))
     rows = [[f"{k}", f"{k / 7:.3f}", HOSTILE] for k in range(60)]
     blocks = (
         TitlePage(),

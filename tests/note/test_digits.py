@@ -9,9 +9,10 @@ from pathlib import Path
 import pytest
 
 import crankwork
-from crankwork.analysis.steps import worked_steps
 from crankwork.formula.expression import FORMULAS
-from crankwork.formula.steps import Given, Step, all_steps, sum_step
+from crankwork.formula.known import given, total
+from crankwork.formula.lines import FormulaLine, Moment, ValueLine
+from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.note.digits import enough_digits
 from crankwork.note.equations import line_parts, shown_values
 
@@ -64,11 +65,11 @@ def missed(numbers: str, value: str) -> str:
 
 
 @pytest.mark.parametrize(("file", "way"), CASES)
-def test_every_line_can_be_followed_with_a_calculator(file, way, results_of):
+def test_every_line_can_be_followed_with_a_calculator(file, way, results_of, groups_of):
     wrong, count = [], 0
-    for group in worked_steps(results_of(file, way)):
-        for step in all_steps(group.steps):
-            if isinstance(step, Given):
+    for group in groups_of(results_of(file, way)):
+        for step in group.lines:
+            if isinstance(step, ValueLine):
                 continue
             count += 1
             *before, value = line_parts(step, "en")[: 1 - len(shown_values(step)) or None]
@@ -80,13 +81,16 @@ def test_every_line_can_be_followed_with_a_calculator(file, way, results_of):
 
 
 def test_a_difference_of_near_numbers_gets_more_digits():
-    total = sum_step("reciprocating_mass", [Given("piston_mass", 1234.56789), Given("rod_small_end_mass", -1234.56111)])
-    assert enough_digits(total) == 9
-    assert line_parts(total, "en")[1:] == ["1234.56789 + (−1234.56111)", "0.00678\u00a0kg"]
+    terms = [given("piston_mass", 1234.56789), given("rod_small_end_mass", -1234.56111)]
+    line = Moment(CrankGrid.from_degrees, 0.0).step(total("reciprocating_mass", terms))
+    assert enough_digits(line) == 9
+    assert line_parts(line, "en")[1:] == ["1234.56789 + (−1234.56111)", "0.00678\u00a0kg"]
 
 
 def test_a_product_of_moderate_numbers_has_six_digits():
     formula = FORMULAS["piston_area"]
-    step = Step("piston_area", formula, {"pi": math.pi, "D": 0.0789123456}, formula.function(math.pi, 0.0789123456))
+    step = FormulaLine(
+        "piston_area", formula, {"pi": math.pi, "D": 0.0789123456}, formula.function(math.pi, 0.0789123456)
+    )
     assert enough_digits(step) == 6
     assert line_parts(step, "en")[1] == "π·0.0789123²/4"

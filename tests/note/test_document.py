@@ -11,8 +11,10 @@ from hypothesis import strategies as st
 
 from crankwork.dynamics import piston_forces as forces
 from crankwork.errors import CrankworkError, MissingExtraError
+from crankwork.formula import known
 from crankwork.formula.expression import FORMULAS
-from crankwork.formula.steps import Given, product_step, renamed, sum_step, worked_step
+from crankwork.formula.lines import DelayedLine, Moment, ValueLine
+from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import mean_piston_speed
 from crankwork.loads import gas
 from crankwork.note.captions import caption, place_in_source
@@ -30,7 +32,16 @@ from crankwork.quantities import LANGUAGES
 from crankwork.units import UNITS
 from crankwork.working_cycle import combustion
 
-STEP = worked_step(mean_piston_speed, 0.09, 3000.0)
+
+def line(value):
+    return Moment(CrankGrid.from_degrees, 0.0).step(value)
+
+
+def number(value, key=""):
+    return known.given(key, value)
+
+
+STEP = line(mean_piston_speed(number(0.09), number(3000.0)))
 
 
 def _numbered(*blocks):
@@ -100,7 +111,7 @@ def test_places_in_sources_are_in_the_language_of_the_note(place, shown):
 
 
 def test_an_equation_goes_from_symbols_to_numbers_to_the_unit_of_the_tables():
-    area = worked_step(gas.piston_area, math.pi, 0.1)
+    area = line(gas.piston_area(math.pi, number(0.1)))
     shown = printed_equation(Equation(area), "ru")
     assert shown.text.endswith("= 0,00785398\u00a0м² = 78,5398\u00a0см²")
     assert len(shown.lines) == 1
@@ -131,12 +142,20 @@ def test_the_printed_value_is_the_rounding_of_the_exact_one(value, language):
 
 
 def test_what_adds_up_prints_its_terms():
-    total = sum_step("reciprocating_mass", [Given("piston_mass", 1.5), Given("rod_small_end_mass", -0.5)])
+    terms = [number(1.5, "piston_mass"), number(-0.5, "rod_small_end_mass")]
+    total = line(known.total("reciprocating_mass", terms))
     assert printed_equation(Equation(total), "en").text == "m_rec = m_p + m_1 = 1.5 + (−0.5) = 1\u00a0kg"
     signs = [one.text for line in printed_equation(Equation(total), "en").lines for one in _signs(line)]
     assert signs == ["=", "+", "=", "+", "−", "="]
-    product = product_step("efficiency", [Given("efficiency.a", 0.5), Given("efficiency.b", 0.5)])
-    assert [one.text for one in _signs(printed_equation(Equation(product), "en").lines[0])] == ["=", "·", "=", "·", "="]
+    product = line((number(0.5, "efficiency.1") * number(0.5, "efficiency.2")).named("efficiency"))
+    assert printed_equation(Equation(product), "en").text == "η = η_1·η_2 = 0.5·0.5 = 0.25"
+
+
+def test_what_comes_later_prints_where_it_came_from():
+    later = DelayedLine("tangential_force.5", "tangential_force", 300.0, -1536.25)
+    shown = printed_equation(Equation(later, symbol="T_5"), "ru")
+    assert shown.text == "T_5 = T(300°) = −1536,25\u00a0Н"
+    assert [one.text for one in _signs(shown.lines[0])] == ["=", "=", "−"]
 
 
 def _signs(box):
@@ -153,11 +172,11 @@ def test_a_legend_names_the_unit_in_which_the_formula_takes_a_number():
 
 
 def test_a_legend_says_a_unit_once_and_that_of_the_quantity_meant():
-    kelvin = legend(worked_step(combustion.combustion_kelvin, 2500.0, 273.15), "en")
+    kelvin = legend(line(combustion.combustion_kelvin(number(2500.0), number(273.15))), "en")
     assert kelvin[0].text == "temperature at the end of burning, °C"
-    energy = worked_step(combustion.isochoric_energy, 0.9, 78000.0, 22.0, 487.0)
     for key, unit in (("compression_celsius", "°C"), ("compression_temperature", "K")):
-        entries = legend(renamed(energy, th_gas=key), "en")
+        heat = (number(one) for one in (0.9, 78000.0, 22.0))
+        entries = legend(line(combustion.isochoric_energy(*heat, number(487.0, key))), "en")
         assert entries[-1].text == f"temperature at the end of compression, {unit}"
 
 
@@ -165,9 +184,9 @@ def test_a_legend_says_a_unit_once_and_that_of_the_quantity_meant():
 
 
 def test_a_value_is_shown_in_the_unit_of_its_formula_and_in_that_of_the_tables():
-    assert shown_values(worked_step(forces.angular_speed, 3.0, 30.0)) == [(3.0, "rad/s")]
-    assert shown_values(Given("gas_pressure", 2e6)) == [(2e6, "Pa"), (2.0, "MPa")]
-    assert shown_values(worked_step(gas.piston_area, 4.0, 1.0)) == [(1.0, "m2"), (1e4, "cm2")]
+    assert shown_values(line(forces.angular_speed(number(3.0), number(30.0)))) == [(3.0, "rad/s")]
+    assert shown_values(ValueLine("gas_pressure", 2e6)) == [(2e6, "Pa"), (2.0, "MPa")]
+    assert shown_values(line(gas.piston_area(number(4.0), number(1.0)))) == [(1.0, "m2"), (1e4, "cm2")]
 
 
 @pytest.mark.parametrize("unit", UNITS)

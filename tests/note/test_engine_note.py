@@ -12,10 +12,9 @@ from pathlib import Path
 import pytest
 
 import crankwork
-from crankwork.analysis.steps import worked_steps
 from crankwork.description.machine_file import read_machine, template
 from crankwork.errors import CrankworkError
-from crankwork.formula.steps import Given, all_steps
+from crankwork.formula.lines import DelayedLine, ValueLine
 from crankwork.locale import texts
 from crankwork.note import engine_material
 from crankwork.note.contents import note_of
@@ -169,13 +168,13 @@ def test_the_table_of_forces_is_the_published_one():
 
 @pytest.mark.parametrize("language", ["en", "ru", "vi"])
 @pytest.mark.parametrize("name", ENGINES)
-def test_every_single_value_with_a_step_is_worked(name, language):
+def test_every_single_value_with_a_line_is_worked(name, language, groups_of):
     found = equations(note(name, language))
     shown = {block.step.key for block in found}
     same = {(block.step.key.partition(".")[0], block.step.value) for block in found}
     one = results(name)
-    for step in (step for group in worked_steps(one) for step in all_steps(group.steps)):
-        if step.key in one.summary and not isinstance(step, Given):
+    for step in (step for group in groups_of(one) for step in group.lines):
+        if step.key in one.summary and not isinstance(step, ValueLine | DelayedLine):
             assert step.key in shown or (step.key.partition(".")[0], step.value) in same, step.key
 
 

@@ -9,14 +9,14 @@ import pytest
 
 import crankwork
 from crankwork.formula.expression import symbol
-from crankwork.formula.lines import symbols_of
-from crankwork.formula.steps import Step
+from crankwork.formula.lines import FormulaLine, symbols_of
 from crankwork.notation import ARGUMENTS
 from crankwork.note.contents import note_of
 from crankwork.note.document import Equation, Note, Table
 from crankwork.note.equations import equation_symbol, printed_equation, value_symbol
 from crankwork.note.options import NoteOptions
 from crankwork.quantities import QUANTITIES
+from crankwork.report.language import symbol as key_symbol
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
 CONSTANTS = ("pi",)
@@ -31,7 +31,7 @@ def note(path: Path, language: str) -> Note:
     return note_of(results(path), NoteOptions(language=language, figures=False))
 
 
-def needed(step: Step, language: str) -> dict[str, tuple[str, ...]]:
+def needed(step: FormulaLine, language: str) -> dict[str, tuple[str, ...]]:
     """Return the symbols that must be known by the symbols of a formula as they are printed."""
     named = dict(step.named)
     found: dict[str, tuple[str, ...]] = {}
@@ -39,10 +39,7 @@ def needed(step: Step, language: str) -> dict[str, tuple[str, ...]]:
         if name in CONSTANTS:
             continue
         if name in named:
-            kind = named[name].partition(".")[0]
-            if kind not in QUANTITIES:  # an extreme goes by the symbol of its quantity
-                continue
-            found[value_symbol(named[name], language)] = (QUANTITIES[kind].symbol(language),)
+            found[value_symbol(named[name], language)] = (key_symbol(named[name].partition(".")[0], language),)
             continue
         entry = ARGUMENTS[name]
         if any(mark in entry.pattern for mark in ("sin", "cos")):
@@ -60,7 +57,7 @@ def unexplained(one: Note, language: str) -> list[str]:
         if not isinstance(block, Equation):
             continue
         known |= {entry.symbol for entry in block.legend}
-        if isinstance(block.step, Step):
+        if isinstance(block.step, FormulaLine):
             for printed, wanted in needed(block.step, language).items():
                 if not ({printed} <= known or set(wanted) <= known):
                     missing.append(f"{printed} in {printed_equation(block, language).text}")
@@ -95,6 +92,8 @@ def printed(name: str, language: str = "ru") -> list[str]:
         # the inertia force has a rod ratio of its own
         ("spark-engine", "S_x″,ин = R·(cos φ + λ_ин·cos 2φ) = "),
         ("spark-engine", "P_j = −m_j·j_ин = "),
+        ("v8-diesel", "T_5 = T(300°) = "),
+        ("v8-diesel", "M_кр,5 = T_5·R = "),
         ("v8-diesel", "δ = L_изб/(J_Σ·ω²) = "),
         ("petrol-four", "Q_r = 1000·G_т·(M_2·h_r − M_1·h_0) = "),
         ("petrol-four", "M_кш,3 = M_кш,2 + M_кр,2 = "),

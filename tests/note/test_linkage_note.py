@@ -20,7 +20,7 @@ from crankwork.analysis.linkage import differences
 from crankwork.description.machine_file import template
 from crankwork.dynamics.efficiency import Parallel, Series
 from crankwork.formula.expression import evaluate
-from crankwork.formula.steps import Step
+from crankwork.formula.lines import FormulaLine
 from crankwork.locale import say, texts
 from crankwork.note.contents import WRITERS, note_of, sheets_of
 from crankwork.note.document import Equation, Figure, Heading, ItemList, Math, Note, Paragraph, Table
@@ -108,7 +108,7 @@ def test_the_press_is_worked_at_all_positions_with_the_value_of_the_table():
 
 def test_every_number_put_into_a_formula_gives_the_value_beside_it(toggle):
     for found in (note("press"), note("press-geometry"), note("andrews-squeezer"), note_of(toggle)):
-        steps = [one.step for one in found.blocks if isinstance(one, Equation) and isinstance(one.step, Step)]
+        steps = [one.step for one in found.blocks if isinstance(one, Equation) and isinstance(one.step, FormulaLine)]
         assert len(steps) > 20
         for step in steps:
             assert evaluate(step.expression, step.values) == pytest.approx(step.value, rel=1e-12, abs=1e-300)
@@ -116,7 +116,7 @@ def test_every_number_put_into_a_formula_gives_the_value_beside_it(toggle):
 
 def test_no_rounding_of_a_zero_is_printed_as_a_number(toggle):
     steps = [one.step for one in note_of(toggle, NoteOptions(figures=False)).blocks if isinstance(one, Equation)]
-    values = [abs(value) for step in steps if isinstance(step, Step) for value in step.values.values()]
+    values = [abs(value) for step in steps if isinstance(step, FormulaLine) for value in step.values.values()]
     assert not [one for one in values if 0 < one < 1e-15]
 
 
@@ -166,7 +166,7 @@ def test_a_school_gives_its_order_to_another_language():
 
 @pytest.mark.parametrize(
     ("name", "tables", "equations", "figures"),
-    [("press", 5, 46, 2), ("press-geometry", 16, 215, 7), ("andrews-squeezer", 25, 357, 6)],
+    [("press", 5, 42, 2), ("press-geometry", 16, 198, 7), ("andrews-squeezer", 25, 319, 6)],
 )
 def test_how_many_tables_equations_and_figures_a_note_has(name, tables, equations, figures):
     found = note(name, language="ru", figures=True)
@@ -223,7 +223,7 @@ def test_the_flywheel_is_found_four_ways_and_the_motor_is_checked(toggle):
 
 def test_a_formula_is_explained_and_numbered_once():
     found = note("andrews-squeezer", language="ru")
-    shown = [one for one in found.blocks if isinstance(one, Equation) and isinstance(one.step, Step)]
+    shown = [one for one in found.blocks if isinstance(one, Equation) and isinstance(one.step, FormulaLine)]
     # sums and products written in place are nobody's formula
     names = {one.step.formula.name for one in shown if one.step.formula.source}
     assert sum(one.numbered for one in shown) == len(names)

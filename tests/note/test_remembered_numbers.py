@@ -13,8 +13,7 @@ import pytest
 from crankwork.analysis import analyse, with_method
 from crankwork.analysis.whole_engine import as_engine
 from crankwork.description.machine_file import read, read_machine, template, template_names
-from crankwork.formula.lines import Moment
-from crankwork.formula.steps import Step
+from crankwork.formula.lines import FormulaLine, Moment
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.machine import Machine
 from crankwork.note import engine_material, linkage_material
@@ -31,26 +30,13 @@ NOISE = 1e-15
 
 # What no memory holds yet, by the reason. The lists only shrink.
 NOT_YET = {
-    "the mean torque is worked from the work of a cycle, and held as an integral": {"mean_total_torque"},
-    "what adds up over cylinders is added again": {"counterweight_moment", "displacement"},
-    "the cylinder of an articulated rod has a memory of its own, which the results do not hold": {
-        "diagram_pressure", "gas_force", "gas_pressure", "inertia_force", "knuckle_couple",
-        "knuckle_x", "knuckle_y", "piston_acceleration", "piston_area", "piston_displacement", "piston_force",
-        "piston_transfer_1", "piston_transfer_2", "piston_velocity", "reciprocating_mass", "rod_cosine", "rod_force",
-        "rod_ratio", "rod_sine", "rod_transfer_1", "rod_transfer_2", "side_force", "speed",
-    },
     "heat release is integrated, and worked at one angle": {
         "burning_progress", "burning_rate", "burnt_fraction", "cylinder_temperature", "heat_transfer_coefficient",
         "motored_pressure", "piston_displacement", "pressure_rise", "wall_area", "wall_gas_speed", "wall_heat_rate",
     },
-    "the efficiency of a chain of joints is a given value, calculated where the file is read": {"efficiency"},
 }  # fmt: skip
 # which machines have what is not remembered; all of them otherwise
 ONLY = {
-    "what adds up over cylinders is added again": {
-        "petrol-four", "radial-five", "two-stroke", "v8-diesel", "whole-engine template",
-    },
-    "the cylinder of an articulated rod has a memory of its own, which the results do not hold": {"radial-five"},
     "heat release is integrated, and worked at one angle": {"two-stroke"},
 }  # fmt: skip
 
@@ -89,14 +75,14 @@ def moments(results):
     else:
         material = engine_material if isinstance(results.machine, Machine) else linkage_material
         groups = material.Material(results, OPTIONS).groups.values()
-        degrees = {round(math.degrees(one.crank_angle), 9) for one in groups if one.crank_angle is not None}
+        degrees = {one.degrees for one in groups if one.degrees is not None}
     return [Moment(CrankGrid.from_degrees, one) for one in degrees] or [Moment(CrankGrid.from_degrees, 0.0)]
 
 
 def is_same(value, step):
     if value == step.value or abs(value - step.value) <= 2 * math.ulp(step.value):
         return True
-    operands = step.values.values() if isinstance(step, Step) else ()
+    operands = step.values.values() if isinstance(step, FormulaLine) else ()
     return step.value == 0 and abs(value) < NOISE * max([1.0, *map(abs, operands)])
 
 
@@ -115,7 +101,10 @@ def not_held(results, note):
             continue
         held = [results.summary[step.key]] if step.key in results.summary else []
         held += rows[base_key(step.key)]
-        held += [one.value(kept) for kept in known[step.key] for one in (at if kept.varies else at[:1])]
+        # a cylinder with an articulated rod has a mark in its lines
+        names = (step.key, step.key.rpartition(".")[0])
+        kept = [one for name in names for one in known.get(name, ())]
+        held += [moment.value(one) for one in kept for moment in (at if one.varies else at[:1])]
         if not any(is_same(value, step) for value in held):
             found.add(base_key(step.key))
     return found

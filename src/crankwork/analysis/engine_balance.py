@@ -137,17 +137,20 @@ def balance_memory(whole: WholeEngine, balance: EngineBalance) -> dict[str, Know
         What is free.
     """
     found = dict(_order_forces(whole, balance) | _rotating_forces(whole) | _weights(whole, balance))
+    has_moments = bool(balance_pitch(whole.layout))
     for name, one in balance.rows.items():
-        of_order = [row for row, other in balance.rows.items() if other.order == one.order]
-        for kind, sizes in (("force", one.force), ("moment", one.moment)):
-            parts = [found[key] for row in of_order if (key := f"free_{kind}.{row}") in found]
-            of = parts if name.startswith("residual") else _parts(name, found) if kind == "force" else ()
-            largest = Known(Found(sizes.largest, "vector_sum", of), f"free_{kind}.{name}")
-            largest = found.setdefault(largest.key, largest)
-            for word, value in (("min", sizes.least), ("direction", math.radians(sizes.direction))):
-                key = f"free_{kind}_{word}.{name}"
-                found[key] = Known(Found(value, "vector_sum", (largest,)), key)
-    return found
+        keys = [f"free_force.{row}" for row, other in balance.rows.items() if other.order == one.order]
+        parts = [found[key] for key in keys if key in found] if name.startswith("residual") else _parts(name, found)
+        force = found.setdefault(
+            f"free_force.{name}", Known(Found(one.force.largest, "vector_sum", parts), f"free_force.{name}")
+        )
+        rest = {"free_force_min": one.force.least, "free_force_direction": math.radians(one.force.direction)}
+        if has_moments:
+            moment = Known(Found(one.moment.largest, "vector_sum", parts))
+            found.setdefault(f"free_moment.{name}", moment)
+            rest["free_moment_min"] = one.moment.least
+        found |= {f"{key}.{name}": Known(Found(value, "vector_sum", (force,))) for key, value in rest.items()}
+    return {key: known.named(key) for key, known in found.items()}
 
 
 def _parts(name: str, found: Mapping[str, Known]) -> list[Known]:

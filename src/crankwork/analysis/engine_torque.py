@@ -188,24 +188,17 @@ def harmonics_memory(whole: WholeEngine, torque: EngineTorque, memory: Mapping[s
     one = curve_harmonics(torque.one, count)
     all_ = None if whole.is_uniform else curve_harmonics(torque.total, count).amplitude
     for at, order in enumerate(one.orders.tolist()):
-        cosine, sine = (Known(Found(float(part[at]), "fourier", of)) for part in (one.cosine, one.sine))
-        amplitude = amplitude_of_harmonic(cosine, sine)
-        star = Known(Found(abs(phase_star(layout, order).sum), "phase_star"))
-        each = {
-            "harmonic_cosine": cosine,
-            "harmonic_sine": sine,
-            "harmonic_amplitude": amplitude,
-            "harmonic_phase": Known(Found(float(one.phase[at]), "fourier", (cosine, sine))),
-            "phase_sum": star,
-        }
-        each = {key: known.named(f"{key}.{order:g}") for key, known in each.items()}
-        whole_amplitude = (
-            amplitude_of_total(each["harmonic_amplitude"], each["phase_sum"])
-            if all_ is None
-            else Known(Found(float(all_[at]), "fourier", (memory["total_torque"],)))
-        )
-        each["total_harmonic_amplitude"] = whole_amplitude.named(f"total_harmonic_amplitude.{order:g}")
-        found |= {known.key: known for known in each.values()}
+        parts = {"harmonic_cosine": one.cosine, "harmonic_sine": one.sine}
+        cosine, sine = (Known(Found(float(part[at]), "fourier", of), f"{key}.{order:g}") for key, part in parts.items())
+        phase = Known(Found(float(one.phase[at]), "fourier", (cosine, sine)), f"harmonic_phase.{order:g}")
+        amplitude = amplitude_of_harmonic(cosine, sine).named(f"harmonic_amplitude.{order:g}")
+        star = Known(Found(abs(phase_star(layout, order).sum), "phase_star"), f"phase_sum.{order:g}")
+        if all_ is None:
+            of_all = amplitude_of_total(amplitude, star)
+        else:
+            of_all = Known(Found(float(all_[at]), "fourier", (memory["total_torque"],)))
+        of_all = of_all.named(f"total_harmonic_amplitude.{order:g}")
+        found |= {known.key: known for known in (cosine, sine, amplitude, phase, star, of_all)}
     return found
 
 

@@ -14,8 +14,8 @@ from numpy.typing import ArrayLike
 from crankwork.analysis.solved import Notice
 from crankwork.errors import CrankworkError, UnknownKeyError
 from crankwork.formula.known import Known
+from crankwork.formula.lines import Moment
 from crankwork.formula.replay import Program
-from crankwork.formula.steps import AnyStep
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.locale import Language, Refusal
 from crankwork.method import Method
@@ -93,13 +93,6 @@ class Results:
         return method
 
     @property
-    def steps(self) -> tuple[AnyStep, ...]:
-        """How calculated values of the working cycle came about, in order."""
-        space = getattr(self.solved, "space", None)
-        steps: tuple[AnyStep, ...] = () if space is None or space.calculated is None else space.calculated.steps
-        return steps
-
-    @property
     def unmet(self) -> tuple[str, ...]:
         """The keys of the checks that are not met."""
         met = {key: value <= max(_ROUNDING, self.allowed.get(key, 0.0)) for key, value in self.checks.items()}
@@ -131,6 +124,18 @@ class Results:
         grid = angles if isinstance(angles, CrankGrid) else CrankGrid.from_degrees(angles)
         wanted = self.columns if keys is None else keys
         return Program({key: self.memory[key] for key in wanted if key in self.memory})(grid)
+
+    def moment(self, at: float = 0.0, mark: str = "") -> Moment:
+        """Return the lines of the memory at a crank angle.
+
+        Parameters
+        ----------
+        at : float
+            Crank angle. [deg]
+        mark : str
+            Whose lines they are, as `Moment` takes it.
+        """
+        return Moment(CrankGrid.from_degrees, at, mark)
 
     def __getitem__(self, key: str) -> Array | float:
         """Return a column, or a single value of the summary, in SI."""

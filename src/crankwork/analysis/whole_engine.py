@@ -101,6 +101,7 @@ def with_whole_engine(results: Results) -> Results:
             **firing,
             **works,
             **memory,
+            **{key: one for key, one in _of_slaves(whole).items() if key not in memory},
             **loads,
             **harmonics,
             **balanced,
@@ -108,6 +109,13 @@ def with_whole_engine(results: Results) -> Results:
             **single,
         },
     )
+
+
+def _of_slaves(whole: WholeEngine) -> dict[str, Known]:
+    """Return the columns of the cylinders whose rods are articulated, at the crank angle of cylinder 1."""
+    slaves = [(number, one) for number, one in enumerate(whole.cylinders, start=1) if one.slave is not None]
+    found = (whole.of(number, key) for number, one in slaves for key, known in one.memory.items() if known.varies)
+    return {one.key: one for one in found}
 
 
 def _allowed(results: Results) -> dict[str, float]:

@@ -19,9 +19,8 @@ from crankwork.formula.known import (
     Total,
     Use,
 )
-from crankwork.formula.lines import Moment
+from crankwork.formula.lines import FormulaLine, Moment
 from crankwork.formula.replay import Angles
-from crankwork.formula.steps import Step
 
 
 class Explained(NamedTuple):
@@ -104,7 +103,7 @@ class Explanation:
             return
         # what the line does without, as a factor of nothing, is not followed
         line = self.moment(degrees).step(known)
-        shown = {name.partition(".")[0] for name in line.values} if isinstance(line, Step) else set()
+        shown = {name.partition(".")[0] for name in line.values} if isinstance(line, FormulaLine) else set()
         for name, one in zip(known.node.formula.arguments, known.node.inputs, strict=True):
             if isinstance(one, Known) and name in shown:
                 yield one, degrees, name, False

@@ -1,13 +1,15 @@
 """The memory as lines that can be followed by hand: symbols, then numbers, then the value.
 
-A line stands for one formula at one crank angle. Terms of what nobody stated are folded away, plain arithmetic stands
-where it was written, and an operand has the symbol of the name it goes by here.
+A line stands for one formula, sum or value at one crank angle. Terms of what nobody stated are folded away, plain
+arithmetic stands where it was written, and an operand has the symbol of the name it goes by here. Keys are those of the
+summary and the columns; where a formula serves more than one quantity, the key of the line tells which it is,
+`quantities.base_key(line.key)`, and not the quantity of the formula.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -26,11 +28,70 @@ from crankwork.formula.known import (
     in_order,
 )
 from crankwork.formula.replay import Angles, Program
-from crankwork.formula.steps import AnyStep, Given, Step, SumStep
 from crankwork.notation import ARGUMENTS
 
 # what stands at an angle is the column itself there
 _AT_AN_ANGLE = ("at", "max", "min")
+
+
+class FormulaLine(NamedTuple):
+    """A value that a formula gives.
+
+    Parameters
+    ----------
+    key : str
+        Key of the value.
+    formula : Formula
+        What was computed, with its source.
+    values : mapping of str to float
+        What was put in, by symbol of the expression. [SI, or the unit that the formula states]
+    value : float
+        What came out. [SI, or the unit that the formula states]
+    named : tuple of (str, str)
+        Symbols that stand for one of several values of their quantity, each with the key of that value.
+    tree : Expression or None
+        The formula as it is printed here, where that is not the whole formula: without what is absent, with plain
+        arithmetic in place of the argument that it gives.
+    """
+
+    key: str
+    formula: Formula
+    values: Mapping[str, float]
+    value: float
+    named: tuple[tuple[str, str], ...] = ()
+    tree: Expression | None = None
+
+    @property
+    def expression(self) -> Expression:
+        """The formula as it is printed here."""
+        return record(self.formula.shown) if self.tree is None else self.tree
+
+
+class ValueLine(NamedTuple):
+    """A value without a formula of its own: given, read from a diagram, found by a procedure, or shown before. [SI]"""
+
+    key: str
+    value: float
+
+
+class SumLine(NamedTuple):
+    """A value that is the sum of others, and what is added, in order. [SI]"""
+
+    key: str
+    terms: tuple[ValueLine, ...]
+    value: float
+
+
+class DelayedLine(NamedTuple):
+    """A value that is that of a column, under its key, at another crank angle. [deg], [SI]"""
+
+    key: str
+    of: str
+    degrees: float
+    value: float
+
+
+Line = FormulaLine | ValueLine | SumLine | DelayedLine
 
 
 class Moment:
@@ -42,10 +103,13 @@ class Moment:
         The grid of crank angles. [deg]
     degrees : float
         The crank angle. [deg]
+    mark : str
+        Whose values those are that vary with the crank angle, where they are not those of cylinder 1: after a point it
+        ends their keys.
     """
 
-    def __init__(self, angles_at: Callable[[Any], Angles], degrees: float) -> None:
-        self._angles_at, self.degrees = angles_at, degrees
+    def __init__(self, angles_at: Callable[[Any], Angles], degrees: float, mark: str = "") -> None:
+        self._angles_at, self.degrees, self._mark = angles_at, degrees, mark
         self._values: dict[int, tuple[Node, float]] = {}
         self._marks: dict[int, tuple[Node, object]] = {}
         self._first: dict[object, object] = {}
@@ -69,7 +133,7 @@ class Moment:
             node = node.operands[at].node
         return Known(node, known.key)
 
-    def steps(self, knowns: Iterable[Known]) -> Iterator[AnyStep]:
+    def steps(self, knowns: Iterable[Known]) -> Iterator[Line]:
         """Yield the lines of knowns, each after the lines of what it is made of, each once.
 
         Parameters
@@ -78,20 +142,21 @@ class Moment:
             What is to be followed.
         """
         done: set[tuple[object, str]] = set()
-        stack = [(self.law(one), False) for one in reversed(tuple(knowns))]
+        stack = [(one, False) for one in reversed(tuple(knowns))]
         while stack:
             known, is_open = stack.pop()
-            mark = (self.same(known), known.key)
+            law = self.law(known)
+            mark = (self.same(law), known.key)
             if is_open:
-                if not isinstance(known.node, Arithmetic) or known.key:
+                if not isinstance(law.node, Arithmetic) or known.key:
                     yield self.step(known)
                 continue
             if mark in done:
                 continue
             done.add(mark)
             stack.append((known, True))
-            if isinstance(known.node, Use | Arithmetic | Total):
-                stack.extend((self.law(one), False) for one in reversed(known.node.operands) if _is_made(one))
+            if isinstance(law.node, Use | Arithmetic | Total):
+                stack.extend((one, False) for one in reversed(law.node.operands) if _is_made(one))
 
     def same(self, known: Known) -> object:
         """Return what a known shares with others that were made of the same in the same way."""
@@ -110,7 +175,7 @@ class Moment:
             self._marks[id(node)] = (node, mark)
         return self._marks[id(known.node)][1]
 
-    def step(self, known: Known) -> AnyStep:
+    def step(self, known: Known) -> Line:
         """Return the line of one known.
 
         Parameters
@@ -118,33 +183,54 @@ class Moment:
         known : Known
             A use of a formula, a sum, or a value without a formula.
         """
-        known = self.law(known)
+        key, known = self._marked(known.key, known), self.law(known)
         match known.node:
             case Use(formula=formula, inputs=inputs):
                 taken = dict(zip(formula.arguments, inputs, strict=True))
-                return self._step(known, record(formula.shown), taken)
-            case Arithmetic() if known.key:
-                return self._step(known, Symbol("_"), {"_": Known(known.node)})
+                return self._step(known.named(key), record(formula.shown), taken)
+            case Arithmetic() if key:
+                return self._step(known.named(key), Symbol("_"), {"_": Known(known.node)})
             case Total(operands=terms):
-                shown = tuple(Given(one.key, self.value(one)) for one in terms if not one.is_absent)
-                return SumStep(known.key, shown, self.value(known))
+                shown = (ValueLine(self._marked(one.key, one), self.value(one)) for one in terms if not one.is_absent)
+                return SumLine(key, tuple(shown), self.value(known))
+            case Delayed(of=of, by=by, cycle=cycle):
+                return DelayedLine(key, of.key, (self.degrees - by) % cycle, self.value(known))
             case Found(word=word, at=at, operands=(column,)) if at is not None and word in _AT_AN_ANGLE:
                 return Moment(self._angles_at, at).step(column.named(known.key))
-        return Given(known.key, self.value(known))
+        return ValueLine(key, self.value(known))
 
-    def _step(self, known: Known, tree: Expression, taken: dict[str, Known | float]) -> Step:
+    def _marked(self, key: str, known: Known) -> str:
+        # an angle counted from elsewhere is that of cylinder 1
+        is_own = known.varies and not (isinstance(known.node, OfAngle) and known.node.shift)
+        return f"{key}.{self._mark}" if self._mark and key and is_own else key
+
+    def _step(self, known: Known, tree: Expression, taken: dict[str, Known | float]) -> FormulaLine:
         inlined = _Inlined(taken)
         tree = fold(inlined.tree(tree))
         used = symbols_of(tree)
         values = {name: one if not isinstance(one, Known) else self.value(one) for name, one in inlined.taken.items()}
-        named = tuple(
-            (name, one.key)
+        operands = {
+            name: self._of_own_angle(one)
             for name, one in inlined.taken.items()
-            if isinstance(one, Known) and name in used and _is_renamed(name, one)
+            if isinstance(one, Known) and name in used
+        }
+        named = tuple(
+            (name, self._marked(one.key, one)) for name, one in operands.items() if self._is_renamed(name, one)
         )
         formula = known.node.formula if isinstance(known.node, Use) else _written_in_place(known)
         shown = {name: values[name] for name in used}
-        return Step(known.key, formula, shown, self.value(known), named, tree)
+        return FormulaLine(known.key, formula, shown, self.value(known), named, tree)
+
+    def _of_own_angle(self, known: Known) -> Known:
+        """Return sine or cosine of the own crank angle under a name that can be marked."""
+        node = known.node
+        if not (self._mark and isinstance(node, OfAngle) and node.multiple == 1) or known.key:
+            return known
+        return known.named(f"crank_{node.function}") if node.function in ("sin", "cos") else known
+
+    def _is_renamed(self, name: str, operand: Known) -> bool:
+        """Return whether an operand prints the symbol of its own key and not that of the argument."""
+        return bool(operand.key) if self._mark and operand.varies else _is_renamed(name, operand)
 
     def _made_of(self, known: Known) -> Iterator[Known]:
         """Yield what can be replayed at this crank angle of all that a known is made of."""

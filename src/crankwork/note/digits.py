@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from crankwork.formula.expression import Expression, Operation, evaluate
-from crankwork.formula.steps import AnyStep, Given, ProductStep, Step, SumStep
+from crankwork.formula.lines import DelayedLine, FormulaLine, Line, SumLine, ValueLine
 
 RESULT_DIGITS = 6
 _MOST_DIGITS = 12
@@ -17,30 +17,30 @@ _UNITS = 2
 _SUMS = (operator.add, operator.sub)
 
 
-def enough_digits(step: AnyStep) -> int:
+def enough_digits(step: Line) -> int:
     """Return the significant digits of the numbers put in: six, and more where the value needs them.
 
     Put in as printed they give the printed value within two units of its last place; where no digits do, as in a
     difference of equal numbers, within two units of the last place of the largest term.
     """
     printed = as_printed(step.value)
-    if isinstance(step, Given):
+    if isinstance(step, ValueLine | DelayedLine):
         return RESULT_DIGITS
     reached = []
     for digits in range(RESULT_DIGITS, _MOST_DIGITS + 1):
         terms = _terms(step, digits)
         if not all(map(math.isfinite, terms)):
             return RESULT_DIGITS
-        missed = abs((math.prod(terms) if isinstance(step, ProductStep) else sum(terms)) - printed)
+        missed = abs(sum(terms) - printed)
         if missed <= _UNITS * last_place(printed):
             return digits
         reached.append((digits, missed, max(map(abs, (*terms, printed)))))
     return next((digits for digits, missed, one in reached if missed <= _UNITS * last_place(one)), _MOST_DIGITS)
 
 
-def _terms(step: Step | SumStep | ProductStep, digits: int) -> list[float]:
+def _terms(step: FormulaLine | SumLine, digits: int) -> list[float]:
     """Return the terms of a line from its printed numbers."""
-    if isinstance(step, SumStep | ProductStep):
+    if isinstance(step, SumLine):
         return [as_printed(one.value, digits) for one in step.terms]
     put_in = {
         name: math.pi if is_exact_pi(name, value) else as_printed(value, digits) for name, value in step.values.items()

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from crankwork.formula.expression import Expression, Formula
-from crankwork.formula.steps import AnyStep
+from crankwork.formula.lines import Line
 from crankwork.quantities import Language
 
 
@@ -82,7 +82,7 @@ class Equation:
     key of a value without a formula whose definition stands before the number.
     """
 
-    step: AnyStep | Formula
+    step: Line | Formula
     symbol: str = ""
     numbered: bool = True
     label: str = ""

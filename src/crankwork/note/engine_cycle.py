@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from crankwork.analysis.polytropes import Polytropes, polytropes
-from crankwork.formula.steps import AnyStep, Given, Step
+from crankwork.formula.lines import FormulaLine, Line, ValueLine
 from crankwork.locale import say
 from crankwork.note.document import Block, Cell, Math, Reference, Runs, Table
 from crankwork.note.engine_cycle_data import cycle_data_rows
@@ -72,12 +72,12 @@ _MEASURED_STEP = 10.0
 def cycle(material: Material) -> Iterator[Block]:
     """Yield the calculation of the working cycle, stage by stage; nothing if none was made."""
     words = material.words
-    if not material.results.steps:
+    if not material.cycle:
         return
-    steps = [one for one in material.groups["cycle"].steps if not isinstance(one, Given)]
+    steps = [one for one in material.groups["cycle"].lines if not isinstance(one, ValueLine)]
     numbered = material.order != "vi"
     yield words.heading("cycle", numbered=numbered)
-    rows = list(cycle_data_rows(material, [one for one in steps if isinstance(one, Step)]))
+    rows = list(cycle_data_rows(material, [one for one in steps if isinstance(one, FormulaLine)]))
     if rows:
         yield words.paragraph("cycle_data", table=Reference("t:cycle_data"))
         yield value_table("cycle_data", rows, words)
@@ -92,10 +92,10 @@ def cycle(material: Material) -> Iterator[Block]:
     yield from material.presented([_heat_balance(material)])
 
 
-def _staged(steps: Sequence[AnyStep]) -> dict[str, list[AnyStep]]:
+def _staged(steps: Sequence[Line]) -> dict[str, list[Line]]:
     """Return steps by the stage they belong to; a part of a quantity belongs where it was needed."""
     stages = {key: stage for stage, keys in _STAGES.items() for key in keys}
-    found: dict[str, list[AnyStep]] = {stage: [] for stage in _STAGES}
+    found: dict[str, list[Line]] = {stage: [] for stage in _STAGES}
     current = "fuel"
     for one in steps:
         kind, dot, _ = one.key.partition(".")

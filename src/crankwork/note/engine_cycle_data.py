@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from crankwork.formula.expression import symbol
-from crankwork.formula.steps import Step
+from crankwork.formula.lines import FormulaLine
 from crankwork.locale import has_text
 from crankwork.notation import ARGUMENTS, argument_unit
 from crankwork.note.document import Cell, Math
@@ -32,7 +32,7 @@ _BROUGHT = {
 }
 
 
-def cycle_data_rows(material: Material, steps: Sequence[Step]) -> Iterator[tuple[Cell, ...]]:
+def cycle_data_rows(material: Material, steps: Sequence[FormulaLine]) -> Iterator[tuple[Cell, ...]]:
     """Yield what is given or chosen for the cycle, and what is put into its formulas that nothing else gives."""
     words, given, assumed = material.words, cycle_keys(material), _assumed(material)
 
@@ -42,7 +42,7 @@ def cycle_data_rows(material: Material, steps: Sequence[Step]) -> Iterator[tuple
     for key in given:
         yield marked(key, value_row(key, material.summary[key], words))
     known = {*given, *material.summary, *material.results.columns, *_ELSEWHERE}
-    known |= {base_key(one.key) for one in material.results.steps}
+    known |= {base_key(one.key) for one in material.cycle}
     for step in steps:
         meanings = {one.symbol: one.text for one in legend(step, words.language, frozenset(known))}
         for name, value in step.values.items():

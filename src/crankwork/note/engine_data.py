@@ -138,6 +138,6 @@ def _sizes(bearings: Bearings, words: EngineWords) -> Iterator[tuple[Cell, ...]]
 
 
 def cycle_keys(material: Material) -> list[str]:
-    """Return what is given or chosen for the working cycle: its values that no step gives."""
-    given = {one.key for one in cycle_quantities.ROWS} - {one.key for one in material.results.steps}
+    """Return what is given or chosen for the working cycle: its values that no line gives."""
+    given = {one.key for one in cycle_quantities.ROWS} - {one.key for one in material.cycle}
     return [key for key in material.summary if key in given and key not in _ELSEWHERE]

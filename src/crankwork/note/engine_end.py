@@ -117,7 +117,7 @@ def appendix(material: Material) -> Iterator[Block]:
     blocks: list[Block] = []
     if material.order == "vi":
         blocks += [*mains(material), *balance(material), *evenness(material)]
-    rest = [*material.intro("further", material.remaining_steps()), *_further(material)]
+    rest = [*material.intro("further", material.remaining_lines()), *_further(material)]
     if rest:
         blocks += [material.words.heading("more", 2, numbered=False), *rest]
     if blocks:
@@ -129,7 +129,7 @@ def _further(material: Material) -> Iterator[Block]:
     """Yield single values that are not among the main results, and figures that no section has."""
     words, summary = material.words, material.summary
     main = {*_main_keys(material), *(() if material.has_engine else _OF_ENGINES)}
-    main |= {*GEAR, "bore", *(cycle_keys(material) if material.results.steps else ())}
+    main |= {*GEAR, "bore", *(cycle_keys(material) if material.cycle else ())}
     left = [
         key
         for key in summary

@@ -12,12 +12,13 @@ import numpy as np
 
 from crankwork.analysis import Array, Results
 from crankwork.analysis.forces import force_functions
-from crankwork.analysis.steps import worked_steps
-from crankwork.formula.steps import AnyStep, Given, ProductStep, Step, StepGroup, SumStep
+from crankwork.formula.lines import DelayedLine, FormulaLine, Line, ValueLine
 from crankwork.machine import Machine
 from crankwork.note.document import Block, Equation, Figure, Paragraph, Reference, Run, Runs, Table
+from crankwork.note.engine_lines import cycle_lines, engine_lines
 from crankwork.note.engine_seen import crankpins, kind_of, seen
 from crankwork.note.engine_words import EngineWords
+from crankwork.note.groups import Group
 from crankwork.note.options import NoteOptions
 from crankwork.report.figure_data import figure_title
 from crankwork.report.figures import figures
@@ -91,9 +92,14 @@ class Material:
         }
 
     @cached_property
-    def groups(self) -> dict[str, StepGroup]:
-        """Worked steps by the name of their group."""
-        return {one.name: one for one in worked_steps(self.results)}
+    def groups(self) -> dict[str, Group]:
+        """Lines of the memory by the name of their group."""
+        return {one.name: one for one in engine_lines(self.results)}
+
+    @cached_property
+    def cycle(self) -> tuple[Line, ...]:
+        """Lines of the calculation of the cycle."""
+        return cycle_lines(self.results)
 
     @cached_property
     def drawn(self) -> Mapping[str, bytes]:
@@ -103,29 +109,25 @@ class Material:
         return figures(self.results, language=self.options.language, per_area=self.per_area)
 
     def equations(self, group: str, *kinds: str, first: bool = False) -> list[Block]:
-        """Return equations of the steps of a group that the note has not shown yet.
+        """Return equations of the lines of a group that the note has not shown yet.
 
         What results without a formula and stands in a table is left to the table.
         """
-        steps = self.groups[group].steps if group in self.groups else ()
-        some = [one for one in steps if not kinds or one.key.partition(".")[0] in kinds]
-        some = [one for one in some if not (isinstance(one, Given) and one.key.partition(".")[0] in _TABLED)]
+        lines = self.groups[group].lines if group in self.groups else ()
+        some = [one for one in lines if not kinds or one.key.partition(".")[0] in kinds]
+        some = [one for one in some if not (isinstance(one, ValueLine) and one.key.partition(".")[0] in _TABLED)]
         return self.worked(_first(some) if first else some)
 
-    def worked(self, steps: Iterable[AnyStep]) -> list[Block]:
-        """Return equations of steps that the note has not shown yet, terms before their sum."""
+    def worked(self, lines: Iterable[Line]) -> list[Block]:
+        """Return equations of lines that the note has not shown yet."""
         found: list[Block] = []
-        for one in _lines(steps):
+        for one in lines:
             mark = _identity(one)
             if mark in self._shown:
                 continue
             self._shown.add(mark)
-            step = one
-            if isinstance(one, SumStep | ProductStep):
-                # a sum prints its terms by their keys, which are no symbols where they have a long name
-                step = one._replace(terms=tuple(Given(self.words.symbol(term.key), term.value) for term in one.terms))
-            defined = one.key if isinstance(one, Given) else ""
-            found.append(Equation(step, symbol=self.words.symbol(self._plain(one.key)), defined=defined))
+            defined = one.key if isinstance(one, ValueLine) else ""
+            found.append(Equation(one, symbol=self.words.symbol(self._plain(one.key)), defined=defined))
             self._keys.add(one.key)
             self._formulas.add(_formula_name(one))
         return found
@@ -150,8 +152,8 @@ class Material:
     def worked_at(self, group: str) -> Iterator[Block]:
         """Yield the sentence that says at which crank angle a group is worked."""
         found = self.groups.get(group)
-        if found is not None and found.crank_angle is not None:
-            yield self.words.paragraph("worked_at", value=self.words.amount(found.crank_angle, "deg"))
+        if found is not None and found.degrees is not None:
+            yield self.words.paragraph("worked_at", value=self.words.amount(math.radians(found.degrees), "deg"))
 
     def presented(self, tables: Iterable[Table | None] = (), names: Iterable[str] = ()) -> Iterator[Block]:
         """Yield tables and figures after a sentence that refers to them by number."""
@@ -176,14 +178,15 @@ class Material:
         left = [name for name in self.drawn if name not in self._told]
         return [name for name in left if self.has_engine or not name.startswith("main_")]
 
-    def remaining_steps(self) -> list[Block]:
-        """Return equations of steps that no section has shown: single values, and formulas that are new."""
-        steps = [one for group in self.groups.values() for one in group.steps if not isinstance(one, Given)]
+    def remaining_lines(self) -> list[Block]:
+        """Return equations of lines that no section has shown: single values, and formulas that are new."""
+        every = (one for group in self.groups.values() for one in group.lines)
+        lines = [one for one in every if not isinstance(one, ValueLine | DelayedLine)]
         if not self.has_engine:
-            steps = [one for one in steps if not one.key.startswith(_OF_ENGINES)]
+            lines = [one for one in lines if not one.key.startswith(_OF_ENGINES)]
         return self.worked(
             one
-            for one in steps
+            for one in lines
             if one.key not in self._keys and (one.key in self.summary or _formula_name(one) not in self._formulas)
         )
 
@@ -203,31 +206,25 @@ class Material:
         return Figure(self.drawn[name], title, f"{title}. {seen(name, self)}".rstrip(". ") + ".", label=f"f:{name}")
 
 
-def _identity(step: AnyStep) -> tuple[object, ...]:
-    """Return what makes two steps the same line."""
-    if not isinstance(step, Step):
-        return (step.key, step.value)
-    mark = step.key.partition(".")[2]
-    return (step.formula.name, *step.values.values(), "" if mark == "cycle" else mark)
+def _identity(line: Line) -> tuple[object, ...]:
+    """Return what makes two lines the same."""
+    if not isinstance(line, FormulaLine):
+        return (line.key, line.value)
+    mark = line.key.partition(".")[2]
+    return (line.formula.name, *line.values.values(), "" if mark == "cycle" else mark)
 
 
-def _lines(steps: Iterable[AnyStep]) -> Iterator[AnyStep]:
-    """Yield steps, before each sum or product the terms that have a formula: the others stand in the sum itself."""
-    for one in steps:
-        if isinstance(one, SumStep | ProductStep):
-            yield from _lines(term for term in one.terms if not isinstance(term, Given))
-        yield one
+def _formula_name(line: Line) -> str:
+    """Return the name of the formula of a line; of a sum what it sums, of arithmetic in place what it gives."""
+    if not isinstance(line, FormulaLine):
+        return line.key.partition(".")[0]
+    return line.formula.name if line.formula.source else "".join(one for one in line.key if not one.isdigit())
 
 
-def _formula_name(step: AnyStep) -> str:
-    """Return the name of the formula of a step; of a sum, what it sums."""
-    return step.formula.name if isinstance(step, Step) else step.key.partition(".")[0]
-
-
-def _first(steps: list[AnyStep]) -> Iterator[AnyStep]:
-    """Yield the first step of each formula, and for each quantity the first value without one."""
+def _first(lines: list[Line]) -> Iterator[Line]:
+    """Yield the first line of each formula, and for each quantity the first value without one."""
     seen: set[tuple[str, str]] = set()
-    for one in steps:
+    for one in lines:
         mark = (_formula_name(one), one.key.partition(".")[0])
         if mark not in seen:
             seen.add(mark)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 from crankwork.note.document import Block, Math, Reference, Runs, Table
+from crankwork.note.engine_lines import first_slave
 from crankwork.note.engine_material import Material
 from crankwork.note.engine_tables import angle_table, column_table, folded, listing_table
 
@@ -19,7 +21,7 @@ _STATISTICS = (
 _ON_ROD = ("big_end_load", "piston_pin_force", "small_end_load")
 _OF_ORDERS = (
     "acceleration_coefficient", "order_inertia_force", "force_factor", "free_force", "moment_factor", "free_moment",
-    "counterweight_moment", "shaft_unbalance", "unbalance_force",
+    "rotating_mass", "counterweight_moment", "shaft_unbalance", "unbalance_force",
 )  # fmt: skip
 _ON_MAINS = ("shaft_unbalance", "unbalance_force", "journal_share", "main_journal_load")
 
@@ -40,14 +42,15 @@ def total(material: Material) -> Iterator[Block]:
     yield words.paragraph("one_cylinder" if count == 1 else "total")
     if count > 1:
         yield words.paragraph("order", order="–".join(map(str, engine.layout.firing_order)))
-    yield from material.equations("firing", "displacement", "firing_interval")
-    yield from material.equations("uniformity", "mean_total_torque")
+    yield from material.equations("firing")
+    yield from material.equations("uniformity", "mean_total_torque", "mean_torque")
     firing = listing_table(material, "firing", "firing") if count > 1 else None
     if firing is not None:
         yield from material.presented([firing])
     if count > 1:
         yield from material.worked_at("engine_torque")
-        yield from material.equations("engine_torque", "total_torque")
+        kinds = ("tangential_force", "crank_torque", "throw_torque", "total_torque")
+        yield from material.equations("engine_torque", *kinds)
     if material.order == "vi":
         yield words.paragraph("tangential_sum")
     yield from material.presented([_total_table(material)], ("total_torque",))
@@ -91,7 +94,7 @@ def crankpin(material: Material) -> Iterator[Block]:
     if not _bearings(material):
         return
     yield material.words.heading("crankpin")
-    yield from _crankpin_steps(material)
+    yield from _crankpin_lines(material)
     yield from material.equations("bearings", *_ON_ROD)
     yield from _statistics(material)
     yield from material.presented(
@@ -107,7 +110,7 @@ def polar(material: Material) -> Iterator[Block]:
     if not _bearings(material):
         return
     yield material.words.heading("crankpin")
-    yield from _crankpin_steps(material)
+    yield from _crankpin_lines(material)
     keys = [key for key in _bearings(material) if key.startswith("crankpin_")]
     yield from material.presented([angle_table(material, "crankpin", keys)], _polars(material))
 
@@ -150,12 +153,26 @@ def _polars(material: Material) -> list[str]:
     return [name for name in material.drawn if name.startswith("crankpin_polar")]
 
 
-def _crankpin_steps(material: Material) -> Iterator[Block]:
+def _crankpin_lines(material: Material) -> Iterator[Block]:
     """Yield the load on the crankpin, worked at the angle of the forces."""
     yield material.words.paragraph("crankpin")
-    yield from material.equations("articulated")
+    yield from _articulated(material)
     yield from material.worked_at("bearings")
     yield from material.equations("bearings", *_ON_CRANKPIN)
+
+
+def _articulated(material: Material) -> Iterator[Block]:
+    """Yield motion and forces of the first cylinder whose rod is articulated, worked at its own crank angle."""
+    words, engine = material.words, material.machine.engine
+    if engine is None or "articulated" not in material.groups:
+        return
+    number = first_slave(engine)
+    at, own = (
+        words.amount(math.radians(material.groups[name].degrees or 0.0), "deg") for name in ("bearings", "articulated")
+    )
+    shown: Runs = (Math(words.symbol(f"crank_angle.{number}")), f" = {own}")
+    yield words.paragraph("articulated", number=str(number), value=at, own=shown)
+    yield from material.equations("articulated")
 
 
 def _wear(material: Material) -> Iterator[Block]:

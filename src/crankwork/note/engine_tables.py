@@ -10,7 +10,7 @@ import numpy as np
 
 from crankwork.analysis import Array
 from crankwork.formula.expression import Formula
-from crankwork.formula.steps import Step
+from crankwork.formula.lines import FormulaLine
 from crankwork.note.document import Block, Cell, Equation, Explanation, Math, Runs, Table
 from crankwork.note.engine_material import Material
 from crankwork.note.engine_words import EngineWords
@@ -133,7 +133,8 @@ def explained(blocks: Iterable[Block], words: EngineWords) -> Iterator[Block]:
         own, formula = _own(block, known, words), _formula(block)
         rest = legend(_said(block), words.language, frozenset(known | _left(block))) if formula else ()
         known |= _left(block) | (explained_keys(_said(block)) if formula else set())
-        numbered = formula is not None and formula.name not in seen
+        # arithmetic that is written in place has no number
+        numbered = formula is not None and bool(formula.source) and formula.name not in seen
         seen |= {formula.name} if formula else set()
         yield replace(block, legend=(*own, *rest), numbered=numbered)
 
@@ -148,14 +149,14 @@ def _left(block: Equation) -> set[str]:
     return {kind} if kind in QUANTITIES else set()
 
 
-def _said(block: Equation) -> Step | Formula:
-    return cast("Step | Formula", block.step)
+def _said(block: Equation) -> FormulaLine | Formula:
+    return cast("FormulaLine | Formula", block.step)
 
 
 def _formula(block: Equation) -> Formula | None:
     if isinstance(block.step, Formula):
         return block.step
-    return block.step.formula if isinstance(block.step, Step) else None
+    return block.step.formula if isinstance(block.step, FormulaLine) else None
 
 
 def any_nonzero(keys: Iterable[str], columns: Mapping[str, Array]) -> list[str]:

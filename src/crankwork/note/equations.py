@@ -12,13 +12,12 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from crankwork.formula.expression import Formula, record, text
-from crankwork.formula.steps import AnyStep, Given, ProductStep, Step
+from crankwork.formula.lines import DelayedLine, FormulaLine, Line, SumLine, ValueLine
 from crankwork.locale import say, texts
 from crankwork.note.definitions import definition_box, definition_text
 from crankwork.note.digits import enough_digits, is_exact_pi
 from crankwork.note.document import Equation
 from crankwork.note.layout import (
-    DOT,
     EQUALS,
     SPACE,
     Box,
@@ -41,8 +40,11 @@ from crankwork.report.language import symbol as key_symbol
 from crankwork.units import UNITS, coherent_unit, from_si, to_si
 
 LINE_WIDTH = 33.0
-_MANY = 6
+_MANY = 8
 _SHORT_NAME = 3
+_OF_HARMONICS = (
+    "harmonic_cosine", "harmonic_sine", "harmonic_amplitude", "harmonic_phase", "phase_sum", "total_harmonic_amplitude",
+)  # fmt: skip
 _AT_POINTS = ("cylinder_volume", "diagram_pressure")
 _OF_ORDERS = ("free_force", "free_moment")
 _WITHOUT_ORDER = ("rotating", "counterweights")
@@ -66,12 +68,12 @@ def printed_equation(block: Equation, language: Language, limit: float = LINE_WI
     return PrintedEquation(tuple(_lines(left, parts, limit)), _plain(block, language))
 
 
-def equation_symbol(step: AnyStep | Formula, language: Language) -> str:
+def equation_symbol(step: Line | Formula, language: Language) -> str:
     """Return the symbol on the left of an equation, as `base_subscript`."""
     if isinstance(step, Formula):
         return QUANTITIES[step.quantity].symbol(language)
     if base_key(step.key) not in QUANTITIES:
-        return QUANTITIES[step.formula.quantity].symbol(language) if isinstance(step, Step) else step.key
+        return QUANTITIES[step.formula.quantity].symbol(language) if isinstance(step, FormulaLine) else step.key
     kind, _, name = step.key.partition(".")
     shown = key_symbol(kind, language)
     # a point or a number tells parts of a quantity apart; a whole word would make no symbol
@@ -87,13 +89,15 @@ def value_symbol(key: str, language: Language) -> str:
     kind, *names = key.split(".")
     if base_key(kind) not in QUANTITIES:
         return kind
-    shown = equation_symbol(Given(kind, 0.0), language)
+    shown = equation_symbol(ValueLine(kind, 0.0), language)
     if kind in _OF_LINKS and names:
         return owned_symbol(shown, ".".join(names))
     known = texts("marks", language)
     if kind in _OF_ORDERS and names and names[0] in _WITHOUT_ORDER:
         # what turns with the shaft has no order
         shown = shown.partition("_")[0]
+    if kind in _OF_HARMONICS and names:
+        return f"{shown}{',' if '_' in shown else '_'}{number(float('.'.join(names)), language)}"
     marks = [known.get(name, name) for name in names]
     # a point or a number tells parts of a quantity apart; a whole word would make no symbol
     below = ",".join(one for one, name in zip(marks, names, strict=True) if name in known or len(one) <= _SHORT_NAME)
@@ -103,7 +107,7 @@ def value_symbol(key: str, language: Language) -> str:
     return f"{shown}{',' if '_' in shown else '_'}{below}" if below else shown
 
 
-def _symbols(step: Step, language: Language) -> dict[str, str]:
+def _symbols(step: FormulaLine, language: Language) -> dict[str, str]:
     """Return the symbols of the arguments that stand for one of several values."""
     return {name: value_symbol(key, language) for name, key in step.named}
 
@@ -126,39 +130,38 @@ def _definition(block: Equation, language: Language) -> tuple[Box, ...]:
     return () if box is None else (box,)
 
 
-def _parts(step: AnyStep | Formula, language: Language) -> Iterator[Box]:
+def _parts(step: Line | Formula, language: Language) -> Iterator[Box]:
     """Yield what stands between the signs of equality."""
     match step:
         case Formula():
             yield formula_box(record(step.shown), None, language)
             return
-        case Step(values=values):
+        case FormulaLine(values=values):
             tree, symbols = step.expression, _symbols(step, language)
             yield formula_box(tree, None, language, symbols=symbols)
             yield formula_box(tree, values, language, digits=enough_digits(step), symbols=symbols)
-        case Given():
-            pass
-        case _:
-            sign = DOT if isinstance(step, ProductStep) else Sign("+")
-            if len(step.terms) <= _MANY:
-                yield _joined([symbol_box(equation_symbol(one, language)) for one in step.terms], sign)
-            if len(step.terms) > 1:
+        case DelayedLine(of=of, degrees=degrees):
+            yield row(symbol_box(value_symbol(of, language)), Fence(value_box(degrees, "deg", language)))
+        case SumLine(terms=terms):
+            if len(terms) <= _MANY:
+                yield _joined([symbol_box(value_symbol(one.key, language)) for one in terms])
+            if len(terms) > 1:
                 digits = enough_digits(step)
-                yield _joined([number_box(one.value, language, digits)[0] for one in step.terms], sign)
+                yield _joined([number_box(one.value, language, digits)[0] for one in terms])
     for value, unit in shown_values(step):
         yield value_box(value, unit, language)
 
 
-def _joined(boxes: list[Box], sign: Sign) -> Box:
+def _joined(boxes: list[Box]) -> Box:
     parts: list[Box] = []
     for box in boxes:
-        parts += [sign, Fence(box) if leads_with_sign(box) else box] if parts else [box]
+        parts += [Sign("+"), Fence(box) if leads_with_sign(box) else box] if parts else [box]
     return row(*parts) if len(parts) > 1 else parts[0] if parts else Upright("0")
 
 
-def shown_values(step: AnyStep) -> list[tuple[float, str]]:
+def shown_values(step: Line) -> list[tuple[float, str]]:
     """Return the value of a step in the unit of its formula, and in the unit of the tables where that is another."""
-    formula = step.formula if isinstance(step, Step) else None
+    formula = step.formula if isinstance(step, FormulaLine) else None
     known = formula is not None or base_key(step.key) in QUANTITIES
     shown = display_unit(step.key, formula) if known else ""
     stated = formula.unit if formula else None
@@ -203,18 +206,19 @@ def _plain(block: Equation, language: Language) -> str:
     return " = ".join([*parts, *line_parts(step, language)])
 
 
-def line_parts(step: AnyStep, language: Language) -> list[str]:
+def line_parts(step: Line, language: Language) -> list[str]:
     """Return what stands between the signs of equality of a line, as text: symbols, numbers, values with units."""
     parts, digits = [], enough_digits(step)
-    if isinstance(step, Step):
+    if isinstance(step, FormulaLine):
         put_in = {name: one for name, one in step.values.items() if not is_exact_pi(name, one)}
         printed = {name: number(one, language, digits=digits) for name, one in put_in.items()}
         parts = [text(step.expression, _symbols(step, language), language), text(step.expression, printed, language)]
-    elif not isinstance(step, Given) and step.terms:
-        sign = "·" if isinstance(step, ProductStep) else " + "
+    elif isinstance(step, DelayedLine):
+        parts = [f"{value_symbol(step.of, language)}({value_text(step.degrees, 'deg', language)})"]
+    elif isinstance(step, SumLine) and step.terms:
         symbols = [value_symbol(one.key, language) for one in step.terms]
         numbers = [number(one.value, language, digits=digits) for one in step.terms]
-        parts = [sign.join(symbols), sign.join([numbers[0], *map(_fenced, numbers[1:])])]
+        parts = [" + ".join(symbols), " + ".join([numbers[0], *map(_fenced, numbers[1:])])]
     while parts and parts[-1] == number(step.value, language):
         # the same number follows with its unit
         parts.pop()

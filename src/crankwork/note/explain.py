@@ -22,8 +22,7 @@ from crankwork.formula.known import (
     Total,
     Use,
 )
-from crankwork.formula.steps import Given as GivenStep
-from crankwork.formula.steps import Step
+from crankwork.formula.lines import FormulaLine, ValueLine
 from crankwork.locale import capital, say
 from crankwork.notation import ARGUMENTS, argument_unit
 from crankwork.note.definitions import definition_text
@@ -87,7 +86,7 @@ def _values(key: str, value: float, language: Language) -> list[str]:
     """Return a value in SI and in the unit of the tables, where it is that of a quantity."""
     if base_key(key) not in QUANTITIES:
         return [number(value, language)]
-    return [value_text(one, unit, language) for one, unit in shown_values(GivenStep(key, value))]
+    return [value_text(one, unit, language) for one, unit in shown_values(ValueLine(key, value))]
 
 
 class _Printed:
@@ -151,7 +150,7 @@ class _Printed:
                 parts = ["0"] if one.residual else parts
                 found = line_parts(step, language)
                 parts += found[: -len(shown_values(step))] if one.residual else found
-                source = step.formula.source if isinstance(step, Step) else ""
+                source = step.formula.source if isinstance(step, FormulaLine) else ""
                 return " = ".join(_once(parts)) + self._cited(source) + self._held(one)
             case Delayed(of=of, by=by, cycle=cycle) if one.degrees is not None:
                 before = _angle((one.degrees - by) % cycle, language)

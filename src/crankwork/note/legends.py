@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from crankwork.formula.expression import Formula, record, symbol
-from crankwork.formula.lines import symbols_of
-from crankwork.formula.steps import Step
+from crankwork.formula.lines import FormulaLine, symbols_of
 from crankwork.locale import has_text, say
 from crankwork.notation import ARGUMENTS, Argument, argument_unit
 from crankwork.note.document import Explanation
@@ -29,10 +28,12 @@ _DERIVED = {
 _NAMED_ONLY = Argument("")
 
 
-def legend(step: Step | Formula, language: Language, known: frozenset[str] = frozenset()) -> tuple[Explanation, ...]:
+def legend(
+    step: FormulaLine | Formula, language: Language, known: frozenset[str] = frozenset()
+) -> tuple[Explanation, ...]:
     """Return what the symbols of a formula stand for, each with the unit in which the formula takes it."""
     found: dict[str, Explanation] = {}
-    named = dict(step.named) if isinstance(step, Step) else {}
+    named = dict(step.named) if isinstance(step, FormulaLine) else {}
     for name in _arguments(step):
         entry = ARGUMENTS.get(name, _NAMED_ONLY)
         unit = _unit(name, named.get(name, "")) if name in ARGUMENTS else ""
@@ -72,15 +73,15 @@ def _meaning(key: str, language: Language) -> str:
     return label(kind, language) + (f" {say(f'note.{_PARTS[part]}', language)}" if part in _PARTS else "")
 
 
-def explained_keys(step: Step | Formula) -> set[str]:
+def explained_keys(step: FormulaLine | Formula) -> set[str]:
     """Return the keys that the legend of a formula explains: of quantities, and of arguments with own words."""
-    named = dict(step.named) if isinstance(step, Step) else {}
+    named = dict(step.named) if isinstance(step, FormulaLine) else {}
     return {key for name in _arguments(step) for key in _explaining(name, named)}
 
 
-def _arguments(step: Step | Formula) -> tuple[str, ...]:
+def _arguments(step: FormulaLine | Formula) -> tuple[str, ...]:
     """Return the names of the symbols that are printed."""
-    return symbols_of(step.expression if isinstance(step, Step) else record(step.shown))
+    return symbols_of(step.expression if isinstance(step, FormulaLine) else record(step.shown))
 
 
 def _explaining(name: str, named: Mapping[str, str]) -> tuple[str, ...]:

@@ -135,7 +135,7 @@ def structural_analysis(material: Material) -> Iterator[Block]:
     yield words.paragraph("structure", n=str(len(found.links)), p=str(found.joints))
     yield _pairs(material, ("", *found.links))
     yield words.paragraph("chebyshev")
-    yield from equations(material.steps("structure"), words)
+    yield from equations(material.lines("structure"), words)
     yield words.paragraph("one_drive")
     numbers = {name: str(number) for number, name in enumerate(found.links, start=1)}
     kinds = {_members(one): type(one).__name__ for one in material.machine.mechanism.dyads}

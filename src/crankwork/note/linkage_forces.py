@@ -8,7 +8,6 @@ import numpy as np
 
 from crankwork.analysis import Array
 from crankwork.analysis.linkage import torque_by_routes
-from crankwork.analysis.steps_torque import efficiency_steps
 from crankwork.note.document import Block, Citation
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_motion import worked_at
@@ -35,11 +34,11 @@ def forces(material: Material) -> Iterator[Block]:
         yield words.heading("inertia_loads", 2)
         yield words.paragraph("inertia_of_links", source=Citation(_STATICS))
         yield from worked_at(material, "inertia_loads")
-        yield from equations(material.steps("inertia_loads"), words)
+        yield from equations(material.lines("inertia_loads"), words)
     yield words.heading("reactions", 2)
     yield words.paragraph("reactions")
     yield from worked_at(material, "joint_forces")
-    yield from equations(material.steps("joint_forces"), words)
+    yield from equations(material.lines("joint_forces"), words)
     keys = any_nonzero(named(columns, "joint_force", "normal_force", "normal_moment"), columns)
     shown = quantity_columns(keys, columns, words)
     yield from position_tables("reactions", material.positions, shown, words, first=material.first, label="reactions")
@@ -73,7 +72,7 @@ def reduction(material: Material) -> Iterator[Block]:
     yield words.heading("reduction")
     yield words.paragraph("reduction", source=Citation(_WORK))
     yield from worked_at(material, "reduction")
-    yield from equations(material.steps("reduction"), words)
+    yield from equations(material.lines("reduction"), words)
     keys = any_nonzero(("reduced_inertia", "reduced_inertia_1"), columns)
     shown = quantity_columns(keys, columns, words)
     yield from position_tables("reduced", material.positions, shown, words, first=material.first, label="reduced")
@@ -88,10 +87,10 @@ def torques(material: Material) -> Iterator[Block]:
     yield words.heading("torques")
     yield words.paragraph("torques")
     yield from worked_at(material, "torques")
-    yield from equations(material.steps("torques", "static_torque", "dynamic_torque", "balancing_torque"), words)
+    yield from equations(material.lines("torques", "static_torque", "dynamic_torque", "balancing_torque"), words)
     yield from efficiency(material)
     yield words.paragraph("driving")
-    yield from equations(material.steps("torques", "driving_torque"), words)
+    yield from equations(material.lines("torques", "driving_torque"), words)
     shown = quantity_columns(any_nonzero(_TORQUES, columns), columns, words)
     yield from position_tables("table_torque", material.positions, shown, words, first=material.first, label="torque")
     yield from material.figures("torques")
@@ -106,9 +105,9 @@ def efficiency(material: Material) -> Iterator[Block]:
         yield words.paragraph("no_losses")
         return
     yield words.paragraph("efficiency", source=Citation(_EFFICIENCY), value=words.number(drive.efficiency))
-    chain = drive.chain
-    if chain is not None:
-        yield from equations((efficiency_steps(chain),), words)
+    # what the chain comes to before it is rounded is the efficiency as well
+    marks = {"efficiency.exact": words.symbol("efficiency")}
+    yield from equations(material.lines("efficiency"), words, marks=marks)
     if drive.exact_efficiency is not None:
         used, exact = words.number(drive.efficiency), words.number(drive.exact_efficiency)
         yield words.paragraph("efficiency_rounded", used=used, exact=exact)

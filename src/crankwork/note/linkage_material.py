@@ -12,11 +12,12 @@ import numpy as np
 from crankwork.analysis import Array, Results
 from crankwork.analysis.linkage import SolvedLinkage
 from crankwork.analysis.moving import reached_angles
-from crankwork.analysis.steps import worked_steps
-from crankwork.formula.steps import AnyStep, StepGroup
+from crankwork.formula.lines import Line
 from crankwork.linkage_machine import LinkageMachine, TabulatedMachine
 from crankwork.mechanism.structure import Structure, structure
 from crankwork.note.document import Block
+from crankwork.note.groups import Group
+from crankwork.note.linkage_lines import linkage_lines
 from crankwork.note.linkage_words import Words
 from crankwork.note.options import NoteOptions
 from crankwork.report.figures import figures
@@ -78,19 +79,18 @@ class Material:
         return self.results.columns_at(self.positions)
 
     @cached_property
-    def groups(self) -> dict[str, StepGroup]:
-        """Worked steps by the name of their group; forces are worked where the loads need the largest torque."""
-        angle = None
+    def groups(self) -> dict[str, Group]:
+        """Lines of the memory by the name of their group, worked where the loads need the largest torque."""
+        degrees = None
         if isinstance(self.results.machine, LinkageMachine) and self.results.machine.loads:
             at = int(np.argmax(np.abs(self.columns["static_torque"])))
-            angle = float(self.positions[at])
-        angles = {} if angle is None else {"crank_angle": angle, "force_angle": angle}
-        return {one.name: one for one in worked_steps(self.results, **angles)}
+            degrees = float(self.positions[at])
+        return {one.name: one for one in linkage_lines(self.results, degrees)}
 
-    def steps(self, group: str, *kinds: str) -> tuple[AnyStep, ...]:
-        """Return the steps of a group, or those of it that give some quantities; none if there is no such group."""
-        steps = self.groups[group].steps if group in self.groups else ()
-        return tuple(one for one in steps if not kinds or one.key.partition(".")[0] in kinds)
+    def lines(self, group: str, *kinds: str) -> tuple[Line, ...]:
+        """Return the lines of a group, or those of it that give some quantities; none if there is no such group."""
+        lines = self.groups[group].lines if group in self.groups else ()
+        return tuple(one for one in lines if not kinds or one.key.partition(".")[0] in kinds)
 
     @cached_property
     def drawn(self) -> Mapping[str, bytes]:

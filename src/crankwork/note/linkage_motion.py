@@ -35,8 +35,8 @@ def kinematics(material: Material) -> Iterator[Block]:
     )
     yield words.heading("worked_motion", 2)
     yield from worked_at(material, "motion")
-    yield from equations(material.steps("speed"), words)
-    yield from equations(material.steps("motion"), words)
+    yield from equations(material.lines("speed"), words)
+    yield from equations(material.lines("motion"), words)
     velocities = quantity_columns(named(columns, *_MOVING), columns, words)
     yield from position_tables("velocities", degrees, velocities, words, first=material.first)
     accelerations = quantity_columns(named(columns, *_ACCELERATING), columns, words)
@@ -47,11 +47,11 @@ def kinematics(material: Material) -> Iterator[Block]:
 
 
 def worked_at(material: Material, group: str) -> Iterator[Block]:
-    """Yield the sentence that says at which crank angle a group of steps is worked."""
+    """Yield the sentence that says at which crank angle a group is worked."""
     found = material.groups.get(group)
-    if found is not None and found.crank_angle is not None:
+    if found is not None and found.degrees is not None:
         words = material.words
-        yield words.paragraph("worked_position", value=words.amount(found.crank_angle, "deg"))
+        yield words.paragraph("worked_position", value=words.amount(math.radians(found.degrees), "deg"))
 
 
 def _transfer_columns(material: Material) -> list[Column]:

@@ -35,7 +35,7 @@ def motor(material: Material) -> Iterator[Block]:
         return
     yield words.heading("motor")
     yield words.paragraph("motor", rated=words.amount(drive.rated_power, "kW"))
-    yield from equations(material.steps("motor"), words)
+    yield from equations(material.lines("motor"), words)
 
 
 def flywheel(material: Material) -> Iterator[Block]:
@@ -45,16 +45,16 @@ def flywheel(material: Material) -> Iterator[Block]:
         return
     yield words.heading("flywheel")
     yield words.paragraph("flywheel", value=words.number(material.machine.drive.fluctuation or 0.0))
-    steps = material.steps("flywheel")
+    lines = material.lines("flywheel")
     ways = [key.partition(".")[2] for key in summary if key.startswith("flywheel_inertia.")]
     last = ""
-    for one in steps:
+    for one in lines:
         way = next((name for name in ways if name in one.key.split(".")), last or ways[0])
         if way != last and one.key != "work_per_cycle":
             yield Paragraph((Bold(capital(words.way(way))), ":"))
             last = way
         yield from equations((one,), words, marks=_marks(ways, words))
-    excess = {way: one.value for way in ways for one in steps if one.key in (f"excess_work.{way}", "excess_work")}
+    excess = {way: one.value for way in ways for one in lines if one.key in (f"excess_work.{way}", "excess_work")}
     rows = [
         (words.way(way), words.number(excess[way]), words.number(summary[f"flywheel_inertia.{way}"]))
         for way in ways

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from crankwork.analysis.steps_linkage import linkage_steps
 from crankwork.formula.known import in_order
 from crankwork.formula.replay import Program
 from crankwork.linkage_machine import TabulatedMachine
@@ -68,7 +67,7 @@ def static(material: Material) -> Iterator[Block]:
     if material.table.static_torque is None:
         yield words.paragraph("given_balancing")
         yield from worked_at(material, "torques")
-        yield from equations(material.steps("torques", "static_torque"), words)
+        yield from equations(material.lines("torques", "static_torque"), words)
     shown = quantity_columns(("static_torque",), columns, words)
     yield from position_tables("table_static", material.results.grid.degrees, shown, words, first=1, label="static")
 
@@ -78,17 +77,17 @@ def dynamic(material: Material) -> Iterator[Block]:
     words, columns = material.words, material.results.columns
     yield words.heading("dynamic")
     yield words.paragraph("table_reduction", source=Citation(_WORK), table=Reference("transfer"))
-    yield from equations(material.steps("speed"), words)
+    yield from equations(material.lines("speed"), words)
     yield from worked_at(material, "reduction")
-    yield from equations(material.steps("reduction", "reduced_inertia"), words)
+    yield from equations(material.lines("reduction", "reduced_inertia"), words)
     if material.table.reduced_inertia_1 is not None:
         yield words.paragraph("given_derivative")
     else:
-        yield from _at_all(material, "reduction", "reduced_inertia_1")
+        yield from _at_all(material, "reduced_inertia_1")
     shown = _parts(material) + quantity_columns(("reduced_inertia", "reduced_inertia_1"), columns, words)
     yield from position_tables("reduced", material.results.grid.degrees, shown, words, first=1, label="reduced")
     yield from material.figures("reduced_inertia")
-    yield from _at_all(material, "torques", "dynamic_torque")
+    yield from _at_all(material, "dynamic_torque")
 
 
 def _parts(material: Material) -> list[Column]:
@@ -112,21 +111,18 @@ def driving(material: Material) -> Iterator[Block]:
     yield words.paragraph("torques")
     yield from efficiency(material)
     yield words.paragraph("driving")
-    yield from _at_all(material, "torques", "driving_torque")
+    yield from _at_all(material, "driving_torque")
     keys = ("reduced_inertia_1", "dynamic_torque", "static_torque", "balancing_torque", "driving_torque")
     shown = quantity_columns(keys, columns, words)
     yield from position_tables("table_torque", material.results.grid.degrees, shown, words, first=1, label="torque")
     yield from material.figures("torques")
 
 
-def _at_all(material: Material, group: str, kind: str) -> Iterator[Block]:
+def _at_all(material: Material, key: str) -> Iterator[Block]:
     """Yield the equation of a quantity at every position, its number in the subscript."""
-    words = material.words
-    for row in range(len(material.results.grid)):
-        groups = linkage_steps(material.results, row, row)
-        for one in next(found.steps for found in groups if found.name == group):
-            if one.key == kind:
-                yield Equation(one, symbol=_numbered(words.symbol(kind), row + 1))
+    results, shown = material.results, material.words.symbol(key)
+    for number, degrees in enumerate(results.grid.degrees.tolist(), start=1):
+        yield Equation(results.moment(degrees).step(results.memory[key]), symbol=_numbered(shown, number))
 
 
 def _numbered(symbol: str, position: int) -> str:

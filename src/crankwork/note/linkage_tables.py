@@ -9,7 +9,7 @@ import numpy as np
 
 from crankwork.analysis import Array
 from crankwork.formula.expression import Formula
-from crankwork.formula.steps import AnyStep, Given, ProductStep, Step, SumStep, all_steps
+from crankwork.formula.lines import FormulaLine, Line
 from crankwork.note.document import Block, Equation, Math, Runs, Table
 from crankwork.note.legends import explained_keys, legend
 from crankwork.note.linkage_words import Words, in_display_unit
@@ -90,20 +90,15 @@ def any_nonzero(keys: Iterable[str], columns: Mapping[str, Array]) -> list[str]:
     return [key for key in keys if key in columns and bool(np.any(columns[key]))]
 
 
-def equations(steps: Iterable[AnyStep], words: Words, *, marks: Mapping[str, str] | None = None) -> Iterator[Equation]:
-    """Yield equations of steps, before each sum those of its terms."""
-    for one in all_steps(steps):
-        if isinstance(one, SumStep | ProductStep):
-            # a sum prints its terms by their keys, which are no symbols where a link has a long name
-            own = tuple(Given(_mark(term.key, words, marks), term.value) for term in one.terms)
-            yield Equation(one._replace(terms=own), symbol=_mark(one.key, words, marks))
-        else:
-            yield Equation(_without_noise(one), symbol=_mark(one.key, words, marks))
+def equations(steps: Iterable[Line], words: Words, *, marks: Mapping[str, str] | None = None) -> Iterator[Equation]:
+    """Yield equations of lines."""
+    for one in steps:
+        yield Equation(_without_noise(one), symbol=_mark(one.key, words, marks))
 
 
-def _without_noise(step: AnyStep) -> AnyStep:
+def _without_noise(step: Line) -> Line:
     """Return a step in which what is zero but for rounding is zero, so that nobody reads a meaning into it."""
-    if not isinstance(step, Step):
+    if not isinstance(step, FormulaLine):
         return step
     noise = _NOISE * max([1.0, *(abs(value) for value in step.values.values())])
     if not any(0 < abs(value) < noise for value in step.values.values()):
@@ -125,12 +120,12 @@ def explained(blocks: Iterable[Block], language: Language) -> Iterator[Block]:
         if not isinstance(block, Equation) or formula is None:
             yield replace(block, numbered=False) if isinstance(block, Equation) else block
             continue
-        new = legend(block.step, language, frozenset(known)) if isinstance(block.step, Step | Formula) else ()
+        new = legend(block.step, language, frozenset(known)) if isinstance(block.step, FormulaLine | Formula) else ()
         # arithmetic that is written in place has no number, nor what comes again
         is_first = bool(formula.source) and formula.name not in seen
         seen.add(formula.name)
         yield replace(block, legend=new) if is_first else replace(block, legend=new, numbered=False)
-        known |= explained_keys(block.step) if isinstance(block.step, Step | Formula) else set()
+        known |= explained_keys(block.step) if isinstance(block.step, FormulaLine | Formula) else set()
 
 
 def _formula(block: Block) -> Formula | None:
@@ -138,4 +133,4 @@ def _formula(block: Block) -> Formula | None:
         return None
     if isinstance(block.step, Formula):
         return block.step
-    return block.step.formula if isinstance(block.step, Step) else None
+    return block.step.formula if isinstance(block.step, FormulaLine) else None

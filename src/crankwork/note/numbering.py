@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from crankwork.errors import CrankworkError
 from crankwork.formula.expression import Formula
-from crankwork.formula.steps import Step
+from crankwork.formula.lines import FormulaLine
 from crankwork.note.captions import place_in_source
 from crankwork.note.document import Block, Citation, Equation, Figure, Heading, ItemList, Note, Paragraph, Run, Table
 from crankwork.quantities import Language
@@ -75,7 +75,7 @@ def _plain_number(block: Block, counts: Counter[str]) -> str:
 def equation_source(block: Equation) -> str:
     """Return the source of the formula of an equation, empty where it has none."""
     match block.step:
-        case Step(formula=formula):
+        case FormulaLine(formula=formula):
             return formula.source
         case Formula(source=source):
             return source

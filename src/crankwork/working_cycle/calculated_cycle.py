@@ -7,9 +7,6 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple, Protocol
 
 from crankwork.formula.known import Known, Total, Use, absent, in_order
-from crankwork.formula.lines import Moment
-from crankwork.formula.steps import AnyStep
-from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.loads.indicator import IndicatorDiagram, VolumeAt
 
 CycleKind = Literal["petrol", "diesel", "otto", "ideal-diesel", "dual"]
@@ -74,15 +71,14 @@ class Calculated(NamedTuple):
         return {key: one.value for key, one in self.memory.items()}
 
     @property
-    def steps(self) -> tuple[AnyStep, ...]:
-        """How they came about, in order."""
+    def worked(self) -> tuple[Known, ...]:
+        """What formulas and sums give, in the order of calculation."""
         knowns = {**self.peak, **self.memory}
-        worked = [
+        return tuple(
             one
             for one in in_order(knowns.values())
             if isinstance(one.node, Use | Total) and (one.key in knowns or "." in one.key)
-        ]
-        return tuple(Moment(CrankGrid.from_degrees, 0.0).steps(worked))
+        )
 
 
 class CalculatedPressure(Protocol):

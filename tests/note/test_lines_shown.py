@@ -13,12 +13,10 @@ import pytest
 import crankwork
 from crankwork import analyse, read_machine, template, template_names, with_method
 from crankwork.analysis.forces import columns, force_functions
-from crankwork.analysis.steps import worked_steps
-from crankwork.analysis.steps_torque import efficiency_steps
-from crankwork.dynamics.efficiency import Parallel, Series, efficiency
-from crankwork.errors import CrankworkError, MethodError
+from crankwork.dynamics.efficiency import Parallel, Series, efficiency, remembered_efficiency
+from crankwork.errors import MethodError
 from crankwork.formula.expression import evaluate
-from crankwork.formula.steps import Given, ProductStep, Step, SumStep, all_steps
+from crankwork.formula.lines import FormulaLine, Moment, SumLine, ValueLine
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.machine import Machine
 from crankwork.quantities import QUANTITIES, base_key
@@ -116,10 +114,10 @@ def _expected(results, group, key):
     """Return the value that the results have of a key at the crank angle of a group, or None."""
     if key in results.summary:
         return results.summary[key]
-    if group.crank_angle is None or key not in results.columns:
+    if group.degrees is None or key not in results.columns:
         return None
-    row = int(np.argmin(np.abs(results.grid.angle - group.crank_angle)))
-    if isinstance(results.machine, Machine) and results.grid.angle[row] != group.crank_angle:
+    row = int(np.argmin(np.abs(results.grid.degrees - group.degrees)))
+    if isinstance(results.machine, Machine) and results.grid.degrees[row] != group.degrees:
         return None
     return float(results.columns[key][row])
 
@@ -134,14 +132,14 @@ def _assert_is_its_formula(step):
 
 
 @every_machine
-def test_a_step_is_its_formula_at_its_values_and_the_value_of_the_results(machine, method):
+def test_a_step_is_its_formula_at_its_values_and_the_value_of_the_results(machine, method, groups_of):
     results = _results(machine, method)
     compared = 0
-    for group in worked_steps(results):
-        for step in all_steps(group.steps):
-            if isinstance(step, Step):
+    for group in groups_of(results):
+        for step in group.lines:
+            if isinstance(step, FormulaLine):
                 _assert_is_its_formula(step)
-            elif isinstance(step, SumStep):
+            elif isinstance(step, SumLine):
                 assert sum(one.value for one in step.terms) == step.value, step.key
             expected = _expected(results, group, step.key)
             if expected is not None:
@@ -151,13 +149,13 @@ def test_a_step_is_its_formula_at_its_values_and_the_value_of_the_results(machin
 
 
 @every_machine
-def test_a_step_belongs_to_a_quantity_and_is_told_once(machine, method):
-    for group in worked_steps(_results(machine, method)):
-        assert {step.key for step in all_steps(group.steps) if base_key(step.key) not in QUANTITIES} == set()
-        told = [step.key for step in group.steps]
+def test_a_step_belongs_to_a_quantity_and_is_told_once(machine, method, groups_of):
+    for group in groups_of(_results(machine, method)):
+        assert {step.key for step in group.lines if base_key(step.key) not in QUANTITIES} == set()
+        told = [step.key for step in group.lines]
         if group.name != "force_extremes":
             # each at its own crank angle, with terms that are called the same
-            told = [step.key for step in all_steps(group.steps) if not isinstance(step, Given)]
+            told = [step.key for step in group.lines if not isinstance(step, ValueLine)]
         assert sorted(told) == sorted(set(told)), group.name
 
 
@@ -165,7 +163,7 @@ def test_a_step_belongs_to_a_quantity_and_is_told_once(machine, method):
 NO_FORMULA = {
     "crank_angle", "rotational_speed", "angular_acceleration", "crank_radius", "rod_length", "offset", "bore",
     "clearance_volume", "efficiency", "speed_fluctuation", "transient_time", "final_turn", "final_speed",
-    "steady_speed", "steady_fluctuation", "mean_torque", "kinetic_energy_change", "crank_speed",
+    "cylinder_count", "steady_speed", "steady_fluctuation", "mean_torque", "kinetic_energy_change", "crank_speed",
     # a sum of what is shown
     "engine_indicated_power",
 }  # fmt: skip
@@ -176,9 +174,9 @@ SOLVED_KINDS = (
 
 
 @every_machine
-def test_what_has_no_step_is_given_or_solved_for(machine, method):
+def test_what_has_no_step_is_given_or_solved_for(machine, method, groups_of):
     results = _results(machine, method)
-    shown = {step.key for group in worked_steps(results) for step in all_steps(group.steps)}
+    shown = {step.key for group in groups_of(results) for step in group.lines}
     left = {key for key in {*results.summary, *results.columns} - shown - NO_FORMULA if base_key(key) in QUANTITIES}
     left = {key for key in left if not key.partition(".")[0].startswith(SOLVED_KINDS)}
     # extremes over the revolution, where they stand, and the error of a method
@@ -192,25 +190,25 @@ def test_what_has_no_step_is_given_or_solved_for(machine, method):
 
 
 @pytest.mark.parametrize("name", ["press", "press-geometry"])
-def test_a_given_speed_is_not_worked_out_of_the_revolutions_that_follow_from_it(name):
+def test_a_given_speed_is_not_worked_out_of_the_revolutions_that_follow_from_it(name, groups_of):
     machine = crankwork.read(EXAMPLES / f"{name}.toml")
-    assert "speed" not in {group.name for group in worked_steps(analyse(machine))}
+    assert "speed" not in {group.name for group in groups_of(analyse(machine))}
     results = analyse(replace(machine, method=replace(machine.method, pi=3.14)))
-    (step,) = next(group.steps for group in worked_steps(results) if group.name == "speed")
+    (step,) = next(group.lines for group in groups_of(results) if group.name == "speed")
     assert step.value == pytest.approx(14.65 * 3.14 / math.pi, rel=1e-15)
     assert results.summary["speed"] == pytest.approx(step.value, rel=1e-15)
 
 
 @pytest.mark.parametrize("angle", [0.0, 37.3, 90.0, 181.0, 360.0])
 @pytest.mark.parametrize("method", ["exact", "textbook", "series:9"])
-def test_forces_are_those_of_the_columns_at_any_angle(angle, method):
+def test_forces_are_those_of_the_columns_at_any_angle(angle, method, groups_of):
     results = _results(read_machine(VARIANTS["everything"]), method)
     force_angle = 720.0 - angle
-    groups = {group.name: group for group in worked_steps(results, crank_angle=angle, force_angle=force_angle)}
+    groups = {group.name: group for group in groups_of(results, angle, force_angle)}
     for name, degrees in (("motion", angle), ("forces", force_angle)):
         known = columns(results.solved, CrankGrid.from_degrees([degrees]))
-        assert groups[name].crank_angle == math.radians(degrees)
-        found = {step.key: step.value for step in all_steps(groups[name].steps)}
+        assert groups[name].degrees == degrees
+        found = {step.key: step.value for step in groups[name].lines}
         assert len(found.keys() & known.keys()) >= (6 if name == "motion" else 12)
         for key in found.keys() & known.keys():
             # a force that passes zero keeps the rounding of its parts
@@ -218,9 +216,9 @@ def test_forces_are_those_of_the_columns_at_any_angle(angle, method):
             assert found[key] == pytest.approx(known[key][0], rel=1e-12, abs=1e-14 * scale), key
 
 
-def test_ends_of_polytropes_are_those_of_the_diagram():
+def test_ends_of_polytropes_are_those_of_the_diagram(groups_of):
     results = _results(read_machine(template("engine")), "exact")
-    gas = {step.key: step.value for group in worked_steps(results) if group.name == "gas" for step in group.steps}
+    gas = {step.key: step.value for group in groups_of(results) if group.name == "gas" for step in group.lines}
     diagram = results.solved.space.diagram
     ends = [segment for segment in diagram.segments if segment.law == "polytropic"]
     assert [gas["diagram_pressure.c1"], gas["diagram_pressure.b1"]] == [
@@ -229,57 +227,46 @@ def test_ends_of_polytropes_are_those_of_the_diagram():
     assert gas["diagram_pressure.c1"] == pytest.approx(diagram.named["c1"][1], rel=1e-13)
 
 
-def test_flywheels_are_shown_in_all_four_ways():
+def test_flywheels_are_shown_in_all_four_ways(groups_of):
     results = _results(read_machine(VARIANTS["heavy rotor"]), "")
-    wheel = next(group for group in worked_steps(results) if group.name == "flywheel")
-    shown = {step.key for step in wheel.steps}
+    wheel = next(group for group in groups_of(results) if group.name == "flywheel")
+    shown = {step.key for step in wheel.lines}
     assert {key for key in results.summary if key.startswith("flywheel_inertia.") and results.summary[key]} <= shown
     assert {"excess_work", "whole_inertia.energy", "wittenbauer_slope.exact.largest", "energy_fluctuation"} <= shown
 
 
-def test_forces_are_shown_in_the_working_stroke():
-    engine = {one.name: one.crank_angle for one in worked_steps(analyse(read_machine(template("engine"))))}
-    assert math.degrees(engine["motion"]) == pytest.approx(30.0)
-    assert math.degrees(engine["forces"]) == pytest.approx(390.0)
-    compressor = {one.name: one.crank_angle for one in worked_steps(analyse(read_machine(template("compressor"))))}
-    assert math.degrees(compressor["forces"]) == pytest.approx(30.0)
+def test_forces_are_shown_in_the_working_stroke(groups_of):
+    engine = {one.name: one.degrees for one in groups_of(analyse(read_machine(template("engine"))))}
+    assert engine["motion"] == pytest.approx(30.0)
+    assert engine["forces"] == pytest.approx(390.0)
+    compressor = {one.name: one.degrees for one in groups_of(analyse(read_machine(template("compressor"))))}
+    assert compressor["forces"] == pytest.approx(30.0)
 
 
-@pytest.mark.parametrize("angle", [-1.0, 721.0, math.nan])
-def test_a_crank_angle_outside_the_cycle_is_refused(angle):
-    results = analyse(read_machine(template("engine")))
-    with pytest.raises(CrankworkError, match="from 0 to 720 deg"):
-        worked_steps(results, crank_angle=angle)
-    with pytest.raises(CrankworkError, match="from 0 to 720 deg"):
-        worked_steps(results, force_angle=angle)
-
-
-def test_a_linkage_is_shown_at_the_nearest_angle_that_it_reaches():
+def test_a_linkage_is_shown_at_the_nearest_angle_that_it_reaches(groups_of):
     results = analyse(crankwork.read(EXAMPLES / "press.toml"))
-    groups = {group.name: group for group in worked_steps(results, crank_angle=100.0)}
-    assert math.degrees(groups["torques"].crank_angle) == pytest.approx(90.0)
+    groups = {group.name: group for group in groups_of(results, 100.0)}
+    assert groups["torques"].degrees == pytest.approx(90.0)
 
 
-def test_torques_of_a_linkage_are_shown_where_asked():
+def test_torques_of_a_linkage_are_shown_where_asked(groups_of):
     results = _results(read_machine(template("toggle-press")), "")
     row = int(np.argmax(np.abs(results.columns["static_torque"])))
-    groups = {one.name: one for one in worked_steps(results, force_angle=float(results.grid.degrees[row]))}
-    assert math.degrees(groups["motion"].crank_angle) == pytest.approx(30.0)
-    torques = {step.key: step.value for step in groups["torques"].steps}
+    groups = {one.name: one for one in groups_of(results, float(results.grid.degrees[row]))}
+    torques = {step.key: step.value for step in groups["torques"].lines}
     assert torques["static_torque"] == results.columns["static_torque"][row]
-    reduced = next(step for step in groups["reduction"].steps if step.key == "reduced_torque")
+    reduced = next(step for step in groups["reduction"].lines if step.key == "reduced_torque")
     assert reduced.value == pytest.approx(-torques["static_torque"], rel=1e-13)
     assert torques["static_torque"]
 
 
 def test_a_chain_of_efficiencies_multiplies_to_that_of_the_chain():
     chain = Series((Parallel((0.98, 0.98)), 0.98, 0.99, Parallel((0.9, Series((0.95, 0.8)), 0.7), (0.5, 0.3, 0.2))))
-    steps = efficiency_steps(chain)
-    assert isinstance(steps, ProductStep)
-    assert steps.value == pytest.approx(efficiency(chain), rel=1e-15)
-    assert [step.key for step in steps.terms] == [f"efficiency.{i}" for i in range(1, 5)]
-    assert isinstance(steps.terms[3], SumStep)
-    assert efficiency_steps(0.9).value == 0.9
+    found = remembered_efficiency(chain)
+    assert found.value == 0.98 * 0.98 * 0.99 * (0.5 * 0.9 + 0.3 * (0.95 * 0.8) + 0.2 * 0.7)
+    line = Moment(CrankGrid.from_degrees, 0.0).step(found)
+    assert [key for _, key in line.named] == [f"efficiency.{i}" for i in range(1, 5)]
+    assert efficiency(0.9) == 0.9
 
 
 # --- helper functions of notes

@@ -2,50 +2,48 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from crankwork import analyse, read_machine, template
-from crankwork.analysis.steps import worked_steps
-from crankwork.formula.steps import Given, all_steps
+from crankwork.formula.lines import ValueLine
 from crankwork.loads.measured import MeasuredPressure
 
 
-def test_a_measured_pressure_is_given_and_not_calculated():
+def test_a_measured_pressure_is_given_and_not_calculated(groups_of):
     machine = read_machine(template("engine"))
     degrees = np.arange(721.0)
     pressure = 1e5 + 3e6 * np.exp(-(((degrees - 372) / 25) ** 2))
     measured = MeasuredPressure(degrees, pressure, range(2, 723))
     results = analyse(replace(machine, gas=replace(machine.gas, points={}, pieces=(), measured=measured)))
-    groups = {group.name: group for group in worked_steps(results)}
-    read = next(step for step in groups["forces"].steps if step.key == "diagram_pressure")
-    assert isinstance(read, Given)
+    groups = {group.name: group for group in groups_of(results)}
+    read = next(step for step in groups["forces"].lines if step.key == "diagram_pressure")
+    assert isinstance(read, ValueLine)
     assert read.value == pytest.approx(pressure[390], rel=1e-12)
-    assert {step.key for step in groups["gas"].steps} == {
+    assert {step.key for step in groups["gas"].lines} == {
         "piston_area", "swept_volume", "clearance_volume", "compression_ratio",
     }  # fmt: skip
     row = int(np.argmin(np.abs(results.grid.degrees - 390.0)))
-    for step in groups["forces"].steps:
+    for step in groups["forces"].lines:
         if step.key in results.columns:
             assert step.value == pytest.approx(results.columns[step.key][row], rel=1e-12), step.key
-    for step in groups["power"].steps:
+    for step in groups["power"].lines:
         assert step.value == pytest.approx(results.summary[step.key], rel=1e-12), step.key
 
 
 @pytest.mark.parametrize(("wanted", "shown"), [(30.0, 30.0), (300.0, 100.0), (0.0, 20.0)])
-def test_a_linkage_that_cannot_turn_fully_is_shown_where_it_is(wanted, shown):
+def test_a_linkage_that_cannot_turn_fully_is_shown_where_it_is(wanted, shown, groups_of):
     results = analyse(read_machine(template("four-bar").replace('"62.5 mm"', '"150 mm"')))
     assert [notice.code for notice in results.notices] == ["partial"]
-    groups = worked_steps(results, crank_angle=wanted)
-    angles = [math.degrees(one.crank_angle) for one in groups if one.crank_angle is not None]
+    groups = groups_of(results, wanted)
+    angles = [one.degrees for one in groups if one.degrees is not None]
     assert angles == pytest.approx([shown] * 5)
     row = int(np.argmin(np.abs(results.grid.degrees - shown)))
     compared = 0
     for group in groups:
-        for step in all_steps(group.steps):
+        for step in group.lines:
             if step.key in results.columns:
                 assert step.value == pytest.approx(results.columns[step.key][row], rel=1e-12, abs=1e-300), step.key
                 compared += 1

@@ -1,4 +1,4 @@
-"""The formulas that exist for the steps, against the calculation that does without them, and against 30 digits."""
+"""Formulas against another calculation of the same, and against 30 digits."""
 
 from __future__ import annotations
 

@@ -11,11 +11,11 @@ import pytest
 
 import crankwork
 from crankwork.analysis.cylinders import whole_engine
-from crankwork.analysis.steps import worked_steps
+from crankwork.analysis.engine_balance import engine_balance
 from crankwork.cylinders.engines import boxer, inline, radial, vee
 from crankwork.formula.expression import evaluate
+from crankwork.formula.lines import FormulaLine, SumLine, ValueLine
 from crankwork.formula.replay import replay
-from crankwork.formula.steps import Given, Step, SumStep, all_steps
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.locale import has_text
 from crankwork.machine import Bearings, Engine
@@ -64,24 +64,29 @@ MACHINES |= {
 every_machine = pytest.mark.parametrize("machine", MACHINES.values(), ids=MACHINES)
 
 
-def _steps(results, group, **angles):
-    """Return the steps of a group by key."""
-    found = {one.name: one for one in worked_steps(results, **angles)}
-    return {step.key: step for step in all_steps(found[group].steps)} if group in found else {}
+@pytest.fixture
+def lines_of(groups_of):
+    """Give the lines of a group by key."""
+
+    def found(results, group, *degrees):
+        groups = {one.name: one for one in groups_of(results, *degrees)}
+        return {line.key: line for line in groups[group].lines} if group in groups else {}
+
+    return found
 
 
 @every_machine
 @pytest.mark.parametrize("angle", [0.0, 17.3, 200.0, 355.5])
-def test_steps_at_any_angle_are_the_columns_there(machine, angle):
+def test_steps_at_any_angle_are_the_columns_there(machine, angle, groups_of):
     results = crankwork.analyse(machine, CrankGrid.from_degrees([angle]))
     compared = set()
-    for group in worked_steps(results, crank_angle=angle, force_angle=angle):
-        if group.name not in ("engine_torque", "articulated", "bearings"):
+    for group in groups_of(results, angle, angle):
+        if group.name not in ("engine_torque", "bearings"):
             continue
-        assert group.crank_angle == math.radians(angle)
-        for step in all_steps(group.steps):
+        assert group.degrees == angle
+        for step in group.lines:
             if step.key in results.columns and step.key not in compared:
-                scale = max(abs(results.columns[step.key][0]), *(abs(one.value) for one in group.steps))
+                scale = max(abs(results.columns[step.key][0]), *(abs(one.value) for one in group.lines))
                 assert step.value == pytest.approx(results.columns[step.key][0], rel=1e-12, abs=1e-14 * scale), step.key
                 compared.add(step.key)
     shown = ("crank_torque.", "total_torque", "journal_torque.", "crankpin_", "big_end", "small_end", "main_journal")
@@ -100,63 +105,66 @@ def _assert_is_its_formula(step):
 
 
 @every_machine
-def test_steps_are_their_formulas_belong_to_quantities_and_are_told_once(machine):
+def test_steps_are_their_formulas_belong_to_quantities_and_are_told_once(machine, groups_of):
     results = crankwork.analyse(machine)
-    for group in worked_steps(results):
+    for group in groups_of(results):
         if group.name not in WHOLE:
             continue
-        told = [step.key for step in all_steps(group.steps) if not isinstance(step, Given)]
+        told = [step.key for step in group.lines if not isinstance(step, ValueLine)]
         assert sorted(told) == sorted(set(told))
-        for step in all_steps(group.steps):
+        for step in group.lines:
             kind, _, name = step.key.partition(".")
             assert base_key(kind) in QUANTITIES, step.key
             assert all(part.isdigit() or has_text(f"report.{part}") for part in name.split(".") if part), step.key
-            if isinstance(step, Step):
+            if isinstance(step, FormulaLine):
                 _assert_is_its_formula(step)
-            if isinstance(step, Step | SumStep) and step.key in results.summary:
+            if isinstance(step, FormulaLine | SumLine) and step.key in results.summary:
                 assert step.value == pytest.approx(results.summary[step.key], rel=1e-12), step.key
 
 
 @every_machine
-def test_rows_of_the_listings_are_those_of_the_steps(machine):
+def test_rows_of_the_bearing_loads_are_those_of_the_lines(machine, lines_of):
     results = crankwork.analyse(machine)
-    compared = 0
-    for table, group in (("balance", "balance"), ("bearing_loads", "bearing_loads")):
-        if table not in results.listings:
-            continue
-        listing, steps = results.listings[table], _steps(results, group)
-        for key in ("free_force", "free_moment", "bearing_pressure", "bearing_pressure_max", "bearing_load_ratio"):
-            rows = listing.columns.get(key, ())
-            scale = max((abs(one) for one in rows if np.isfinite(one)), default=0.0)
-            for name, value in zip(listing.names, rows, strict=False):
-                if np.isnan(value):
-                    assert f"{key}.{name}" not in steps
-                    continue
-                assert steps[f"{key}.{name}"].value == pytest.approx(value, rel=1e-12, abs=1e-13 * scale), name
-                compared += 1
-    assert compared > 4 or machine is MACHINES["motion alone"]
+    lines = lines_of(results, "bearing_loads")
+    listing = results.listings.get("bearing_loads")
+    for key in ("bearing_pressure", "bearing_pressure_max", "bearing_load_ratio") if listing else ():
+        for name, value in zip(listing.names, listing.columns.get(key, ()), strict=False):
+            shown = lines.get(f"{key}.{name}")
+            assert np.isnan(value) if shown is None else shown.value == value, name
+    assert bool(lines) == (listing is not None)
 
 
 @every_machine
-def test_harmonics_of_the_steps_are_rows_of_the_listing(machine):
+def test_what_formulas_leave_free_is_the_sum_of_the_vectors(machine):
     results = crankwork.analyse(machine)
-    steps = _steps(results, "torque_harmonics")
-    for number in range(1, len(steps) // 4 + 1):
-        columns = results.listings["torque_harmonics"].columns
-        row = columns["harmonic_order"].tolist().index(steps[f"harmonic_order.{number}"].value)
-        for key in ("harmonic_amplitude", "total_harmonic_amplitude"):
-            value = columns[key][row]
-            scale = float(np.max(columns["total_harmonic_amplitude"]))
-            assert steps[f"{key}.{number}"].value == pytest.approx(value, rel=1e-10, abs=1e-10 * scale)
+    if "balance" not in results.listings:
+        return
+    listing = results.listings["balance"]
+    balance = engine_balance(whole_engine(results.solved))
+    for kind in ("force", "moment"):
+        expected = [getattr(one, kind).largest for one in balance.rows.values()]
+        found = listing.columns.get(f"free_{kind}", np.zeros(len(expected)))
+        assert found == pytest.approx(expected, rel=1e-12, abs=1e-13 * max(expected))
+
+
+@every_machine
+def test_the_harmonics_shown_are_those_in_which_all_cylinders_pull_together(machine, lines_of):
+    results = crankwork.analyse(machine)
+    lines = lines_of(results, "torque_harmonics")
+    if lines:
+        count, columns = len(machine.engine.layout.places), results.listings["torque_harmonics"].columns
+        major = columns["harmonic_order"][np.isclose(columns["phase_sum"], count)][:3].tolist()
+        kinds = ("harmonic_amplitude", "phase_sum", "total_harmonic_amplitude")
+        assert list(lines) == [f"{kind}.{order:g}" for order in major for kind in kinds]
     uniform = len(set(map(id, whole_engine(results.solved).cylinders))) == 1
-    assert bool(steps) == (uniform and "crank_torque" in results.columns)
+    assert bool(lines) == (uniform and "crank_torque" in results.columns)
 
 
 @pytest.mark.parametrize("name", ["radial-five", "radial with weights"])
 @pytest.mark.parametrize("angle", [10.0, 250.7, 463.0])
-def test_the_articulated_rod_is_that_of_the_second_cylinder(name, angle):
+def test_the_articulated_rod_is_that_of_the_second_cylinder(name, angle, lines_of):
     results = crankwork.analyse(MACHINES[name])
-    steps = _steps(results, "articulated", force_angle=angle)
+    steps = lines_of(results, "articulated", 30.0, angle)
     whole = whole_engine(results.solved)
     keys = {
         "piston_velocity", "piston_acceleration", "gas_force", "inertia_force", "piston_force", "side_force",
@@ -168,25 +176,25 @@ def test_the_articulated_rod_is_that_of_the_second_cylinder(name, angle):
         ), key
     assert math.asin(steps["rod_sine.2"].value) == pytest.approx(whole.each("rod_angle", [angle])[1, 0], rel=1e-12)
     torque = steps["piston_force.2"].value * steps["piston_transfer_1.2"].value
-    shown = _steps(results, "engine_torque", force_angle=angle)
+    shown = lines_of(results, "engine_torque", 30.0, angle)
     assert shown["crank_torque.2"].value == pytest.approx(torque, rel=1e-9)
 
 
-def test_factors_of_usual_layouts_are_those_of_the_books():
+def test_factors_of_usual_layouts_are_those_of_the_books(lines_of):
     """Kolchin and Demidov, ch. 8: four in line keep 4 P_jII, a cross-plane V8 keeps the moment sqrt(10) P_jI a."""
-    four = _steps(crankwork.analyse(MACHINES["I4"]), "balance")
+    four = lines_of(crankwork.analyse(MACHINES["I4"]), "balance")
     assert (four["force_factor.1"].value, four["force_factor.2"].value) == (0.0, pytest.approx(4.0))
     assert (four["moment_factor.1"].value, four["moment_factor.2"].value) == (0.0, 0.0)
-    eight = _steps(crankwork.analyse(MACHINES["V8"]), "balance")
+    eight = lines_of(crankwork.analyse(MACHINES["V8"]), "balance")
     assert [eight[f"force_factor.{order}"].value for order in (1, 2, 4)] == pytest.approx([0, 0, math.sqrt(32)])
     assert eight["moment_factor.1"].value == pytest.approx(math.sqrt(10), rel=1e-13)
     assert eight["moment_factor.2"].value == 0
 
 
-def test_the_textbook_shows_the_two_orders_that_it_has():
+def test_the_textbook_shows_the_two_orders_that_it_has(lines_of):
     """m r w^2 and m r w^2 lambda."""
     results = crankwork.analyse(crankwork.with_method(MACHINES["petrol-four"], "textbook"))
-    steps = _steps(results, "balance")
+    steps = lines_of(results, "balance")
     one = results["reciprocating_mass"] * results["crank_radius"] * results["speed"] ** 2
     assert steps["order_inertia_force.1"].value == pytest.approx(one, rel=1e-14)
     assert steps["free_force.reciprocating.2"].value == pytest.approx(4 * one * results["rod_ratio"], rel=1e-13)
@@ -195,39 +203,41 @@ def test_the_textbook_shows_the_two_orders_that_it_has():
     }  # fmt: skip
 
 
-def test_even_and_uneven_firing():
-    assert math.degrees(_steps(crankwork.analyse(MACHINES["I4"]), "firing")["firing_interval"].value) == 180.0
-    steps = _steps(crankwork.analyse(MACHINES["V6"]), "firing")
+def test_even_and_uneven_firing(lines_of):
+    assert math.degrees(lines_of(crankwork.analyse(MACHINES["I4"]), "firing")["firing_interval"].value) == 180.0
+    steps = lines_of(crankwork.analyse(MACHINES["V6"]), "firing")
     after = [math.degrees(steps[f"firing_interval.{k}"].value) for k in (1, 4, 2, 5, 3, 6)]
     assert "firing_interval" not in steps
     assert after == pytest.approx([90.0, 150.0] * 3)
 
 
-def test_the_mean_torque_is_that_of_all_works():
+def test_the_mean_torque_is_that_of_all_works(lines_of):
     results = crankwork.analyse(MACHINES["radial-five"])
-    step = _steps(results, "uniformity")["mean_total_torque"]
-    assert isinstance(step, SumStep)
+    lines = lines_of(results, "uniformity")
+    step = lines["mean_total_torque.indicated"]
+    assert isinstance(step, SumLine)
+    assert step.value == pytest.approx(lines["mean_total_torque"].value, rel=1e-9)
     assert len({one.value for one in step.terms}) > 1
     assert step.value * 4 * math.pi == pytest.approx(
         sum(one.space.work for one in whole_engine(results.solved).cylinders)
     )
 
 
-def test_a_flywheel_that_is_not_needed_is_given_as_none():
-    steps = _steps(crankwork.analyse(MACHINES["enough"]), "uniformity")
-    assert steps["flywheel_inertia"] == Given("flywheel_inertia", 0.0)
+def test_a_flywheel_that_is_not_needed_is_given_as_none(lines_of):
+    steps = lines_of(crankwork.analyse(MACHINES["enough"]), "uniformity")
+    assert steps["flywheel_inertia"] == ValueLine("flywheel_inertia", 0.0)
     assert 0 < steps["speed_fluctuation"].value < 0.02
 
 
-def test_a_counterweight_takes_its_shares_and_what_is_given():
+def test_a_counterweight_takes_its_shares_and_what_is_given(lines_of):
     machine = _machine(LAYOUTS["I4"], counterweight=0.01, rotating_share=0.5, reciprocating_share=0.25)
-    steps, m = _steps(crankwork.analyse(machine), "balance"), machine.masses
+    steps, m = lines_of(crankwork.analyse(machine), "balance"), machine.masses
     r = crankwork.analyse(machine)["crank_radius"]
     expected = (0.5 * (m.rod_big_end + m.crank) + 0.25 * m.reciprocating) * r + 0.01
     assert steps["counterweight_moment.1"].value == pytest.approx(expected, rel=1e-14)
 
 
-def test_a_size_that_was_rounded_is_shown_before_and_after():
+def test_a_size_that_was_rounded_is_shown_before_and_after(groups_of):
     text = crankwork.template("whole-engine")
     for old, new in (
         ('radius = "40 mm"', "# radius"), ('bore = "80 mm"\n', ""), ('# power = "60 kW"', 'power = "60 kW"'),
@@ -235,11 +245,11 @@ def test_a_size_that_was_rounded_is_shown_before_and_after():
         assert old in text
         text = text.replace(old, new, 1)
     results = crankwork.analyse(crankwork.read_machine(text))
-    groups = worked_steps(results)
-    keys = [step.key for step in groups[0].steps]
+    groups = groups_of(results)
+    keys = [step.key for step in groups[0].lines]
     assert groups[0].name == "cycle"
     assert len(keys) == len(set(keys))
-    steps = {step.key: step for step in groups[0].steps}
+    steps = {step.key: step for step in groups[0].lines}
     asked, taken = steps["swept_volume.before_rounding"].value, steps["swept_volume.cycle"].value
     assert asked != taken
     assert taken == pytest.approx(results["swept_volume"], rel=1e-12)
@@ -249,8 +259,8 @@ def test_a_size_that_was_rounded_is_shown_before_and_after():
             assert steps[key].value == pytest.approx(results.summary[key], rel=1e-12), key
 
 
-def test_what_a_cycle_was_given_comes_before_what_it_calculates():
-    group = worked_steps(crankwork.analyse(MACHINES["petrol-four"]))[0]
-    keys = [step.key for step in group.steps]
+def test_what_a_cycle_was_given_comes_before_what_it_calculates(groups_of):
+    group = groups_of(crankwork.analyse(MACHINES["petrol-four"]))[0]
+    keys = [step.key for step in group.lines]
     assert keys.index("excess_air") < keys.index("air_mass_needed") < keys.index("filling_factor.diagram")
     assert "displacement.cycle" in keys

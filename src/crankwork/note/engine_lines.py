@@ -1,0 +1,243 @@
+"""Which lines of the memory the note of an engine shows, by subject and in their order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import cast
+
+from crankwork.analysis import Results
+from crankwork.formula.known import Delayed, Use
+from crankwork.formula.known import Given as GivenNode
+from crankwork.formula.lines import Line, Moment, ValueLine
+from crankwork.machine import Engine, Machine
+from crankwork.note.groups import Group
+
+_DEGREES, _TURN = 30.0, 360.0
+
+_GEOMETRY = ("rod_ratio", "relative_offset", "stroke", "top_dead_centre_angle", "bottom_dead_centre_angle")
+_SPEED = ("speed", "mean_piston_speed")
+_SWING = ("rod_sine", "rod_cosine", "crank_rod_sine", "crank_rod_cosine")
+_MOTION = (
+    *_SWING, "rod_angle", "piston_displacement", "piston_transfer_1", "piston_transfer_2", "piston_velocity",
+    "piston_acceleration", "rod_transfer_1", "rod_transfer_2", "rod_angular_velocity", "rod_angular_acceleration",
+)  # fmt: skip
+_HARMONICS = tuple(
+    f"piston_{noun}_{which}_order"
+    for which in ("first", "second")
+    for noun in ("displacement", "transfer_1", "velocity", "transfer_2", "acceleration")
+)
+_EXTREMES = tuple(f"piston_{noun}_{end}" for noun in ("velocity", "acceleration") for end in ("max", "min"))
+_MASSES = ("reciprocating_mass", "rotating_mass")
+_SPACE = ("piston_area", "swept_volume", "clearance_volume", "compression_ratio")
+_POINTS = ("cylinder_volume.", "diagram_pressure.")
+_FORCES = (
+    *_SWING, "cylinder_volume", "diagram_pressure", "gas_pressure", "gas_force", "inertia_acceleration",
+    "inertia_force", "weight_force", "transverse_weight", "piston_force",
+    "side_factor", "rod_factor", "radial_factor", "tangential_factor",
+    "correction_couple", "rod_transverse_force", "side_force.couple", "side_force", "rod_force", "radial_force",
+    "tangential_force", "rotating_inertia_force", "rotating_torque", "crank_torque", "pin_distance",
+    "overturning_moment",
+)  # fmt: skip
+_FORCE_EXTREMES = tuple(
+    f"{key}_{end}"
+    for key in ("inertia_force", "piston_force", "side_force", "tangential_force", "crank_torque")
+    for end in ("max", "min")
+)
+_POWER = ("indicated_work", "indicated_mean_pressure", "indicated_power", "mean_torque")
+
+# of the whole engine
+_FIRING = ("swept_volume.", "displacement", "firing_interval", "firing_interval.")
+_TORQUES = ("crank_torque.", "throw_torque.", "total_torque", "crankpin_torque.", "journal_torque.")
+_OF_SLAVE = (
+    "piston_displacement", "piston_velocity", "piston_acceleration", "gas_force", "inertia_force", "piston_force",
+    "side_force", "rod_force", "radial_force", "tangential_force", "knuckle_couple", "knuckle_side_force",
+)  # fmt: skip
+_BEARINGS = tuple(
+    one
+    for kind in (
+        "big_end_inertia_force", "crankpin_radial_force", "crankpin_tangential_force", "crankpin_load", "big_end_load",
+        "weight_force.piston", "transverse_weight.piston", "piston_pin_force", "side_force.small_end", "small_end_load",
+        "shaft_unbalance.throw", "unbalance_force.throw", "unbalance_force.counterweights", "journal_share",
+        "bearing_force_x", "bearing_force_y", "main_journal_load",
+    )
+    for one in (kind, f"{kind}.")
+)  # fmt: skip
+_LOADS = tuple(
+    one
+    for kind in (
+        "mean_bearing_load", "bearing_load_max", "bearing_load_ratio", "bearing_pressure", "bearing_pressure_max",
+        "mean_crankpin_load", "reversal_duration", "reversal_ratio",
+    )
+    for one in (kind, f"{kind}.")
+)  # fmt: skip
+_UNIFORMITY = (
+    "mean_total_torque", "mean_torque.", "mean_total_torque.indicated", "excess_work", "work_per_cycle",
+    "energy_fluctuation", "whole_inertia", "flywheel_inertia", "speed_fluctuation",
+)  # fmt: skip
+_OF_HARMONIC = ("harmonic_amplitude", "phase_sum", "total_harmonic_amplitude")
+_SHOWN_HARMONICS, _ROUNDING = 3, 1e-9
+_OF_ORDER = (
+    "acceleration_coefficient", "order_inertia_force", "force_factor", "free_force.reciprocating", "moment_factor",
+    "free_moment.reciprocating",
+)  # fmt: skip
+_ROTATING = (
+    "rotating_mass.of_cylinder", "shaft_unbalance.rotating", "unbalance_force.rotating", "free_force.rotating",
+    "free_moment.rotating",
+)  # fmt: skip
+
+
+def engine_lines(results: Results, degrees: float = _DEGREES, force_degrees: float | None = None) -> tuple[Group, ...]:
+    """Return what the note of an engine shows, motion and forces at crank angles. [deg]
+
+    Forces by default stand as far into the last revolution: of four strokes that is the working one.
+    """
+    machine, at = cast("Machine", results.machine), degrees
+    there = machine.cycle - _TURN + at if force_degrees is None else force_degrees
+    moving, loaded = results.moment(at), results.moment(there)
+    has_forces = "piston_force" in results.memory
+    groups = [
+        Group("cycle", tuple(_cycle(results))),
+        Group("geometry", _own(moving, results, _GEOMETRY)),
+        Group("speed", _own(moving, results, _SPEED)),
+        Group("motion", _followed(moving, results, _MOTION), at),
+        Group("harmonics", _own(moving, results, _HARMONICS), at),
+        Group("extremes", _own(moving, results, _EXTREMES)),
+        Group("masses", _own(moving, results, _MASSES)),
+        Group("gas", _own(loaded, results, (*_SPACE, *_points(results)))),
+        Group("forces", _followed(loaded, results, _FORCES if has_forces else ()), there),
+        Group("force_extremes", _own(loaded, results, _FORCE_EXTREMES)),
+        Group("power", _own(loaded, results, _POWER if results.solved.space is not None else ())),
+    ]
+    if machine.engine is not None:
+        groups += _of_engine(results, machine.engine, loaded)
+    return tuple(group for group in groups if group.lines)
+
+
+def _of_engine(results: Results, engine: Engine, moment: Moment) -> Iterator[Group]:
+    """Yield what is shown of the whole engine."""
+    yield Group("firing", _own(moment, results, _FIRING))
+    if "crank_torque" not in results.columns:
+        return
+    yield Group("engine_torque", _own(moment, results, (*_later_forces(results), *_TORQUES)), moment.degrees)
+    yield _articulated(results, engine, moment.degrees)
+    yield Group("bearings", _own(moment, results, _BEARINGS), moment.degrees)
+    yield Group("bearing_loads", _own(moment, results, _LOADS))
+    yield Group("torque_harmonics", _own(moment, results, _major_harmonics(results)))
+    yield Group("uniformity", _own(moment, results, _UNIFORMITY))
+    yield Group("balance", _own(moment, results, (*_orders(results, engine), *_ROTATING, *_weights(results))))
+
+
+def _own(moment: Moment, results: Results, keys: Iterable[str]) -> tuple[Line, ...]:
+    """Return the lines of keys themselves, of one that ends in a point of all its parts: what is given has none."""
+    memory = results.memory
+    wanted = (key for one in keys for key in (_parts(results, one) if one.endswith(".") else (one,)) if key in memory)
+    return tuple(moment.step(memory[key]) for key in wanted if not isinstance(memory[key].node, GivenNode))
+
+
+def _parts(results: Results, start: str) -> list[str]:
+    return [key for key in results.memory if key.startswith(start)]
+
+
+def _points(results: Results) -> list[str]:
+    """Return volumes and pressures at the points of a diagram."""
+    return [key for key, known in results.memory.items() if key.startswith(_POINTS) and not known.varies]
+
+
+def _later_forces(results: Results) -> list[str]:
+    """Return the tangential forces that are those of cylinder 1, only later."""
+    memory, found = results.memory, []
+    for key in _parts(results, "tangential_force."):
+        node = memory[key].node
+        if isinstance(node, Delayed) and node.of.node is memory["tangential_force"].node:
+            found.append(key)
+    return found
+
+
+def _followed(moment: Moment, results: Results, keys: Iterable[str]) -> tuple[Line, ...]:
+    """Return the lines of keys after those of everything they are made of."""
+    return tuple(moment.steps(results.memory[key] for key in keys if key in results.memory))
+
+
+def cycle_lines(results: Results) -> tuple[Line, ...]:
+    """Return the lines of the calculation of the working cycle; none where it was not calculated."""
+    space = results.solved.space
+    calculated = None if space is None else space.calculated
+    return () if calculated is None else tuple(results.moment().steps(calculated.worked))
+
+
+def _cycle(results: Results) -> Iterator[Line]:
+    """Yield the lines of a calculated cycle, before them what was given and after them what was integrated.
+
+    A value that the rest of the results has too is that `.cycle`. A size is calculated twice where it was rounded.
+    """
+    lines = cycle_lines(results)
+    if not lines:
+        return
+    values = results.solved.space.calculated.values
+    last = {line.key: at for at, line in enumerate(lines)}
+    others = {"displacement"} if cast("Machine", results.machine).engine is not None else set()
+
+    def key_of(key: str) -> str:
+        return f"{key}.cycle" if f"{key}.cycle" in results.summary or key in others else key
+
+    end = max((at for at, key in enumerate(values) if key in last), default=-1)
+    known = [
+        (at, ValueLine(key_of(key), value))
+        for at, (key, value) in enumerate(values.items())
+        if key not in last and key_of(key) in results.summary
+    ]
+    yield from (one for at, one in known if at < end)
+    for at, line in enumerate(lines):
+        yield line._replace(key=key_of(line.key) if at == last[line.key] else f"{line.key}.before_rounding")
+    yield from (one for at, one in known if at > end)
+
+
+def _articulated(results: Results, engine: Engine, degrees: float) -> Group:
+    """Return motion and forces of the first cylinder with an articulated rod, at its own crank angle."""
+    number, at, own = first_slave(engine), degrees, []
+    for key in _OF_SLAVE:
+        known = results.memory.get(f"{key}.{number}")
+        if known is None:
+            continue
+        if isinstance(known.node, Delayed):
+            at, known = (degrees - known.node.by) % known.node.cycle, known.node.of
+        own.append(known.named(key))
+    return Group("articulated", tuple(results.moment(at, str(number)).steps(own)), at)
+
+
+def first_slave(engine: Engine) -> int:
+    """Return the number of the first cylinder with an articulated rod, 0 if none has one."""
+    return next((number for number, rod in enumerate(engine.slaves, start=1) if rod is not None), 0)
+
+
+def _major_harmonics(results: Results) -> Iterator[str]:
+    """Yield the first harmonics in which all cylinders pull together, where each has that of the first."""
+    columns, count = results.listings["torque_harmonics"].columns, results.summary["cylinder_count"]
+    pairs = zip(columns["harmonic_order"].tolist(), columns["phase_sum"].tolist(), strict=True)
+    major = [f"{order:g}" for order, star in pairs if abs(star - count) < _ROUNDING][:_SHOWN_HARMONICS]
+    for order in major:
+        if isinstance(results.memory[f"total_harmonic_amplitude.{order}"].node, Use):
+            yield from (f"{kind}.{order}" for kind in _OF_HARMONIC)
+
+
+def _orders(results: Results, engine: Engine) -> Iterator[str]:
+    """Yield what each order of the inertia forces comes to; of articulated rods those of two cylinders."""
+    names = results.listings["balance"].names if "balance" in results.listings else ()
+    for name in names:
+        row, _, order = name.partition(".")
+        if row == "reciprocating":
+            for of in (order, f"{order}.1", f"{order}.{first_slave(engine)}"):
+                yield from (f"{kind}.{of}" for kind in _OF_ORDER)
+
+
+def _weights(results: Results) -> Iterator[str]:
+    """Yield counterweights that differ, each after its parts, and the weights of balance shafts."""
+    if "balance" not in results.listings:
+        return
+    seen: set[float] = set()
+    for key in _parts(results, "counterweight_moment."):
+        known = results.memory[key]
+        if key.count(".") == 1 and known.value and known.value not in seen:
+            seen.add(known.value)
+            yield from (f"{key}.", key)
+    yield from ("balance_shaft_moment.", "unbalance_force.balance_shafts.")

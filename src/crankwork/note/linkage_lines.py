@@ -1,0 +1,107 @@
+"""Which lines of the memory the note of a linkage, or of a table of transfer functions, shows, by subject."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from typing import cast
+
+import numpy as np
+
+from crankwork.analysis import Results
+from crankwork.formula.known import Found, Known, Use, in_order
+from crankwork.formula.lines import Line, ValueLine
+from crankwork.linkage_machine import LinkageMachine, TabulatedMachine
+from crankwork.note.groups import Group
+
+AnyLinkage = LinkageMachine | TabulatedMachine
+
+_DEGREES = 30.0
+
+_MOTION = (
+    "point_x", "point_y", "point_velocity", "point_acceleration", "link_angle", "link_angular_velocity",
+    "link_angular_acceleration", "slider_displacement", "slider_velocity", "slider_acceleration",
+)  # fmt: skip
+_INERTIA = ("link_inertia_force", "link_inertia_torque")
+_JOINTS = ("joint_force_x", "joint_force_y", "joint_force", "normal_force", "normal_moment")
+_REDUCTION = ("reduced_inertia", "kinetic_energy", "reduced_inertia_1", "reduced_torque")
+_WHEEL = ("wittenbauer_slope", "whole_inertia", "flywheel_inertia")
+_TORQUES = ("static_torque", "dynamic_torque", "balancing_torque", "driving_torque")
+
+
+def linkage_lines(results: Results, degrees: float | None = None) -> tuple[Group, ...]:
+    """Return what the note of a linkage shows at a crank angle, or the nearest one of the columns, each once. [deg]"""
+    row = int(np.argmin(np.abs(results.grid.degrees - (_DEGREES if degrees is None else degrees))))
+    told = _Told(results, float(results.grid.degrees[row]))
+    groups = [
+        Group("structure", told.lines(["mobility"])),
+        Group("speed", told.lines(["speed"]) if results.method.pi != math.pi else ()),
+        told.group("motion", _MOTION),
+        Group("inertia_loads", told.of(_inertia(results)), told.degrees),
+        told.group("joint_forces", _JOINTS),
+        told.group("reduction", _REDUCTION),
+        told.group("torques", _TORQUES),
+        Group("efficiency", tuple(_efficiency(results))),
+        Group("flywheel", tuple(_flywheel(results, told))),
+        Group("motor", told.lines(["motor_power", "inertia_on_crank"])),
+    ]
+    return tuple(group for group in groups if group.lines)
+
+
+class _Told:
+    """Lines at one crank angle, each told once."""
+
+    def __init__(self, results: Results, degrees: float) -> None:
+        self._memory, self.degrees = results.memory, degrees
+        self._moment = results.moment(degrees)
+        self._told: set[tuple[str, float]] = set()
+
+    def of(self, knowns: Iterable[Known]) -> tuple[Line, ...]:
+        """Return the lines of knowns that have not been told; of what is nothing but a number, only if asked for."""
+        found, wanted = [], [one for one in knowns if not one.is_absent]
+        asked = {one.key for one in wanted}
+        for one in self._moment.steps(wanted):
+            if (one.key, one.value) not in self._told and (one.key in asked or not isinstance(one, ValueLine)):
+                self._told.add((one.key, one.value))
+                found.append(one)
+        return tuple(found)
+
+    def lines(self, kinds: Iterable[str]) -> tuple[Line, ...]:
+        """Return the lines of what the memory has of some kinds."""
+        kinds = tuple(kinds)
+        return self.of(known for key, known in self._memory.items() if key.partition(".")[0] in kinds)
+
+    def group(self, name: str, kinds: Iterable[str]) -> Group:
+        """Return these lines as a group."""
+        return Group(name, self.lines(kinds), self.degrees)
+
+
+def _inertia(results: Results) -> Iterator[Known]:
+    """Yield inertia forces and torques, which the forces in the joints remember."""
+    forces = [known for key, known in results.memory.items() if key.partition(".")[0] in _JOINTS]
+    yield from (known for known in in_order(forces) if known.key.partition(".")[0] in _INERTIA)
+
+
+def _efficiency(results: Results) -> Iterator[Line]:
+    """Yield the efficiencies of a chain of joints, and what they come to before it is rounded."""
+    drive, memory = cast("AnyLinkage", results.machine).drive, results.memory
+    if drive.chain is None or "efficiency" not in memory:
+        return
+    moment = results.moment()
+    for known in in_order([memory["efficiency"]]):
+        if known.key and not isinstance(known.node, Found):
+            yield moment.step(known)
+
+
+def _flywheel(results: Results, told: _Told) -> Iterator[Line]:
+    """Yield the flywheel in its four ways; the excess work of each is found over the turn."""
+    memory = results.memory
+    for key in memory if "excess_work" in memory else ():
+        for known in in_order([memory[key]]) if key.startswith("flywheel_inertia.") else ():
+            kind = known.key.partition(".")[0]
+            if kind == "excess_work":
+                yield ValueLine(known.key, known.value)
+            elif kind in _WHEEL and isinstance(known.node, Use) and known.value > 0:
+                yield from told.of([known])
+    if "excess_work" in memory:
+        yield from told.lines(["work_per_cycle", "energy_fluctuation"])
