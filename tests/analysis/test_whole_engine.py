@@ -14,7 +14,7 @@ from crankwork.analysis.cylinders import whole_engine
 from crankwork.analysis.engine_balance import engine_balance
 from crankwork.analysis.engine_bearings import bearing_loads
 from crankwork.analysis.engine_torque import engine_torque
-from crankwork.analysis.whole_engine import whole_memory
+from crankwork.analysis.whole_engine import WholeMemory
 from crankwork.cylinders.articulated import articulated_motion
 from crankwork.cylinders.engines import boxer, inline, radial, vee
 from crankwork.cylinders.torque import cylinder_angle
@@ -80,7 +80,7 @@ def test_examples_hold_their_checks(name):
 @every_layout
 def test_the_torque_curve_is_the_torque(layout):
     whole = whole_engine(crankwork.analyse(_machine(layout)).solved)
-    torque = engine_torque(whole, *whole_memory(whole))
+    torque = engine_torque(*WholeMemory.of(whole.master))
     degrees = np.arange(3.7, 720.0, 11.31)
     found = whole.each("crank_torque", degrees)
     scale = float(np.max(np.abs(found)))

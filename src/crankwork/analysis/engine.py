@@ -48,7 +48,15 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
     solved = solve(machine, method or machine.method)
     if grid is None:
         grid = CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
-    over = _over_cycle(solved)
+    followed, wrong = _followed(solved)
+    if machine.engine is None or "crank_torque" not in solved.memory:
+        whole, over = None, OverCycle(followed, CrankGrid.from_degrees, machine.cycle, size_of=wrong)
+    else:
+        from crankwork.analysis.whole_engine import WholeMemory  # noqa: PLC0415 - loaded where it is needed
+
+        # what one cylinder does is followed together with what all do
+        whole = WholeMemory.of(solved, followed, wrong)
+        over = whole.over
     found = {**_geometry(solved), **_motion(solved, over), **_forces(solved, over)}
     calculated = solved.space.calculated if solved.space is not None else None
     summary = {key: known.value for key, known in found.items()}
@@ -69,11 +77,11 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
         return results
     from crankwork.analysis.whole_engine import with_whole_engine  # noqa: PLC0415 - loaded where it is needed
 
-    return with_whole_engine(results)
+    return with_whole_engine(results, whole)
 
 
-def _over_cycle(solved: Solved) -> OverCycle:
-    """Return what the summary is about, over the whole cycle; of an approximate method with its errors."""
+def _followed(solved: Solved) -> tuple[dict[str, Known], dict[str, str]]:
+    """Return what the summary is about, of an approximate method with its errors, and what each is an error of."""
     memory, wrong = solved.memory, dict[str, str]()
     found = {key: memory[key] for key in (*_MOVING, *_PUSHING) if key in memory}
     if not solved.method.is_exact:
@@ -81,7 +89,7 @@ def _over_cycle(solved: Solved) -> OverCycle:
         wrong = {f"{key}_error": key for key in ("piston_displacement", *_MOVING, *_WRONG_FORCES) if key in memory}
         found |= {key: memory[key] for key in wrong.values()}
         found |= {error: memory[key] - exact[key] for error, key in wrong.items()}
-    return OverCycle(found, CrankGrid.from_degrees, solved.machine.cycle, size_of=wrong)
+    return found, wrong
 
 
 def _geometry(solved: Solved) -> dict[str, Known]:

@@ -14,7 +14,7 @@ from crankwork.analysis.engine_balance import EngineBalance, engine_balance
 from crankwork.analysis.engine_bearings import BearingLoads, bearing_loads
 from crankwork.analysis.engine_torque import EngineTorque, engine_torque
 from crankwork.analysis.results import Results
-from crankwork.analysis.whole_engine import whole_memory
+from crankwork.analysis.whole_engine import WholeMemory
 from crankwork.cylinders.bearings import big_end_inertia_force
 from crankwork.cylinders.ellipse import Ellipse, balance_sum
 from crankwork.cylinders.load_statistics import PolarDiagram, polar_diagram
@@ -114,7 +114,7 @@ class EngineDiagrams:
     @cached_property
     def torque(self) -> EngineTorque:
         """Torque of one cylinder and of all, excess work and speed."""
-        return engine_torque(self.whole, *whole_memory(self.whole))
+        return engine_torque(*WholeMemory.of(self.whole.master))
 
     @cached_property
     def degrees(self) -> Array:

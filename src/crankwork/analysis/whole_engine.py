@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from types import MappingProxyType
+from typing import NamedTuple
 
 from crankwork.analysis.cylinders import WholeEngine, whole_engine
 from crankwork.analysis.engine import analyse_engine
@@ -26,7 +28,7 @@ from crankwork.analysis.engine_torque import (
     torque_memory,
 )
 from crankwork.analysis.results import Listing, Results
-from crankwork.analysis.solved import Notice
+from crankwork.analysis.solved import Notice, Solved
 from crankwork.cylinders.engines import inline
 from crankwork.formula.known import Known
 from crankwork.formula.over_cycle import OverCycle
@@ -45,12 +47,37 @@ _TABLES = {
 }
 
 
-def with_whole_engine(results: Results) -> Results:
-    """Return the results of cylinder 1 with those of the engine it belongs to.
+class WholeMemory(NamedTuple):
+    """Torques and bearing loads of an engine by key, what they are over the cycle, and their extremes."""
+
+    whole: WholeEngine
+    memory: dict[str, Known]
+    over: OverCycle
+    extremes: Mapping[str, Known]
+
+    @classmethod
+    def of(
+        cls,
+        solved: Solved,
+        beside: Mapping[str, Known] = MappingProxyType({}),
+        size_of: Mapping[str, str] = MappingProxyType({}),
+    ) -> WholeMemory:
+        """Return those of the engine that a cylinder belongs to; other columns are followed beside them."""
+        whole = whole_engine(solved)
+        memory = torque_memory(whole) | bearing_memory(whole)
+        first = whole.of(1, "crank_torque")
+        keys = ("total_torque", *load_columns(memory).values(), "bearing_force_x.small_end")
+        followed = {first.key: first, **{key: memory[key] for key in keys}, **beside}
+        over = OverCycle(followed, CrankGrid.from_degrees, whole.layout.cycle, size_of=size_of)
+        return cls(whole, memory, over, over.extremes(*keys))
+
+
+def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
+    """Return the results of cylinder 1 with those of the engine it belongs to, of which only the motion may be known.
 
     Every column and single value of cylinder 1 as it was, and those of the engine.
     """
-    whole = whole_engine(results.solved)
+    whole = whole_engine(results.solved) if found is None else found.whole
     notices = [Notice(*one) for one in whole.engine.notices]
     if any(whole.engine.slaves) and whole.masses.rod_inertia_excess:
         notices.append(Notice("articulated_two_mass", {}))
@@ -59,19 +86,19 @@ def with_whole_engine(results: Results) -> Results:
     if len({one.position for one in whole.layout.places}) == 1 < len({one.throw for one in whole.layout.places}):
         notices.append(Notice("no_spacing", {}))
     firing = firing_memory(whole)
-    if "crank_torque" not in results.columns:
+    if found is None:
         notices.append(Notice("motion_only", {}))
         return replace(results, notices=(*results.notices, *notices), memory={**results.memory, **firing})
-    memory, over, extremes = whole_memory(whole)
-    torque = engine_torque(whole, memory, over, extremes)
+    _, memory, over, extremes = found
+    torque = engine_torque(*found)
     loads = load_values(whole, memory, over, extremes) | wear_memory(whole, memory)
     works, harmonics = work_memory(whole, firing), harmonics_memory(whole, torque, memory)
     torques = [key for key in memory if key.startswith(_TORQUES)]
     keys = [*torques, *torque.columns, *bearing_columns(memory)]
     memory |= torque.columns
-    found = Program({key: memory[key] for key in keys})(results.grid)
+    columns = Program({key: memory[key] for key in keys})(results.grid)
     groups = {
-        name: tuple(key for key in found if key.startswith(starts) and _belongs(name, key))
+        name: tuple(key for key in columns if key.startswith(starts) and _belongs(name, key))
         for name, starts in _TABLES.items()
     }
     listings: dict[str, Listing] = {
@@ -89,7 +116,7 @@ def with_whole_engine(results: Results) -> Results:
     told = (*torque.notices, *_torque_against_cycle(results.summary, summary))
     return replace(
         results,
-        columns={**results.columns, **found},
+        columns={**results.columns, **columns},
         summary={**results.summary, **summary},
         checks={**results.checks, **torque_checks(whole, torque), **balance_checks(whole, balance)},
         allowed=_allowed(results),
@@ -140,17 +167,6 @@ def _torque_against_cycle(one: Mapping[str, float], whole: Mapping[str, float]) 
         return ()
     cycle, mean = one["effective_torque"] / one["mechanical_efficiency"], whole["mean_total_torque"]
     return (Notice("torque_of_cycle", {"torque": mean, "cycle": cycle, "percent": 100 * (mean / cycle - 1)}),)
-
-
-def whole_memory(whole: WholeEngine) -> tuple[dict[str, Known], OverCycle, dict[str, Known]]:
-    """Return torques and bearing loads of an engine by key, what they are over the cycle, and their extremes."""
-    memory = torque_memory(whole) | bearing_memory(whole)
-    first = whole.of(1, "crank_torque")
-    followed = {
-        key: memory[key] for key in ("total_torque", *load_columns(memory).values(), "bearing_force_x.small_end")
-    }
-    over = OverCycle({first.key: first, **followed}, CrankGrid.from_degrees, whole.layout.cycle)
-    return memory, over, over.extremes(*followed)
 
 
 _FOUR_STROKES = 720.0
