@@ -75,6 +75,19 @@ def test_another_cylinder_is_the_first_one_later():
     assert any(line.startswith("  M_Σ = M_1 + M_2 + M_3 + M_4 = ") for line in lines)
 
 
+def test_an_articulated_rod_is_told_from_the_master_rod():
+    lines = explained("examples/radial-five.toml", "crank_torque.2", "--at", "100")
+    assert "  sin φ_m = sin (φ + 72°) = sin 460° = 0.984808" in lines
+    assert any(one.startswith("  sin β_m = λ_m·sin φ_m = 0.25·0.984808 = ") for one in lines)
+    assert any(one.startswith("  cos β_1 = √(1 − (sin β_1)²) = ") for one in lines)
+    assert any(one.startswith("  β′_1 = y_A′/(l_1·cos β_1) = ") for one in lines)
+    assert any(one.startswith("  F_N = F_P·sin β_1/cos β_1 = ") for one in lines)
+    assert "  sin γ = sin 72° = 0.951057" in lines
+    assert sum(one.startswith("  ΔF_N = ") for one in lines) == 1
+    given = lines[lines.index("Given values") :]
+    assert any(one.startswith("  r_1 = 0.048 m = 48 mm   engine.articulated.knuckle_radius, line ") for one in given)
+
+
 def test_a_mean_says_what_it_is_of():
     assert any("mean over the cycle (M: crank_torque) = " in line for line in explained(ENGINE, "mean_torque"))
 

@@ -174,7 +174,9 @@ def test_the_articulated_rod_is_that_of_the_second_cylinder(name, angle, lines_o
         assert steps[f"{key}.2"].value == pytest.approx(
             replay(whole.of(2, key), CrankGrid.from_degrees([angle]))[0], rel=1e-11
         ), key
-    assert math.asin(steps["rod_sine.2"].value) == pytest.approx(whole.each("rod_angle", [angle])[1, 0], rel=1e-12)
+    assert math.asin(steps["rod_sine.articulated.2"].value) == pytest.approx(
+        whole.each("rod_angle", [angle])[1, 0], rel=1e-12
+    )
     torque = steps["piston_force.2"].value * steps["piston_transfer_1.2"].value
     shown = lines_of(results, "engine_torque", 30.0, angle)
     assert shown["crank_torque.2"].value == pytest.approx(torque, rel=1e-9)

@@ -7,15 +7,16 @@ the crankpin: delta = knuckle angle - axis - beta of the master rod.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from crankwork.errors import GeometryError
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import Found, Known, called, is_known, plain
+from crankwork.formula.known import Found, Known, absent, called, given, is_known, plain
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.slider_crank import (
     RodSwing,
@@ -108,7 +109,7 @@ class ArticulatedMotion(NamedTuple):
 
     `piston`, `rod` and `swing` are those of `kinematics.piston.PistonMotion`, counted from its own top dead centre [m];
     `knuckle` is the knuckle pin [m], `sin` and `cos` its direction from the crankpin, `master` the swing of the master
-    rod at the same instant [-].
+    rod at the same instant [-]; `own` is its rod, remembered if the motion is, then with angles in radians.
     """
 
     piston: Transfer
@@ -118,6 +119,7 @@ class ArticulatedMotion(NamedTuple):
     sin: Value
     cos: Value
     master: RodSwing
+    own: ArticulatedRod
 
 
 class SlaveStroke(NamedTuple):
@@ -151,17 +153,19 @@ def articulated_motion(lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGri
 
 def _motion(lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGrid) -> ArticulatedMotion:
     """Return the motion, with the distance of the piston pin from the crankshaft in place of the displacement."""
-    r, r_a, l_a = lengths.crank_radius, rod.knuckle_radius, rod.length
-    sin, cos, turn, master = _knuckle_direction(lengths, rod, grid)
+    own = _remembered(rod) if is_known(*lengths) else rod
+    r, r_a, l_a, e = lengths.crank_radius, own.knuckle_radius, own.length, own.offset
+    sin, cos, (delta_1, delta_2), master = _knuckle_direction(lengths, rod, grid, own.knuckle_angle - own.axis)
     x = knuckle_along(r, grid.cos, r_a, cos)
     y = knuckle_across(r, grid.sin, r_a, sin)
-    x_1, y_1 = (-r * grid.sin - r_a * turn[0] * sin, r * grid.cos + r_a * turn[0] * cos)
-    x_2 = -r * grid.cos - r_a * (turn[1] * sin + turn[0] * turn[0] * cos)
-    y_2 = -r * grid.sin + r_a * (turn[1] * cos - turn[0] * turn[0] * sin)
-    sin_rod = articulated_rod_sine(y, rod.offset, l_a)
+    x_1 = called(-r * grid.sin - r_a * delta_1 * sin, "knuckle_x_1")
+    y_1 = called(r * grid.cos + r_a * delta_1 * cos, "knuckle_y_1")
+    x_2 = called(-r * grid.cos - r_a * (delta_2 * sin + delta_1 * delta_1 * cos), "knuckle_x_2")
+    y_2 = called(-r * grid.sin + r_a * (delta_2 * cos - delta_1 * delta_1 * sin), "knuckle_y_2")
+    sin_rod = called(articulated_rod_sine(y, e, l_a), "rod_sine.articulated")
     with np.errstate(invalid="ignore", divide="ignore"):
-        cos_rod = articulated_rod_cosine(sin_rod, y, rod.offset, l_a)
-        beta_1 = articulated_rod_transfer_1(y_1, l_a, cos_rod)
+        cos_rod = called(articulated_rod_cosine(sin_rod, y, e, l_a), "rod_cosine.articulated")
+        beta_1 = called(articulated_rod_transfer_1(y_1, l_a, cos_rod), "rod_transfer_1.articulated")
         beta_2 = articulated_rod_transfer_2(y_2, l_a, beta_1, sin_rod, cos_rod)
         piston = Transfer(
             x + l_a * cos_rod,
@@ -171,24 +175,60 @@ def _motion(lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGrid) -> Artic
     swing = RodSwing(sin_rod, cos_rod, grid.sin * cos_rod + grid.cos * sin_rod, grid.cos * cos_rod - grid.sin * sin_rod)
     knuckle = PointMotion(Transfer(x, x_1, x_2), Transfer(y, y_1, y_2))
     angle = Transfer(rod_angle(sin_rod, cos_rod), beta_1, beta_2)
-    return ArticulatedMotion(piston, angle, swing, knuckle, sin, cos, master)
+    return ArticulatedMotion(piston, angle, swing, knuckle, sin, cos, master, own)
+
+
+def _remembered(rod: ArticulatedRod) -> ArticulatedRod:
+    """Return a rod of given values, its angles in radians."""
+    table = "engine.articulated"
+    ahead, axis = math.radians(rod.knuckle_angle), math.radians(rod.axis)
+    known: tuple[Any, ...] = (
+        given("articulated_rod_length", rod.length, f"{table}.rod_length"),
+        given("knuckle_radius", rod.knuckle_radius, f"{table}.knuckle_radius"),
+        given("knuckle_angle", ahead, f"{table}.knuckle_angles"),
+        given("articulated_axis", axis, "engine.layout"),
+        given("offset.articulated", rod.offset, "engine") if rod.offset else absent("offset"),
+    )
+    return ArticulatedRod(*known)
+
+
+class _MasterAngle(NamedTuple):
+    """Functions of the crank angle from the axis of the master cylinder."""
+
+    sin: Value
+    cos: Value
+    one_minus_sin: Value
+    one_plus_sin: Value
 
 
 def _knuckle_direction(
-    lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGrid
-) -> tuple[Array, Array, tuple[Array, Array], RodSwing]:
+    lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGrid, ahead: Value
+) -> tuple[Value, Value, tuple[Value, Value], RodSwing]:
     """Return sine and cosine of delta, its two derivatives, and the swing of the master rod."""
-    of_master = grid.shifted(rod.axis)
+    turned = grid.shifted(rod.axis)
+    sin, cos = called(turned.sin, "master_sine"), called(turned.cos, "master_cosine")
+    of_master: Value = _MasterAngle(sin, cos, turned.one_minus_sin, turned.one_plus_sin)
     lam = called(lengths.rod_ratio, "rod_ratio.master")
     master = rod_swing(lengths, of_master, lam, part=".master")
     beta_1 = called(rod_transfer_1(lam, of_master.cos, master.cos), "rod_transfer_1.master")
     beta_2 = rod_transfer_2(beta_1, lam, of_master.sin, master.sin, master.cos)
     beta_2 = called(beta_2, "rod_transfer_2.master")
-    fixed = CrankGrid.from_degrees(rod.knuckle_angle - rod.axis)
-    fixed_sin, fixed_cos = float(fixed.sin), float(fixed.cos)
-    sin = fixed_sin * master.cos - fixed_cos * master.sin
-    cos = fixed_cos * master.cos + fixed_sin * master.sin
-    return sin, cos, (-beta_1, -beta_2), master
+    fixed = called(ahead, "knuckle_direction.start")
+    ahead_sin, ahead_cos = sine_and_cosine(
+        rod.knuckle_angle - rod.axis, fixed, ("knuckle_sine.start", "knuckle_cosine.start")
+    )
+    sin = called(ahead_sin * master.cos - ahead_cos * master.sin, "knuckle_sine")
+    cos = called(ahead_cos * master.cos + ahead_sin * master.sin, "knuckle_cosine")
+    return sin, cos, (called(-beta_1, "knuckle_direction_1"), called(-beta_2, "knuckle_direction_2")), master
+
+
+def sine_and_cosine(degrees: float, angle: Value, keys: tuple[str, str]) -> tuple[Value, Value]:
+    """Return sine and cosine of an angle that stands still, exact at multiples of 90 degrees, remembered if it is."""
+    at = CrankGrid.from_degrees(degrees)
+    sin, cos = float(at.sin), float(at.cos)
+    if not is_known(angle):
+        return sin, cos
+    return Known(Found(sin, "sine", [angle]), keys[0]), Known(Found(cos, "cosine", [angle]), keys[1])
 
 
 @lru_cache(maxsize=256)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from crankwork.cylinders.articulated import ArticulatedMotion, ArticulatedRod
+from crankwork.cylinders.articulated import ArticulatedMotion, ArticulatedRod, sine_and_cosine
 from crankwork.dynamics.piston_forces import rod_force, side_force
 from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import absent, is_known
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank
 
@@ -53,15 +54,16 @@ def slave_forces(
     cylinder [rad]. Source: taylor_1985, ch. 8; moments on the master rod about the crankpin, then its forces.
     """
     sin_rod, cos_rod = motion.swing.sin, motion.swing.cos
-    side = side_force(P, sin_rod, cos_rod, 0.0, 0.0)
-    couple = couple_of_knuckle(P, rod.knuckle_radius, motion.sin, motion.cos, sin_rod, cos_rod)
+    nothing: Value = absent("side_force.couple") if is_known(P) else 0.0
+    side = side_force(P, sin_rod, cos_rod, nothing, nothing)
+    couple = couple_of_knuckle(P, motion.own.knuckle_radius, motion.sin, motion.cos, sin_rod, cos_rod)
     held = side_force_on_master(couple, lengths.rod_length, motion.master.cos)
     # the wall of the master cylinder answers across the master's axis, which stands at -axis here
-    axis = CrankGrid.from_degrees(rod.axis)
-    x, y = held * float(axis.sin) - P, side + held * float(axis.cos)
+    axis_sin, axis_cos = sine_and_cosine(rod.axis, motion.own.axis, ("axis_sine", "axis_cosine"))
+    x, y = held * axis_sin - P, side + held * axis_cos
     return SlaveForces(
         side,
-        rod_force(P, cos_rod, 0.0, sin_rod),
+        rod_force(P, cos_rod, nothing, sin_rod),
         couple,
         held,
         x,

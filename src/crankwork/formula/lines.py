@@ -308,7 +308,7 @@ def _is_renamed(name: str, operand: Known) -> bool:
         return False
     entry = ARGUMENTS.get(name)
     if isinstance(operand.node, OfAngle) and entry is not None:
-        return entry.quantity != "crank_angle"
+        return entry.quantity != "crank_angle" or not operand.key.startswith("crank_")
     if entry is None or not entry.quantity or "." in operand.key:
         return True
     return entry.pattern == "{}" and entry.quantity != operand.key

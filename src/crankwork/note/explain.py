@@ -31,6 +31,7 @@ from crankwork.note.numbering import Numbering
 from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.report.language import label, number
 from crankwork.sources import cite
+from crankwork.units import from_si
 
 _FENCES = re.compile(r"[() ]")
 
@@ -104,12 +105,15 @@ class _Printed:
         moving = [one for one in made if one.degrees is not None or _stands_at(one)]
         yield from self._section("explain.steady", steady)
         here: float | None = None
+        told: dict[str, None] = {}
         for one in moving:
             angle = self._angle_of(one)
             if angle is not None and angle != here:
                 yield from ("", say("explain.at", self._language, angle=_angle(angle, self._language)))
-                here = angle
-            yield from self._lines([one])
+                here, told = angle, {}
+            lines = [line for line in self._lines([one]) if line not in told]
+            told |= dict.fromkeys(lines)
+            yield from lines
         yield from self._given([one for one in every if is_given(one)])
         if self._sources:
             yield from ("", say("explain.sources", self._language))
@@ -120,7 +124,7 @@ class _Printed:
         return one.known.node.at if isinstance(one.known.node, Found) else one.degrees
 
     def _section(self, title: str, some: Iterable[Explained]) -> Iterator[str]:
-        lines = list(self._lines(some))
+        lines = dict.fromkeys(self._lines(some))
         if lines:
             yield from ("", say(title, self._language), *lines)
 
@@ -132,7 +136,7 @@ class _Printed:
 
     def _symbol(self, known: Known, argument: str = "") -> str:
         match known.node:
-            case OfAngle(function=function, multiple=multiple, shift=shift):
+            case OfAngle(function=function, multiple=multiple, shift=shift) if not _has_own_symbol(known):
                 return _of_angle(function, multiple, shift, self._language)
         if known.key:
             return value_symbol(known.key, self._language)
@@ -144,7 +148,7 @@ class _Printed:
         parts = [self._symbol(known, one.argument)]
         match known.node:
             case OfAngle():
-                return " = ".join([*parts, *self._angle_parts(one)])
+                return " = ".join(_once([*parts, *self._angle_parts(one)]))
             case Use() | Arithmetic() | Total():
                 step = self._explanation.moment(one.degrees).step(known)
                 parts = ["0"] if one.residual else parts
@@ -157,6 +161,9 @@ class _Printed:
                 parts = [f"{parts[0]}({_angle(one.degrees, language)})", f"{self._symbol(of)}({before})"]
             case Found(word="at", operands=of, at=at) if at is not None:
                 parts += [f"{self._symbol(column)}({_angle(at, language)})" for column in of[:1]]
+            case Found(word="sine" | "cosine" as word, operands=(of,)):
+                of_degrees = _angle(float(from_si(of.value, "deg")), language)
+                parts.append(f"{'sin' if word == 'sine' else 'cos'} {of_degrees}")
             case Found(word=word, operands=of, at=at):
                 defined = definition_text(known.key, language) if known.key else ""
                 parts += [defined] if defined else []
@@ -189,10 +196,11 @@ class _Printed:
         if not isinstance(node, OfAngle) or degrees is None:
             return []
         whole = _angle(node.multiple * degrees + node.shift, self._language)
+        turned = _of_angle(node.function, node.multiple, node.shift, self._language)
         if node.function == "angle":
-            return [whole, value_text(one.value, "rad", self._language)]
+            return [turned, whole, value_text(one.value, "rad", self._language)]
         name = {"one_minus_sin": "1 − sin ", "one_plus_sin": "1 + sin "}.get(node.function, f"{node.function} ")
-        return [f"{name}{whole}", number(one.value, self._language)]
+        return [turned, f"{name}{whole}", number(one.value, self._language)]
 
     def _held(self, one: Explained) -> str:
         if one.stretch is None:
@@ -221,6 +229,11 @@ class _Printed:
 def _stands_at(one: Explained) -> bool:
     """Return whether a value was found of columns at a crank angle."""
     return isinstance(one.known.node, Found) and one.known.node.at is not None
+
+
+def _has_own_symbol(known: Known) -> bool:
+    """Return whether a function of the crank angle goes by a name of its own."""
+    return bool(known.key) and not known.key.startswith("crank_")
 
 
 def _once(parts: list[str]) -> list[str]:
