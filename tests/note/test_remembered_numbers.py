@@ -28,18 +28,6 @@ OPTIONS = NoteOptions(figures=False)
 # in SI, or of the largest operand beside it: what is printed as zero
 NOISE = 1e-15
 
-# What no memory holds yet, by the reason. The lists only shrink.
-NOT_YET = {
-    "heat release is integrated, and worked at one angle": {
-        "burning_progress", "burning_rate", "burnt_fraction", "cylinder_temperature", "heat_transfer_coefficient",
-        "motored_pressure", "piston_displacement", "pressure_rise", "wall_area", "wall_gas_speed", "wall_heat_rate",
-    },
-}  # fmt: skip
-# which machines have what is not remembered; all of them otherwise
-ONLY = {
-    "heat release is integrated, and worked at one angle": {"two-stroke"},
-}  # fmt: skip
-
 
 def machine_of(name):
     kind, is_template, _ = name.partition(" template")
@@ -110,19 +98,9 @@ def not_held(results, note):
     return found
 
 
-def excused(name):
-    return {key for why, keys in NOT_YET.items() if name in ONLY.get(why, {name}) for key in keys}
-
-
 @pytest.mark.parametrize(("name", "method"), CASES)
 def test_a_printed_number_is_one_that_the_analysis_holds(name, method):
-    assert not_held(*analysed(name, method)) - excused(name) == set()
-
-
-def test_what_is_not_remembered_yet_only_shrinks():
-    found = [(name, not_held(*analysed(name, method))) for name, method in CASES]
-    for why, keys in NOT_YET.items():
-        assert keys == keys & set().union(*(one for name, one in found if name in ONLY.get(why, {name}))), why
+    assert not_held(*analysed(name, method)) == set()
 
 
 def test_a_number_that_nobody_holds_is_found():

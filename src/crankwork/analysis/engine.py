@@ -29,6 +29,7 @@ from crankwork.kinematics.slider_crank import (
 from crankwork.loads import gas as gas_formulas
 from crankwork.machine import Machine
 from crankwork.method import Method
+from crankwork.working_cycle.calculated_cycle import Calculated
 
 _Value = TypeVar("_Value")
 _CHECK_STEP = 1.0
@@ -71,7 +72,7 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
         solved.notices,
         GROUPS,
         allowed=_allowed(solved, summary),
-        memory={**({} if calculated is None else _cycle_values(calculated.memory)), **solved.memory, **found},
+        memory={**({} if calculated is None else _cycle_memory(calculated)), **solved.memory, **found},
     )
     if machine.engine is None:
         return results
@@ -141,6 +142,11 @@ def _forces(solved: Solved, over: OverCycle) -> dict[str, Known]:
         found["indicated_mean_pressure"] = gas_formulas.indicated_mean_pressure(work, memory["swept_volume"])
         found["indicated_power"] = gas_formulas.indicated_power(work, memory["speed"], cycle)
     return found
+
+
+def _cycle_memory(calculated: Calculated) -> dict[str, Known]:
+    """Return what a calculation of the cycle remembers, with what stands behind the greatest pressure."""
+    return {**_cycle_values(calculated.memory), **calculated.peak}
 
 
 def _cycle_values(values: Mapping[str, _Value]) -> dict[str, _Value]:

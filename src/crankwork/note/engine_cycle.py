@@ -99,7 +99,7 @@ def _staged(steps: Sequence[Line]) -> dict[str, list[Line]]:
     current = "fuel"
     for one in steps:
         kind, dot, _ = one.key.partition(".")
-        if not dot or kind == "heat_share" or one.key.endswith(".cycle"):
+        if not dot or kind == "heat_share" or one.key.endswith((".cycle", ".peak")):
             current = stages.get(kind, current)
         found[current].append(one)
     return found

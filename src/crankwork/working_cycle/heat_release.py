@@ -112,8 +112,9 @@ def heat_release(
     memory["indicated_work"] = Known(Found(diagram.work(volume_at), "integral", (pressure,)), "indicated_work")
     again = _by_quadrature(gas, periods, segments)
     again["first_law_residual"] = memory["heat_released"].value - again["wall_heat"] - again["closed_work"] - stored
-    work_peak(gas, memory, worked)
-    peak = {key: one for key, one in worked.found.items() if key not in memory}
+    at_peak = worked.again(".peak")
+    work_peak(gas, memory, at_peak)
+    peak = {one.key: one for one in (*worked.found.values(), *at_peak.found.values()) if one.key not in memory}
     found = Calculated(diagram, memory, (), peak=peak)
     return HeatReleaseResult(found._replace(notices=heat_notices(data, gas, found.values)), trace, again)
 
