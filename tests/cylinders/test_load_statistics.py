@@ -4,36 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from crankwork.cylinders.load_statistics import (
     LoadReversal,
-    cycle_shares,
     polar_diagram,
     reversal,
 )
 from crankwork.cylinders.load_vectors import BearingLoad
-from crankwork.errors import CrankworkError
 
 pytestmark = pytest.mark.elsewhere
 
 DEGREES = np.arange(0.0, 720.5, 0.5)
 PHI = np.radians(DEGREES)
-
-
-@given(angles=st.lists(st.floats(0, 719.99), min_size=1, max_size=40, unique=True).map(sorted), closed=st.booleans())
-def test_shares_of_the_cycle_add_up_to_it(angles, closed):
-    degrees = [*angles, angles[0] + 720] if closed else angles
-    shares = cycle_shares(degrees, 720.0)
-    assert np.sum(shares) == pytest.approx(1, rel=1e-12)
-    assert np.all(shares >= 0)
-
-
-@pytest.mark.parametrize("degrees", [[0.0, 30.0, 20.0], [0.0, 0.0, 10.0], [0.0, 360.0, 721.0]])
-def test_angles_that_are_not_one_cycle_are_refused(degrees):
-    with pytest.raises(CrankworkError, match="are not one cycle of 720 degrees; give ascending angles"):
-        cycle_shares(degrees, 720.0)
 
 
 @pytest.mark.parametrize("turn", [0.0, 200.0, 690.0])

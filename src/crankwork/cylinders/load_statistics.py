@@ -9,23 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crankwork.cylinders.load_vectors import BearingLoad
-from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
-
-
-def cycle_shares(degrees: ArrayLike, cycle: float) -> Array:
-    """Return which share of the cycle each tabulated crank angle stands for, by the trapezoidal rule. [-]
-
-    `degrees`: ascending crank angles, with or without the end of the cycle [deg].
-    """
-    degrees = np.asarray(degrees, dtype=float)
-    steps = np.diff(degrees, append=degrees[0] + cycle)
-    if np.any(steps[:-1] <= 0) or steps[-1] < -1e-9 * cycle:
-        raise CrankworkError(
-            f"crank angles from {degrees[0]:g} to {degrees[-1]:g} degrees are not one cycle of {cycle:g} degrees; "
-            "give ascending angles within one cycle"
-        )
-    return np.asarray((steps + np.roll(steps, 1)) / (2 * cycle))
 
 
 class LoadReversal(NamedTuple):
@@ -91,7 +75,6 @@ def polar_diagram(
     and the pole lies as far below the origin: from the pole every vector is the whole load. Marks are `step` apart
     [deg]. Source: kolchin_demidov_2008, ch. 7.
     """
-    cycle_shares(degrees, cycle)
     degrees = np.asarray(degrees, dtype=float)
     across, down = np.asarray(load.y, dtype=float), -np.asarray(load.x) - inertia
     marks = np.arange(0.0, cycle - 1e-9 * cycle, step)

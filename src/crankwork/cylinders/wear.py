@@ -18,6 +18,7 @@ from crankwork.kinematics.crank_grid import Array
 
 # Angles closer than this are the same, so that a ray at the very end of an arc is on it. [deg]
 _SAME_ANGLE = 1e-9
+_SPREAD = 60.0
 # Sums closer than this share of the largest are the same.
 _SAME_SUM = 1e-9
 
@@ -32,38 +33,24 @@ def ray_angles(rays: int) -> Array:
     return np.arange(rays) * 360 / rays
 
 
-def wear_table(load: BearingLoad, rays: int = 12, spread: float = 60.0) -> Array:
+def wear_table(load: BearingLoad, rays: int = 12) -> Array:
     """Return the classical table: every force in the columns of the rays within its arc, shape (n, rays).
 
     Row per tabulated crank angle, column per ray of `ray_angles` [N]. `load`: load on the journal in its own frame:
-    crank frame of a crankpin, shaft frame of a main journal [N]; `spread`: how far the arc goes to either side of the
-    point where the force presses, ends included [deg]. Source: kolchin_demidov_2008, ch. 7.
+    crank frame of a crankpin, shaft frame of a main journal [N]. The arc goes 60 degrees to either side of the point
+    where the force presses, ends included (kolchin_demidov_2008, ch. 7).
     """
-    within = _distance(load, rays) <= _checked(spread) + _SAME_ANGLE
+    apart = np.abs((ray_angles(rays) - load.opposite.direction[:, np.newaxis] + 180) % 360 - 180)
+    within = apart <= _SPREAD + _SAME_ANGLE
     return np.where(within, load.resultant[:, np.newaxis], 0.0)
 
 
-def wear_sums(load: BearingLoad, weights: ArrayLike | None = None, *, rays: int = 12, spread: float = 60.0) -> Array:
+def wear_sums(load: BearingLoad, *, rays: int = 12) -> Array:
     """Return the sum of the loads on every ray, shape (rays,) (kolchin_demidov_2008, ch. 7). [N]
 
-    `load`: load on the journal in its own frame, at even steps without the end of the cycle unless weighted [N];
-    `weights`: how much each row counts: `cycle_shares` make the sums means over the cycle; by default 1; `spread`:
-    how far the arc of a force goes to either side [deg].
+    The load is that on the journal in its own frame, at even steps without the end of the cycle.
     """
-    table = wear_table(load, rays, spread)
-    return np.asarray(np.sum(table, axis=0) if weights is None else np.asarray(weights) @ table)
-
-
-def _distance(load: BearingLoad, rays: int) -> Array:
-    """Return how far each ray is from where each force presses, shape (n, rays). [deg]"""
-    apart = ray_angles(rays) - load.opposite.direction[:, np.newaxis]
-    return np.abs((apart + 180) % 360 - 180)
-
-
-def _checked(spread: float) -> float:
-    if not 0 < spread <= 180:
-        raise CrankworkError(f"a force cannot act {spread:g} degrees to either side; give more than 0 and at most 180")
-    return spread
+    return np.asarray(np.sum(wear_table(load, rays), axis=0))
 
 
 class OilHole(NamedTuple):
@@ -80,7 +67,7 @@ def oil_hole(sums: ArrayLike) -> OilHole:
     """Return the middle of the longest arc of rays that all have the least sum (kolchin_demidov_2008, ch. 7).
 
     Angle, arc and sum; of arcs as long as each other the one between the less loaded neighbours [deg], [N]. `sums`:
-    sums of evenly spread rays, `wear_sums` or `mean_wear` [N], shape (rays,).
+    sums of evenly spread rays [N], shape (rays,).
     """
     sums = np.asarray(sums, dtype=float)
     rays, least = sums.size, float(np.min(sums))

@@ -9,18 +9,18 @@ import numpy as np
 from crankwork.kinematics.crank_grid import Array
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
+# Longest interval that gets one set of eight nodes. [deg]
 _WIDTH = 15.0
 
 
-def quadrature(breaks: Array, *, width: float = _WIDTH) -> tuple[Array, Array]:
+def quadrature(breaks: Array) -> tuple[Array, Array]:
     """Return Gauss-Legendre nodes and weights between the breaks (press_2007, sec. 4.6).
 
     Crank angles [deg] and weights [rad]; the sum of weight times integrand is the integral over angle. `breaks`:
-    ascending crank angles between which the integrand is smooth [deg]; `width`: longest interval that gets one set of
-    eight nodes [deg].
+    ascending crank angles between which the integrand is smooth [deg].
     """
     edges = np.concatenate([
-        np.linspace(start, end, max(1, int(np.ceil((end - start) / width))), endpoint=False)
+        np.linspace(start, end, max(1, int(np.ceil((end - start) / _WIDTH))), endpoint=False)
         for start, end in itertools.pairwise(breaks)
     ] + [breaks[-1:]])  # fmt: skip
     middle, half = (edges[1:] + edges[:-1]) / 2, np.diff(edges) / 2

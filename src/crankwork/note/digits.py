@@ -74,8 +74,8 @@ def as_printed(value: float, digits: int = RESULT_DIGITS) -> float:
     return float(f"{value:.{digits}g}")
 
 
-def last_place(value: float, digits: int = RESULT_DIGITS) -> float:
+def last_place(value: float) -> float:
     """Return one unit of the last place of a printed number."""
     if not value or not math.isfinite(value):
         return 0.0
-    return float(10.0 ** (math.floor(math.log10(abs(value))) - digits + 1))
+    return float(10.0 ** (math.floor(math.log10(abs(value))) - RESULT_DIGITS + 1))

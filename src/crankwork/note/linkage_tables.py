@@ -31,12 +31,12 @@ class Column:
         self.entries = entries
 
 
-def quantity_column(key: str, values: Array, words: Words, *, digits: int = 4) -> Column:
+def quantity_column(key: str, values: Array, words: Words) -> Column:
     """Return a column of a quantity in its unit.
 
     `key`: key of the quantity, `joint_force.A` for what belongs to a point or link.
     """
-    return Column(words.titled(key), words.column_texts(in_display_unit(key, values.tolist()), digits=digits))
+    return Column(words.titled(key), words.column_texts(in_display_unit(key, values.tolist()), digits=4))
 
 
 def quantity_columns(keys: Iterable[str], columns: Mapping[str, Array], words: Words) -> list[Column]:

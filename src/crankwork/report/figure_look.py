@@ -124,26 +124,24 @@ def new_figure(height: float, width: float = WIDTH) -> Figure:
     return Figure(figsize=(width, height))
 
 
-def add_axes(figure: Figure, language: Language, bottom: float, height: float, *, right: float = _RIGHT) -> Axes:
+def add_axes(figure: Figure, language: Language, bottom: float, height: float) -> Axes:
     """Return axes across the figure, numbers printed as the language does."""
     from matplotlib.ticker import FuncFormatter  # noqa: PLC0415 - an optional part
 
     width, full = figure.get_size_inches()
-    axes = figure.add_axes((_LEFT / width, bottom / full, (width - _LEFT - right) / width, height / full))
+    axes = figure.add_axes((_LEFT / width, bottom / full, (width - _LEFT - _RIGHT) / width, height / full))
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_formatter(FuncFormatter(lambda value, _: number(value, language)))
-    axes.yaxis.set_label_coords(-_TICK_LABELS / (width - _LEFT - right), 0.5)
+    axes.yaxis.set_label_coords(-_TICK_LABELS / (width - _LEFT - _RIGHT), 0.5)
     axes.grid(visible=True)
     axes.set_axisbelow(True)
     return axes
 
 
-def single_axes(
-    language: Language, legend_rows: int, *, height: float = 3.0, above: float = 0.0
-) -> tuple[Figure, Axes]:
+def single_axes(language: Language, legend_rows: int, *, height: float = 3.0) -> tuple[Figure, Axes]:
     """Return a figure with one pair of axes and room for a legend above it."""
     legend = _LEGEND_ROW * legend_rows + 0.06 if legend_rows else 0.0
-    figure = new_figure(BOTTOM + height + _TOP + legend + above)
+    figure = new_figure(BOTTOM + height + _TOP + legend)
     return figure, add_axes(figure, language, BOTTOM, height)
 
 
@@ -180,10 +178,10 @@ def draw_curves(axes: Axes, x: Array, curves: Sequence[Curve], *, one_row: bool 
         legend_above(axes, columns=len(curves) if one_row else 1)
 
 
-def legend_above(axes: Axes, *, columns: int = 1, offset: float = 1.0) -> None:
-    """Put the legend above the axes, left aligned; `offset` is its foot in heights of the axes."""
+def legend_above(axes: Axes, *, columns: int = 1) -> None:
+    """Put the legend above the axes, left aligned."""
     axes.legend(
-        loc="lower left", bbox_to_anchor=(0, offset), ncols=columns, handlelength=3.2, labelspacing=0.25,
+        loc="lower left", bbox_to_anchor=(0, 1), ncols=columns, handlelength=3.2, labelspacing=0.25,
         borderpad=0.2, borderaxespad=0.1,
     )  # fmt: skip
 

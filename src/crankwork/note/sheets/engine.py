@@ -15,7 +15,7 @@ from crankwork.note.sheets.engine_motion import motion_graph, tolle
 from crankwork.note.sheets.engine_wear import wear
 from crankwork.note.sheets.graph import Graph
 from crankwork.note.sheets.scene import TEXT, Box, Item, Text, text_width
-from crankwork.note.sheets.sheet import Paper, Sheet
+from crankwork.note.sheets.sheet import Paper, Sheet, numbered
 from crankwork.note.sheets.words import Words
 from crankwork.quantities import Language
 from crankwork.report.figure_data import Drawn, drawn_from
@@ -54,11 +54,7 @@ def engine_sheets(
     sheets = [_motion_sheet(drawn, paper, words)]
     if "piston_force" in drawn.columns:
         sheets.append(_force_sheet(drawn, paper, words, extra or {}))
-    if paper.block is None:
-        return tuple(sheets)
-    first, count = paper.block.sheet, max(paper.block.sheets, len(sheets))
-    blocks = [paper.block._replace(sheet=first + at, sheets=count) for at in range(len(sheets))]
-    return tuple(one._replace(paper=paper._replace(block=block)) for one, block in zip(sheets, blocks, strict=True))
+    return numbered(sheets, paper)
 
 
 def _motion_sheet(drawn: Drawn, paper: Paper, words: Words) -> Sheet:

@@ -21,7 +21,7 @@ from crankwork.note.sheets.linkage_dynamics import MOST, over_angle, wittenbauer
 from crankwork.note.sheets.linkage_polygons import Numbered, vector_plans
 from crankwork.note.sheets.linkage_positions import position_plans
 from crankwork.note.sheets.scene import SMALL, TEXT, Text, printable
-from crankwork.note.sheets.sheet import Paper, Sheet
+from crankwork.note.sheets.sheet import Paper, Sheet, numbered
 from crankwork.note.sheets.words import Words
 from crankwork.quantities import Language
 from crankwork.report.summary import results_method
@@ -61,11 +61,7 @@ def linkage_sheets(results: Results, language: Language = "en", *, paper: Paper 
     if graphs:
         title = words.say("linkage_dynamics")
         sheets.append(Sheet("linkage-dynamics", title, language, paper, tuple(graphs)))
-    if paper.block is None:
-        return tuple(sheets)
-    first, count = paper.block.sheet, max(paper.block.sheets, len(sheets))
-    blocks = [paper.block._replace(sheet=first + at, sheets=count) for at in range(len(sheets))]
-    return tuple(one._replace(paper=paper._replace(block=block)) for one, block in zip(sheets, blocks, strict=True))
+    return numbered(sheets, paper)
 
 
 def _kinematics(

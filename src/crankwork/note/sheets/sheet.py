@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -89,6 +90,15 @@ class Sheet(NamedTuple):
                 f"there is no graph {name} on this sheet; there is {', '.join(one.name for one in self.graphs)}"
             )
         return found
+
+
+def numbered(sheets: Sequence[Sheet], paper: Paper) -> tuple[Sheet, ...]:
+    """Return sheets that follow one another, each with its number in its title block."""
+    if paper.block is None:
+        return tuple(sheets)
+    first, count = paper.block.sheet, max(paper.block.sheets, len(sheets))
+    blocks = [paper.block._replace(sheet=first + at, sheets=count) for at in range(len(sheets))]
+    return tuple(one._replace(paper=paper._replace(block=block)) for one, block in zip(sheets, blocks, strict=True))
 
 
 def _millimetres(frame: Box) -> list[Item]:
