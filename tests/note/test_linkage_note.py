@@ -352,6 +352,11 @@ def test_bytes_are_the_same_every_time(ending, name):
     assert len(first) > 10_000
 
 
+def test_a_linkage_with_every_load_has_a_note():
+    found = crankwork.analyse(crankwork.read(EXAMPLES.parent / "tests" / "machines" / "loaded-shaper.toml"))
+    assert len(WRITERS[".html"](note_of(found, NoteOptions(figures=False)))) > 10_000
+
+
 def test_sheets_come_in_three_formats_with_a_title_block_in_the_russian_school():
     pytest.importorskip("typst")
     pytest.importorskip("ezdxf")
