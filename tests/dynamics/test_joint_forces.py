@@ -115,24 +115,6 @@ def test_a_second_rod_on_the_pin_adds_to_its_force():
     assert pivot.y == pytest.approx(one.y + other.y)
 
 
-def test_columns_of_a_table():
-    columns = joint_forces(at_rest(slider_crank(0.05, 0.2))).columns()
-    assert list(columns) == [
-        "force_crank_pivot_x",
-        "force_crank_pivot_y",
-        "force_crank_pivot",
-        "force_crank_pin_x",
-        "force_crank_pin_y",
-        "force_crank_pin",
-        "force_piston_pin_x",
-        "force_piston_pin_y",
-        "force_piston_pin",
-        "normal_force_piston_pin",
-        "normal_moment_piston_pin",
-        "balancing_torque",
-    ]
-
-
 def test_positions_that_cannot_be_assembled_have_no_forces():
     bar = four_bar(0.2, 0.2, 0.12, 0.18)
     running = at_rest(four_bar(0.05, 0.2, 0.12, 0.18))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -92,19 +92,6 @@ class JointForces:
     # Normal forces and moments of the guides by sliding piece, arrays of shape (n,) [N], [N m]
     guides: Mapping[str, GuideForce]
     balancing_torque: Value  # Torque on the crank, positive with the rotation, shape (n,) [N m]
-
-    def columns(self) -> dict[str, Array]:
-        """Return the columns of a table: components and resultants by joint, the balancing torque last. [N], [N m]"""
-        return {**dict(self._columns()), "balancing_torque": self.balancing_torque}
-
-    def _columns(self) -> Iterator[tuple[str, Array]]:
-        for name, pin in self.pins.items():
-            yield f"force_{name}_x", pin.x
-            yield f"force_{name}_y", pin.y
-            yield f"force_{name}", pin.resultant
-        for name, guide in self.guides.items():
-            yield f"normal_force_{name}", guide.normal
-            yield f"normal_moment_{name}", guide.moment
 
 
 def gathered(reactions: Mapping[Joint, Reaction], order: tuple[Joint, ...], balancing_torque: Array) -> JointForces:

@@ -180,15 +180,6 @@ def crank_motion(crank: Crank, grid: CrankGrid) -> LinkMotion:
     return LinkMotion(fixed_point(crank.pivot), cos, sin, rate, np.zeros_like(cos))
 
 
-def crank_pin_motion(crank: Crank, grid: CrankGrid) -> tuple[PointMotion, Transfer]:
-    """Return the motion of the crank pin and the direction of the crank arm.
-
-    Coordinates of the pin [m], direction of the arm [rad].
-    """
-    link = crank_motion(crank, grid)
-    return pin_on_crank(crank, link), Transfer(crank.start + crank.direction * grid.angle, link.angle_1, link.angle_2)
-
-
 def pin_on_crank(crank: Crank, link: LinkMotion) -> PointMotion:
     """Return the motion of the crank pin, given that of the crank. [m]"""
     x, y = crank.pivot

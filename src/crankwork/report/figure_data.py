@@ -10,7 +10,6 @@ from crankwork.analysis.diagrams import fine_columns
 from crankwork.errors import CrankworkError
 from crankwork.locale import has_text, say
 from crankwork.quantities import Language
-from crankwork.report.figure_look import quantity_title
 from crankwork.report.language import displayed
 
 
@@ -39,10 +38,6 @@ class Drawn(NamedTuple):
     def values(self, key: str) -> Array:
         """Return a column in its display unit."""
         return self.columns[key] * displayed(key, 1.0, per_area=self.area)
-
-    def title(self, key: str) -> str:
-        """Return the axis title of a quantity."""
-        return quantity_title(key, self.language, per_area=self.per_area)
 
 
 def drawn_from(results: Results, language: Language, *, per_area: bool) -> Drawn:
