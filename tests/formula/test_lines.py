@@ -10,7 +10,7 @@ from crankwork.dynamics.efficiency import driving_torque_as_motor
 from crankwork.dynamics.piston_forces import crank_torque, piston_force, tangential_force
 from crankwork.formula.expression import Expression, Number, Operation, Symbol, evaluate, fold, record, text
 from crankwork.formula.known import Known, OfAngle, Pieces, absent, delayed, given, total
-from crankwork.formula.lines import DelayedLine, FormulaLine, Moment, SumLine
+from crankwork.formula.lines import DelayedLine, FormulaLine, Moment, SumLine, without_noise
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.series import series_transfer_2_term
 from crankwork.loads.gas import gas_force, polytropic_pressure
@@ -112,6 +112,22 @@ def test_the_first_two_orders_are_written_out(order, shown):
     cosine = Known(OfAngle("cos", order))
     (line,) = lines(series_transfer_2_term(2.0, cosine, absent(""), absent("")))
     assert text(line.expression) == shown
+
+
+def test_what_rounding_has_left_of_larger_terms_is_printed_as_zero():
+    rest = given("gas_force", 0.04) - given("weight_force", 0.04 - 5e-13)
+    step = at(30.0).step(rest.named("piston_force"))
+    assert step.value != 0
+    assert without_noise(step).value == 0
+    assert without_noise(at(30.0).step((rest + 1e-6).named("piston_force"))).value == pytest.approx(1e-6)
+
+
+def test_an_operand_that_is_noise_is_printed_as_zero():
+    cosine = Known(OfAngle("cos"), "crank_cos")
+    step = at(90 + 2e-11).step((given("crank_radius", 0.05) * cosine).named("arm_x.A"))
+    assert 0 < abs(step.value) < 1e-12
+    shown = without_noise(step)
+    assert (shown.value, sorted(shown.values.values())) == (0, [0, 0.05])
 
 
 def test_folding_keeps_the_numbers_of_a_formula():

@@ -31,6 +31,7 @@ CALCULATOR = {
 
 def keyed_in(printed: str) -> float:
     """Return what a calculator shows for a printed expression."""
+    printed = printed.replace("\u00a0rad", "")
     typed = re.sub(r"[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+", lambda found: f"**({found[0].translate(SUPERSCRIPTS)})", printed)
     # a power of ten belongs to its number
     typed = re.sub(r"(?<![\d.])10\*\*\((-?\d+)\)", r"1e\1", typed)

@@ -88,6 +88,13 @@ def test_an_articulated_rod_is_told_from_the_master_rod():
     assert any(one.startswith("  r_1 = 0.048 m = 48 mm   engine.articulated.knuckle_radius, line ") for one in given)
 
 
+def test_numbers_that_are_angles_have_their_unit_and_noise_is_zero():
+    lines = explained("src/crankwork/description/templates/toggle-press.toml", "joint_force.D", "--at", "90")
+    assert not [one for one in lines if re.search("10⁻¹[0-9]", one)]
+    assert not [one for one in lines if re.search(r"(sin|cos)\([−\d.]+\)", one)]
+    assert any(one.startswith("  cos θ_ram_guide = cos(−1.57079632679 rad) = 0 ") for one in lines)
+
+
 def test_a_mean_says_what_it_is_of():
     assert any("mean over the cycle (M: crank_torque) = " in line for line in explained(ENGINE, "mean_torque"))
 

@@ -66,6 +66,8 @@ def read(box, number=float, root=np.sqrt):  # noqa: C901, PLR0912 - one case per
             return number(text.replace(",", "."))
         case Letter("π"):
             return np.pi
+        case Row((*parts, _, Upright("rad" | "рад"))):
+            return _read_row(tuple(parts), number, root)
         case Row(parts):
             return _read_row(parts, number, root)
         case Fraction(top, bottom):

@@ -114,7 +114,9 @@ class Explanation:
             ends = [None, *node.ends.tolist()]
             end = next((k for k, one in enumerate(ends) if one is not None and at <= one), len(ends) - 1)
             stretch = (0.0 if ends[end - 1] is None else ends[end - 1], ends[end])
-        return Explained(law, argument, at, self.moment(at).value(law), stretch, residual)
+        moment = self.moment(at)
+        value = 0.0 if moment.is_noise(law) else moment.value(law)
+        return Explained(law, argument, at, value, stretch, residual)
 
 
 def _made_of(known: Known, degrees: float) -> Iterator[tuple[Known, float, str, bool]]:

@@ -22,6 +22,7 @@ from typing import Any, TypeVar, cast
 import numpy as np
 
 from crankwork.formula.known import Known, Use, is_known
+from crankwork.locale import say
 from crankwork.notation import ARGUMENTS
 from crankwork.quantities import QUANTITIES, Language
 
@@ -297,10 +298,17 @@ def _text(tree: Expression, values: Mapping[str, str], language: Language) -> tu
         case Operation(np.sqrt, (operand,)):
             return f"√({_text(operand, values, language)[0]})", _ATOM
         case Operation(function, operands):
-            # a comma between numbers with decimal commas would not be seen
-            inside = (", " if language == "en" else "; ").join(_text(one, values, language)[0] for one in operands)
-            return f"{function_name(function, language)}({inside})", _ATOM
+            inside = [_text(one, values, language)[0] for one in operands]
+            return _function_text(function, inside, language), _ATOM
     raise TypeError(f"{tree!r} is not part of a formula")
+
+
+def _function_text(function: Callable[..., Any], inside: list[str], language: Language) -> str:
+    # a comma between numbers with decimal commas would not be seen
+    listed = (", " if language == "en" else "; ").join(inside)
+    if takes_angle(function) and not any(map(str.isalpha, listed)):
+        listed += f"\u00a0{radians(language)}"
+    return f"{function_name(function, language)}({listed})"
 
 
 def _binding(shown: str) -> int:
@@ -313,6 +321,16 @@ def _binding(shown: str) -> int:
     if "·" in outside or "/" in outside:
         return 2
     return 3 if shown[-1] in _RAISED or shown.startswith(_FUNCTIONS_OF_ANGLES) else _ATOM
+
+
+def takes_angle(function: Callable[..., Any]) -> bool:
+    """Return whether a function takes an angle, so that a number put into it needs its unit."""
+    return function in (np.sin, np.cos, np.tan)
+
+
+def radians(language: Language) -> str:
+    """Return the unit of such a number."""
+    return say("units.rad", language)
 
 
 _NAMES = {"log": "ln", "log10": "lg", "absolute": "abs", "maximum": "max", "minimum": "min"}

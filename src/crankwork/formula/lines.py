@@ -8,7 +8,9 @@ summary and the columns; where a formula serves more than one quantity, the key 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+import operator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -30,6 +32,10 @@ from crankwork.formula.known import (
 from crankwork.formula.replay import Angles, Program
 from crankwork.notation import ARGUMENTS
 
+# an angle that was found is printed with ten digits; no such rest of a term reaches the other
+_NOISE, _LARGEST_NOISE = 1e-10, 1e-4
+# in SI: shorter than the nucleus of an atom
+_NOTHING = 1e-15
 # what stands at an angle is the column itself there
 _AT_AN_ANGLE = ("at", "max", "min")
 
@@ -52,6 +58,8 @@ class FormulaLine(NamedTuple):
     tree : Expression or None
         The formula as it is printed here, where that is not the whole formula: without what is absent, with plain
         arithmetic in place of the argument that it gives.
+    noise : frozenset of str
+        What of it rounding alone has left: names of `values`, and "" for the value.
     """
 
     key: str
@@ -60,6 +68,7 @@ class FormulaLine(NamedTuple):
     value: float
     named: tuple[tuple[str, str], ...] = ()
     tree: Expression | None = None
+    noise: frozenset[str] = frozenset()
 
     @property
     def expression(self) -> Expression:
@@ -72,6 +81,7 @@ class ValueLine(NamedTuple):
 
     key: str
     value: float
+    is_noise: bool = False
 
 
 class SumLine(NamedTuple):
@@ -80,6 +90,7 @@ class SumLine(NamedTuple):
     key: str
     terms: tuple[ValueLine, ...]
     value: float
+    is_noise: bool = False
 
 
 class DelayedLine(NamedTuple):
@@ -92,6 +103,20 @@ class DelayedLine(NamedTuple):
 
 
 Line = FormulaLine | ValueLine | SumLine | DelayedLine
+
+
+def without_noise(line: Line) -> Line:
+    """Return a line as it is printed: zero stands for what rounding alone has left of larger terms."""
+    match line:
+        case FormulaLine(noise=noise) if noise:
+            values = {name: 0.0 if name in noise else value for name, value in line.values.items()}
+            return line._replace(values=values, value=0.0 if "" in noise else line.value)
+        case ValueLine(is_noise=True):
+            return line._replace(value=0.0)
+        case SumLine(terms=terms):
+            terms = tuple(ValueLine(one.key, 0.0 if one.is_noise else one.value) for one in terms)
+            return line._replace(terms=terms, value=0.0 if line.is_noise else line.value)
+    return line
 
 
 class Moment:
@@ -124,6 +149,21 @@ class Moment:
             columns = Program(made)(self._angles_at(np.array([self.degrees])))
             self._values |= {id(one.node): (one.node, float(columns[key][0])) for key, one in made.items()}
         return self._values[id(known.node)][1]
+
+    def is_noise(self, known: Known) -> bool:
+        """Return whether a value is only what rounding has left of larger terms: beside them it is printed as zero."""
+        size = abs(self.value(known))
+        if size > _LARGEST_NOISE or size < _NOTHING:
+            return 0 < size < _NOTHING
+        match self.law(known).node:
+            case OfAngle(function="sin" | "cos"):
+                return size <= _NOISE
+            case Use() | Arithmetic() | Total():
+                return without_noise(self.step(known if known.key else known.named("_"))).value == 0
+        return False
+
+    def _is_noise(self, operand: Known | float) -> bool:
+        return self.is_noise(operand) if isinstance(operand, Known) else 0 < abs(operand) < _NOTHING
 
     def law(self, known: Known) -> Known:
         """Return a known as it is here: of pieces the law of this crank angle, under the same name."""
@@ -191,13 +231,16 @@ class Moment:
             case Arithmetic() if key:
                 return self._step(known.named(key), Symbol("_"), {"_": Known(known.node)})
             case Total(operands=terms):
-                shown = (ValueLine(self._marked(one.key, one), self.value(one)) for one in terms if not one.is_absent)
-                return SumLine(key, tuple(shown), self.value(known))
+                shown = tuple(self._term(one) for one in terms if not one.is_absent)
+                return SumLine(key, shown, self.value(known), _is_nothing(*_sum_of(shown)))
             case Delayed(of=of, by=by, cycle=cycle):
                 return DelayedLine(key, of.key, (self.degrees - by) % cycle, self.value(known))
             case Found(word=word, at=at, operands=(column,)) if at is not None and word in _AT_AN_ANGLE:
                 return Moment(self._angles_at, at).step(column.named(known.key))
-        return ValueLine(key, self.value(known))
+        return ValueLine(key, self.value(known), self.is_noise(known))
+
+    def _term(self, known: Known) -> ValueLine:
+        return ValueLine(self._marked(known.key, known), self.value(known), self.is_noise(known))
 
     def _marked(self, key: str, known: Known) -> str:
         # an angle counted from elsewhere is that of cylinder 1
@@ -219,7 +262,13 @@ class Moment:
         )
         formula = known.node.formula if isinstance(known.node, Use) else _written_in_place(known)
         shown = {name: values[name] for name in used}
-        return FormulaLine(known.key, formula, shown, self.value(known), named, tree)
+        noise = {name for name, one in inlined.taken.items() if name in shown and self._is_noise(one)}
+        value = self.value(known)
+        if 0 < abs(value) <= _LARGEST_NOISE:
+            with suppress(ZeroDivisionError):
+                printed = {name: 0.0 if name in noise else one for name, one in shown.items()}
+                noise |= {""} if _is_nothing(*_with_size(tree, printed)) else set()
+        return FormulaLine(known.key, formula, shown, value, named, tree, frozenset(noise))
 
     def _of_own_angle(self, known: Known) -> Known:
         """Return sine or cosine of the own crank angle under a name that can be marked."""
@@ -245,6 +294,39 @@ class Moment:
             yield one
             if not isinstance(one.node, Delayed):
                 stack.extend(one.node.operands)
+
+
+def _is_nothing(value: float, size: float) -> bool:
+    return abs(value) <= _NOISE * size
+
+
+def _sum_of(terms: Sequence[ValueLine]) -> tuple[float, float]:
+    values = [0.0 if one.is_noise else one.value for one in terms]
+    return sum(values), max(map(abs, values), default=0.0)
+
+
+def _with_size(tree: Expression, values: Mapping[str, float]) -> tuple[float, float]:
+    """Return the value of a tree, and how large the terms are that it is left of."""
+    match tree:
+        case Operation(function, operands):
+            (value, size), *others = (_with_size(one, values) for one in operands)
+            other, other_size = others[0] if others else (1.0, 0.0)
+            with np.errstate(all="ignore"):
+                found = float(function(value, other) if others else function(value))
+            if function in (operator.add, operator.sub):
+                return found, max(size, other_size)
+            if function is operator.mul:
+                return found, max(size * abs(other), abs(value) * other_size)
+            if function is operator.truediv:
+                return found, size / abs(other)
+            if function is operator.neg:
+                return found, size
+            return found, 1.0 if function in (np.sin, np.cos) else abs(found)
+        case Symbol(name):
+            return values[name], abs(values[name])
+        case Number(value):
+            return value, abs(value)
+    raise TypeError(f"{tree!r} is not part of a formula")
 
 
 class _Inlined:

@@ -9,10 +9,11 @@ in as many as give the printed value again; all are roundings: no value is compu
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import NamedTuple
 
 from crankwork.formula.expression import Formula, record, text
-from crankwork.formula.lines import DelayedLine, FormulaLine, Line, SumLine, ValueLine
+from crankwork.formula.lines import DelayedLine, FormulaLine, Line, SumLine, ValueLine, without_noise
 from crankwork.locale import say, texts
 from crankwork.note.definitions import definition_box, definition_text
 from crankwork.note.digits import enough_digits, is_exact_pi
@@ -60,6 +61,7 @@ class PrintedEquation(NamedTuple):
 
 def printed_equation(block: Equation, language: Language, limit: float = LINE_WIDTH) -> PrintedEquation:
     """Return the lines of an equation."""
+    block = block if isinstance(block.step, Formula) else replace(block, step=without_noise(block.step))
     left = symbol_box(block.symbol or equation_symbol(block.step, language))
     parts: list[Box] = []
     for part in (*_definition(block, language), *_parts(block.step, language)):

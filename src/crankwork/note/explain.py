@@ -22,7 +22,7 @@ from crankwork.formula.known import (
     Total,
     Use,
 )
-from crankwork.formula.lines import FormulaLine, ValueLine
+from crankwork.formula.lines import FormulaLine, ValueLine, without_noise
 from crankwork.locale import capital, say
 from crankwork.notation import ARGUMENTS, argument_unit
 from crankwork.note.definitions import definition_text
@@ -48,15 +48,15 @@ def explanation(
     known = results.memory.get(key)
     degrees = 0.0 if at is None else float(at)
     asked = known is not None and not known.varies
+    explained = None if known is None else Explanation(known, degrees, type(results.grid).from_degrees)
+    if known is not None and explained is not None and explained.moment(None).is_noise(known):
+        value = 0.0
     where = "" if at is None or asked else f"({_angle(degrees, language)})"
     shown = " = ".join([f"{value_symbol(key, language)}{where}", *_values(key, value, language)])
     head = [f"{capital(label(key, language)) if _has_label(key) else key}: {shown}"]
-    if known is None:
+    if explained is None:
         return "\n".join([*head, "", say("explain.no_memory", language)]) + "\n"
-    return (
-        "\n".join([*head, *_Printed(Explanation(known, degrees, type(results.grid).from_degrees), language, place)])
-        + "\n"
-    )
+    return "\n".join([*head, *_Printed(explained, language, place)]) + "\n"
 
 
 def key_lines(results: Results, language: Language = "en") -> list[str]:
@@ -150,7 +150,7 @@ class _Printed:
             case OfAngle():
                 return " = ".join(_once([*parts, *self._angle_parts(one)]))
             case Use() | Arithmetic() | Total():
-                step = self._explanation.moment(one.degrees).step(known)
+                step = without_noise(self._explanation.moment(one.degrees).step(known))
                 parts = ["0"] if one.residual else parts
                 found = line_parts(step, language)
                 parts += found[: -len(shown_values(step))] if one.residual else found

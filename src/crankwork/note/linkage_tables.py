@@ -17,8 +17,6 @@ from crankwork.quantities import QUANTITIES, Language, base_key
 
 # columns of numbers beside position and crank angle, on a page upright and on its side
 _UPRIGHT, _WIDE = 9, 14
-# in SI, or of the largest number beside it: shorter than the nucleus of an atom
-_NOISE = 1e-15
 # rows of a table that is worth a page on its side
 _LONG = 24
 
@@ -93,18 +91,7 @@ def any_nonzero(keys: Iterable[str], columns: Mapping[str, Array]) -> list[str]:
 def equations(steps: Iterable[Line], words: Words, *, marks: Mapping[str, str] | None = None) -> Iterator[Equation]:
     """Yield equations of lines."""
     for one in steps:
-        yield Equation(_without_noise(one), symbol=_mark(one.key, words, marks))
-
-
-def _without_noise(step: Line) -> Line:
-    """Return a step in which what is zero but for rounding is zero, so that nobody reads a meaning into it."""
-    if not isinstance(step, FormulaLine):
-        return step
-    noise = _NOISE * max([1.0, *(abs(value) for value in step.values.values())])
-    if not any(0 < abs(value) < noise for value in step.values.values()):
-        return step
-    values = {name: value if abs(value) >= noise else 0.0 for name, value in step.values.items()}
-    return step._replace(values=values, value=step.value if abs(step.value) >= noise else 0.0)
+        yield Equation(one, symbol=_mark(one.key, words, marks))
 
 
 def _mark(key: str, words: Words, marks: Mapping[str, str] | None) -> str:

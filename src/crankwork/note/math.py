@@ -14,12 +14,22 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from crankwork.formula.expression import Expression, Number, Operation, Symbol, function_name, symbol
+from crankwork.formula.expression import (
+    Expression,
+    Number,
+    Operation,
+    Symbol,
+    function_name,
+    radians,
+    symbol,
+    takes_angle,
+)
 from crankwork.note.digits import is_exact_pi
 from crankwork.note.layout import (
     DOT,
     MINUS,
     PRODUCT,
+    SPACE,
     Apply,
     Box,
     Digits,
@@ -169,4 +179,6 @@ def _function(function: Any, operands: tuple[Expression, ...], printing: _Printi
     inside: list[Box] = []
     for operand in operands:
         inside += [*([between] if inside else []), _box(operand, printing)[0]]
+    if printing.values and takes_angle(function):
+        inside += [SPACE, Upright(radians(printing.language))]
     return Apply(Upright(function_name(function, printing.language)), Fence(row(*inside))), _POWER
