@@ -304,7 +304,8 @@ def explain(  # noqa: PLR0913 - one argument per option of the command
 ) -> None:
     """Explain one value of a machine: every step in order, down to the lines of the file."""
     from crankwork.analysis import analyse
-    from crankwork.description.machine_file import origins, read
+    from crankwork.description.machine_file import read
+    from crankwork.description.origins import origins
     from crankwork.note.explain import explanation, key_lines, place_text
 
     if key is None and not with_keys:
@@ -315,7 +316,11 @@ def explain(  # noqa: PLR0913 - one argument per option of the command
         click.echo("\n".join(key_lines(results, language)))
         return
     origin = origins(file, overrides)
-    click.echo(explanation(results, key, angle, language, lambda path: place_text(origin(path), language)), nl=False)
+
+    def place(path: str, numbers: Iterable[float]) -> str:
+        return place_text(origin(path, numbers), language)
+
+    click.echo(explanation(results, key, angle, language, place), nl=False)
 
 
 @commands.command()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from crankwork.cylinders.layout import Layout
 from crankwork.dynamics.masses import CrankGearMasses
@@ -16,6 +16,13 @@ from crankwork.method import EXACT, Method
 if TYPE_CHECKING:
     from crankwork.cylinders.articulated import ArticulatedRod
     from crankwork.working_cycle.calculated_cycle import CalculatedPressure
+
+
+class Stated(NamedTuple):
+    """A number as a description states it, in SI, and the unit in which it is written."""
+
+    value: float
+    unit: str = ""
 
 
 @dataclass(frozen=True)
@@ -175,6 +182,8 @@ class Machine:
     table_step: float = 10.0
     table_special: tuple[float, ...] = ()
     engine: Engine | None = None
+    # The numbers of the description by their paths: `crank.stroke`; a machine may be made without one
+    stated: Mapping[str, Stated] = field(default_factory=dict, compare=False, repr=False)
 
     @property
     def cycle(self) -> float:

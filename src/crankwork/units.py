@@ -90,6 +90,7 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (1e5 * 180 / math.pi, "bar/deg бар/град"),
         (1.0, "Pa/rad Па/рад"),
     ],
+    "pressure_by_velocity": [(1e6, "MPa*s/m МПа*с/м"), (1.0, "Pa*s/m Па*с/м")],
     "heat_transfer": [(1.0, "W/(m2*K) W/m2K Вт/(м2*К)"), (1e3, "kW/(m2*K) кВт/(м2*К)")],
     "specific_heat": [(1.0, "J/(kg*K) Дж/(кг*К)"), (1e3, "kJ/(kg*K) кДж/(кг*К)")],
     "density": [(1.0, "kg/m3 kg/m³ кг/м3 кг/м³")],

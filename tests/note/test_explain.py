@@ -65,7 +65,7 @@ def test_an_extreme_is_followed_where_it_stands():
     assert lines[0] == "Largest crank torque: M_max = 737.594 N·m"
     assert "At the crank angle 383.9096275°" in lines
     assert "  M_max = largest value (M), at 383.9096275° = 737.594 N·m" in lines
-    assert "  r = 0.06 m = 60 mm   crank.radius, by --set" in lines
+    assert "  r = 0.06 m = 60 mm   crank.radius, set on the command line by --set" in lines
 
 
 def test_another_cylinder_is_the_first_one_later():
@@ -109,7 +109,7 @@ def test_a_joint_force_is_followed_to_the_lengths():
     lines = explained("examples/press-geometry.toml", "joint_force.D", "--at", "60")
     assert lines[0].startswith("Joint force, D: R_D(60°) = ")
     given = lines[lines.index("Given values") :]
-    assert any(one.startswith("  l_rod = 0.6 m = 600 mm   links.rod, line ") for one in given)
+    assert any(one.startswith("  l_rod = 0.6 m = 600 mm   links.rod.length, line ") for one in given)
 
 
 def test_keys_are_listed_and_mistakes_refused():

@@ -113,6 +113,6 @@ def test_what_is_put_into_the_cycle_stands_in_the_table_of_its_data(name):
     table = next(one for one in note(path, "ru").blocks if isinstance(one, Table) and one.label == "t:cycle_data")
     symbols = {row[1].content: row for row in table.rows}
     assert {"C", "H", "O", "a_m", "b_m", "c", "m", "m_r"} <= symbols.keys()
-    assert (symbols["C"][2], symbols["a_m"][2:]) == ("0,855", ("34000", "Па"))
+    assert (symbols["C"][2], symbols["a_m"][2:]) == ("0,855", ("0,034", "МПа"))
     assert "принято" in symbols["C"][0]
     assert ("ξ_вп" in symbols) == (name == "radial-five")

@@ -9,6 +9,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from crankwork.analysis import origins
 from crankwork.analysis.forces import COLUMNS, FORCES, columns
 from crankwork.analysis.motion import HARMONICS, KINEMATICS
 from crankwork.analysis.results import Results
@@ -109,7 +110,7 @@ def _geometry(solved: Solved) -> dict[str, Known]:
 
 def _motion(solved: Solved, over: OverCycle) -> dict[str, Known]:
     memory = solved.memory
-    n = given("", solved.revolutions, "crank.speed")
+    n = origins.revolutions(solved.machine)
     stroke = stroke_central(memory["crank_radius"]) if memory["offset"].is_absent else memory.get("stroke")
     if stroke is None:
         stroke = stroke_offset(memory["rod_length"], memory["crank_radius"], memory["offset"])
@@ -128,7 +129,7 @@ def _motion(solved: Solved, over: OverCycle) -> dict[str, Known]:
 
 
 def _forces(solved: Solved, over: OverCycle) -> dict[str, Known]:
-    memory, cycle = solved.memory, given("cycle_angle", math.radians(solved.machine.cycle))
+    memory, cycle = solved.memory, origins.cycle_angle(solved.machine)
     if "piston_force" not in memory:
         return {}
     found = over.errors(*(key for key in (f"{one}_error" for one in _WRONG_FORCES) if key in over.knowns))

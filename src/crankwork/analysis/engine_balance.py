@@ -190,7 +190,7 @@ def _freed(row: str, name: str, factor: OrderBalance, pitch: float, force: Known
     if pitch:
         K_M, a_z = (
             Known(Found(factor.moment.largest, "vector_sum"), f"moment_factor.{name}"),
-            given("balance_pitch", pitch),
+            given("balance_pitch", pitch, "engine.spacing"),
         )
         found += [K_M, free_moment(K_M, a_z, force).named(f"free_moment.{row}")]
     return {one.key: one for one in found}

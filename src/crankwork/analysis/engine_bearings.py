@@ -26,7 +26,6 @@ from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.slider_crank import RodSwing
-from crankwork.machine import Bearings
 
 # between the loads that wear diagrams add up [deg]
 _WEAR_STEP = 10.0
@@ -125,7 +124,7 @@ def _small_end(whole: WholeEngine) -> Iterator[Known]:
     if machine.masses is not None:
         mass = memory["piston_mass"]
         if machine.has_gravity:
-            g = given("", whole.master.method.gravity, "method.gravity")
+            g = given("gravity", whole.master.method.gravity, "method.gravity")
             lean = machine.cylinder.inclination if machine.cylinder is not None else 0.0
             along = weight_force(mass, g, math.cos(lean)).named("weight_force.piston")
             beside = transverse_weight(mass, g, math.sin(lean)).named("transverse_weight.piston")
@@ -217,7 +216,7 @@ def shaft_unbalances(whole: WholeEngine, layout: Layout) -> tuple[Unbalance, ...
     if whole.machine.masses is None:
         return counterweights(whole, layout)
     memory, found = whole.master.memory, []
-    mass, r = given("crank_mass", whole.masses.crank, "crank.mass"), memory["crank_radius"]
+    mass, r = memory["crank_mass"], memory["crank_radius"]
     pins = {place.crankpin: place.throw for place in layout.places}
     for pin, members in whole.on_pin.items():
         place = layout.places[members[0].number - 1]
@@ -266,7 +265,7 @@ def _counterweight(whole: WholeEngine, pin: int) -> Known:
             )
             terms.append(moment.named(f"{key}.{place.number}"))
     if engine.counterweight:
-        terms.append(given(f"{key}.given", engine.counterweight))
+        terms.append(given(f"{key}.given", engine.counterweight, "bearings.counterweight"))
     return total(key, terms)
 
 
@@ -281,8 +280,8 @@ def rotating_mass_of(whole: WholeEngine, place: Place) -> Known:
         Of the cylinder.
     """
     on_throw = [one.throw for one in whole.layout.places].count(place.throw)
-    big = given("rod_big_end_mass", whole.masses.rod_big_end, "rod")
-    mass = big + given("crank_mass", whole.masses.crank, "crank.mass") / on_throw
+    memory = whole.master.memory
+    mass = memory["rod_big_end_mass"] + memory["crank_mass"] / on_throw
     return mass.named("rotating_mass.of_cylinder")
 
 
@@ -360,9 +359,13 @@ def load_values(
         none = Known(Found(1.0, "none", (mean,)))
         ratio = formulas.bearing_load_ratio(largest, mean) if mean.value else none
         found[f"bearing_load_ratio.{name}"] = ratio.named(f"bearing_load_ratio.{name}")
-        diameter, length = _size(whole.engine.bearings, name)
+        part = _SIZES.get(name.partition(".")[0], "crankpin")
+        diameter, length = (getattr(whole.engine.bearings, f"{part}_{size}") for size in ("diameter", "length"))
         if diameter is not None and length is not None:
-            area = given("bearing_diameter", diameter), given("bearing_length", length)
+            area = (
+                given("bearing_diameter", diameter, f"bearings.{part}_diameter"),
+                given("bearing_length", length, f"bearings.{part}_length"),
+            )
             for word, load in (("", mean), ("_max", largest)):
                 pressure = formulas.bearing_pressure(load, *area)
                 found[f"bearing_pressure{word}.{name}"] = pressure.named(f"bearing_pressure{word}.{name}")
@@ -377,14 +380,8 @@ def _reversal(over: OverCycle, extremes: Mapping[str, Known]) -> dict[str, Known
     return {duration.key: duration, "reversal_ratio": Known(Found(turned.ratio, "reversal", of), "reversal_ratio")}
 
 
-def _size(sizes: Bearings, name: str) -> tuple[float | None, float | None]:
-    match name.partition(".")[0]:
-        case "small_end":
-            return sizes.pin_diameter, sizes.pin_length
-        case "main_journal":
-            return sizes.main_diameter, sizes.main_length
-        case _:
-            return sizes.crankpin_diameter, sizes.crankpin_length
+# what its sizes are called in a description; of the others those of the crankpin
+_SIZES = {"small_end": "pin", "main_journal": "main"}
 
 
 @dataclass(frozen=True)

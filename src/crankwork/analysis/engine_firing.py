@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from crankwork.analysis import origins
 from crankwork.analysis.cylinders import WholeEngine
 from crankwork.analysis.results import Listing
 from crankwork.cylinders.firing import is_even
@@ -25,18 +26,18 @@ def firing_memory(whole: WholeEngine) -> dict[str, Known]:
     count, layout = given("cylinder_count", float(len(whole.cylinders)), "engine.cylinders"), whole.layout
     found = {count.key: count}
     for place in layout.places:
-        for key, degrees in (
-            ("bank_axis", place.axis),
-            ("crankpin_angle", place.pin_angle),
-            ("firing_angle", place.firing_angle),
+        for key, degrees, path in (
+            ("bank_axis", place.axis, "engine.bank_angle"),
+            ("crankpin_angle", place.pin_angle, "engine.throws"),
+            ("firing_angle", place.firing_angle, "engine.firing_order"),
         ):
-            found[f"{key}.{place.number}"] = given(f"{key}.{place.number}", math.radians(degrees))
+            found[f"{key}.{place.number}"] = given(f"{key}.{place.number}", math.radians(degrees), path)
     return found | _intervals(whole, found) | _sizes(whole, found)
 
 
 def _intervals(whole: WholeEngine, found: Mapping[str, Known]) -> dict[str, Known]:
     """Return the firing interval; of uneven firing that of each cylinder, up to the next."""
-    layout, cycle = whole.layout, given("cycle_angle", math.radians(whole.layout.cycle))
+    layout, cycle = whole.layout, origins.cycle_angle(whole.machine)
     if is_even(firing_intervals(layout)):
         return {"firing_interval": even_firing_interval(cycle, found["cylinder_count"])}
     order, result = layout.firing_order, {}
@@ -77,7 +78,7 @@ def work_memory(whole: WholeEngine, firing: Mapping[str, Known]) -> dict[str, Kn
     ]
     if len(works) < len(whole.cylinders):
         return {}
-    cycle, several = given("cycle_angle", math.radians(whole.layout.cycle)), len(works) > 1
+    cycle, several = origins.cycle_angle(whole.machine), len(works) > 1
     found = {f"indicated_work.{number}": one for number, one in enumerate(works, start=1)} if several else {}
     if several:
         all_ = total("indicated_work.all", (one.named(key) for key, one in found.items()))

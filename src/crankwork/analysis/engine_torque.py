@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from crankwork.analysis import origins
 from crankwork.analysis.cylinders import WholeEngine
 from crankwork.analysis.results import Listing
 from crankwork.analysis.solved import Notice
@@ -126,7 +127,7 @@ def engine_torque(
     excess = summary["excess_work"] = Known(Found(found.work, "range", of), "excess_work")
     mean, between = summary["mean_total_torque"], dict[str, Known]()
     if mean.value:
-        work = work_of_mean_torque(mean, given("cycle_angle", math.radians(whole.layout.cycle)))
+        work = work_of_mean_torque(mean, origins.cycle_angle(whole.machine))
         between["work_per_cycle"] = work
         summary["energy_fluctuation"] = fluctuation_of_energy(excess, work if mean.value > 0 else -work)
     own = given("reduced_inertia", engine.inertia, "flywheel.inertia") if engine.inertia else absent("reduced_inertia")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 
+from crankwork.analysis import origins
 from crankwork.analysis.gas import gas_memory, space_memory
 from crankwork.analysis.motion import (
     KINEMATICS,
@@ -45,7 +46,7 @@ def cylinder_memory(solved: Solved) -> dict[str, Known]:
     if solved.space is not None:
         memory |= gas_memory(solved, solved.space, moving)
     if solved.machine.masses is not None:
-        memory |= _by_key(_masses(solved.machine.masses))
+        memory |= _by_key(_masses(solved, solved.machine.masses, moving))
     if solved.machine.masses is not None or solved.space is not None:
         memory |= _by_key(_axial_forces(solved, moving))
         memory |= _by_key(_slave_forces(solved, moving) if solved.slave is not None else _rod_forces(solved, moving))
@@ -64,11 +65,10 @@ def _by_key(found: Iterable[Known]) -> dict[str, Known]:
     return {one.key: one for one in found}
 
 
-def _masses(masses: CrankGearMasses) -> Iterator[Known]:
-    piston, crank = given("piston_mass", masses.piston, "piston.mass"), given("crank_mass", masses.crank, "crank.mass")
-    small = given("rod_small_end_mass", masses.rod_small_end, "rod")
-    big = given("rod_big_end_mass", masses.rod_big_end, "rod")
-    yield from (piston, small, crank, big, reciprocating_mass(piston, small), rotating_mass(crank, big))
+def _masses(solved: Solved, masses: CrankGearMasses, moving: MovingCylinder) -> Iterator[Known]:
+    found = origins.masses(solved.machine, masses, moving.memory.get("piston_area"), moving.lengths.rod_length)
+    piston, crank, small, big, *excess = found
+    yield from (piston, small, crank, big, *excess, reciprocating_mass(piston, small), rotating_mass(crank, big))
 
 
 def _axial_forces(solved: Solved, moving: MovingCylinder) -> Iterator[Known]:
@@ -82,7 +82,7 @@ def _axial_forces(solved: Solved, moving: MovingCylinder) -> Iterator[Known]:
         inertia = forces.inertia_force(mass, acceleration)
         yield inertia
         if machine.has_gravity:
-            g, lean = given("", solved.method.gravity, "method.gravity"), _inclination(solved)
+            g, lean = given("gravity", solved.method.gravity, "method.gravity"), _inclination(solved)
             weight = forces.weight_force(mass, g, math.cos(lean))
             yield weight
             across = forces.transverse_weight(mass, g, math.sin(lean))
@@ -97,10 +97,10 @@ def _rod_forces(solved: Solved, moving: MovingCylinder) -> Iterator[Known]:
     P, swing, masses = memory["piston_force"], moving.motion.swing, solved.machine.masses
     dN = absent("side_force.couple")
     if masses is not None and masses.rod_inertia_excess and solved.method.rod == "rigid":
-        excess = given("rod_inertia_excess", masses.rod_inertia_excess, "rod.inertia")
+        excess = memory["rod_inertia_excess"]
         couple = forces.correction_couple(excess, memory["rod_angular_acceleration"])
         dN = forces.side_force_of_couple(couple, l, swing.cos).named("side_force.couple")
-        yield from (excess, couple, forces.rod_transverse_force(couple, l), dN)
+        yield from (couple, forces.rod_transverse_force(couple, l), dN)
     across = memory.get("transverse_weight", absent("transverse_weight"))
     rod = forces.rod_forces(P, angle, swing, dN=dN, F_wn=across)
     yield from rod
@@ -123,7 +123,7 @@ def _rotating(solved: Solved, moving: MovingCylinder) -> Iterator[Known]:
     mass, r = memory["rotating_mass"], moving.lengths.crank_radius
     yield forces.rotating_inertia_force(mass, r, moving.speed)
     if machine.has_gravity or machine.angular_acceleration:
-        g = given("", solved.method.gravity, "method.gravity") if machine.has_gravity else absent("")
+        g = given("gravity", solved.method.gravity, "method.gravity") if machine.has_gravity else absent("")
         cos, sin = math.cos(_inclination(solved)), math.sin(_inclination(solved))
         yield forces.rotating_torque(mass, r, g, angle.sin, cos, angle.cos, sin, moving.angular_acceleration)
 

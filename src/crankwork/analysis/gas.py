@@ -26,7 +26,7 @@ def space_memory(solved: Solved, moving: MovingCylinder) -> dict[str, Known]:
             ratio = given("compression_ratio", cylinder.compression_ratio, "cylinder.compression_ratio")
             clearance = gas.clearance_volume(swept, ratio)
         else:
-            clearance = given("clearance_volume", space.clearance)
+            clearance = given("clearance_volume", space.clearance, "cylinder.clearance_volume")
         found += [stroke, swept, clearance, gas.compression_ratio(swept, clearance)]
     return {one.key: one for one in found}
 
@@ -42,14 +42,20 @@ def gas_memory(solved: Solved, space: WorkingSpace, moving: MovingCylinder) -> d
     read = remembered_pressure(space.diagram, volume)
     pressure = read.named("gas_pressure")
     if space.ambient:
-        pressure = gauge_pressure(read, given("ambient_pressure", space.ambient, "gas.ambient"))
+        pressure = gauge_pressure(read, given("ambient_pressure", space.ambient, _ambient(solved)))
     back, rod_area = absent(""), absent("")
     if space.rod_area:
-        diameter = given("", _rod_diameter(solved), "cylinder.piston_rod_diameter")
+        diameter = given("piston_rod_diameter", _rod_diameter(solved), "cylinder.piston_rod_diameter")
         rod_area = gas.piston_area(solved.method.pi, diameter).named("piston_area.rod")
-        back = given("", space.back_pressure, "gas.back_pressure")
+        back = given("back_pressure", space.back_pressure, "gas.back_pressure")
     force = gas.gas_force(pressure, area, back, rod_area)
     return {one.key: one for one in (volume, read, pressure, force)} | _ends_of_polytropes(solved, space, volume)
+
+
+def _ambient(solved: Solved) -> str:
+    """Return where the pressure on the crankcase side is stated."""
+    is_calculated = solved.machine.gas is not None and solved.machine.gas.calculated is not None
+    return "cycle.ambient_pressure" if is_calculated else "gas.ambient"
 
 
 def _rod_diameter(solved: Solved) -> float:

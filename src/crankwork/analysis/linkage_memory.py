@@ -27,8 +27,11 @@ def linkage_memory(machine: LinkageMachine, moved: Motion) -> dict[str, Known]:
     Columns by key; those of points, links, sliders and joints are `key.NAME`. `moved`: its motion in numbers, over
     the crank angles that it reaches.
     """
-    motion = remembered_motion(machine.mechanism, moved)
-    w, eps = speed_of(machine), _stated("angular_acceleration", machine.angular_acceleration)
+    motion = remembered_motion(machine.mechanism, moved, machine.linkage)
+    w, eps = (
+        speed_of(machine),
+        _stated("angular_acceleration", machine.angular_acceleration, "crank.angular_acceleration"),
+    )
     columns: dict[str, Known] = {"crank_angle": angle_of(motion.grid), **dict(_moving(machine, motion, w, eps))}
     if machine.mechanism.bodies or machine.loads or machine.drive.inertia:
         columns |= _at_work(machine, motion, w, eps)
@@ -39,7 +42,7 @@ def speed_of(machine: LinkageMachine | TabulatedMachine) -> Known:
     """Return the angular speed of the crank, with the method's own pi."""
     if machine.method.pi == math.pi:
         return given("speed", machine.speed, "crank.speed")
-    turns = given("rotational_speed", machine.speed * 30 / math.pi, "crank.speed")
+    turns = given("rotational_speed", machine.speed * 30 / math.pi, "crank.speed", "rpm")
     found: Known = angular_speed(machine.method.pi, turns)
     return found
 
@@ -49,15 +52,15 @@ def efficiency_of(drive: Drive) -> Known:
     if drive.efficiency == 1:
         return absent("efficiency", 1.0)
     if drive.chain is None:
-        return given("efficiency", drive.efficiency, "efficiency")
+        return given("efficiency", drive.efficiency, "efficiency.chain")
     if drive.exact_efficiency is None:
         return remembered_efficiency(drive.chain)
     exact = remembered_efficiency(drive.chain).named("efficiency.exact")
     return Known(Found(drive.efficiency, "rounded", (exact,)), "efficiency")
 
 
-def _stated(key: str, value: float) -> Known:
-    return given(key, value) if value else absent(key)
+def _stated(key: str, value: float, path: str) -> Known:
+    return given(key, value, path) if value else absent(key)
 
 
 def _moving(machine: LinkageMachine, motion: Motion, w: Known, eps: Known) -> Iterator[tuple[str, Known]]:
@@ -84,9 +87,9 @@ def _moving(machine: LinkageMachine, motion: Motion, w: Known, eps: Known) -> It
 
 def _at_work(machine: LinkageMachine, motion: Motion, w: Known, eps: Known) -> dict[str, Known]:
     """Return reduction, torques and forces in joints."""
-    mechanism = given_mechanism(machine.mechanism)
+    mechanism = given_mechanism(machine.mechanism, machine.linkage)
     loads = applied_loads(mechanism, motion, machine.loads)
-    beside = _stated("reduced_inertia.drive", machine.drive.inertia)
+    beside = _stated("reduced_inertia.drive", machine.drive.inertia, "crank.inertia")
     inertia = reduced_inertia(mechanism, motion, beside)
     reduced: Known = reduced_torque(motion, loads)
     static: Known = absent("static_torque") if reduced.is_absent else static_torque(reduced)

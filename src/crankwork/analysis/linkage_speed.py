@@ -89,7 +89,10 @@ def _curves(over: OverCycle, memory: Mapping[str, Known]) -> tuple[Curve, Curve]
 def _even(memory: Mapping[str, Known], inertia: Curve, load: Curve, w: Known, fluctuation: float) -> tuple[Turn, float]:
     """Return the flywheel in four ways, and with the exact one the true speed and how well it keeps the fluctuation."""
     found, speed = flywheels(inertia, load, w.value, fluctuation), w.value
-    of, wanted = (memory["static_torque"], memory["reduced_inertia"]), given("speed_fluctuation", fluctuation)
+    of, wanted = (
+        (memory["static_torque"], memory["reduced_inertia"]),
+        given("speed_fluctuation", fluctuation, "flywheel.fluctuation"),
+    )
     # a way that finds a negative inertia says that it needs none
     added = max(found[-1].inertia, 0.0)
     turning = true_speed(inertia + added, load, speed)
@@ -100,7 +103,10 @@ def _even(memory: Mapping[str, Known], inertia: Curve, load: Curve, w: Known, fl
         Table(AtDegrees(excess_work(load).curve), "integral", np.degrees(load.angle), of[:1]), "kinetic_energy_change"
     )
     energy = Known(Found(turning.energy, "energy", of), "kinetic_energy.start")
-    crank_speed = speed_of_energy(energy + change, memory["reduced_inertia"] + _beside(added))
+    crank_speed = speed_of_energy(
+        energy + change,
+        memory["reduced_inertia"] + (wheels["flywheel_inertia.exact"] if added else absent("flywheel_inertia")),
+    )
     columns = {"kinetic_energy_change": change, "crank_speed": crank_speed.named("crank_speed")}
     residual = abs(turning.fluctuation - fluctuation) if added else max(turning.fluctuation - fluctuation, 0.0)
     return Turn(columns, summary, {"flywheel": residual}, (), _of_energy(memory, summary["excess_work"])), added
@@ -119,12 +125,9 @@ def _rotor(motor: GearedMotor) -> dict[str, Known]:
     """Return the moment of inertia of the rotor on the crank; nothing without one."""
     if not motor.inertia:
         return {}
-    inertia, ratio = given("flywheel_inertia.motor", motor.inertia, "motor.inertia"), given("gear_ratio", motor.ratio)
+    inertia = given("flywheel_inertia.motor", motor.inertia, "motor.inertia")
+    ratio = given("gear_ratio", motor.ratio, "motor.ratio")
     return {"inertia_on_crank": inertia_on_other_shaft(inertia, ratio)}
-
-
-def _beside(inertia: float) -> Known:
-    return given("flywheel_inertia.exact", inertia) if inertia else absent("flywheel_inertia")
 
 
 def _excess(one: Flywheel, slopes: tuple[Known, ...], of: tuple[Known, ...]) -> Known:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, NamedTuple
 
+from crankwork.analysis import origins
 from crankwork.cylinders.articulated import ArticulatedMotion, ArticulatedRod, articulated_motion
-from crankwork.dynamics.piston_forces import angular_speed, piston_acceleration, piston_velocity
+from crankwork.dynamics.piston_forces import piston_acceleration, piston_velocity
 from crankwork.formula.expression import Value
 from crankwork.formula.known import Known, KnownAngle, absent, given
 from crankwork.kinematics.piston import PistonMotion, piston_motion, textbook_piston
@@ -47,13 +47,7 @@ def moving_cylinder(
 ) -> MovingCylinder:
     """Return the motion of a cylinder by a method, remembered; `rod` is its own where that hangs on the master rod."""
     angle: Value = KnownAngle()
-    r, l, e = (float(one) for one in sizes)  # noqa: E741
-    lengths = SliderCrank(
-        given("crank_radius", r, "crank.radius"),
-        given("rod_length", l, "rod"),
-        given("offset", e, "cylinder.offset") if e else absent("offset"),
-    )
-    speed = angular_speed(method.pi, given("", machine.speed * 30 / math.pi, "crank.speed"))
+    lengths, speed = origins.lengths(machine, sizes), origins.speed(machine, method)
     rate = machine.angular_acceleration
     eps = given("angular_acceleration", rate, "crank.angular_acceleration") if rate else absent("angular_acceleration")
     if rod is None:

@@ -80,8 +80,8 @@ def _memory(machine: TabulatedMachine, grid: CrankGrid) -> dict[str, Known]:
         velocity = row(f"velocity_ratio.{body.name}", body.velocity_ratio)
         rotation = row(f"rotation_ratio.{body.name}", body.rotation_ratio)
         mass, inertia = (
-            given(f"{key}.{body.name}", value, "transfer") if value else absent(key)
-            for key, value in (("body_mass", body.mass), ("body_inertia", body.inertia))
+            given(f"{key}.{body.name}", value, f"transfer.bodies.{body.name}.{name}") if value else absent(key)
+            for key, name, value in (("body_mass", "mass", body.mass), ("body_inertia", "inertia", body.inertia))
         )
         found: Known = reduced_inertia_of_ratios(mass, velocity, inertia, rotation)
         return found.named(f"reduced_inertia.{body.name}")
@@ -132,7 +132,7 @@ def _static(machine: TabulatedMachine, dynamic: Known, row: Callable[..., Known]
 
 
 def _summary(machine: TabulatedMachine, columns: Mapping[str, Array], memory: Mapping[str, Known]) -> dict[str, Known]:
-    result = {"rotational_speed": given("rotational_speed", machine.speed, "speed"), "speed": speed_of(machine)}
+    result = {"rotational_speed": given("rotational_speed", machine.speed, "crank.speed"), "speed": speed_of(machine)}
     if machine.drive.efficiency != 1:
         result["efficiency"] = efficiency_of(machine.drive)
     for key in ("reduced_inertia", "dynamic_torque", "driving_torque"):

@@ -79,7 +79,9 @@ def _far_share(one: _Acting, ends: Sequence[float]) -> Value:
     """Return the share of the further journal of a throw, remembered if the force is."""
     if not is_known(*one.load):
         return journal_share(one.position, *ends)
-    stated = (given("shaft_position", at) for at in (one.position, *ends))
+    names = (one.name, *(f"main_journal.{one.throw + at}" for at in (1, 2)))
+    places = zip(names, (one.position, *ends), strict=True)
+    stated = (given(f"shaft_position.{name}", at, "engine.spacing") for name, at in places)
     return called(journal_share(*stated), f"journal_share.{one.name}")
 
 

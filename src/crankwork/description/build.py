@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from crankwork.description.schema import Measure, Reader, nearest_name
+from crankwork.description.stated import stated_numbers
 from crankwork.dynamics.masses import CrankGearMasses, rod_big_end_mass, rod_inertia_excess, rod_small_end_mass
 from crankwork.errors import MethodError
 from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
@@ -28,7 +29,7 @@ ReadMeasured = Callable[[Mapping[str, Any], Reader], MeasuredPressure | None]
 
 def build_machine(values: Mapping[str, Any], reader: Reader, read_measured: ReadMeasured) -> Machine | None:
     """Return the machine, or None after complaints."""
-    method = build_method(values.get("method", {}), reader)
+    method, stated = build_method(values.get("method", {}), reader), stated_numbers(values)
     calculated = None
     if "cycle" in values:
         from crankwork.description.cycle_build import build_cycle  # noqa: PLC0415 - few files calculate a cycle
@@ -71,6 +72,7 @@ def build_machine(values: Mapping[str, Any], reader: Reader, read_measured: Read
         table_step=round(math.degrees(_value(table, "step", math.radians(10.0))), 9),
         table_special=tuple(round(angle, 9) for angle in special),
         engine=engine,
+        stated=stated,
     )
 
 

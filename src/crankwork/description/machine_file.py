@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 import tomllib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -16,7 +16,7 @@ from crankwork.description.keys import MACHINE_FILE, SIZED_FILE
 from crankwork.description.linkage_keys import LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.locate import locate
 from crankwork.description.measured_file import read_measured
-from crankwork.description.schema import Key, Reader, Table, is_one_line
+from crankwork.description.schema import Reader, Table, is_one_line
 from crankwork.errors import CrankworkError, InputError, Problem
 from crankwork.loads.indicator import DiagramError
 from crankwork.locale import Refusal
@@ -66,10 +66,10 @@ def read_machine(
         If the text is no TOML, or a setting is none.
     """
     folder = folder or Path()
-    values = _parse(source, name)
-    settings = [one if isinstance(one, Setting) else _setting(one) for one in overrides]
+    values = parse(source, name)
+    settings = settings_of(overrides)
     for one in settings:
-        _lay(values, one)
+        lay(values, one)
     reader = Reader(decimal_comma=values.get("decimal_mark") == ",")
     machine = _build(values, reader, folder)
     if reader.problems or machine is None:
@@ -79,7 +79,7 @@ def read_machine(
 
 def _build(values: dict[str, Any], reader: Reader, folder: Path) -> AnyMachine | None:
     """Return the machine of the values, or None after complaints."""
-    keys = _file_keys(values)
+    keys = file_keys(values)
     read_values = keys.read(values, "", reader) or {}
     if keys is LINKAGE_FILE or keys is TRANSFER_FILE:
         # an engine starts faster without this room
@@ -103,7 +103,7 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> AnyMachine |
     return machine
 
 
-def _file_keys(values: Mapping[str, Any]) -> Table:
+def file_keys(values: Mapping[str, Any]) -> Table:
     """Return the keys of the kind of machine that a file describes: an engine, a linkage, or a table of one."""
     if "transfer" in values:
         return TRANSFER_FILE
@@ -113,7 +113,7 @@ def _file_keys(values: Mapping[str, Any]) -> Table:
     return SIZED_FILE if isinstance(cycle, dict) and "power" in cycle else MACHINE_FILE
 
 
-def _parse(source: str, name: str) -> dict[str, Any]:
+def parse(source: str, name: str) -> dict[str, Any]:
     """Return the values of a TOML text, refusing what would keep the parser busy."""
     for number, line in enumerate(source.split("\n"), start=1):
         if len(line) > files.MAX_LINE:
@@ -162,6 +162,11 @@ def _syntax_message(source: str, name: str, text: str) -> Refusal:
     return Refusal("not_toml", place=place, line=line or Refusal("ends_early"))
 
 
+def settings_of(overrides: Sequence[str | Setting]) -> list[Setting]:
+    """Return the settings that options mean."""
+    return [one if isinstance(one, Setting) else _setting(one) for one in overrides]
+
+
 def _setting(text: str) -> Setting:
     """Return the setting that `KEY=VALUE` means, its value as TOML reads it or as the plain text it is."""
     key, sign, value = (part.strip() for part in text.partition("="))
@@ -176,13 +181,13 @@ def _setting(text: str) -> Setting:
         return Setting("--set", key, value)
 
 
-def _lay(values: dict[str, Any], setting: Setting) -> None:
+def lay(values: dict[str, Any], setting: Setting) -> None:
     """Lay a setting over the values; what says the same gives way."""
     if setting.option == "--step" and "transfer" in values:
         raise CrankworkError(Refusal("step_of_table"))
     *path, last = setting.key.split(".")
     table: Any = values
-    entry: Any = _file_keys(values)
+    entry: Any = file_keys(values)
     for name in path:
         known = entry.keys.get(name) if isinstance(entry, Table) else None
         entry = known.kind if known else None
@@ -234,49 +239,6 @@ def _printable(text: str) -> str:
     # what is to be written instead stands at the end
     text = text if len(text) <= 400 else f"{text[:240]} ... {text[-155:]}"
     return text if is_one_line(text) else "".join(one if is_one_line(one) else ascii(one)[1:-1] for one in text)
-
-
-class Origin(NamedTuple):
-    """Where a value was stated: how (`line`, `in_table`, `option`, `default`), by which key, and line or option."""
-
-    kind: str
-    path: str
-    line: str = ""
-
-
-def origins(path: str | Path, overrides: Sequence[str | Setting] = ()) -> Callable[[str], Origin]:
-    """Return what says where a machine file, with settings laid over it, states a value."""
-    source = files.read_text(Path(path), advice="check the path")
-    settings = [one if isinstance(one, Setting) else _setting(one) for one in overrides]
-    keys, lines = _file_keys(_parse(source, str(path))), locate(source)
-
-    def origin(key: str) -> Origin:
-        table, known = _known_key(keys, key)
-        others = [f"{table}.{one}" if table else one for one in known.instead_of] if known else []
-        for name in (key, *others):
-            setting = next((one for one in settings if name == one.key or name.startswith(f"{one.key}.")), None)
-            if setting is not None:
-                return Origin("option", name, setting.option)
-            if name in lines:
-                return Origin("line", name, str(lines[name]))
-        if known is not None:
-            return Origin("default", key)
-        around = key
-        while around and around not in lines:
-            around = around[: max(around.rfind("."), around.rfind("["), 0)]
-        return Origin("in_table", key, str(lines[around])) if around else Origin("default", key)
-
-    return origin
-
-
-def _known_key(keys: Table, path: str) -> tuple[str, Key | None]:
-    """Return the table of a dotted key, and what the schema knows of it."""
-    *tables, last = path.split(".")
-    entry: Any = keys
-    for name in tables:
-        known = entry.keys.get(name) if isinstance(entry, Table) else None
-        entry = known.kind if known else None
-    return ".".join(tables), entry.keys.get(last) if isinstance(entry, Table) else None
 
 
 def json_schema() -> str:

@@ -44,11 +44,13 @@ def efficiency(chain: Chain) -> float:
     return remembered_efficiency(chain).value
 
 
-def remembered_efficiency(chain: Chain, key: str = "efficiency") -> Known:
+def remembered_efficiency(chain: Chain, key: str = "efficiency", path: str = "efficiency.chain") -> Known:
     """Return the efficiency of a chain as it is made up; its parts have the keys `key.1`, `key.2` and so on."""
     match chain:
         case Series(parts):
-            found = [remembered_efficiency(part, f"{key}.{at}") for at, part in enumerate(parts, start=1)]
+            found = [
+                remembered_efficiency(part, f"{key}.{at}", f"{path}[{at}]") for at, part in enumerate(parts, start=1)
+            ]
             return reduce(operator.mul, found).named(key)
         case Parallel(parts, shares):
             shares = shares or (1 / len(parts),) * len(parts)
@@ -56,14 +58,13 @@ def remembered_efficiency(chain: Chain, key: str = "efficiency") -> Known:
                 raise ValueError(f"{len(parts)} parallel chains need as many shares, none negative, that sum to 1")
             terms = []
             for at, (share, part) in enumerate(zip(shares, parts, strict=True), start=1):
-                # an efficiency of its own is a number in its share
-                inner = remembered_efficiency(part, "" if isinstance(part, float | int) else f"{key}.{at}.0")
+                inner = remembered_efficiency(part, f"{key}.{at}.0", f"{path}[{at}]")
                 terms.append(efficiency_share(share, inner).named(f"{key}.{at}"))
             return total(key, terms)
         case value:
             if not 0 < value <= 1:
                 raise ValueError(f"an efficiency lies above 0 and not above 1, not at {value:g}")
-            return given(key, value, "efficiency.chain")
+            return given(key, value, path)
 
 
 @formula("driving_torque", "artobolevsky_1988, ch. 14")

@@ -31,13 +31,16 @@ class Node:
 
 
 class Given(Node):
-    """A value of the description, at `path` in the file; an absent one is a neutral number that nobody stated."""
+    """A value of the description, at `path` in the file; an absent one is a neutral number that nobody stated.
 
-    __slots__ = ("is_absent", "path")
+    `unit` is stated where formulas take it in another unit than the SI unit of its quantity.
+    """
 
-    def __init__(self, value: float, path: str = "", *, is_absent: bool = False) -> None:
+    __slots__ = ("is_absent", "path", "unit")
+
+    def __init__(self, value: float, path: str = "", unit: str = "", *, is_absent: bool = False) -> None:
         super().__init__(float(value))
-        self.path, self.is_absent = path, is_absent
+        self.path, self.unit, self.is_absent = path, unit, is_absent
 
 
 class OfAngle(Node):
@@ -299,7 +302,7 @@ class KnownAngle:
         return made if degrees else self
 
 
-def given(key: str, value: float, path: str = "") -> Known:
+def given(key: str, value: float, path: str = "", unit: str = "") -> Known:
     """Return a stated value. [SI]
 
     Parameters
@@ -307,11 +310,13 @@ def given(key: str, value: float, path: str = "") -> Known:
     key : str
         Key of the quantity.
     value : float
-        The value. [SI]
+        The value. [SI, or `unit`]
     path : str
         Where the file states it, `crank.radius`.
+    unit : str
+        The unit in which formulas take it, where that is not the SI unit of its quantity.
     """
-    return Known(Given(value, path), key)
+    return Known(Given(value, path, unit), key)
 
 
 def absent(key: str, neutral: float = 0.0) -> Known:

@@ -81,9 +81,9 @@ class Worked:
         self.known[known.key] = self.found[known.key] = marked
         return marked
 
-    def given(self, key: str, value: float, path: str = "") -> Known:
+    def given(self, key: str, value: float, path: str = "", unit: str = "") -> Known:
         """Take a stated value, in the unit that formulas take it in."""
-        self.known[key] = given(key, value, path)
+        self.known[key] = given(key, value, path, unit)
         return self.known[key]
 
     def absent(self, key: str, neutral: float = 0.0) -> Known:

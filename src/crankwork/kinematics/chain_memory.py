@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from crankwork.formula.known import Component, Known, Root, given
+from crankwork.formula.known import Component, Known, Root, absent, given
 from crankwork.kinematics.dyads import LinkMotion, guide_on_link, named_link, named_point, point_on_link, seen_from
 from crankwork.kinematics.loops import ChainMotion, Surroundings
 from crankwork.kinematics.plane_motion import cosine_of_direction, sine_of_direction, sine_of_turned
 from crankwork.kinematics.transfer import PointMotion, Transfer
-from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.chain import Chain, ChainLink
 
 _KEYS = ("point_x", "point_y", "link_angle")
 
@@ -33,7 +33,7 @@ def remembered_chain(chain: Chain, around: Surroundings, root: Root) -> ChainMot
         frame = LinkMotion(PointMotion(coordinate(k, 0), coordinate(k, 1)), cos, sin, *angle[1:])
         frames[link.name] = named_link(frame, link.name)
     places = {
-        (link.name, name): named_point(_point(frames[link.name], name, place), name)
+        (link.name, name): named_point(_point(frames[link.name], name, place, _path(chain, link, name)), name)
         for link in chain.links
         for name, place in link.points.items()
     }
@@ -55,9 +55,22 @@ def remembered_chain(chain: Chain, around: Surroundings, root: Root) -> ChainMot
     return ChainMotion(own, frames, sliders, None)
 
 
-def _point(frame: LinkMotion, name: str, place: tuple[float, float]) -> PointMotion:
+def _path(chain: Chain, link: ChainLink, name: str) -> str:
+    """Return where a description states a point of a link, that of the second joint of a bar by its length."""
+    if any(one.link == link.name for one in chain.slides):
+        return f"sliders.{link.name}.points.{name}"
+    return f"links.{link.name}.length" if [*link.points].index(name) == 1 else f"links.{link.name}.points.{name}"
+
+
+def _point(frame: LinkMotion, name: str, place: tuple[float, float], path: str) -> PointMotion:
     along, across = place
-    return point_on_link(frame, given(f"point_along.{name}", along), given(f"point_across.{name}", across), name)
+    is_bar = path.endswith(".length")
+    return point_on_link(
+        frame,
+        given(f"point_along.{name}", along, path if is_bar else f"{path}[1]") if along else absent("point_along"),
+        given(f"point_across.{name}", across, f"{path}[2]") if across else absent("point_across"),
+        name,
+    )
 
 
 def _pins(chain: Chain, places: dict[tuple[str, str], PointMotion], anchors: dict[str, PointMotion]) -> Iterator[Known]:

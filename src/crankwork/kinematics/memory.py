@@ -17,6 +17,7 @@ from crankwork.kinematics.plane_motion import direction_of_slope
 from crankwork.kinematics.transfer import Transfer
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide
+from crankwork.mechanism.linkage import Linkage
 from crankwork.mechanism.mechanism import Body, LinkPoint, Mechanism
 
 
@@ -46,15 +47,15 @@ class Near:
         return np.asarray(np.interp(degrees, self.degrees, self.angle))
 
 
-def remembered_motion(mechanism: Mechanism, moved: Motion) -> Motion:
+def remembered_motion(mechanism: Mechanism, moved: Motion, linkage: Linkage | None = None) -> Motion:
     """Return the motion of a mechanism as knowns.
 
     The same, each value a known that remembers how it follows from lengths and crank angle. `moved`: its motion in
-    numbers, which says how many turns its links make.
+    numbers, which says how many turns its links make; `linkage`: the same as it was described.
     """
     crank, reached = mechanism.crank, (float(moved.grid.degrees[0]), float(moved.grid.degrees[-1]))
     grid = _untyped(CrankAngle(start=reached[0], end=reached[1]))
-    placed = place(given_mechanism(mechanism), grid, plain=mechanism)
+    placed = place(given_mechanism(mechanism, linkage), grid, plain=mechanism)
     links = {}
     for name, frame in placed.links.items():
         if name == crank.link:
@@ -79,9 +80,23 @@ def angle_of(grid: Any) -> Known:  # noqa: ANN401 - typed as a grid
     return angle
 
 
-def given_mechanism(mechanism: Mechanism) -> Mechanism:
+class _Places:
+    """Where a description states members and guides."""
+
+    def __init__(self, linkage: Linkage | None) -> None:
+        self._guides = {} if linkage is None else {one.name: one.guide for one in linkage.members}
+
+    def member(self, name: str) -> str:
+        return f"{'sliders' if self._guides.get(name) else 'links'}.{name}"
+
+    def guide(self, piece: str) -> str:
+        return f"guides.{self._guides.get(piece, piece)}"
+
+
+def given_mechanism(mechanism: Mechanism, linkage: Linkage | None = None) -> Mechanism:
     """Return a mechanism whose lengths, angles and masses are given values; what is zero is absent."""
     crank: Any = mechanism.crank
+    places = _Places(linkage)
     ground: dict[str, Any] = {name: _point(name, at, f"fixed_points.{name}") for name, at in mechanism.ground.items()}
     pivot = next((name for name, at in mechanism.ground.items() if at == crank.pivot), "")
     return replace(
@@ -92,10 +107,10 @@ def given_mechanism(mechanism: Mechanism) -> Mechanism:
             pivot=ground[pivot] if pivot else _point(f"{crank.link}_pivot", crank.pivot, "crank.pivot"),
             start=_stated("line_angle.crank", crank.start, "crank.start"),
         ),
-        dyads=tuple(one if isinstance(one, Chain) else _dyad(one) for one in mechanism.dyads),
-        bodies=tuple(_body(one) for one in mechanism.bodies),
+        dyads=tuple(one if isinstance(one, Chain) else _dyad(one, places) for one in mechanism.dyads),
+        bodies=tuple(_body(one, places) for one in mechanism.bodies),
         ground=ground,
-        points=tuple(_link_point(one) for one in mechanism.points),
+        points=tuple(_link_point(one, places) for one in mechanism.points),
     )
 
 
@@ -108,23 +123,31 @@ def _branch(name: str, branch: int) -> Any:  # noqa: ANN401 - a known where a nu
 
 
 def _point(name: str, at: tuple[float, float], path: str) -> Any:  # noqa: ANN401 - knowns where numbers are typed
-    return tuple(given(f"point_{axis}.{name}", one, path) for axis, one in zip("xy", at, strict=True))
+    return tuple(
+        given(f"point_{axis}.{name}", one, f"{path}[{number}]")
+        for number, axis, one in zip((1, 2), "xy", at, strict=True)
+    )
 
 
-def _guide(name: str, guide: Guide) -> Guide:
+def _guide(name: str, guide: Guide, path: str) -> Guide:
     """Return a guide; what is zero of a fixed one is given, of a carried one absent."""
-    path = f"guides.{name}"
     if not guide.link:
-        at: Any = _point(f"{name}_guide", guide.point, path)
-        return Guide(at, _untyped(given(f"link_angle.{name}_guide", guide.angle, path)))
-    return replace(_slot(f"{name}_guide", guide), link=guide.link)
+        at: Any = _point(f"{name}_guide", guide.point, f"{path}.through")
+        return Guide(at, _untyped(given(f"link_angle.{name}_guide", guide.angle, f"{path}.angle")))
+    return replace(_slot(f"{name}_guide", guide, path), link=guide.link)
 
 
-def _slot(name: str, slot: Guide) -> Guide:
-    path = f"guides.{name}"
+def _slot(name: str, slot: Guide, path: str) -> Guide:
+    return Guide(
+        _along_across(name, slot.point, f"{path}.through"),
+        _stated(f"line_angle.{name}", slot.angle, f"{path}.angle"),
+        slot.link,
+    )
+
+
+def _along_across(name: str, at: tuple[float, float], path: str) -> Any:  # noqa: ANN401 - knowns where numbers are typed
     keys = (f"point_along.{name}", f"point_across.{name}")
-    at: Any = tuple(_stated(key, one, path) for key, one in zip(keys, slot.point, strict=True))
-    return Guide(at, _stated(f"line_angle.{name}", slot.angle, path), slot.link)
+    return tuple(_stated(key, one, f"{path}[{number}]") for number, key, one in zip((1, 2), keys, at, strict=True))
 
 
 def _untyped(known: Known | CrankAngle) -> Any:  # noqa: ANN401 - a known where a number is typed
@@ -132,10 +155,10 @@ def _untyped(known: Known | CrankAngle) -> Any:  # noqa: ANN401 - a known where 
 
 
 def _length(link: str, length: float) -> Any:  # noqa: ANN401 - a known where a number is typed
-    return given(f"link_length.{link}", length, f"links.{link}")
+    return given(f"link_length.{link}", length, f"links.{link}.length")
 
 
-def _dyad(dyad: Dyad) -> Dyad:
+def _dyad(dyad: Dyad, places: _Places) -> Dyad:
     match dyad:
         case RRR():
             return replace(
@@ -145,7 +168,7 @@ def _dyad(dyad: Dyad) -> Dyad:
                 branch=_branch(dyad.point, dyad.branch),
             )
         case RRP():
-            guide = _guide(dyad.piece, dyad.guide)
+            guide = _guide(dyad.piece, dyad.guide, places.guide(dyad.piece))
             return replace(
                 dyad,
                 length=_length(dyad.link, dyad.length),
@@ -154,15 +177,28 @@ def _dyad(dyad: Dyad) -> Dyad:
                 branch=_branch(dyad.slider, dyad.branch),
             )
         case RPR():
-            return replace(dyad, slot=_slot(dyad.block, dyad.slot), branch=_branch(dyad.link, dyad.branch))
+            return replace(
+                dyad,
+                slot=_slot(dyad.block, dyad.slot, places.guide(dyad.block)),
+                branch=_branch(dyad.link, dyad.branch),
+            )
         case PRP():
-            return replace(dyad, guide_a=_guide(dyad.block_a, dyad.guide_a), guide_b=_guide(dyad.block_b, dyad.guide_b))
+            a, b = dyad.block_a, dyad.block_b
+            return replace(
+                dyad,
+                guide_a=_guide(a, dyad.guide_a, places.guide(a)),
+                guide_b=_guide(b, dyad.guide_b, places.guide(b)),
+            )
         case RPP():
-            return replace(dyad, slot=_slot(dyad.block, dyad.slot), guide=_guide(dyad.link, dyad.guide))
+            return replace(
+                dyad,
+                slot=_slot(dyad.block, dyad.slot, places.guide(dyad.block)),
+                guide=_guide(dyad.link, dyad.guide, places.guide(dyad.link)),
+            )
 
 
-def _body(body: Body) -> Body:
-    path = f"links.{body.link}"
+def _body(body: Body, places: _Places) -> Body:
+    path = places.member(body.link)
     return replace(
         body,
         mass=_stated(f"body_mass.{body.link}", body.mass, f"{path}.mass"),
@@ -170,10 +206,10 @@ def _body(body: Body) -> Body:
     )
 
 
-def _link_point(point: LinkPoint) -> LinkPoint:
-    path = f"links.{point.link}.points.{point.name}"
-    return replace(
-        point,
-        along=_stated(f"point_along.{point.name}", point.along, path),
-        across=_stated(f"point_across.{point.name}", point.across, path),
-    )
+def _link_point(point: LinkPoint, places: _Places) -> LinkPoint:
+    member = places.member(point.link)
+    # a centre of mass that is no joint has no name of its own
+    is_centre = point.name == f"{point.link}.centre"
+    path = f"{member}.centre" if is_centre else f"{member}.points.{point.name}"
+    along, across = _along_across(point.name, (point.along, point.across), path)
+    return replace(point, along=along, across=across)

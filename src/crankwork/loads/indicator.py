@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -66,7 +66,8 @@ class Piece:
 class Segment:
     """A solved piece from `start` to `end` [deg]: knots of a curve [deg], [Pa], or a polytrope's state.
 
-    `origin` is the named point whose state that is, if it has a name; `of` is what a calculated pressure was made from:
+    `origin` is the named point whose state or pressure that is, if it has a name; `piece` the number of the piece in
+    the description; `of` is what a calculated pressure was made from:
     of a constant its pressure, of a polytrope pressure, exponent and what else its volume follows from, of a curve
     what its equation takes.
     """
@@ -79,6 +80,7 @@ class Segment:
     slopes: Array
     state: tuple[float, float, float] = (0.0, 0.0, 0.0)
     origin: str = ""
+    piece: int = 0
     of: tuple[Known, ...] = field(default=(), compare=False)
 
     def rounded(self, degrees: Array) -> Array:
@@ -166,7 +168,7 @@ def solve_diagram(
     Each piece starts where the one before ends; the dead centres are top and bottom within one revolution [deg].
     """
     solver = _Solver(points, volume_at, dead_centres, cycle)
-    segments = [solver.segment(number, piece) for number, piece in enumerate(pieces)]
+    segments = [replace(solver.segment(at, piece), piece=at + 1) for at, piece in enumerate(pieces)]
     _check_chain(segments, cycle, solver.named)
     _check_closed(segments)
     return IndicatorDiagram(tuple(one for one in segments if one.end > one.start), solver.named, tuple(solver.jumps))
@@ -236,7 +238,8 @@ class _Solver:
         start, end = self.angle(key, first), self.angle(key, last)
         self.settle(first, start, pressure)
         self.settle(last, end, pressure)
-        return Segment(start, end, "constant", np.array([start, end]), np.full(2, pressure), np.zeros(2))
+        knots = np.array([start, end])
+        return Segment(start, end, "constant", knots, np.full(2, pressure), np.zeros(2), origin=first)
 
     def _polytropic(self, key: str, piece: Piece) -> Segment:
         if piece.exponent is None:

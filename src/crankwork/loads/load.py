@@ -37,22 +37,22 @@ Load = ProcessForce | ProcessForceAtPoint | ForceOnPoint | TorqueOnLink | Spring
 
 def applied_loads(mechanism: Mechanism, motion: Motion, loads: Iterable[Load]) -> AppliedLoads:
     """Return the forces at moving points [N] and the torques on links [N m] that act on a mechanism."""
-    return together(_applied(load, mechanism, motion) for load in loads)
+    return together(_applied(load, mechanism, motion, f"loads[{number}]") for number, load in enumerate(loads, start=1))
 
 
-def _applied(load: Load, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
+def _applied(load: Load, mechanism: Mechanism, motion: Motion, path: str) -> AppliedLoads:
     match load:
         case ProcessForce():
-            return process_force(load, motion)
+            return process_force(load, motion, path)
         case ProcessForceAtPoint():
-            return process_force_at_point(load, mechanism, motion)
+            return process_force_at_point(load, mechanism, motion, path)
         case ForceOnPoint():
-            return constant_force(load, mechanism, motion)
+            return constant_force(load, mechanism, motion, path)
         case TorqueOnLink():
-            return link_torque(load, motion)
+            return link_torque(load, motion, path)
         case Spring():
-            return point_spring(load, mechanism, motion)
+            return point_spring(load, mechanism, motion, path)
         case SliderSpring():
-            return slider_spring(load, mechanism, motion)
+            return slider_spring(load, mechanism, motion, path)
         case Weight():
             return weight(load, mechanism, motion)

@@ -35,19 +35,21 @@ def polytrope_origin(diagram: IndicatorDiagram, segment: Segment, volume: Known)
         p_1, n_p, *others = segment.of
         at = diagram.named.get(name, (None, 0.0))[0]
         return p_1, Known(Found(state_volume, "at", (volume, *others), at), f"cylinder_volume.{name}"), n_p
-    p_1 = given(f"diagram_pressure.{name}" if name else "", pressure, f"gas.points.{name}")
+    p_1 = given(f"diagram_pressure.{name}" if name else "", pressure, f"gas.points.{name}.pressure")
     V_1 = given(f"cylinder_volume.{name}" if name else "", state_volume, f"gas.points.{name}.volume")
     if name in diagram.named:
         computed = at_angle(volume, diagram.named[name][0], V_1.key)
         if math.isclose(computed.value, state_volume, rel_tol=_SAME_VOLUME):
             V_1 = computed
-    return p_1, V_1, given("polytropic_exponent", exponent, "gas.pieces")
+    return p_1, V_1, given("polytropic_exponent", exponent, f"gas.pieces[{segment.piece}].exponent")
 
 
 def _law(diagram: IndicatorDiagram, segment: Segment, volume: Known) -> Known:
     match segment.law:
         case "constant":
-            return segment.of[0] if segment.of else given("diagram_pressure", float(segment.pressures[0]))
+            name, pressure = segment.origin, float(segment.pressures[0])
+            stated = given(f"diagram_pressure.{name}", pressure, f"gas.points.{name}.pressure")
+            return segment.of[0] if segment.of else stated
         case "polytropic":
             p_1, V_1, exponent = polytrope_origin(diagram, segment, volume)
             return polytropic_pressure(p_1, V_1, volume, exponent)  # type: ignore[no-any-return]

@@ -78,32 +78,34 @@ class _Way(NamedTuple):
     position_1: Value
 
 
-def process_force(load: ProcessForce, motion: Motion) -> AppliedLoads:
+def process_force(load: ProcessForce, motion: Motion, path: str = "") -> AppliedLoads:
     """Return the force of a process on a sliding piece."""
     check_name("sliding piece", load.slider, motion.sliders)
     slide = motion.sliders[load.slider]
     start: Value = load.start
     if is_known(slide.position):
-        start = given(f"slider_displacement.{load.slider}_start", start, "loads")
+        start = given(f"slider_displacement.{load.slider}_start", start, f"{path}.start")
     way = slide.position - start, slide.position_1
     way = _Way(*(way if load.forward == 1 else (-way[0], -way[1])))
-    force = _force(load, way, motion, load.slider)
+    force = _force(load, way, motion, (load.slider, path))
     return AppliedLoads((force_along_guide(motion, load.slider, -force if load.forward == 1 else force),))
 
 
-def process_force_at_point(load: ProcessForceAtPoint, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
+def process_force_at_point(
+    load: ProcessForceAtPoint, mechanism: Mechanism, motion: Motion, path: str = ""
+) -> AppliedLoads:
     """Return the force of a process at a point."""
     check_name("point", load.point, motion.points)
     x, y = motion.points[load.point]
     cos, sin = np.cos(load.direction), np.sin(load.direction)
     way = _Way(x.position * cos + y.position * sin - load.start, x.position_1 * cos + y.position_1 * sin)
-    force = -_force(load, way, motion, load.point)
+    force = -_force(load, way, motion, (load.point, path))
     return force_at(mechanism, motion, load.point, (force * cos, force * sin), load.link)
 
 
-def _force(load: ProcessForce | ProcessForceAtPoint, way: _Way, motion: Motion, name: str) -> Value:
+def _force(load: ProcessForce | ProcessForceAtPoint, way: _Way, motion: Motion, named_at: tuple[str, str]) -> Value:
     if is_known(way.position):
-        return _remembered(load, way, motion, name)
+        return _remembered(load, way, motion, *named_at)
     force = np.asarray(load.force(way.position if load.against == "stroke" else motion.grid.angle), dtype=float)
     if load.acts == "both":
         return force
@@ -111,14 +113,14 @@ def _force(load: ProcessForce | ProcessForceAtPoint, way: _Way, motion: Motion, 
     return np.where(forward, force, 0.0)
 
 
-def _remembered(load: ProcessForce | ProcessForceAtPoint, way: _Way, motion: Motion, name: str) -> Known:
+def _remembered(load: ProcessForce | ProcessForceAtPoint, way: _Way, motion: Motion, name: str, path: str) -> Known:
     """Return the force as a table read at the way or the crank angle, in pieces where it acts one way only."""
     key, course = f"process_force.{name}", course_of(motion.grid)
     way = way._replace(position=named(way.position, f"working_stroke.{name}"))
     if load.against == "stroke":
-        force = by_column(load.force, way.position, course, key)
+        force = by_column(load.force, way.position, course, key, f"{path}.force")
     else:
-        force = by_angle(load.force, angle_of(motion.grid), key)
+        force = by_angle(load.force, angle_of(motion.grid), key, f"{path}.force")
     if load.acts == "both":
         return force
     over = course({"": way.position_1})
@@ -137,23 +139,24 @@ def _rounded(end: float, *, back: bool) -> float:
     return math.nextafter(end, 0.0) if back else end
 
 
-def constant_force(load: ForceOnPoint, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
+def constant_force(load: ForceOnPoint, mechanism: Mechanism, motion: Motion, path: str = "") -> AppliedLoads:
     """Return a constant force at a point."""
     force: tuple[Value, Value] = np.array(load.x), np.array(load.y)
     if is_known(motion.grid.angle):
-        force = given(f"load_x.{load.point}", load.x, "loads"), given(f"load_y.{load.point}", load.y, "loads")
+        x, y = ((f"load_{axis}.{load.point}", f"{path}.{axis}") for axis in "xy")
+        force = given(x[0], load.x, x[1]), given(y[0], load.y, y[1])
     return force_at(mechanism, motion, load.point, force, load.link)
 
 
-def link_torque(load: TorqueOnLink, motion: Motion) -> AppliedLoads:
+def link_torque(load: TorqueOnLink, motion: Motion, path: str = "") -> AppliedLoads:
     """Return a torque on a link."""
     torque: Value
     if is_known(motion.grid.angle):
         key = f"link_torque.{load.link}"
         if callable(load.torque):
-            torque = by_angle(load.torque, angle_of(motion.grid), key)
+            torque = by_angle(load.torque, angle_of(motion.grid), key, f"{path}.torque")
         else:
-            torque = given(key, load.torque, "loads")
+            torque = given(key, load.torque, f"{path}.torque")
     else:
         torque = load.torque(motion.grid.angle) if callable(load.torque) else np.array(load.torque)
     return torque_on(motion, load.link, torque)

@@ -32,21 +32,21 @@ class Within:
         return self.curve(np.clip(at, self.low, self.high))
 
 
-def by_angle(curve: Curve, angle: Known, key: str) -> Known:
+def by_angle(curve: Curve, angle: Known, key: str, path: str = "") -> Known:
     """Return a curve over the crank angle. [rad]
 
     `curve`: what is given; a table says where it has corners, and so does whatever has `corners` [rad].
     """
     corners = [math.degrees(one) for one in _corners(curve)]
     if isinstance(curve, LoadTable) and not _varies(curve):
-        return given(key, curve.values[0], "loads")
+        return given(key, curve.values[0], f"{path}[1]")
     return Known(Table(curve, "given", corners, by=angle), key)
 
 
-def by_column(curve: Curve, column: Known, course: Course, key: str) -> Known:
+def by_column(curve: Curve, column: Known, course: Course, key: str, path: str = "") -> Known:
     """Return a curve over a column, with its corners at the crank angles where the column passes them."""
     if isinstance(curve, LoadTable) and not _varies(curve):
-        return given(key, curve.values[0], "loads")
+        return given(key, curve.values[0], f"{path}[1]")
     over, corners = course({"": column}), _corners(curve)
     passed = [one for corner in corners for one in over.crossings("", corner).tolist()]
     if not isinstance(curve, LoadTable):

@@ -54,18 +54,21 @@ def spring_length(dx: Value, dy: Value) -> Value:
     return np.sqrt(dx**2 + dy**2)
 
 
-def _stated(stiffness: Value, free: Value, preload: Value, name: str, length: Value) -> tuple[Value, Value, Value]:
+def _stated(
+    load: Spring | SliderSpring, free: float, name: str, length: Value, path: str
+) -> tuple[Value, Value, Value]:
     """Return what a spring is like, as given values where its length is remembered."""
     if not is_known(length):
-        return stiffness, free, preload
+        return load.stiffness, free, load.preload
+    pull, at_free = load.preload, given(f"spring_length.{name}_free", free, f"{path}.free_length")
     return (
-        given(f"spring_stiffness.{name}", stiffness, "loads"),
-        given(f"spring_length.{name}_free", free, "loads") if free else absent("spring_length"),
-        given(f"spring_force.{name}_preload", preload, "loads") if preload else absent("spring_force"),
+        given(f"spring_stiffness.{name}", load.stiffness, f"{path}.stiffness"),
+        at_free if free else absent("spring_length"),
+        given(f"spring_force.{name}_preload", pull, f"{path}.preload") if pull else absent("spring_force"),
     )
 
 
-def point_spring(load: Spring, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
+def point_spring(load: Spring, mechanism: Mechanism, motion: Motion, path: str = "") -> AppliedLoads:
     """Return the forces of a spring on the two links that it joins."""
     for name in (load.start, load.end):
         check_name("point", name, motion.points)
@@ -75,7 +78,7 @@ def point_spring(load: Spring, mechanism: Mechanism, motion: Motion) -> AppliedL
     length = named(spring_length(x, y), f"spring_length.{name}")
     if not is_known(length) and np.any(length == 0):
         raise GeometryError(f"the ends of the spring from {load.start} to {load.end} meet; move one of them")
-    stiffness, free, preload = _stated(load.stiffness, load.free_length, load.preload, name, length)
+    stiffness, free, preload = _stated(load, load.free_length, name, length, path)
     force = named(spring_force(stiffness, length, free, preload), f"spring_force.{name}")
     x, y = named(x / length * force, f"load_x.{name}"), named(y / length * force, f"load_y.{name}")
     back = named(-x, f"load_x.{name}_end"), named(-y, f"load_y.{name}_end")
@@ -84,14 +87,14 @@ def point_spring(load: Spring, mechanism: Mechanism, motion: Motion) -> AppliedL
     )
 
 
-def slider_spring(load: SliderSpring, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
+def slider_spring(load: SliderSpring, mechanism: Mechanism, motion: Motion, path: str = "") -> AppliedLoads:
     """Return the forces of a spring on a sliding piece and on the link that carries its guide.
 
     On a carrier the force acts at the point of it where the piece is: it moves with the carrier, not with the piece.
     """
     check_name("sliding piece", load.slider, motion.sliders)
     position = motion.sliders[load.slider].position
-    stiffness, free, preload = _stated(load.stiffness, load.free_position, load.preload, load.slider, position)
+    stiffness, free, preload = _stated(load, load.free_position, load.slider, position, path)
     force = -named(spring_force(stiffness, position, free, preload), f"spring_force.{load.slider}")
     pull = force_along_guide(motion, load.slider, force)
     slides = (one for one in joints(mechanism) if isinstance(one, SlidingJoint))

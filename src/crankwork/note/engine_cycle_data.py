@@ -28,7 +28,7 @@ _CALCULATED = ("Q_part", "mc_gas", "th_gas", "T_zero", "t_gas", "h_prod", "h_fre
 # what a fuel, or the kind of an engine, brings along when it is taken as usual
 _BROUGHT = {
     "fuel": ("fuel_carbon", "fuel_hydrogen", "fuel_oxygen", "fuel_molar_mass"),
-    "mechanical_loss_pressure": ("argument:a_loss", "argument:b_loss"),
+    "mechanical_loss_pressure": ("mechanical_loss_constant", "mechanical_loss_slope"),
 }
 
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator
 
 from crankwork.analysis.results import Results
-from crankwork.description.machine_file import Origin
+from crankwork.description.origins import Origin
 from crankwork.formula.explained import Explained, Explanation, is_given
 from crankwork.formula.expression import symbol
 from crankwork.formula.known import (
@@ -31,18 +31,26 @@ from crankwork.note.numbering import Numbering
 from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.report.language import label, number
 from crankwork.sources import cite
-from crankwork.units import from_si
+from crankwork.units import UNITS, from_si, to_si
 
 _FENCES = re.compile(r"[() ]")
 
 
+# what says where a value stands: of its path, and its number in SI and in the units it is printed in
+Place = Callable[[str, Iterable[float]], str]
+
+
+def _path(path: str, _: Iterable[float]) -> str:
+    return path
+
+
 def explanation(
-    results: Results, key: str, at: float | None = None, language: Language = "en", place: Callable[[str], str] = str
+    results: Results, key: str, at: float | None = None, language: Language = "en", place: Place = _path
 ) -> str:
     """Return how a value came about, down to what is given.
 
     `key`: key of a column, of a single value, or of what lies between them; `at`: crank angle of what varies [deg];
-    `place`: says where the machine file states a path.
+    `place`: says where a value comes from that is said to stand at a path of the machine file.
     """
     value = results.value(key, at)
     known = results.memory.get(key)
@@ -93,7 +101,7 @@ def _values(key: str, value: float, language: Language) -> list[str]:
 class _Printed:
     """The lines below the value: of what does not vary, of each crank angle, what is given, sources."""
 
-    def __init__(self, explanation: Explanation, language: Language, place: Callable[[str], str]) -> None:
+    def __init__(self, explanation: Explanation, language: Language, place: Place) -> None:
         self._explanation, self._language, self._place = explanation, language, place
         self._sources: dict[str, int] = {}
 
@@ -186,10 +194,16 @@ class _Printed:
         return f"{words}{f' ({columns})' if columns else ''}{where}"
 
     def _own_values(self, one: Explained) -> list[str]:
-        if one.known.key and base_key(one.known.key) in QUANTITIES:
-            return _values(one.known.key, one.value, self._language)
-        unit = argument_unit(one.argument) if one.argument in ARGUMENTS else ""
-        return [value_text(one.value, unit, self._language)]
+        return [value_text(*pair, self._language) for pair in self._shown(one)]
+
+    def _shown(self, one: Explained) -> list[tuple[float, str]]:
+        """Return a value in the units in which it is printed, each with its unit."""
+        node, key = one.known.node, one.known.key
+        if isinstance(node, Given) and node.unit:
+            return [(one.value, node.unit)]
+        if key and base_key(key) in QUANTITIES:
+            return shown_values(ValueLine(key, one.value))
+        return [(one.value, argument_unit(one.argument) if one.argument in ARGUMENTS else "")]
 
     def _angle_parts(self, one: Explained) -> list[str]:
         node, degrees = one.known.node, one.degrees
@@ -218,9 +232,13 @@ class _Printed:
         lines = []
         for one in some:
             node = one.known.node
-            path = node.path if isinstance(node, Given) else ""
-            where = self._place(path) if path else say("explain.taken", self._language)
-            values = _once([self._symbol(one.known, one.argument), *self._own_values(one)])
+            if not isinstance(node, Given):
+                continue
+            shown = self._shown(one)
+            si = float(to_si(one.value, node.unit)) if node.unit in UNITS else one.value
+            numbers = [si, *(number for number, _ in shown)]
+            where = self._place(node.path, numbers) if node.path else say("explain.taken", self._language)
+            values = [self._symbol(one.known, one.argument), *(value_text(*pair, self._language) for pair in shown)]
             lines.append(f"  {' = '.join(values)}   {where}")
         if lines:
             yield from ("", capital(say("captions.data", self._language)), *dict.fromkeys(lines))

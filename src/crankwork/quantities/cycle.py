@@ -58,6 +58,7 @@ ROWS = (
     Quantity("compression_celsius", "", "Temperature at point c in degrees Celsius."),
     # heat capacities
     Quantity("molar_gas_constant", "kJ/(kmol*K)", "Pressure times volume over amount and absolute temperature."),
+    Quantity("heat_zero_temperature", "K", "Absolute temperature from which a law of molar heats counts."),
     Quantity("fresh_charge_heat", "kJ/(kmol*K)",
              "At constant volume, from the zero of the law used to the temperature."),
     Quantity("product_heat", "kJ/(kmol*K)", "At constant volume, from the zero of the law used to the temperature."),
@@ -91,6 +92,8 @@ ROWS = (
     Quantity("indicated_efficiency", "", "Indicated work over the heat of the fuel."),
     Quantity("indicated_fuel_consumption", "g/(kW*h)", "Fuel per indicated work."),
     Quantity("mechanical_loss_pressure", "MPa", "Work of mechanical losses over the swept volume."),
+    Quantity("mechanical_loss_constant", "MPa", "Pressure of mechanical losses without speed."),
+    Quantity("mechanical_loss_slope", "MPa*s/m", "Pressure of mechanical losses by mean piston speed."),
     Quantity("effective_mean_pressure", "MPa", "Effective work over the swept volume."),
     Quantity("mechanical_efficiency", "", "Effective over indicated work."),
     Quantity("effective_efficiency", "", "Effective work over the heat of the fuel."),

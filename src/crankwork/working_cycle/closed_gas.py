@@ -186,7 +186,7 @@ def closed_gas(
     }
     worked.known |= {key: Known(Found(value, "value"), key) for key, value in cylinder.items()}
     worked.known["V_1"] = Known(Found(shut_volume, "value", at=shut), "cylinder_volume")
-    worked.given("burning_start", math.radians(begin))
+    worked.given("burning_start", math.radians(begin), "cycle.combustion_start")
     for key in ("head_area", "crown_area"):
         worked.known.setdefault(key, worked["piston_area"])
     if data.heat is None:
@@ -213,11 +213,15 @@ def closed_gas(
     )
 
 
+# what the heat is made of, where it is not stated itself
+_OF_FUEL = ("fuel_per_cycle", "heating_value", "burning_efficiency")
+
+
 def _give(worked: Worked, data: HeatReleaseData) -> None:
     """Take the data as they are stated."""
+    worked.given("rotational_speed", data.rotational_speed, "crank.speed", "rpm")
     for name, key, path in (
         ("bore", "bore", "cylinder.bore"),
-        ("rotational_speed", "rotational_speed", "crank.speed"),
         ("heat", "fuel_heat", "cycle.cycle_heat"),
         ("fuel_per_cycle", "fuel_per_cycle", ""),
         ("heating_value", "fuel_heating_value", ""),
@@ -232,7 +236,7 @@ def _give(worked: Worked, data: HeatReleaseData) -> None:
         ("intake_pressure", "intake_pressure", "cycle.intake_pressure"),
     ):
         value = getattr(data, name)
-        if value is not None:
+        if value is not None and (data.heat is None or name not in _OF_FUEL):
             worked.given(key, value, path)
     if not data.heat_ratio_slope:
         worked.absent("gas_heat_ratio_slope")

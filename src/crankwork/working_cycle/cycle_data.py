@@ -124,12 +124,17 @@ def _losses(key: str) -> tuple[float, float]:
 # fields that stand elsewhere in a machine file, or as a quantity of another name
 _PLACES = {
     "compression_ratio": "cylinder.compression_ratio", "rotational_speed": "crank.speed", "bore": "cylinder.bore",
-    "cylinders": "engine.cylinders",
+    "cylinders": "engine.cylinders", "strokes": "cycle.cycle",
 }  # fmt: skip
 _QUANTITIES = {
     "heating": "charge_heating", "pressure_ratio": "pressure_rise_ratio", "filling": "filling_factor",
     "strokes": "strokes_per_cycle", "cylinders": "cylinder_count", "gas_constant": "molar_gas_constant",
     "air_gas_constant": "specific_gas_constant",
+}  # fmt: skip
+# what no file states
+_CONSTANTS = {
+    "compressor_exponent", "cooler_drop", "heat_correction", "exhaust_exponent", "hydrogen_share", "gas_constant",
+    "air_gas_constant", "cooling_factor", "cooling_exponent",
 }  # fmt: skip
 _LEFT_OUT = {"power", "stroke", "pi"}
 
@@ -147,25 +152,24 @@ def what_is_given(data: GrinevetskyData, full: GrinevetskyData) -> Worked:
         if one.name == "lost_stroke" and not value:
             worked.absent(key)
             continue
-        is_stated = getattr(data, one.name) not in (None, one.default)
-        worked.given(key, value, _PLACES.get(one.name, f"cycle.{one.name}") * is_stated)
-    fuel, path = full.fuel or FUELS[full.kind], "cycle.fuel" * (data.fuel is not None)
+        path = "" if one.name in _CONSTANTS else _PLACES.get(one.name, f"cycle.{one.name}")
+        worked.given(key, value, path, "rpm" if key == "rotational_speed" else "")
+    fuel = full.fuel or FUELS[full.kind]
     for name in ("carbon", "hydrogen", "oxygen", "molar_mass", "heating_value"):
         value = getattr(fuel, name)
         if value is not None:
-            worked.given(f"fuel_{name}", value, path)
+            worked.given(f"fuel_{name}", value, f"cycle.fuel.{name}")
     if fuel.molar_mass is None:
         # the share of a vapour without mass in the charge is none
         worked.absent("fuel_molar_mass", math.inf)
     if full.kind == "petrol":
         worked.absent("cut_off", 1.0)
     zero = law_zero(full.heat_capacities)
-    worked.known["T_zero"] = given("", zero) if zero else absent("")
+    worked.known["T_zero"] = given("heat_zero_temperature", zero) if zero else absent("heat_zero_temperature")
     if isinstance(full.mechanical_loss, tuple):
-        path = "cycle.mechanical_loss" * isinstance(data.mechanical_loss, tuple)
-        worked.known |= {
-            name: given("", one, path) for name, one in zip(("a_loss", "b_loss"), full.mechanical_loss, strict=True)
-        }
+        a, b = full.mechanical_loss
+        worked.given("mechanical_loss_constant", a, "cycle.mechanical_loss[1]")
+        worked.given("mechanical_loss_slope", b, "cycle.mechanical_loss[2]")
     return worked
 
 

@@ -32,7 +32,7 @@ def sized(worked: Worked, data: GrinevetskyData) -> list[Notice]:
     stroke stays, and its last pass is the one that is shown.
     """
     if data.bore is not None and data.stroke is not None:
-        worked.given("stroke", data.stroke, "crank.radius")
+        worked.given("stroke", data.stroke, "crank.stroke")
         _of_size(worked, data)
         return []
     stroke = 0.0

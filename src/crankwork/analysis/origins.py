@@ -1,0 +1,113 @@
+"""What a description states of an engine, and what follows from it before the calculation begins.
+
+A machine holds its lengths and masses in one form; a description may state others: stroke, rod ratio, masses over the
+piston area. What it states is the leaf of the memory, and the line between them is worked.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from crankwork.dynamics.masses import CrankGearMasses, rod_big_end_mass, rod_inertia_excess, rod_small_end_mass
+from crankwork.dynamics.piston_forces import angular_speed
+from crankwork.formula.known import Known, absent, given
+from crankwork.kinematics.slider_crank import SliderCrank
+from crankwork.machine import Machine, Stated
+from crankwork.method import Method
+from crankwork.units import UNITS
+
+_SAME = 1e-12
+
+
+def lengths(machine: Machine, sizes: SliderCrank) -> SliderCrank:
+    """Return crank radius, rod length and offset."""
+    r, l, e = (float(one) for one in sizes)  # noqa: E741
+    radius = given("crank_radius", r, "crank.radius")
+    stroke, ratio = (_stated(machine, key) for key in ("crank.stroke", "rod.ratio"))
+    if stroke is not None:
+        radius = _checked(given("stroke", stroke.value, "crank.stroke") / 2, radius)
+    length = given("rod_length", l, "rod.length")
+    if ratio is not None and _is(ratio.value, r / l):
+        length = _checked(radius / given("rod_ratio", ratio.value, "rod.ratio"), length)
+    elif ratio is not None:
+        length = _checked(radius * given("inverse_rod_ratio", ratio.value, "rod.ratio"), length)
+    return SliderCrank(radius, length, given("offset", e, "cylinder.offset") if e else absent("offset"))
+
+
+def revolutions(machine: Machine) -> Known:
+    """Return the speed of the crank in revolutions per minute."""
+    return given("rotational_speed", machine.speed * 30 / math.pi, "crank.speed", "rpm")
+
+
+def speed(machine: Machine, method: Method) -> Known:
+    """Return the angular speed of the crank: stated, or of its revolutions with the method's own pi."""
+    stated, found = _stated(machine, "crank.speed"), angular_speed(method.pi, revolutions(machine))
+    in_radians = stated is not None and UNITS[stated.unit].factor == 1.0
+    return _checked(given("speed", stated.value, "crank.speed"), found) if stated and in_radians else found
+
+
+def cycle_angle(machine: Machine) -> Known:
+    """Return the length of the cycle."""
+    path = "engine.strokes" if machine.gas is None else "gas.cycle" if machine.gas.calculated is None else "cycle.cycle"
+    return given("cycle_angle", math.radians(machine.cycle), path)
+
+
+def masses(machine: Machine, known: CrankGearMasses, area: Known | None, length: Known) -> Iterator[Known]:
+    """Yield the masses of piston and crank, the two of the rod, and its excess of inertia if it has one."""
+
+    def mass(key: str, value: float, path: str) -> Known:
+        stated, plain = _stated(machine, path), given(key, value, path)
+        if stated is None or area is None or UNITS[stated.unit].dimension != "mass_per_area":
+            return plain
+        own = given(f"mass_per_area.{key.removesuffix('_mass')}", stated.value, path)
+        return _checked(own * area, plain) if value else plain
+
+    yield mass("piston_mass", known.piston, "piston.mass")
+    yield mass("crank_mass", known.crank, "crank.mass")
+    small = mass("rod_small_end_mass", known.rod_small_end, "rod.small_end_mass")
+    big = mass("rod_big_end_mass", known.rod_big_end, "rod.big_end_mass")
+    excess = given("rod_inertia_excess", known.rod_inertia_excess, "rod.inertia")
+    stated = _stated(machine, "rod.mass")
+    if stated is not None:
+        whole = mass("rod_mass", known.rod_small_end + known.rod_big_end, "rod.mass")
+        centre = _centre(machine, length)
+        small = _checked(rod_small_end_mass(whole, centre, length), small)
+        big = _checked(rod_big_end_mass(whole, small), big)
+        excess = _excess(machine, whole, centre, length, excess)
+    yield from (small, big)
+    if known.rod_inertia_excess:
+        yield excess
+
+
+def _centre(machine: Machine, length: Known) -> Known:
+    """Return the distance of the centre of mass of the rod from the crankpin."""
+    share, at = (_stated(machine, f"rod.{key}") for key in ("small_end_share", "centre_of_mass"))
+    if share is not None:
+        return (given("small_end_share", share.value, "rod.small_end_share") * length).named("rod_centre_distance")
+    return given("rod_centre_distance", at.value if at is not None else 0.0, "rod.centre_of_mass")
+
+
+def _excess(machine: Machine, mass: Known, centre: Known, length: Known, excess: Known) -> Known:
+    inertia, radius = (_stated(machine, f"rod.{key}") for key in ("inertia", "radius_of_gyration"))
+    if inertia is not None:
+        own = given("rod_inertia", inertia.value, "rod.inertia")
+    elif radius is not None:
+        gyration = given("rod_gyration_radius", radius.value, "rod.radius_of_gyration")
+        own = (mass * gyration * gyration).named("rod_inertia")
+    else:
+        return excess
+    return _checked(rod_inertia_excess(own, mass, centre, length), excess)
+
+
+def _stated(machine: Machine, path: str) -> Stated | None:
+    return machine.stated.get(path)
+
+
+def _is(one: float, other: float) -> bool:
+    return math.isclose(one, other, rel_tol=_SAME)
+
+
+def _checked(found: Known, plain: Known) -> Known:
+    """Return what follows from the description if it is what the machine has, which may have been changed since."""
+    return found.named(plain.key) if _is(found.value, plain.value) else plain
