@@ -52,12 +52,17 @@ def test_every_value_is_followed_to_what_was_given(data: GrinevetskyData, law: H
 
 def test_given_values_stand_where_the_file_states_them():
     leaves = {one.key: one.node.path for one in in_order(grinevetsky(PETROL).memory.values()) if _is_given(one)}
-    stated = {key: path for key, path in leaves.items() if path}
-    assert stated == {
+    places = {
         "compression_ratio": "cylinder.compression_ratio", "rotational_speed": "crank.speed",
         "excess_air": "cycle.excess_air", "effective_power": "cycle.power", "cylinder_count": "engine.cylinders",
+        "charge_heating": "cycle.heating", "fuel_carbon": "cycle.fuel.carbon",
+        "mechanical_loss_slope": "cycle.mechanical_loss[2]",
     }  # fmt: skip
-    assert {"heating", "heat_use", "fuel_carbon"} - set(leaves) == {"heating"}
+    assert leaves | places == leaves
+    assert {key for key, path in leaves.items() if not path} == {
+        "cooling_exponent", "cooling_factor", "exhaust_exponent", "heat_zero_temperature", "hydrogen_share",
+        "molar_gas_constant", "specific_gas_constant",
+    }  # fmt: skip
 
 
 def _is_given(one: Known) -> bool:

@@ -21,9 +21,6 @@ from crankwork.kinematics.slider_crank import (
     bottom_dead_centre_angle,
     mean_piston_speed,
     relative_offset,
-    rod_ratio,
-    stroke_central,
-    stroke_offset,
     top_dead_centre_angle,
     top_dead_centre_angle_before,
 )
@@ -98,7 +95,7 @@ def _geometry(solved: Solved) -> dict[str, Known]:
     memory, lengths = solved.memory, solved.lengths
     found = {key: memory[key] for key in ("crank_radius", "rod_length")}
     r, l, e = found["crank_radius"], found["rod_length"], memory["offset"]  # noqa: E741
-    found |= {"rod_ratio": rod_ratio(r, l), "stroke": stroke_central(r) if e.is_absent else stroke_offset(l, r, e)}
+    found |= {"rod_ratio": solved.moving.lengths.rod_ratio, "stroke": origins.stroke(solved.moving.lengths)}
     if not e.is_absent:
         found |= {"offset": e, "relative_offset": relative_offset(e, r)}
         top = top_dead_centre_angle if lengths.offset > 0 else top_dead_centre_angle_before
@@ -111,9 +108,7 @@ def _geometry(solved: Solved) -> dict[str, Known]:
 def _motion(solved: Solved, over: OverCycle) -> dict[str, Known]:
     memory = solved.memory
     n = origins.revolutions(solved.machine)
-    stroke = stroke_central(memory["crank_radius"]) if memory["offset"].is_absent else memory.get("stroke")
-    if stroke is None:
-        stroke = stroke_offset(memory["rod_length"], memory["crank_radius"], memory["offset"])
+    stroke = origins.stroke(solved.moving.lengths)
     found = {
         "rotational_speed": given("rotational_speed", solved.machine.speed, "crank.speed"),
         "speed": memory["speed"],

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from crankwork.dynamics.masses import CrankGearMasses, rod_big_end_mass, rod_inertia_excess, rod_small_end_mass
 from crankwork.dynamics.piston_forces import angular_speed
 from crankwork.formula.known import Known, absent, given
-from crankwork.kinematics.slider_crank import SliderCrank
+from crankwork.kinematics.slider_crank import SliderCrank, stroke_central, stroke_offset
 from crankwork.machine import Machine, Stated
 from crankwork.method import Method
 from crankwork.units import UNITS
@@ -33,6 +33,16 @@ def lengths(machine: Machine, sizes: SliderCrank) -> SliderCrank:
     elif ratio is not None:
         length = _checked(radius * given("inverse_rod_ratio", ratio.value, "rod.ratio"), length)
     return SliderCrank(radius, length, given("offset", e, "cylinder.offset") if e else absent("offset"))
+
+
+def stroke(lengths: SliderCrank) -> Known:
+    """Return the stroke: stated, or of the lengths."""
+    r, l, e = lengths  # noqa: E741
+    if not e.is_absent:
+        return stroke_offset(l, r, e)  # type: ignore[no-any-return]
+    stated = r.node.operands
+    found: Known = stated[0] if stated else stroke_central(r)
+    return found
 
 
 def revolutions(machine: Machine) -> Known:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from crankwork.analysis import origins
 from crankwork.analysis.motion import MovingCylinder, moving_cylinder
 from crankwork.dynamics.piston_forces import angular_speed
 from crankwork.errors import CrankworkError
@@ -18,7 +19,7 @@ from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.extremes import dead_centres
 from crankwork.kinematics.piston import as_slider_crank
-from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank, stroke_central, stroke_offset
+from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.indicator import IndicatorDiagram, solve_diagram
 from crankwork.loads.measured import measured_diagram, wrap_is_rough
@@ -87,11 +88,9 @@ class Solved:
 
     def remembered_stroke(self, lengths: SliderCrank) -> Known:
         """Return the stroke as a known, of lengths that are knowns."""
-        r, l, e = lengths  # noqa: E741
         if self.slave is not None:
             return Known(Found(self.stroke[0], "dead_centre", lengths), "stroke")
-        found: Known = stroke_central(r) if e.is_absent else stroke_offset(l, r, e)
-        return found
+        return origins.stroke(lengths)
 
     @property
     def stroke(self) -> tuple[float, float, float]:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from crankwork.analysis.linkage_memory import efficiency_of, speed_of
 from crankwork.analysis.results import Results
@@ -63,24 +64,41 @@ class Rows:
 
     def __call__(self, degrees: Array) -> Array:
         """Return the numbers of the nearest positions."""
-        nearest = np.argmin(np.abs(np.subtract.outer(degrees, self.degrees)), axis=-1)
-        return np.asarray(np.array(self.values)[nearest])
+        return np.asarray(np.array(self.values)[self._nearest(degrees)])
+
+    def _nearest(self, degrees: Array | float) -> NDArray[np.intp]:
+        return np.asarray(np.argmin(np.abs(np.subtract.outer(degrees, self.degrees)), axis=-1))
+
+
+@dataclass(frozen=True)
+class StatedRows(Rows):
+    """Numbers that a description states by position. `path`: where."""
+
+    path: str
+
+    def between(self, degrees: float, _: Known) -> Known:
+        """Return the number of the nearest position as it is stated."""
+        at = int(self._nearest(degrees))
+        return given("", self.values[at], f"{self.path}[{at + 1}]")
 
 
 def _memory(machine: TabulatedMachine, grid: CrankGrid) -> dict[str, Known]:
     """Return the columns of a table."""
 
-    def row(key: str, values: Iterable[float], of: tuple[Known, ...] = ()) -> Known:
-        values = tuple(float(one) for one in values)
+    def row(key: str, values: Iterable[float], path: str = "", of: tuple[Known, ...] = ()) -> Known:
+        values, degrees = tuple(float(one) for one in values), tuple(grid.degrees.tolist())
         if len(values) == 1:
-            return given(key, values[0], "transfer") if values[0] else absent(key)
-        return Known(Table(Rows(tuple(grid.degrees.tolist()), values), "given", of=of), key)
+            return given(key, values[0], f"{path}[1]") if values[0] else absent(key)
+        if path:
+            return Known(Table(StatedRows(degrees, values, path), "given"), key)
+        return Known(Table(Rows(degrees, values), "positions", of=of), key)
 
     def part(body: TabulatedBody) -> Known:
-        velocity = row(f"velocity_ratio.{body.name}", body.velocity_ratio)
-        rotation = row(f"rotation_ratio.{body.name}", body.rotation_ratio)
+        path = f"transfer.bodies.{body.name}"
+        velocity = row(f"velocity_ratio.{body.name}", body.velocity_ratio, f"{path}.velocity")
+        rotation = row(f"rotation_ratio.{body.name}", body.rotation_ratio, f"{path}.rotation")
         mass, inertia = (
-            given(f"{key}.{body.name}", value, f"transfer.bodies.{body.name}.{name}") if value else absent(key)
+            given(f"{key}.{body.name}", value, f"{path}.{name}") if value else absent(key)
             for key, name, value in (("body_mass", "mass", body.mass), ("body_inertia", "inertia", body.inertia))
         )
         found: Known = reduced_inertia_of_ratios(mass, velocity, inertia, rotation)
@@ -107,16 +125,16 @@ def _change(machine: TabulatedMachine, grid: CrankGrid, inertia: Known, row: Cal
     """Return the derivative of the reduced inertia: of the document, by differences, or of all positions at once."""
     key = "reduced_inertia_1"
     if machine.reduced_inertia_1 is not None:
-        return row(key, machine.reduced_inertia_1)
+        return row(key, machine.reduced_inertia_1, "transfer.reduced_inertia_1")
     column, of = replay(inertia, grid), (inertia,)
     if machine.differences == "spectral":
-        return row(key, difference_derivative(grid.angle, column, "spectral"), of)
-    ahead = row("reduced_inertia.next", np.roll(column, -1), of)
+        return row(key, difference_derivative(grid.angle, column, "spectral"), of=of)
+    ahead = row("reduced_inertia.next", np.roll(column, -1), of=of)
     step = np.append(np.diff(grid.angle), grid.angle[0] + 2 * np.pi - grid.angle[-1])
     if machine.differences == "forward":
         forward: Known = forward_difference(ahead, inertia, row("crank_angle.step", step))
         return forward
-    behind = row("reduced_inertia.previous", np.roll(column, 1), of)
+    behind = row("reduced_inertia.previous", np.roll(column, 1), of=of)
     central: Known = central_difference(ahead, behind, row("crank_angle.step", step + np.roll(step, 1)))
     return central
 
@@ -124,9 +142,10 @@ def _change(machine: TabulatedMachine, grid: CrankGrid, inertia: Known, row: Cal
 def _static(machine: TabulatedMachine, dynamic: Known, row: Callable[..., Known]) -> Known | None:
     """Return the static torque, given or left of the balancing torque."""
     if machine.static_torque is not None:
-        return row("static_torque", machine.static_torque)
+        return row("static_torque", machine.static_torque, "transfer.static_torque")
     if machine.balancing_torque is not None:
-        left: Known = static_torque_of_balancing(row("balancing_torque", machine.balancing_torque), dynamic)
+        balancing = row("balancing_torque", machine.balancing_torque, "transfer.balancing_torque")
+        left: Known = static_torque_of_balancing(balancing, dynamic)
         return left.named("static_torque")
     return None
 

@@ -58,7 +58,9 @@ def remembered_efficiency(chain: Chain, key: str = "efficiency", path: str = "ef
                 raise ValueError(f"{len(parts)} parallel chains need as many shares, none negative, that sum to 1")
             terms = []
             for at, (share, part) in enumerate(zip(shares, parts, strict=True), start=1):
-                inner = remembered_efficiency(part, f"{key}.{at}.0", f"{path}[{at}]")
+                # an efficiency of its own has the symbol of its place in the formula
+                own = "efficiency" if isinstance(part, float | int) else f"{key}.{at}.0"
+                inner = remembered_efficiency(part, own, f"{path}[{at}]")
                 terms.append(efficiency_share(share, inner).named(f"{key}.{at}"))
             return total(key, terms)
         case value:

@@ -13,14 +13,16 @@ from crankwork.formula.known import (
     Given,
     HalfTurns,
     Known,
+    OfAngle,
     Pieces,
     Root,
     Table,
     Total,
     Use,
 )
-from crankwork.formula.lines import FormulaLine, Moment
+from crankwork.formula.lines import FormulaLine, Moment, is_renamed
 from crankwork.formula.replay import Angles
+from crankwork.notation import ARGUMENTS
 
 
 class Explained(NamedTuple):
@@ -40,6 +42,8 @@ class Explained(NamedTuple):
         Where the law holds, of pieces. [deg]
     residual : bool
         Whether it must vanish: an equation that unknowns are found from.
+    word : str
+        Of the value of a table, what kind of table it is.
     """
 
     known: Known
@@ -48,6 +52,7 @@ class Explained(NamedTuple):
     value: float
     stretch: tuple[float, float] | None = None
     residual: bool = False
+    word: str = ""
 
 
 class Explanation:
@@ -66,6 +71,7 @@ class Explanation:
     def __init__(self, known: Known, degrees: float, angles_at: Callable[[Any], Angles]) -> None:
         self._angles_at, self._asked = angles_at, (known, degrees)
         self._moments: dict[float, Moment] = {}
+        self._spelt: dict[tuple[int, float], Known] = {}
         self._same = Moment(angles_at, degrees)
 
     def moment(self, degrees: float | None) -> Moment:
@@ -79,12 +85,12 @@ class Explanation:
         stack = [(*self._asked, "", False, False)]
         while stack:
             known, degrees, argument, residual, is_open = stack.pop()
-            law = self.moment(degrees).law(known)
+            law = self._spelled(self.moment(degrees).law(known), degrees)
             at = degrees if law.varies else None
             if is_open:
                 yield self._explained(known, law, argument, at, residual=residual)
                 continue
-            mark = (self._same.same(law), known.key or argument, at, residual)
+            mark = (self._same.same(law), _name(known, argument), at, residual)
             if mark in done or law.is_absent:
                 continue
             done.add(mark)
@@ -95,6 +101,18 @@ class Explanation:
             if not is_inlined:
                 stack.append((known, degrees, argument, residual, True))
             stack.extend((*one, False) for one in reversed(list(self._made_of(law, degrees))))
+
+    def _spelled(self, law: Known, degrees: float) -> Known:
+        """Return a value of a table as what it is made of, if the table knows it."""
+        node = law.node
+        if not isinstance(node, Table) or not hasattr(node.function, "between"):
+            return law
+        if (id(node), degrees) not in self._spelt:
+            at, by = degrees, Known(OfAngle("angle"), "crank_angle")
+            if node.by is not None:
+                at, by = self.moment(degrees).value(node.by), node.by
+            self._spelt[id(node), degrees] = node.function.between(at, by)
+        return Known(self._spelt[id(node), degrees].node, law.key)
 
     def _made_of(self, known: Known, degrees: float) -> Iterator[tuple[Known, float, str, bool]]:
         """Yield what a value is made of: the known, its crank angle, its argument, whether it must vanish."""
@@ -110,13 +128,26 @@ class Explanation:
 
     def _explained(self, known: Known, law: Known, argument: str, at: float | None, *, residual: bool) -> Explained:
         node, stretch = known.node, None
+        table = self.moment(at).law(known).node
+        word = table.word if isinstance(table, Table) else ""
         if isinstance(node, Pieces) and at is not None:
             ends = [None, *node.ends.tolist()]
             end = next((k for k, one in enumerate(ends) if one is not None and at <= one), len(ends) - 1)
             stretch = (0.0 if ends[end - 1] is None else ends[end - 1], ends[end])
         moment = self.moment(at)
         value = 0.0 if moment.is_noise(law) else moment.value(law)
-        return Explained(law, argument, at, value, stretch, residual)
+        return Explained(law, argument, at, value, stretch, residual, word)
+
+
+def _name(known: Known, argument: str) -> str:
+    """Return what tells a value from the same one under another name: its key, or the argument that it stands for."""
+    return argument if goes_by_argument(known, argument) else known.key or argument
+
+
+def goes_by_argument(known: Known, argument: str) -> bool:
+    """Return whether a value without a formula has the symbol of an argument, as the state before has: p₁."""
+    is_leaf = isinstance(known.node, Given | Found)
+    return is_leaf and argument in ARGUMENTS and ARGUMENTS[argument].pattern != "{}" and not is_renamed(argument, known)
 
 
 def _made_of(known: Known, degrees: float) -> Iterator[tuple[Known, float, str, bool]]:

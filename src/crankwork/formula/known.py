@@ -111,7 +111,7 @@ class Table(Node):
     """What is defined on rows of its own: measured, integrated or counted. `knots` are where it is not smooth. [deg]
 
     `word` says what kind of table it is, `operands` what it was made from. It is read at the crank angle [deg], or
-    `by` another column.
+    `by` another column. A function with `between` says what a value is made of at one place.
     """
 
     __slots__ = ("by", "function", "knots", "word")

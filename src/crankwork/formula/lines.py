@@ -279,7 +279,7 @@ class Moment:
 
     def _is_renamed(self, name: str, operand: Known) -> bool:
         """Return whether an operand prints the symbol of its own key and not that of the argument."""
-        return bool(operand.key) if self._mark and operand.varies else _is_renamed(name, operand)
+        return bool(operand.key) if self._mark and operand.varies else is_renamed(name, operand)
 
     def _made_of(self, known: Known) -> Iterator[Known]:
         """Yield what can be replayed at this crank angle of all that a known is made of."""
@@ -384,7 +384,7 @@ def _is_made(known: Known) -> bool:
     return isinstance(known.node, Use | Arithmetic | Total | Pieces)
 
 
-def _is_renamed(name: str, operand: Known) -> bool:
+def is_renamed(name: str, operand: Known) -> bool:
     """Return whether an operand prints the symbol of its own key and not that of the argument."""
     if not operand.key:
         return False

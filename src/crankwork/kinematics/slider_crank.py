@@ -7,13 +7,14 @@ crankshaft. Transfer functions are derivatives by the crank angle.
 
 from __future__ import annotations
 
+import operator
 from typing import NamedTuple
 
 import numpy as np
 
 from crankwork.errors import GeometryError
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import called
+from crankwork.formula.known import Arithmetic, called, is_known
 from crankwork.kinematics.crank_grid import CrankGrid
 
 
@@ -129,6 +130,10 @@ class SliderCrank(NamedTuple):
     @property
     def rod_ratio(self) -> Value:
         """Crank radius over rod length. [-]"""
+        made = self.rod_length.node if is_known(self.rod_length) else None
+        if isinstance(made, Arithmetic) and made.inputs[0] is self.crank_radius and made.function is operator.truediv:
+            # what the length was made of
+            return made.inputs[1]
         return rod_ratio(self.crank_radius, self.rod_length)
 
     @property

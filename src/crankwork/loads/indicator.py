@@ -67,9 +67,9 @@ class Segment:
     """A solved piece from `start` to `end` [deg]: knots of a curve [deg], [Pa], or a polytrope's state.
 
     `origin` is the named point whose state or pressure that is, if it has a name; `piece` the number of the piece in
-    the description; `of` is what a calculated pressure was made from:
-    of a constant its pressure, of a polytrope pressure, exponent and what else its volume follows from, of a curve
-    what its equation takes.
+    the description; `places` where that, or a file of measurements, states the pressures at the knots. `of` is what a
+    calculated pressure was made from: of a constant its pressure, of a polytrope pressure, exponent and what else its
+    volume follows from, of a curve what its equation takes.
     """
 
     start: float
@@ -81,7 +81,13 @@ class Segment:
     state: tuple[float, float, float] = (0.0, 0.0, 0.0)
     origin: str = ""
     piece: int = 0
+    places: tuple[str, ...] = field(default=(), compare=False)
     of: tuple[Known, ...] = field(default=(), compare=False)
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether its knots are samples of a file."""
+        return any(":" in one for one in self.places) or "gas.measured.file" in self.places
 
     def rounded(self, degrees: Array) -> Array:
         """Return the pressure on the curve through the knots, shape (n,). [Pa]"""
@@ -301,7 +307,8 @@ class _Solver:
             slopes = monotone_slopes(knots, pressures)
         for name, angle, pressure in zip(piece.points, knots, pressures, strict=True):
             self.settle(name, float(angle), float(pressure))
-        return Segment(float(knots[0]), float(knots[-1]), "rounded", knots, pressures, slopes)
+        places = tuple(f"gas.points.{name}.pressure" for name in piece.points)
+        return Segment(float(knots[0]), float(knots[-1]), "rounded", knots, pressures, slopes, places=places)
 
 
 def _check_chain(segments: list[Segment], cycle: float, named: Mapping[str, tuple[float, float]]) -> None:

@@ -14,6 +14,7 @@ from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
 _GAP_FACTOR = 4.0
 _SAME_ANGLE = 1e-6
 _WRAP = 0.05
+_FILE = "gas.measured.file"
 
 
 @dataclass(frozen=True)
@@ -49,23 +50,27 @@ def measured_diagram(
     degrees, pressure = degrees[keep], pressure[keep]
     slopes = monotone_slopes(degrees, pressure, periodic=True)
     samples = [hermite(degrees, pressure, slopes, start + number * cycle + offsets) for number in range(cycles)]
-    return _closed(offsets + start + shift, np.mean(samples, axis=0), cycle), cycles, wrap
+    # what is averaged or resampled stands on no line
+    is_sample = cycles == 1 and step is None
+    places = [f"{measured.file}:{row}" if is_sample else _FILE for row in measured.rows[: len(offsets)] or offsets]
+    return _closed(offsets + start + shift, np.mean(samples, axis=0), cycle, places), cycles, wrap
 
 
-def _closed(degrees: Array, pressure: Array, cycle: float) -> IndicatorDiagram:
+def _closed(degrees: Array, pressure: Array, cycle: float, places: Sequence[str]) -> IndicatorDiagram:
     """Return a diagram from 0 to `cycle` through samples at any angles of one period."""
     degrees = np.asarray(np.round(np.mod(degrees, cycle), 9) % cycle)
     order = np.argsort(degrees)
     degrees, pressure = degrees[order], pressure[order]
+    stated = {degree: places[at] for degree, at in zip(degrees.tolist(), order.tolist(), strict=True)}
     around = np.concatenate([[degrees[-1] - cycle], degrees, [degrees[0] + cycle]])
     values = np.concatenate([pressure[-1:], pressure, pressure[:1]])
     slopes = monotone_slopes(around[1:], values[1:], periodic=True)
     slopes = np.concatenate([slopes[-2:-1], slopes])
     curve = (around, values, slopes)
     inside = np.concatenate([[0.0], around[(around > 0) & (around < cycle)], [cycle]])
-    return IndicatorDiagram(
-        (Segment(0.0, cycle, "rounded", inside, hermite(*curve, inside), hermite_slope(*curve, inside)),), {}
-    )
+    values, slopes = hermite(*curve, inside), hermite_slope(*curve, inside)
+    names = tuple(stated.get(one % cycle, _FILE) for one in inside.tolist())
+    return IndicatorDiagram((Segment(0.0, cycle, "rounded", inside, values, slopes, places=names),), {})
 
 
 def _check_angles(measured: MeasuredPressure, cycle: float) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from crankwork.kinematics.crank_grid import Array
+from crankwork.loads.between import cubic_between
 
 
 def monotone_slopes(x: Array, y: Array, *, periodic: bool = False) -> Array:
@@ -52,14 +53,7 @@ def hermite(x: Array, y: Array, slopes: Array, at: Array) -> Array:
     """
     i = np.clip(np.searchsorted(x, at, side="right") - 1, 0, len(x) - 2)
     h = x[i + 1] - x[i]
-    t = (at - x[i]) / h
-    s = 1 - t
-    return (
-        y[i] * (1 + 2 * t) * s**2
-        + slopes[i] * h * t * s**2
-        + y[i + 1] * t**2 * (1 + 2 * s)
-        - slopes[i + 1] * h * t**2 * s
-    )
+    return cubic_between((y[i], y[i + 1]), (slopes[i] * h, slopes[i + 1] * h), (at - x[i]) / h)  # type: ignore[no-any-return]
 
 
 def hermite_slope(x: Array, y: Array, slopes: Array, at: Array) -> Array:

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+
+import numpy as np
 
 from crankwork.formula.known import Found, Known, Pieces, Table, given
 from crankwork.formula.replay import replay
-from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.loads.between import CurvePoint, curve_between
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import IndicatorDiagram, Segment
 
@@ -53,5 +57,32 @@ def _law(diagram: IndicatorDiagram, segment: Segment, volume: Known) -> Known:
         case "polytropic":
             p_1, V_1, exponent = polytrope_origin(diagram, segment, volume)
             return polytropic_pressure(p_1, V_1, volume, exponent)  # type: ignore[no-any-return]
-    word = "first_law" if segment.of else "rounded"
-    return Known(Table(segment.rounded, word, segment.knots.tolist(), segment.of), "diagram_pressure")
+    word = "first_law" if segment.of else "measured" if segment.is_measured else "curve"
+    return Known(Table(PressureCurve(segment), word, segment.knots.tolist(), segment.of), "diagram_pressure")
+
+
+@dataclass(frozen=True)
+class PressureCurve:
+    """The pressure on the curve of a segment. [deg] -> [Pa]"""
+
+    segment: Segment
+
+    def __call__(self, degrees: Array) -> Array:
+        """Return the pressure at crank angles."""
+        return self.segment.rounded(degrees)
+
+    def between(self, degrees: float, by: Known) -> Known:
+        """Return the pressure at one crank angle, of the knots that it lies between."""
+        knots = self.segment.knots
+        at = int(np.clip(np.searchsorted(knots, degrees, side="right") - 1, 0, len(knots) - 2))
+        return curve_between("diagram_pressure", by, self._knot(at), self._knot(at + 1))
+
+    def _knot(self, at: int) -> CurvePoint:
+        one = self.segment
+        degrees, pressure, slope = (float(part[at]) for part in (one.knots, one.pressures, one.slopes))
+        if one.of:
+            found = Known(Found(pressure, "first_law", one.of))
+            return CurvePoint(Known(Found(math.radians(degrees), "step")), found, math.degrees(slope))
+        path = one.places[at] if one.places else "cycle.timing"
+        angle = given("", math.radians(degrees), path.replace(".pressure", ".angle"))
+        return CurvePoint(angle, given("", pressure, path), math.degrees(slope))

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 
 from crankwork.analysis.results import Results
 from crankwork.description.origins import Origin
-from crankwork.formula.explained import Explained, Explanation, is_given
+from crankwork.formula.explained import Explained, Explanation, goes_by_argument, is_given
 from crankwork.formula.expression import symbol
 from crankwork.formula.known import (
     Arithmetic,
@@ -146,7 +146,7 @@ class _Printed:
         match known.node:
             case OfAngle(function=function, multiple=multiple, shift=shift) if not _has_own_symbol(known):
                 return _of_angle(function, multiple, shift, self._language)
-        if known.key:
+        if known.key and not goes_by_argument(known, argument):
             return value_symbol(known.key, self._language)
         return symbol(argument, self._language) if argument in ARGUMENTS else "?"
 
@@ -160,6 +160,7 @@ class _Printed:
             case Use() | Arithmetic() | Total():
                 step = without_noise(self._explanation.moment(one.degrees).step(known))
                 parts = ["0"] if one.residual else parts
+                parts += [say(f"memory.{one.word}", language)] if one.word else []
                 found = line_parts(step, language)
                 parts += found[: -len(shown_values(step))] if one.residual else found
                 source = step.formula.source if isinstance(step, FormulaLine) else ""
@@ -237,7 +238,11 @@ class _Printed:
             shown = self._shown(one)
             si = float(to_si(one.value, node.unit)) if node.unit in UNITS else one.value
             numbers = [si, *(number for number, _ in shown)]
-            where = self._place(node.path, numbers) if node.path else say("explain.taken", self._language)
+            file, _, row = node.path.partition(":")
+            if row:
+                where = say("explain.line", self._language, path=file, line=row)
+            else:
+                where = self._place(node.path, numbers) if node.path else say("explain.taken", self._language)
             values = [self._symbol(one.known, one.argument), *(value_text(*pair, self._language) for pair in shown)]
             lines.append(f"  {' = '.join(values)}   {where}")
         if lines:

@@ -9,7 +9,7 @@ from typing import cast
 import numpy as np
 
 from crankwork.analysis import Results
-from crankwork.formula.known import Found, Known, Use, in_order
+from crankwork.formula.known import Found, Given, Known, Use, in_order
 from crankwork.formula.lines import Line, ValueLine
 from crankwork.linkage_machine import LinkageMachine, TabulatedMachine
 from crankwork.note.groups import Group
@@ -89,7 +89,9 @@ def _efficiency(results: Results) -> Iterator[Line]:
         return
     moment = results.moment()
     for known in in_order([memory["efficiency"]]):
-        if known.key and not isinstance(known.node, Found):
+        # an efficiency of its own stands in the line of its share
+        is_alone = known.key == "efficiency" and isinstance(known.node, Given)
+        if known.key and not is_alone and not isinstance(known.node, Found):
             yield moment.step(known)
 
 

@@ -89,6 +89,7 @@ ROWS = (
     Quantity("rotating_mass", "kg", "Crank throw and the rod mass at the crankpin.", "g/cm2"),
     # gas
     Quantity("gas_pressure", "MPa", "Pressure above that on the crankcase side."),
+    Quantity("curve_share", "", "Way from a point of a curve over that to the next one."),
     Quantity("diagram_pressure", "MPa",
              "Pressure in the cylinder, absolute or above that in the crankcase, as the diagram is given."),
     Quantity("polytropic_exponent", "", "Exponent of the volume in the equation of a polytrope."),

@@ -56,7 +56,8 @@ def _remembering(diagram: IndicatorDiagram, corners: Corners) -> IndicatorDiagra
         if segment.law == "polytropic":
             origin = _ORIGINS.get(segment.origin, segment.origin)
             return replace(segment, origin=origin, of=lines[origin])
-        return replace(segment, of=constants.get(segment.pressures[0], ()) if segment.law == "constant" else ())
+        of = constants.get(segment.pressures[0], ()) if segment.law == "constant" else ()
+        return replace(segment, places=(), of=of)
 
     return replace(diagram, segments=tuple(remembering(one) for one in diagram.segments))
 
