@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from crankwork.dynamics.efficiency import Series
 from crankwork.dynamics.tabulated import Differences, TabulatedBody
 from crankwork.loads.load import Load
-from crankwork.machine import Machine
+from crankwork.machine import Machine, Stated
 from crankwork.mechanism.linkage import Linkage
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.method import EXACT, Method
@@ -91,6 +92,8 @@ class LinkageMachine:
     method: Method = EXACT
     table_step: float = 10.0
     table_special: tuple[float, ...] = ()
+    # The numbers of the description by their paths: `crank.speed`; a machine may be made without one
+    stated: Mapping[str, Stated] = field(default_factory=dict, compare=False, repr=False)
 
     @property
     def cycle(self) -> float:
@@ -134,6 +137,8 @@ class TabulatedMachine:
     balancing_torque: tuple[float, ...] | None = None
     drive: Drive = Drive()
     method: Method = EXACT
+    # The numbers of the description by their paths: `crank.speed`; a machine may be made without one
+    stated: Mapping[str, Stated] = field(default_factory=dict, compare=False, repr=False)
 
     @property
     def cycle(self) -> float:

@@ -87,7 +87,10 @@ def _followed(solved: Solved) -> tuple[dict[str, Known], dict[str, str]]:
         exact = solve(solved.machine, replace(solved.method.named("exact"), inertia_rod_ratio=None)).memory
         wrong = {f"{key}_error": key for key in ("piston_displacement", *_MOVING, *_WRONG_FORCES) if key in memory}
         found |= {key: memory[key] for key in wrong.values()}
-        found |= {error: memory[key] - exact[key] for error, key in wrong.items()}
+        found |= {
+            error: (memory[key].named(key) - exact[key].named(f"{key}.exact")).named(error)
+            for error, key in wrong.items()
+        }
     return found, wrong
 
 

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from crankwork.analysis import origins
 from crankwork.analysis.cylinders import WholeEngine
 from crankwork.analysis.results import Listing
 from crankwork.cylinders import bearings as formulas
@@ -125,9 +126,9 @@ def _small_end(whole: WholeEngine) -> Iterator[Known]:
         mass = memory["piston_mass"]
         if machine.has_gravity:
             g = given("gravity", whole.master.method.gravity, "method.gravity")
-            lean = machine.cylinder.inclination if machine.cylinder is not None else 0.0
-            along = weight_force(mass, g, math.cos(lean)).named("weight_force.piston")
-            beside = transverse_weight(mass, g, math.sin(lean)).named("transverse_weight.piston")
+            cos, sin = origins.inclination(machine)
+            along = weight_force(mass, g, cos).named("weight_force.piston")
+            beside = transverse_weight(mass, g, sin).named("transverse_weight.piston")
             across += [beside] if beside.value else []
     force = formulas.piston_pin_force(memory.get("gas_force", absent("gas_force")), mass, acceleration, along)
     yield force

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator
 
 from crankwork.analysis import origins
@@ -82,10 +81,11 @@ def _axial_forces(solved: Solved, moving: MovingCylinder) -> Iterator[Known]:
         inertia = forces.inertia_force(mass, acceleration)
         yield inertia
         if machine.has_gravity:
-            g, lean = given("gravity", solved.method.gravity, "method.gravity"), _inclination(solved)
-            weight = forces.weight_force(mass, g, math.cos(lean))
+            g = given("gravity", solved.method.gravity, "method.gravity")
+            cos, sin = origins.inclination(solved.machine)
+            weight = forces.weight_force(mass, g, cos)
             yield weight
-            across = forces.transverse_weight(mass, g, math.sin(lean))
+            across = forces.transverse_weight(mass, g, sin)
             if across.value:
                 yield across
     yield forces.piston_force(memory.get("gas_force", absent("gas_force")), inertia, weight)
@@ -124,7 +124,7 @@ def _rotating(solved: Solved, moving: MovingCylinder) -> Iterator[Known]:
     yield forces.rotating_inertia_force(mass, r, moving.speed)
     if machine.has_gravity or machine.angular_acceleration:
         g = given("gravity", solved.method.gravity, "method.gravity") if machine.has_gravity else absent("")
-        cos, sin = math.cos(_inclination(solved)), math.sin(_inclination(solved))
+        cos, sin = origins.inclination(machine)
         yield forces.rotating_torque(mass, r, g, angle.sin, cos, angle.cos, sin, moving.angular_acceleration)
 
 
@@ -141,10 +141,6 @@ def _slave_forces(solved: Solved, moving: MovingCylinder) -> Iterator[Known]:
     if solved.machine.masses is not None:
         mass = moving.memory["rotating_mass"]
         yield forces.rotating_inertia_force(mass, moving.lengths.crank_radius, moving.speed)
-
-
-def _inclination(solved: Solved) -> float:
-    return solved.machine.cylinder.inclination if solved.machine.cylinder is not None else 0.0
 
 
 FACTORS = ("side_factor", "rod_factor", "radial_factor", "tangential_factor")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from crankwork.analysis import origins
 from crankwork.analysis.motion import MovingCylinder
 from crankwork.analysis.solved import Solved, WorkingSpace
 from crankwork.formula.known import Known, absent, given
@@ -15,8 +16,9 @@ def space_memory(solved: Solved, moving: MovingCylinder) -> dict[str, Known]:
     cylinder, space = solved.machine.cylinder, solved.space
     if cylinder is None:
         return {}
-    area = gas.piston_area(solved.method.pi, given("bore", cylinder.bore, "cylinder.bore"))
-    found = [given("bore", cylinder.bore, "cylinder.bore"), area]
+    bore = origins.bore(solved.machine, cylinder.bore)
+    area = gas.piston_area(solved.method.pi, bore)
+    found = [bore, area]
     if space is not None:
         stroke = solved.remembered_stroke(moving.lengths)
         swept = gas.swept_volume(area, stroke)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from crankwork.analysis import origins
 from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor, remembered_efficiency
 from crankwork.dynamics.force_parts import balancing_torque_of_parts
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.link_loads import link_angular_acceleration
-from crankwork.dynamics.piston_forces import angular_speed
 from crankwork.dynamics.reaction import JointForces
 from crankwork.dynamics.reduction import dynamic_torque, kinetic_energy, reduced_inertia, reduced_torque, static_torque
 from crankwork.dynamics.running import Running
@@ -40,11 +40,9 @@ def linkage_memory(machine: LinkageMachine, moved: Motion) -> dict[str, Known]:
 
 def speed_of(machine: LinkageMachine | TabulatedMachine) -> Known:
     """Return the angular speed of the crank, with the method's own pi."""
-    if machine.method.pi == math.pi:
+    if machine.method.pi == math.pi and not machine.stated:
         return given("speed", machine.speed, "crank.speed")
-    turns = given("rotational_speed", machine.speed * 30 / math.pi, "crank.speed", "rpm")
-    found: Known = angular_speed(machine.method.pi, turns)
-    return found
+    return origins.speed(machine, machine.method)
 
 
 def efficiency_of(drive: Drive) -> Known:

@@ -8,14 +8,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from crankwork.dynamics.masses import CrankGearMasses, rod_big_end_mass, rod_inertia_excess, rod_small_end_mass
 from crankwork.dynamics.piston_forces import angular_speed
-from crankwork.formula.known import Known, absent, given
+from crankwork.formula.known import Found, Known, absent, given
 from crankwork.kinematics.slider_crank import SliderCrank, stroke_central, stroke_offset
 from crankwork.machine import Machine, Stated
 from crankwork.method import Method
 from crankwork.units import UNITS
+
+if TYPE_CHECKING:
+    from crankwork.linkage_machine import AnyMachine
 
 _SAME = 1e-12
 
@@ -24,6 +28,9 @@ def lengths(machine: Machine, sizes: SliderCrank) -> SliderCrank:
     """Return crank radius, rod length and offset."""
     r, l, e = (float(one) for one in sizes)  # noqa: E741
     radius = given("crank_radius", r, "crank.radius")
+    calculated = of_cycle(machine, "stroke")
+    if calculated is not None:
+        radius = _checked(calculated / 2, radius)
     stroke, ratio = (_stated(machine, key) for key in ("crank.stroke", "rod.ratio"))
     if stroke is not None:
         radius = _checked(given("stroke", stroke.value, "crank.stroke") / 2, radius)
@@ -33,6 +40,19 @@ def lengths(machine: Machine, sizes: SliderCrank) -> SliderCrank:
     elif ratio is not None:
         length = _checked(radius * given("inverse_rod_ratio", ratio.value, "rod.ratio"), length)
     return SliderCrank(radius, length, given("offset", e, "cylinder.offset") if e else absent("offset"))
+
+
+def of_cycle(machine: Machine, key: str) -> Known | None:
+    """Return what the calculation of a cycle found for a size that the description leaves open."""
+    cycle = getattr(machine.gas.calculated, "cycle", None) if machine.gas is not None else None
+    asked = _stated(machine, "cycle.power")
+    return None if cycle is None or asked is None else cycle.memory.get(key)
+
+
+def bore(machine: Machine, size: float) -> Known:
+    """Return the bore: stated, or of the calculation of the cycle."""
+    stated, calculated = given("bore", size, "cylinder.bore"), of_cycle(machine, "bore")
+    return stated if calculated is None else _checked(calculated, stated)
 
 
 def stroke(lengths: SliderCrank) -> Known:
@@ -45,16 +65,23 @@ def stroke(lengths: SliderCrank) -> Known:
     return found
 
 
-def revolutions(machine: Machine) -> Known:
+def revolutions(machine: AnyMachine) -> Known:
     """Return the speed of the crank in revolutions per minute."""
     return given("rotational_speed", machine.speed * 30 / math.pi, "crank.speed", "rpm")
 
 
-def speed(machine: Machine, method: Method) -> Known:
+def speed(machine: AnyMachine, method: Method) -> Known:
     """Return the angular speed of the crank: stated, or of its revolutions with the method's own pi."""
     stated, found = _stated(machine, "crank.speed"), angular_speed(method.pi, revolutions(machine))
     in_radians = stated is not None and UNITS[stated.unit].factor == 1.0
     return _checked(given("speed", stated.value, "crank.speed"), found) if stated and in_radians else found
+
+
+def inclination(machine: Machine) -> tuple[Known, Known]:
+    """Return cosine and sine of the angle by which the cylinder leans."""
+    lean = machine.cylinder.inclination if machine.cylinder is not None else 0.0
+    angle = given("inclination", lean, "cylinder.inclination")
+    return Known(Found(math.cos(lean), "cosine", (angle,))), Known(Found(math.sin(lean), "sine", (angle,)))
 
 
 def cycle_angle(machine: Machine) -> Known:
@@ -110,7 +137,7 @@ def _excess(machine: Machine, mass: Known, centre: Known, length: Known, excess:
     return _checked(rod_inertia_excess(own, mass, centre, length), excess)
 
 
-def _stated(machine: Machine, path: str) -> Stated | None:
+def _stated(machine: AnyMachine, path: str) -> Stated | None:
     return machine.stated.get(path)
 
 

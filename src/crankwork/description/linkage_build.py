@@ -14,6 +14,7 @@ from crankwork.analysis.linkage import reachable
 from crankwork.analysis.linkage_speed import transient_summary
 from crankwork.description.build import build_method, crank_speed
 from crankwork.description.schema import Measure, Reader
+from crankwork.description.stated import stated_numbers
 from crankwork.dynamics.efficiency import Chain as EfficiencyChain
 from crankwork.dynamics.efficiency import Parallel, Series, efficiency
 from crankwork.dynamics.reduction import reduced_inertia
@@ -90,6 +91,7 @@ def build_linkage(values: Mapping[str, Any], reader: Reader) -> LinkageMachine |
         method=method,
         table_step=round(math.degrees(_value(table, "step", math.radians(10.0))), 9),
         table_special=tuple(round(math.degrees(one.value), 9) for one in table.get("special_angles", []) if one),
+        stated=stated_numbers(values),
     )
     return machine if _moves(machine, reader) else None
 
@@ -247,6 +249,7 @@ def build_tabulated(values: Mapping[str, Any], reader: Reader) -> TabulatedMachi
         reduced_inertia_1=optional["reduced_inertia_1"],
         static_torque=optional["static_torque"],
         balancing_torque=optional["balancing_torque"],
+        stated=stated_numbers(values),
     )
 
 

@@ -31,6 +31,7 @@ from crankwork.formula.known import (
 )
 from crankwork.formula.replay import Angles, Program
 from crankwork.notation import ARGUMENTS
+from crankwork.quantities import base_key
 
 # an angle that was found is printed with ten digits; no such rest of a term reaches the other
 _NOISE, _LARGEST_NOISE = 1e-10, 1e-4
@@ -377,7 +378,7 @@ _OF_ORDER = {
 
 def _written_in_place(known: Known) -> Formula:
     """Return plain arithmetic under the name of a quantity as a formula that nobody is quoted for."""
-    return Formula(lambda one: one, known.key.partition(".")[0], "")
+    return Formula(lambda one: one, base_key(known.key), "")
 
 
 def _is_made(known: Known) -> bool:

@@ -51,8 +51,8 @@ def measured_diagram(
     slopes = monotone_slopes(degrees, pressure, periodic=True)
     samples = [hermite(degrees, pressure, slopes, start + number * cycle + offsets) for number in range(cycles)]
     # what is averaged or resampled stands on no line
-    is_sample = cycles == 1 and step is None
-    places = [f"{measured.file}:{row}" if is_sample else _FILE for row in measured.rows[: len(offsets)] or offsets]
+    rows = measured.rows[: len(offsets)] if cycles == 1 and step is None else ()
+    places = [f"{measured.file}:{row}" for row in rows] or [_FILE] * len(offsets)
     return _closed(offsets + start + shift, np.mean(samples, axis=0), cycle, places), cycles, wrap
 
 

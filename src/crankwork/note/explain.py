@@ -69,13 +69,11 @@ def explanation(
 
 def key_lines(results: Results, language: Language = "en") -> list[str]:
     """Return the keys of results, each with its name; a column has its sign of varying with the crank angle."""
-    keys = [*results.columns, *results.summary]
+    keys = dict.fromkeys((*results.columns, *results.summary))
     wide = max(map(len, keys))
-    phi = QUANTITIES["crank_angle"].symbol(language)
-    return [
-        f"{key:<{wide}}  {f'({phi})' if key in results.columns else '   '}  {label(key, language)}".rstrip()
-        for key in keys
-    ]
+    sign = f"({QUANTITIES['crank_angle'].symbol(language)})"
+    varying = {key for key in keys if key in results.columns and results.memory[key].varies}
+    return [f"{key:<{wide}}  {sign if key in varying else '   '}  {label(key, language)}".rstrip() for key in keys]
 
 
 def place_text(origin: Origin, language: Language) -> str:
@@ -251,7 +249,8 @@ class _Printed:
 
 def _stands_at(one: Explained) -> bool:
     """Return whether a value was found of columns at a crank angle."""
-    return isinstance(one.known.node, Found) and one.known.node.at is not None
+    node = one.known.node
+    return isinstance(node, Found) and node.at is not None and bool(node.operands)
 
 
 def _has_own_symbol(known: Known) -> bool:

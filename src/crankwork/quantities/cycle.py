@@ -130,6 +130,7 @@ ROWS = (
     Quantity("expansion_line", "MPa", "Absolute pressure of the polytrope of expansion."),
     # heat release
     Quantity("burning_progress", "", "Crank angle since the start of burning over its duration."),
+    Quantity("burning_advance", "deg", "Crank angle from the start of burning to top dead centre."),
     Quantity("burning_start", "deg", "Crank angle at which heat begins to be released."),
     Quantity("burning_duration", "deg", "Crank angle from the start of burning until 0.999 of the heat is released."),
     Quantity("burning_shape", "", "Exponent of the Wiebe function; larger burns later."),

@@ -177,16 +177,11 @@ def closed_gas(
     shut, begin, end = (one.start for one in stages(data, dead_centres))
     clearance, largest, shut_volume = (float(one) for one in volume_at(np.array([*dead_centres, shut])))
     _give(worked, data)
-    area = float(gas_formulas.piston_area(math.pi, data.bore))
-    cylinder = {
-        "clearance_volume": clearance,
-        "swept_volume": largest - clearance,
-        "piston_area": area,
-        "mean_piston_speed": float(mean_piston_speed((largest - clearance) / area, data.rotational_speed)),
-    }
-    worked.known |= {key: Known(Found(value, "value"), key) for key, value in cylinder.items()}
-    worked.known["V_1"] = Known(Found(shut_volume, "value", at=shut), "cylinder_volume")
-    worked.given("burning_start", math.radians(begin), "cycle.combustion_start")
+    _give_sizes(worked, clearance, largest)
+    worked.known["V_1"] = volume_when(worked, shut_volume, shut).named("cylinder_volume.1")
+    turn = Known(Found(math.radians(dead_centres[0] + 360.0), "dead_centre"), "top_dead_centre_angle")
+    advance = given("burning_advance", math.radians(data.burning_advance), "cycle.combustion_start")
+    worked.known["burning_start"] = (turn - advance).named("burning_start")
     for key in ("head_area", "crown_area"):
         worked.known.setdefault(key, worked["piston_area"])
     if data.heat is None:
@@ -206,11 +201,29 @@ def closed_gas(
         shut_volume=shut_volume,
         mass=mass,
         heat=heat,
-        piston_speed=cylinder["mean_piston_speed"],
+        piston_speed=worked["mean_piston_speed"].value,
         areas=(worked["head_area"].value, worked["crown_area"].value),
         burning=(begin, end),
         first=shut,
     )
+
+
+def _give_sizes(worked: Worked, clearance: float, largest: float) -> None:
+    """Take area, volumes and mean speed of the piston, of the stroke and the compression ratio of the cylinder."""
+    area = gas_formulas.piston_area(math.pi, worked["bore"])
+    stroke = given("stroke", (largest - clearance) / area.value, "crank.stroke")
+    ratio = given("compression_ratio", largest / clearance, "cylinder.compression_ratio")
+    swept, speed = gas_formulas.swept_volume(area, stroke), mean_piston_speed(stroke, worked["rotational_speed"])
+    found = (area, swept, gas_formulas.clearance_volume(swept, ratio), speed)
+    worked.known |= {one.key: one for one in found}
+
+
+def volume_when(worked: Worked, volume: float, degrees: float) -> Known:
+    """Return the volume of the cylinder at a crank angle, of the way that the piston has come. [m3]"""
+    clearance, area = worked["clearance_volume"], worked["piston_area"]
+    way = Known(Found((volume - clearance.value) / area.value, "motion", at=degrees), "piston_displacement")
+    found: Known = gas_formulas.cylinder_volume(clearance, area, way)
+    return found
 
 
 # what the heat is made of, where it is not stated itself

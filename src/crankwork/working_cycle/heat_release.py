@@ -25,7 +25,7 @@ from crankwork.loads.pressure import remembered_pressure
 from crankwork.method import EXACT, Method
 from crankwork.working_cycle import first_law, wiebe, woschni
 from crankwork.working_cycle.calculated_cycle import Calculated
-from crankwork.working_cycle.closed_gas import ClosedGas, closed_gas
+from crankwork.working_cycle.closed_gas import ClosedGas, closed_gas, volume_when
 from crankwork.working_cycle.gas_exchange import constant_pressure, from_before_zero, passage, within_cycle
 from crankwork.working_cycle.heat_data import HeatReleaseData, Stage, stages
 from crankwork.working_cycle.validity import heat_notices
@@ -95,12 +95,12 @@ def heat_release(
     segments = [one for one, _ in solved]
     trace = _trace(gas, solved)
     # a curve that was integrated needs no volume
-    pressure = remembered_pressure(IndicatorDiagram(tuple(segments), {}), absent("cylinder_volume"))
+    diagram = _diagram(data, segments, dead_centres, (worked["residual_pressure"], worked["intake_pressure"]))
+    pressure = remembered_pressure(diagram, absent("cylinder_volume"))
     work, wall = (float(sum(change[i] for _, change in solved)) for i in (1, 2))
     stored = gas.energy_change(trace.temperature[-1])
     # burning ends before the exhaust opens
     burnt = wiebe.wiebe_burnt_fraction(1.0, worked["burning_shape"]).named("burnt_fraction.exhaust")
-    diagram = _diagram(data, segments, dead_centres, (worked["residual_pressure"], worked["intake_pressure"]))
     memory = {"fuel_heat": worked["fuel_heat"], "heat_released": (worked["fuel_heat"] * burnt).named("heat_released")}
     memory |= {
         key: Known(Found(value, "integral", (pressure,)), key)
@@ -252,11 +252,10 @@ def work_peak(gas: ClosedGas, memory: Mapping[str, Known], worked: Worked) -> No
     pressure = memory["cylinder_pressure_max"].named("cylinder_pressure")
     degrees = math.degrees(memory["cylinder_pressure_max_angle"].value)
     degrees += data.cycle if degrees < gas.first else 0.0
-    volume, growth = (
-        Known(Found(float(one(np.array([degrees]))[0]), "value", at=degrees), key)
-        for one, key in ((gas.volume_at, "cylinder_volume"), (gas.volume_rate_at, ""))
-    )
-    worked.known |= {"cylinder_pressure": pressure, "cylinder_volume": volume}
+    volume, growth = (float(one(np.array([degrees]))[0]) for one in (gas.volume_at, gas.volume_rate_at))
+    area = worked["piston_area"]
+    slope = Known(Found(growth / area.value, "motion", at=degrees), "piston_transfer_1")
+    worked.known |= {"cylinder_pressure": pressure, "cylinder_volume": volume_when(worked, volume, degrees)}
     worked.known["crank_angle"] = Known(Found(math.radians(degrees), "max_angle", (pressure,), degrees), "crank_angle")
     if start < degrees < end:
         worked(wiebe.burning_progress)
@@ -270,13 +269,13 @@ def work_peak(gas: ClosedGas, memory: Mapping[str, Known], worked: Worked) -> No
     else:
         worked(first_law.gas_heat_ratio)
     if data.has_wall_loss:
-        _work_walls(gas, pressure, worked, woschni.EXPANSION if degrees > start else woschni.COMPRESSION)
+        _work_walls(pressure, worked, woschni.EXPANSION if degrees > start else woschni.COMPRESSION)
     else:
         worked.absent("wall_heat_rate")
-    worked(first_law.pressure_rise, V_phi=growth)
+    worked(first_law.pressure_rise, V_phi=area * slope)
 
 
-def _work_walls(gas: ClosedGas, pressure: Known, worked: Worked, factor: woschni.GasSpeedFactors) -> None:
+def _work_walls(pressure: Known, worked: Worked, factor: woschni.GasSpeedFactors) -> None:
     """Work out the heat to the walls."""
     motored = worked(gas_formulas.polytropic_pressure, "motored_pressure", p_1=worked["p_shut"])
     higher = pressure if pressure.value > motored.value else motored
@@ -285,4 +284,4 @@ def _work_walls(gas: ClosedGas, pressure: Known, worked: Worked, factor: woschni
     below_head = worked["cylinder_volume"] - worked["clearance_volume"]
     x = (below_head / worked["piston_area"]).named("piston_displacement")
     worked(woschni.wall_area, pi=math.pi, x=x)
-    worked(woschni.wall_heat_rate, w=Known(Found(gas.speed, "value"), "speed"))
+    worked(woschni.wall_heat_rate, w=(math.pi * worked["rotational_speed"] / 30).named("speed"))
