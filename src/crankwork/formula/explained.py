@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from crankwork.formula.known import (
     Arithmetic,
     Component,
@@ -44,6 +46,8 @@ class Explained(NamedTuple):
         Whether it must vanish: an equation that unknowns are found from.
     word : str
         Of the value of a table, what kind of table it is.
+    own : str
+        Of a given law of pieces, the key that it has besides.
     """
 
     known: Known
@@ -53,6 +57,7 @@ class Explained(NamedTuple):
     stretch: tuple[float, float] | None = None
     residual: bool = False
     word: str = ""
+    own: str = ""
 
 
 class Explanation:
@@ -86,17 +91,22 @@ class Explanation:
         while stack:
             known, degrees, argument, residual, is_open = stack.pop()
             law = self._spelled(self.moment(degrees).law(known), degrees)
-            at = degrees if law.varies else None
+            is_law = isinstance(known.node, Pieces)
+            at = degrees if law.varies or is_law else None
             if is_open:
                 yield self._explained(known, law, argument, at, residual=residual)
                 continue
             mark = (self._same.same(law), _name(known, argument), at, residual)
-            if mark in done or law.is_absent:
+            if mark in done or (law.is_absent and not is_law):
                 continue
             done.add(mark)
             if law.varies:
                 # once and for all that it is made of
                 self.moment(degrees).value(law)
+            if is_law and isinstance(law.node, Given):
+                stack.append((known, degrees, argument, residual, True))
+                stack.append((_law_of(known, degrees), degrees, "", False, False))
+                continue
             is_inlined = isinstance(law.node, Arithmetic) and not known.key
             if not is_inlined:
                 stack.append((known, degrees, argument, residual, True))
@@ -130,13 +140,15 @@ class Explanation:
         node, stretch = known.node, None
         table = self.moment(at).law(known).node
         word = table.word if isinstance(table, Table) else ""
+        own = ""
         if isinstance(node, Pieces) and at is not None:
+            own = _law_of(known, at).key if isinstance(law.node, Given) else ""
             ends = [None, *node.ends.tolist()]
             end = next((k for k, one in enumerate(ends) if one is not None and at <= one), len(ends) - 1)
             stretch = (0.0 if ends[end - 1] is None else ends[end - 1], ends[end])
         moment = self.moment(at)
         value = 0.0 if moment.is_noise(law) else moment.value(law)
-        return Explained(law, argument, at, value, stretch, residual, word)
+        return Explained(law, argument, at, value, stretch, residual, word, own)
 
 
 def _name(known: Known, argument: str) -> str:
@@ -148,6 +160,14 @@ def goes_by_argument(known: Known, argument: str) -> bool:
     """Return whether a value without a formula has the symbol of an argument, as the state before has: p₁."""
     is_leaf = isinstance(known.node, Given | Found)
     return is_leaf and argument in ARGUMENTS and ARGUMENTS[argument].pattern != "{}" and not is_renamed(argument, known)
+
+
+def _law_of(known: Known, degrees: float) -> Known:
+    """Return the law that holds of pieces, under its own name. [deg]"""
+    while isinstance(known.node, Pieces):
+        at = min(int(np.searchsorted(known.node.ends, degrees, side="left")), len(known.node.operands) - 1)
+        known = known.node.operands[at]
+    return known
 
 
 def _made_of(known: Known, degrees: float) -> Iterator[tuple[Known, float, str, bool]]:
@@ -179,4 +199,4 @@ def _of_root(root: Known, degrees: float) -> Iterator[tuple[Known, float, str, b
 
 def is_given(one: Explained) -> bool:
     """Return whether a value is given and not calculated."""
-    return isinstance(one.known.node, Given)
+    return isinstance(one.known.node, Given) and one.stretch is None

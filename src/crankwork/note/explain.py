@@ -152,6 +152,7 @@ class _Printed:
         """Return the line of a value."""
         known, language = one.known, self._language
         parts = [self._symbol(known, one.argument)]
+        parts += [value_symbol(one.own, language)] if one.own not in ("", known.key) else []
         match known.node:
             case OfAngle():
                 return " = ".join(_once([*parts, *self._angle_parts(one)]))
