@@ -24,12 +24,14 @@ from crankwork.quantities import QUANTITIES, base_key
 from crankwork.units import UNITS, parse, to_si
 
 TEMPLATES = Path(crankwork.__file__).parent / "description" / "templates"
-FILES = [*sorted(Path("examples").glob("*.toml")), *sorted(TEMPLATES.glob("*.toml"))]
+FOLDERS = (Path("examples"), TEMPLATES, Path("tests/machines"))
+FILES = [one for folder in FOLDERS for one in sorted(folder.glob("*.toml"))]
 CASES = [(file, way) for file in FILES for way in ("exact", "textbook")]
 DIMENSIONS = tuple({one.dimension for one in UNITS.values()})
 # what no key of a file states
 CONSTANTS = {
-    "cooling_exponent", "cooling_factor", "cycle_angle", "exhaust_exponent", "heat_zero_temperature",
+    "compressor_exponent", "cooler_drop", "cooling_exponent", "cooling_factor", "cycle_angle", "exhaust_exponent",
+    "heat_zero_temperature",
     "hydrogen_share", "lower_pairs", "molar_gas_constant", "moving_links", "polytropic_exponent",
     "specific_gas_constant",
 }  # fmt: skip

@@ -46,7 +46,9 @@ def of_cycle(machine: Machine, key: str) -> Known | None:
     """Return what the calculation of a cycle found for a size that the description leaves open."""
     cycle = getattr(machine.gas.calculated, "cycle", None) if machine.gas is not None else None
     asked = _stated(machine, "cycle.power")
-    return None if cycle is None or asked is None else cycle.memory.get(key)
+    found = None if cycle is None or asked is None else cycle.memory.get(key)
+    # a size that follows is taken in whole millimetres
+    return None if found is None else Known(Found(round(found.value, 3), "rounded", (found,)), key)
 
 
 def bore(machine: Machine, size: float) -> Known:

@@ -32,7 +32,7 @@ def weight(load: Weight, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
     """Return the weights of the bodies of a mechanism."""
     gravity: Value = load.gravity
     if is_known(motion.grid.angle):
-        gravity = given("", load.gravity, "method.gravity")
+        gravity = given("gravity", load.gravity, "method.gravity")
     forces = []
     for body in mechanism.bodies:
         x, y = (weight_along(body.mass, gravity, part) for part in (math.cos(load.direction), math.sin(load.direction)))
