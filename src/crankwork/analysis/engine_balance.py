@@ -36,32 +36,18 @@ _SAMPLES = 720
 
 
 class EngineBalance(NamedTuple):
-    """Free forces and moments [N], [N m].
+    """Free forces and moments [N], [N m]."""
 
-    Parameters
-    ----------
-    reciprocating : tuple of OrderBalance
-        Of the reciprocating masses, by order.
-    rotating, counterweights : OrderBalance
-        Of the rotating masses and of the counterweights, both of the first order.
-    shafts : tuple of OrderBalance
-        Of the balance shafts.
-    residual : tuple of OrderBalance
-        All together.
-    weights, shaft_weights : tuple
-        The counterweights and the weights of the balance shafts.
-    harmonics : InertiaHarmonics
-        Orders of the piston acceleration, of each cylinder where some rods are articulated.
-    """
-
-    reciprocating: tuple[OrderBalance, ...]
+    reciprocating: tuple[OrderBalance, ...]  # Of the reciprocating masses, by order
+    # Of the rotating masses and of the counterweights, both of the first order
     rotating: OrderBalance
     counterweights: OrderBalance
-    shafts: tuple[OrderBalance, ...]
-    residual: tuple[OrderBalance, ...]
+    shafts: tuple[OrderBalance, ...]  # Of the balance shafts
+    residual: tuple[OrderBalance, ...]  # All together
+    # The counterweights and the weights of the balance shafts
     weights: tuple[Unbalance, ...]
     shaft_weights: tuple[ShaftWeight, ...]
-    harmonics: InertiaHarmonics
+    harmonics: InertiaHarmonics  # Orders of the piston acceleration, of each cylinder where some rods are articulated
 
     @property
     def rows(self) -> dict[str, OrderBalance]:
@@ -78,14 +64,7 @@ class EngineBalance(NamedTuple):
 def engine_balance(whole: WholeEngine) -> EngineBalance:
     """Return what the masses of an engine leave free.
 
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-
-    References
-    ----------
-    den_hartog_1956, ch. 5; taylor_1985, vol. 2, ch. 8.
+    Source: den_hartog_1956, ch. 5; taylor_1985, vol. 2, ch. 8.
     """
     layout, masses, w = whole.layout, whole.masses, whole.master.speed
     r = whole.master.lengths.crank_radius
@@ -127,15 +106,7 @@ def _planes(whole: WholeEngine, part: OrderBalance) -> tuple[float] | tuple[floa
 
 
 def balance_memory(whole: WholeEngine, balance: EngineBalance) -> dict[str, Known]:
-    """Return what is free by row, and what it is made of: formulas where all cylinders are alike, else vector sums.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine, with masses.
-    balance : EngineBalance
-        What is free.
-    """
+    """Return what is free by row, and what it is made of: formulas where all cylinders are alike, else vector sums."""
     found = dict(_order_forces(whole, balance) | _rotating_forces(whole) | _weights(whole, balance))
     has_moments = bool(balance_pitch(whole.layout))
     for name, one in balance.rows.items():
@@ -197,13 +168,7 @@ def _freed(row: str, name: str, factor: OrderBalance, pitch: float, force: Known
 
 
 def balance_pitch(layout: Layout) -> float:
-    """Return the distance between neighbouring cylinders of the first bank, of all where it has one; zero if none. [m]
-
-    Parameters
-    ----------
-    layout : Layout
-        The cylinders.
-    """
+    """Return the distance between neighbouring cylinders of the first bank, of all where it has one; zero if none."""
     places = layout.places
     for some in ([one for one in places if one.axis == places[0].axis], places):
         along = sorted({one.position for one in some})
@@ -245,17 +210,7 @@ _OF_WEIGHTS = ("rotating_mass", "counterweight_moment")
 
 
 def balance_listing(whole: WholeEngine, balance: EngineBalance, memory: Mapping[str, Known]) -> Listing:
-    """Return forces and moments by order: of each kind of mass, and what is left.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-    balance : EngineBalance
-        What is free.
-    memory : mapping of str to Known
-        That of `balance_memory`.
-    """
+    """Return forces and moments by order: of each kind of mass, and what is left."""
     kinds = ["free_force", "free_force_min", "free_force_direction"]
     if balance_pitch(whole.layout):
         kinds += ["free_moment", "free_moment_min"]
@@ -264,15 +219,7 @@ def balance_listing(whole: WholeEngine, balance: EngineBalance, memory: Mapping[
 
 
 def balance_checks(whole: WholeEngine, balance: EngineBalance) -> dict[str, float]:
-    """Return how far the orders are from the Fourier transform of the summed inertia forces.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-    balance : EngineBalance
-        What is free.
-    """
+    """Return how far the orders are from the Fourier transform of the summed inertia forces."""
     if whole.machine.masses is None or whole.machine.angular_acceleration:
         return {}
     degrees = np.arange(_SAMPLES) * 360 / _SAMPLES

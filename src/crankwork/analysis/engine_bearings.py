@@ -36,35 +36,22 @@ _SWING = ("rod_sine", "rod_cosine", "crank_rod_sine", "crank_rod_cosine")
 
 
 class BearingLoads(NamedTuple):
-    """Loads of the bearings over the crank angle.
+    """Loads of the bearings over the crank angle."""
 
-    Parameters
-    ----------
-    crankpins : mapping of int to BearingLoad, shape (n,)
-        Force of the rods on each crankpin in the frame of its crank, by its number; of alike ones the first. [N]
-    big_end, small_end : BearingLoad, shape (n,)
-        Of the rod of cylinder 1, in the frame of the rod. [N]
-    mains : tuple of BearingLoad, shape (n,)
-        Force of the bearing on each main journal, in the frame of the crankshaft. [N]
-    """
-
+    # Force of the rods on each crankpin in the frame of its crank, by its number; of alike ones
+    # the first, shape (n,) [N]
     crankpins: Mapping[int, BearingLoad]
+    # Of the rod of cylinder 1, in the frame of the rod, shape (n,) [N]
     big_end: BearingLoad
     small_end: BearingLoad
+    # Force of the bearing on each main journal, in the frame of the crankshaft, shape (n,) [N]
     mains: tuple[BearingLoad, ...]
 
 
 def bearing_memory(whole: WholeEngine) -> dict[str, Known]:
     """Return the loads of the bearings by key: sizes, and components in the frame of each.
 
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-
-    References
-    ----------
-    kolchin_demidov_2008, ch. 9.
+    Source: kolchin_demidov_2008, ch. 9.
     """
     master = whole.master.memory
     inertia = absent("big_end_inertia_force")
@@ -140,17 +127,7 @@ def _small_end(whole: WholeEngine) -> Iterator[Known]:
 
 
 def bearing_loads(whole: WholeEngine, memory: Mapping[str, Known], degrees: ArrayLike) -> BearingLoads:
-    """Return the loads of the bearings at crank angles of cylinder 1.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-    memory : mapping of str to Known
-        That of `bearing_memory`.
-    degrees : array, shape (n,)
-        Crank angles of cylinder 1. [deg]
-    """
+    """Return the loads of the bearings at crank angles of cylinder 1."""
     pins = unlike_pins(whole)
     along = [f"crankpin_radial_force.{pin}" for pin in pins]
     mains = [f"main_journal.{at}" for at in range(1, 1 + sum(key.startswith("main_journal_load.") for key in memory))]
@@ -167,13 +144,7 @@ def bearing_loads(whole: WholeEngine, memory: Mapping[str, Known], degrees: Arra
 
 
 def unlike_pins(whole: WholeEngine) -> tuple[int, ...]:
-    """Return the numbers of the crankpins whose loads are not those of an earlier one, only later.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-    """
+    """Return the numbers of the crankpins whose loads are not those of an earlier one, only later."""
     cycle, seen, kept = whole.layout.cycle, set(), []
     for pin, places in whole.on_pin.items():
         forms = [
@@ -207,12 +178,7 @@ def _spaced(layout: Layout) -> Layout:
 def shaft_unbalances(whole: WholeEngine, layout: Layout) -> tuple[Unbalance, ...]:
     """Return the throws and counterweights of the crankshaft.
 
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-    layout : Layout
-        Its cylinders, along the shaft as they are to be taken. [m]
+    `layout`: its cylinders, along the shaft as they are to be taken [m].
     """
     if whole.machine.masses is None:
         return counterweights(whole, layout)
@@ -232,12 +198,7 @@ def shaft_unbalances(whole: WholeEngine, layout: Layout) -> tuple[Unbalance, ...
 def counterweights(whole: WholeEngine, layout: Layout) -> tuple[Unbalance, ...]:
     """Return the counterweights of the engine, one opposite each crankpin; none where there are none.
 
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-    layout : Layout
-        Its cylinders, along the shaft as they are to be taken. [m]
+    `layout`: its cylinders, along the shaft as they are to be taken [m].
     """
     engine, masses = whole.engine, whole.masses
     r = whole.master.lengths.crank_radius
@@ -271,15 +232,7 @@ def _counterweight(whole: WholeEngine, pin: int) -> Known:
 
 
 def rotating_mass_of(whole: WholeEngine, place: Place) -> Known:
-    """Return the rotating mass of a cylinder, that of a shared throw divided among its cylinders.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine, with masses.
-    place : Place
-        Of the cylinder.
-    """
+    """Return the rotating mass of a cylinder, that of a shared throw divided among its cylinders."""
     on_throw = [one.throw for one in whole.layout.places].count(place.throw)
     memory = whole.master.memory
     mass = memory["rod_big_end_mass"] + memory["crank_mass"] / on_throw
@@ -287,30 +240,13 @@ def rotating_mass_of(whole: WholeEngine, place: Place) -> Known:
 
 
 def rotating_masses(whole: WholeEngine) -> Array:
-    """Return the rotating mass of each cylinder, that of a shared throw divided among its cylinders.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-
-    Returns
-    -------
-    array, shape (cylinders,)
-        Masses. [kg]
-    """
+    """Return the rotating masses, that of a shared throw divided among its cylinders, shape (cylinders,)."""
     throws, masses = [one.throw for one in whole.layout.places], whole.masses
     return np.array([masses.rod_big_end + masses.crank / throws.count(throw) for throw in throws])
 
 
 def bearing_columns(memory: Mapping[str, Known]) -> tuple[str, ...]:
-    """Return which loads stand in the tables: sizes, and those of the crankpins by component.
-
-    Parameters
-    ----------
-    memory : mapping of str to Known
-        That of `bearing_memory`.
-    """
+    """Return which loads stand in the tables: sizes, and those of the crankpins by component."""
     return tuple(key for key in memory if key.startswith(_COLUMNS) and key.count(".") < 2)
 
 
@@ -321,13 +257,7 @@ _COLUMNS = (
 
 
 def load_columns(memory: Mapping[str, Known]) -> dict[str, str]:
-    """Return the column of the load of each bearing by its name: `crankpin.1`, `big_end`, `main_journal.3`.
-
-    Parameters
-    ----------
-    memory : mapping of str to Known
-        That of `bearing_memory`.
-    """
+    """Return the column of the load of each bearing by its name: `crankpin.1`, `big_end`, `main_journal.3`."""
     sizes = [key for key in memory if key.partition(".")[0].endswith("_load")]
     return {key.replace("_load", "", 1): key for key in sizes}
 
@@ -335,19 +265,7 @@ def load_columns(memory: Mapping[str, Known]) -> dict[str, str]:
 def load_values(
     whole: WholeEngine, memory: Mapping[str, Known], over: OverCycle, extremes: Mapping[str, Known]
 ) -> dict[str, Known]:
-    """Return what the loads come to over the cycle: mean, extremes, their ratio, pressures, and how they reverse.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-    memory : mapping of str to Known
-        That of `bearing_memory`.
-    over : OverCycle
-        Its columns over the cycle.
-    extremes : mapping of str to Known
-        Theirs.
-    """
+    """Return what the loads come to over the cycle: mean, extremes, their ratio, pressures, and how they reverse."""
     names, found = load_columns(memory), dict[str, Known]()
     for name, key in names.items():
         kind, _, owner = key.partition(".")
@@ -397,15 +315,7 @@ class OnRays:
 
 
 def wear_memory(whole: WholeEngine, memory: Mapping[str, Known]) -> dict[str, Known]:
-    """Return the wear of crankpins and main journals, over the directions of their rays, and the oil holes.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-    memory : mapping of str to Known
-        That of `bearing_memory`.
-    """
+    """Return the wear of crankpins and main journals, over the directions of their rays, and the oil holes."""
     rays, found = whole.engine.bearings.rays, dict[str, Known]()
     loads = bearing_loads(whole, memory, np.arange(0.0, whole.layout.cycle, _WEAR_STEP))
     for pin, load in loads.crankpins.items():
@@ -423,15 +333,7 @@ def wear_memory(whole: WholeEngine, memory: Mapping[str, Known]) -> dict[str, Kn
 
 
 def bearing_listings(whole: WholeEngine, found: Mapping[str, Known]) -> dict[str, Listing]:
-    """Return what the loads come to over the cycle, and the wear of crankpins and main journals.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-    found : mapping of str to Known
-        What `load_values` and `wear_memory` have found.
-    """
+    """Return what the loads come to over the cycle, and the wear of crankpins and main journals."""
     names = tuple(key.partition(".")[2] for key in found if key.startswith("mean_bearing_load."))
     columns = {
         key: np.array([found[f"{key}.{name}"].value if f"{key}.{name}" in found else np.nan for name in names])
@@ -458,15 +360,7 @@ _LOAD_LISTED = (
 
 
 def bearing_summary(whole: WholeEngine, found: Mapping[str, Known]) -> dict[str, Known]:
-    """Return mean and largest crankpin load, where the oil hole should be, and the reversal of the small-end load.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-    found : mapping of str to Known
-        What `load_values` and `wear_memory` have found.
-    """
+    """Return mean and largest crankpin load, where the oil hole should be, and the reversal of the small-end load."""
     pins, result = unlike_pins(whole), dict[str, Known]()
     for pin in pins:
         name = f".{pin}" if len(pins) > 1 else ""

@@ -49,40 +49,22 @@ _SAMPLES = 1440
 
 
 class EngineTorque(NamedTuple):
-    """Torque of cylinder 1 and of all over the cycle, the excess work of the sum, the speed, and their memory.
+    """Torque of cylinder 1 and of all over the cycle, the excess work of the sum, the speed, and their memory."""
 
-    Parameters
-    ----------
-    one, total : Curve
-        Torques. [N m]
-    excess : ExcessWork
-        What the total torque does beyond its mean.
-    speed : TrueSpeed or None
-        With the flywheel, where anything has an inertia.
-    columns, summary, between : mapping of str to Known
-        Energy and speed over the crank angle; single values; what lies between them.
-    notices : tuple of Notice
-        Why there is no flywheel, or no steady speed.
-    """
-
+    # Torques [N m]
     one: Curve
     total: Curve
-    excess: ExcessWork
-    speed: TrueSpeed | None
+    excess: ExcessWork  # What the total torque does beyond its mean
+    speed: TrueSpeed | None  # With the flywheel, where anything has an inertia
+    # Energy and speed over the crank angle; single values; what lies between them
     columns: Mapping[str, Known]
     summary: Mapping[str, Known]
     between: Mapping[str, Known]
-    notices: tuple[Notice, ...]
+    notices: tuple[Notice, ...]  # Why there is no flywheel, or no steady speed
 
 
 def torque_memory(whole: WholeEngine) -> dict[str, Known]:
-    """Return the torques of all cylinders, their sum and those along the shaft.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-    """
+    """Return the torques of all cylinders, their sum and those along the shaft."""
     tangential = [whole.of(place.number, "tangential_force") for place in whole.layout.places]
     each = [_torque(whole, number, force) for number, force in enumerate(tangential, start=1)]
     along = torques_along_shaft(each, whole.layout)
@@ -105,19 +87,7 @@ def _torque(whole: WholeEngine, number: int, tangential: Known) -> Known:
 def engine_torque(
     whole: WholeEngine, memory: Mapping[str, Known], over: OverCycle, extremes: Mapping[str, Known]
 ) -> EngineTorque:
-    """Return the torque of the engine with the flywheel it needs, and why there is none.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-    memory : mapping of str to Known
-        That of `torque_memory`.
-    over : OverCycle
-        Its columns over the cycle.
-    extremes : mapping of str to Known
-        Theirs.
-    """
+    """Return the torque of the engine with the flywheel it needs, and why there is none."""
     edges, of = np.radians(over.edges), (memory["total_torque"],)
     first = whole.of(1, "crank_torque").key
     one, all_ = (Curve.legendre(edges, over.polynomials(key)) for key in (first, "total_torque"))
@@ -173,17 +143,7 @@ def _flywheel(excess: Known, wanted: Known, w: Known, own: Known) -> tuple[Known
 
 
 def harmonics_memory(whole: WholeEngine, torque: EngineTorque, memory: Mapping[str, Known]) -> dict[str, Known]:
-    """Return the harmonics of the torque of one cylinder and of all, each under its order: `harmonic_amplitude.2.5`.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-    torque : EngineTorque
-        What `engine_torque` has found.
-    memory : mapping of str to Known
-        That of `torque_memory`.
-    """
+    """Return the harmonics of the torque of one cylinder and of all, each under its order: `harmonic_amplitude.2.5`."""
     layout, found = whole.layout, dict[str, Known]()
     count, of = round(_ORDERS * layout.cycle / 360), (whole.of(1, "crank_torque"),)
     one = curve_harmonics(torque.one, count)
@@ -204,13 +164,7 @@ def harmonics_memory(whole: WholeEngine, torque: EngineTorque, memory: Mapping[s
 
 
 def harmonics_listing(harmonics: Mapping[str, Known]) -> Listing:
-    """Return the harmonics of the torque by their order.
-
-    Parameters
-    ----------
-    harmonics : mapping of str to Known
-        Those of `harmonics_memory`.
-    """
+    """Return the harmonics of the torque by their order."""
     columns: dict[str, list[float]] = {"harmonic_order": []}
     for key, known in harmonics.items():
         kind, _, order = key.partition(".")
@@ -221,15 +175,7 @@ def harmonics_listing(harmonics: Mapping[str, Known]) -> Listing:
 
 
 def torque_checks(whole: WholeEngine, torque: EngineTorque) -> dict[str, float]:
-    """Return the residuals between sums over cylinders, phase stars and the total.
-
-    Parameters
-    ----------
-    whole : WholeEngine
-        The engine.
-    torque : EngineTorque
-        What `engine_torque` has found.
-    """
+    """Return the residuals between sums over cylinders, phase stars and the total."""
     works = [one.space.work for one in whole.cylinders if one.space is not None]
     result = {}
     if len(works) == len(whole.cylinders) and not whole.machine.angular_acceleration:

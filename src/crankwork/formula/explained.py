@@ -28,50 +28,20 @@ from crankwork.notation import ARGUMENTS
 
 
 class Explained(NamedTuple):
-    """One value of an explanation.
+    """One value of an explanation."""
 
-    Parameters
-    ----------
-    known : Known
-        The value under the name it has here; of pieces the law that holds.
-    argument : str
-        The argument of a formula that it stands for; a value without a name has its symbol.
-    degrees : float or None
-        The crank angle, if it varies. [deg]
-    value : float
-        The value. [SI, or the unit of the argument]
-    stretch : tuple of float or None
-        Where the law holds, of pieces. [deg]
-    residual : bool
-        Whether it must vanish: an equation that unknowns are found from.
-    word : str
-        Of the value of a table, what kind of table it is.
-    own : str
-        Of a given law of pieces, the key that it has besides.
-    """
-
-    known: Known
-    argument: str
-    degrees: float | None
-    value: float
-    stretch: tuple[float, float] | None = None
-    residual: bool = False
-    word: str = ""
-    own: str = ""
+    known: Known  # The value under the name it has here; of pieces the law that holds
+    argument: str  # The argument of a formula that it stands for; a value without a name has its symbol
+    degrees: float | None  # The crank angle, if it varies [deg]
+    value: float  # The value [SI, or the unit of the argument]
+    stretch: tuple[float, float] | None = None  # Where the law holds, of pieces [deg]
+    residual: bool = False  # Whether it must vanish: an equation that unknowns are found from
+    word: str = ""  # Of the value of a table, what kind of table it is
+    own: str = ""  # Of a given law of pieces, the key that it has besides
 
 
 class Explanation:
-    """What a value is made of at one crank angle.
-
-    Parameters
-    ----------
-    known : Known
-        The value.
-    degrees : float
-        The crank angle. [deg]
-    angles_at : callable
-        The grid of crank angles. [deg]
-    """
+    """What a value is made of at one crank angle, in degrees."""
 
     def __init__(self, known: Known, degrees: float, angles_at: Callable[[Any], Angles]) -> None:
         self._angles_at, self._asked = angles_at, (known, degrees)

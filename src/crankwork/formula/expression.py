@@ -88,22 +88,11 @@ def formula(
     """Register a function as the formula of a quantity.
 
     Called with numbers it is that function; called with a known among its arguments it returns a known of that
-    quantity, which remembers the formula and its operands.
-
-    Parameters
-    ----------
-    quantity : str
-        Key of the quantity that the formula gives; a key of `quantities.QUANTITIES`.
-    source : str
-        Key of the bibliography, with page, chapter or equation.
-    unit : str, optional
-        Unit of the value where it is not the SI unit of the quantity: that of a sine, or of a transfer function.
-    constants : str, optional
-        What units the numbers in the formula have, where it is drawn from measurements or tables and they have any.
-    valid : mapping of str to (float, float), optional
-        The range of an argument outside which the source does not vouch for the formula. [the unit of the argument]
-    printed : callable, optional
-        The form that books print, of some of the same arguments, where the safe way to compute is unreadable.
+    quantity, which remembers the formula and its operands. `source` is a key of the bibliography, with page, chapter or
+    equation. `unit` is stated where it is not the SI unit of the quantity, as that of a sine or of a transfer function;
+    `constants` where numbers in the formula, drawn from measurements or tables, have units; `valid` is the range of an
+    argument, in its unit, outside which the source does not vouch for the formula; `printed` is the form that books
+    print, of some of the same arguments, where the safe way to compute is unreadable.
     """
 
     def register(function: Function) -> Function:
@@ -127,12 +116,7 @@ def formula(
 def instead(entry: Formula, function: Callable[..., Any]) -> Iterator[None]:
     """Let another function be a formula for a while, wherever it is called, remembered or replayed.
 
-    Parameters
-    ----------
-    entry : Formula
-        The registered formula.
-    function : callable
-        What is called in its place, with the same arguments.
+    `function`: what is called in its place, with the same arguments.
     """
     own = entry.function
     object.__setattr__(entry, "function", functools.wraps(own)(function))
@@ -262,14 +246,7 @@ _FUNCTIONS_OF_ANGLES = ("sin", "cos", "tan", "tg")
 def text(tree: Expression, values: Mapping[str, str] | None = None, language: Language = "en") -> str:
     """Return a tree as one line of text, with symbols, or with `values` in place of them.
 
-    Parameters
-    ----------
-    tree : Expression
-        A recorded formula.
-    values : mapping of str to str, optional
-        Printed numbers by argument name; an argument that is missing keeps its symbol.
-    language : str
-        Whose symbols to use: `en`, `ru` or `vi`.
+    `values`: printed numbers by argument name; an argument that is missing keeps its symbol.
     """
     return _text(tree, values or {}, language)[0]
 
@@ -381,10 +358,7 @@ def symbol(argument: str, language: Language = "en") -> str:
 def fold(tree: Expression) -> Expression:
     """Return a tree without the terms and factors that are plain zeros and ones.
 
-    Parameters
-    ----------
-    tree : Expression
-        A recorded formula; numbers stand where operands are absent.
+    `tree`: a recorded formula; numbers stand where operands are absent.
 
     Examples
     --------

@@ -187,12 +187,7 @@ def _knowns(inputs: Iterable[Known | float]) -> Iterator[Known]:
 class Known:
     """A value that remembers how it came about, under the name it has here.
 
-    Parameters
-    ----------
-    node : Node
-        How it came about.
-    key : str
-        Key of the quantity, with what tells it from others of that quantity after a point: `joint_force.A`.
+    The key is that of the quantity, with what tells it from others of that quantity after a point: `joint_force.A`.
 
     Examples
     --------
@@ -305,70 +300,29 @@ class KnownAngle:
 def given(key: str, value: float, path: str = "", unit: str = "") -> Known:
     """Return a stated value. [SI]
 
-    Parameters
-    ----------
-    key : str
-        Key of the quantity.
-    value : float
-        The value. [SI, or `unit`]
-    path : str
-        Where the file states it, `crank.radius`.
-    unit : str
-        The unit in which formulas take it, where that is not the SI unit of its quantity.
+    `unit`: the unit in which formulas take it, where that is not the SI unit of its quantity.
     """
     return Known(Given(value, path, unit), key)
 
 
 def absent(key: str, neutral: float = 0.0) -> Known:
-    """Return what nobody stated: the neutral number, whose terms are not printed.
-
-    Parameters
-    ----------
-    key : str
-        Key of the quantity.
-    neutral : float
-        What it counts as. [SI]
-    """
+    """Return what nobody stated: the neutral number, whose terms are not printed."""
     return Known(Given(neutral, is_absent=True), key)
 
 
 def named(value: Any, key: str) -> Any:  # noqa: ANN401 - a number stays what it is
-    """Return a known under a name; a number as it is, so that the same code serves both.
-
-    Parameters
-    ----------
-    value : Known, float or array
-        The value.
-    key : str
-        Its key.
-    """
+    """Return a known under a name; a number as it is, so that the same code serves both."""
     return value.named(key) if type(value) is Known else value
 
 
 def total(key: str, terms: Iterable[Known]) -> Known:
-    """Return the sum of terms; of one term, that term under the name of the sum.
-
-    Parameters
-    ----------
-    key : str
-        Key of the sum.
-    terms : iterable of Known
-        What is added, in order.
-    """
+    """Return the sum of terms; of one term, that term under the name of the sum."""
     terms = tuple(terms)
     return terms[0].named(key) if len(terms) == 1 else Known(Total(terms), key)
 
 
 def added(key: str, terms: Sequence[Any]) -> Any:  # noqa: ANN401 - numbers give numbers, knowns a known
-    """Return the sum of terms in order, remembered under a key if they are knowns.
-
-    Parameters
-    ----------
-    key : str
-        Key of the sum.
-    terms : sequence of array or of Known
-        What is added.
-    """
+    """Return the sum of terms in order, remembered under a key if they are knowns."""
     return total(key, terms) if is_known(*terms) else sum(terms)
 
 
@@ -383,17 +337,7 @@ def plain(value: Any) -> Any:  # noqa: ANN401 - whatever number it is
 
 
 def delayed(known: Known, by: float, cycle: float, key: str) -> Known:
-    """Return a column every value of which comes later by an angle, the cycle closed.
-
-    Parameters
-    ----------
-    known : Known
-        The column.
-    by, cycle : float
-        How much later; length of the cycle. [deg]
-    key : str
-        Its key.
-    """
+    """Return a column every value of which comes later by an angle, the cycle closed; both in degrees."""
     return Known(Delayed(known, by % cycle, cycle), key) if by % cycle else known.named(key)
 
 
@@ -405,12 +349,7 @@ def is_known(*values: object) -> bool:
 def in_order(knowns: Iterable[Known], *, into: Callable[[Node], tuple[Known, ...]] | None = None) -> Iterator[Known]:
     """Yield everything that knowns are made of, operands before what is made of them, each node once.
 
-    Parameters
-    ----------
-    knowns : iterable of Known
-        Where to begin.
-    into : callable, optional
-        What of a node to look into; its operands otherwise.
+    `into`: what of a node to look into; its operands otherwise.
     """
     done: set[int] = set()
     stack = [(known, False) for known in reversed(tuple(knowns))]
@@ -430,12 +369,7 @@ def in_order(knowns: Iterable[Known], *, into: Callable[[Node], tuple[Known, ...
 def breaks_of(knowns: Iterable[Known], cycle: float, start: float = 0.0) -> Array:
     """Return the crank angles where columns are not smooth, from start to end of the cycle. [deg]
 
-    Parameters
-    ----------
-    knowns : iterable of Known
-        The columns.
-    cycle, start : float
-        Length and beginning of the cycle. [deg]
+    `cycle` and `start`: length and beginning of the cycle [deg].
     """
     found = _breaks(tuple(knowns), {})
     inside = start + np.mod(np.array(sorted(found), dtype=float) - start, cycle)

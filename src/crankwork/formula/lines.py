@@ -42,34 +42,19 @@ _AT_AN_ANGLE = ("at", "max", "min")
 
 
 class FormulaLine(NamedTuple):
-    """A value that a formula gives.
+    """A value that a formula gives."""
 
-    Parameters
-    ----------
-    key : str
-        Key of the value.
-    formula : Formula
-        What was computed, with its source.
-    values : mapping of str to float
-        What was put in, by symbol of the expression. [SI, or the unit that the formula states]
-    value : float
-        What came out. [SI, or the unit that the formula states]
-    named : tuple of (str, str)
-        Symbols that stand for one of several values of their quantity, each with the key of that value.
-    tree : Expression or None
-        The formula as it is printed here, where that is not the whole formula: without what is absent, with plain
-        arithmetic in place of the argument that it gives.
-    noise : frozenset of str
-        What of it rounding alone has left: names of `values`, and "" for the value.
-    """
-
-    key: str
-    formula: Formula
+    key: str  # Key of the value
+    formula: Formula  # What was computed, with its source
+    # What was put in, by symbol of the expression [SI, or the unit that the formula states]
     values: Mapping[str, float]
-    value: float
+    value: float  # What came out [SI, or the unit that the formula states]
+    # Symbols that stand for one of several values of their quantity, each with the key of that value
     named: tuple[tuple[str, str], ...] = ()
+    # The formula as it is printed here, where that is not the whole formula: without what is absent, with plain
+    # arithmetic in place of the argument that it gives
     tree: Expression | None = None
-    noise: frozenset[str] = frozenset()
+    noise: frozenset[str] = frozenset()  # What of it rounding alone has left: names of `values`, and "" for the value
 
     @property
     def expression(self) -> Expression:
@@ -121,17 +106,10 @@ def without_noise(line: Line) -> Line:
 
 
 class Moment:
-    """Everything that knowns are made of, at one crank angle.
+    """Everything that knowns are made of, at one crank angle, in degrees.
 
-    Parameters
-    ----------
-    angles_at : callable
-        The grid of crank angles. [deg]
-    degrees : float
-        The crank angle. [deg]
-    mark : str
-        Whose values those are that vary with the crank angle, where they are not those of cylinder 1: after a point it
-        ends their keys.
+    The mark says whose values those are that vary with the crank angle, where they are not those of cylinder 1: after a
+    point it ends their keys.
     """
 
     def __init__(self, angles_at: Callable[[Any], Angles], degrees: float, mark: str = "") -> None:
@@ -175,13 +153,7 @@ class Moment:
         return Known(node, known.key)
 
     def steps(self, knowns: Iterable[Known]) -> Iterator[Line]:
-        """Yield the lines of knowns, each after the lines of what it is made of, each once.
-
-        Parameters
-        ----------
-        knowns : iterable of Known
-            What is to be followed.
-        """
+        """Yield the lines of knowns, each after the lines of what it is made of, each once."""
         done: set[tuple[object, str]] = set()
         stack = [(one, False) for one in reversed(tuple(knowns))]
         while stack:
@@ -219,10 +191,7 @@ class Moment:
     def step(self, known: Known) -> Line:
         """Return the line of one known.
 
-        Parameters
-        ----------
-        known : Known
-            A use of a formula, a sum, or a value without a formula.
+        `known`: a use of a formula, a sum, or a value without a formula.
         """
         key, known = self._marked(known.key, known), self.law(known)
         match known.node:
@@ -398,13 +367,7 @@ def is_renamed(name: str, operand: Known) -> bool:
 
 
 def symbols_of(tree: Expression) -> tuple[str, ...]:
-    """Return the names of the symbols of a tree, in order, each once.
-
-    Parameters
-    ----------
-    tree : Expression
-        A recorded formula.
-    """
+    """Return the names of the symbols of a tree, in order, each once."""
     found: dict[str, None] = {}
     stack = [tree]
     while stack:

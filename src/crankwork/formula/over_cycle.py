@@ -56,23 +56,9 @@ class Extreme(NamedTuple):
 
 
 class OverCycle:
-    """Columns over one cycle.
+    """Columns over one cycle, by key, at angles in degrees.
 
-    Parameters
-    ----------
-    knowns : mapping of str to Known
-        The columns, by key.
-    angles_at : callable
-        The grid of crank angles. [deg]
-    cycle : float
-        Length of the cycle. [deg]
-    start : float
-        Where it begins. [deg]
-    size_of : mapping of str to str
-        The column whose size says what counts in another: that of an error is the column it is an error of.
-
-    Notes
-    -----
+    `size_of` names the column whose size says what counts in another: that of an error is the column it is an error of.
     `error` is the largest coefficient left out, relative to the largest value of its column: what integrals and the
     places of extremes may be wrong by.
     """

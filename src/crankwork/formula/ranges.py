@@ -17,17 +17,8 @@ def range_notices(
 ) -> Iterator[tuple[str, Mapping[str, float | str]]]:
     """Yield where formulas that knowns are made of are used outside the range that their source vouches for.
 
-    Parameters
-    ----------
-    knowns : iterable of Known
-        What was calculated.
-    angles : CrankGrid, optional
-        Where to look at operands that vary with the crank angle; without it they are not looked at. [rad]
-
-    Yields
-    ------
-    tuple of (str, mapping)
-        Of each formula and argument at most one notice, about the value farthest outside, in the unit of the argument.
+    Of each formula and argument at most one notice, about the value farthest outside, in the unit of the argument.
+    `angles`: where to look at operands that vary with the crank angle; without it they are not looked at [rad].
     """
     farthest: dict[tuple[str, str], tuple[float, Mapping[str, float | str]]] = {}
     for node in (one.node for one in in_order(knowns)):

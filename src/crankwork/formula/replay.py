@@ -62,13 +62,7 @@ class Angles(Protocol):
 
 
 class Program:
-    """What has to be done, in order, to replay some columns.
-
-    Parameters
-    ----------
-    knowns : mapping of str to Known
-        What is wanted, by key.
-    """
+    """What has to be done, in order, to replay some columns."""
 
     def __init__(self, knowns: Mapping[str, Known]) -> None:
         self.knowns = dict(knowns)
@@ -78,18 +72,7 @@ class Program:
         self._earlier = [_Earlier(nodes, cycle) for cycle in sorted({node.cycle for node in nodes})]
 
     def __call__(self, angles: Angles) -> dict[str, Array]:
-        """Return the columns at crank angles, by key.
-
-        Parameters
-        ----------
-        angles : CrankGrid, shape (n,)
-            Crank angles. [rad]
-
-        Returns
-        -------
-        dict of str to array, shape (n,)
-            Columns; what does not vary with the angle is repeated. [SI]
-        """
+        """Return the columns at crank angles, by key; what does not vary with the angle is repeated. [SI]"""
         count = len(angles)
         result = {key: np.full(count, known.node.value) for key, known in self.knowns.items() if not known.varies}
         wanted = {key: known for key, known in self.knowns.items() if known.varies}
@@ -127,15 +110,7 @@ class Program:
 
 
 def replay(known: Known, angles: Angles) -> Array:
-    """Return one column at crank angles.
-
-    Parameters
-    ----------
-    known : Known
-        The column.
-    angles : CrankGrid, shape (n,)
-        Crank angles. [rad]
-    """
+    """Return one column at crank angles."""
     return Program({"": known})(angles)[""]
 
 

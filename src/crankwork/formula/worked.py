@@ -18,12 +18,8 @@ class Worked:
     """Works formulas on what is known so far and keeps what they give, in order.
 
     An argument of a formula is what is named in the call, else what is known by its name, else the known quantity that
-    notation says it stands for.
-
-    Parameters
-    ----------
-    mark : str
-        What follows the key of everything worked here, to tell it from what is worked again later.
+    notation says it stands for. The mark follows the key of everything worked here, to tell it from what is worked
+    again.
 
     Examples
     --------
@@ -44,19 +40,8 @@ class Worked:
     def __call__(self, function: Callable[..., Any], key: str = "", /, **others: Known | float) -> Known:
         """Return what a registered formula gives, kept under its quantity or a key.
 
-        Parameters
-        ----------
-        function : callable
-            The formula.
-        key : str
-            Key of the value; by default the quantity that the formula gives.
-        **others : Known or float
-            Arguments that stand for something else than the quantity known so far. [as the formula takes them]
-
-        Raises
-        ------
-        CrankworkError
-            If no finite number comes out.
+        `key`: key of the value; by default the quantity that the formula gives; `**others`: arguments that stand for
+        something else than the quantity known so far [as the formula takes them].
         """
         formula = FORMULAS[function.__name__]
         taken = {name: others[name] if name in others else self._operand(name) for name in formula.arguments}
