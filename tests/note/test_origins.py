@@ -111,7 +111,7 @@ def line_of(file, text, after=""):
         ("radial-five", ("crank_torque", "--at", "33"), "n = 1900 rpm   crank.speed", "speed", "[crank]"),
         ("radial-five", ("crank_torque", "--at", "33"), "S = 0.115 m = 115 mm   crank.stroke", "stroke", "[crank]"),
         ("v8-diesel", ("crank_torque", "--at", "33"), "λ = 0.27   rod.ratio", "ratio", "[rod]"),
-        ("spark-engine", ("piston_mass",), "m′ = 158.7 kg/m² = 15.87 g/cm²   piston.mass", "mass", "[piston]"),
+        ("spark-engine", ("piston_mass",), "m′_p = 158.7 kg/m² = 15.87 g/cm²   piston.mass", "mass", "[piston]"),
         ("press", ("rotational_speed",), "n = 14.65 rad/s = 139.897 rpm   crank.speed", "speed", "[crank]"),
         ("press-geometry", ("kinetic_energy", "--at=9"), "m_punch = 102 kg   sliders.punch.mass", "punch", "[sliders]"),
     ],

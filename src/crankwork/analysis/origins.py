@@ -99,7 +99,7 @@ def masses(machine: Machine, known: CrankGearMasses, area: Known | None, length:
         stated, plain = _stated(machine, path), given(key, value, path)
         if stated is None or area is None or UNITS[stated.unit].dimension != "mass_per_area":
             return plain
-        own = given(f"mass_per_area.{key.removesuffix('_mass')}", stated.value, path)
+        own = given(f"mass_per_area.of_{key.removesuffix('_mass')}", stated.value, path)
         return _checked(own * area, plain) if value else plain
 
     yield mass("piston_mass", known.piston, "piston.mass")

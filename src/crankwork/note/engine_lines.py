@@ -14,7 +14,10 @@ from crankwork.note.groups import Group
 
 _DEGREES, _TURN = 30.0, 360.0
 
-_GEOMETRY = ("rod_ratio", "relative_offset", "stroke", "top_dead_centre_angle", "bottom_dead_centre_angle")
+_GEOMETRY = (
+    "crank_radius", "rod_length", "rod_ratio", "relative_offset", "stroke", "top_dead_centre_angle",
+    "bottom_dead_centre_angle",
+)  # fmt: skip
 _SPEED = ("speed", "mean_piston_speed")
 _SWING = ("rod_sine", "rod_cosine", "crank_rod_sine", "crank_rod_cosine")
 _MOTION = (
@@ -102,7 +105,7 @@ def engine_lines(results: Results, degrees: float = _DEGREES, force_degrees: flo
         Group("motion", _followed(moving, results, _MOTION), at),
         Group("harmonics", _own(moving, results, _HARMONICS), at),
         Group("extremes", _own(moving, results, _EXTREMES)),
-        Group("masses", _own(moving, results, _MASSES)),
+        Group("masses", _followed(moving, results, _MASSES)),
         Group("gas", _own(loaded, results, (*_SPACE, *_points(results)))),
         Group("forces", _followed(loaded, results, _FORCES if has_forces else ()), there),
         Group("force_extremes", _own(loaded, results, _FORCE_EXTREMES)),
