@@ -31,7 +31,7 @@ from crankwork.formula.known import (
 )
 from crankwork.formula.replay import Angles, Program
 from crankwork.notation import ARGUMENTS
-from crankwork.quantities import base_key
+from crankwork.quantities import QUANTITIES, base_key
 
 # an angle that was found is printed with ten digits; no such rest of a term reaches the other
 _NOISE, _LARGEST_NOISE = 1e-10, 1e-4
@@ -363,6 +363,10 @@ def is_renamed(name: str, operand: Known) -> bool:
         return entry.quantity != "crank_angle" or not operand.key.startswith("crank_")
     if entry is None or not entry.quantity or "." in operand.key:
         return True
+    if entry.pattern.endswith("₁") and base_key(operand.key) in QUANTITIES:
+        # the state before goes by its own symbol where it has one: p_z
+        own, other = (QUANTITIES[base_key(key)].symbol() for key in (operand.key, entry.quantity))
+        return own != other
     return entry.pattern == "{}" and entry.quantity != operand.key
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from crankwork.formula.known import Found, Known, Pieces, Table, given
+from crankwork.formula.known import Found, Known, Pieces, Table, Use, given
 from crankwork.formula.replay import replay
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.loads.between import CurvePoint, curve_between
@@ -37,6 +37,11 @@ def polytrope_origin(diagram: IndicatorDiagram, segment: Segment, volume: Known)
     name = segment.origin
     if segment.of:
         p_1, n_p, *others = segment.of
+        if name == "z" and isinstance(volume.node, Use):
+            # where burning ends the gas has the clearance volume times the cut-off
+            burnt = (others[0] * volume.node.operands[0]).named(f"cylinder_volume.{name}")
+            if math.isclose(burnt.value, state_volume, rel_tol=_SAME_VOLUME):
+                return p_1, burnt, n_p
         at = diagram.named.get(name, (None, 0.0))[0]
         return p_1, Known(Found(state_volume, "at", (volume, *others), at), f"cylinder_volume.{name}"), n_p
     p_1 = given(f"diagram_pressure.{name}" if name else "", pressure, f"gas.points.{name}.pressure")
