@@ -32,8 +32,34 @@ def test_every_kind_of_value_is_explained(file, way, results_of):
         language = ("en", "ru", "vi")[len(seen) % 3]
         told = results.explain(key, at, language)
         wrong += [line for line in told.splitlines() if re.search(r"\?|nan|inf\b|_\.| = $", line)]
+        wrong += two_meanings(told, language)
     assert wrong == []
     assert unknown == []
+
+
+def legend(told: str, language: str = "en") -> list[tuple[str, str]]:
+    """Return the symbols of the legend of an explanation, each with its words."""
+    heading = {"en": "\nWhere\n", "ru": "\nГде\n", "vi": "\nTrong đó\n"}[language]
+    listed = told.partition(heading)[2].partition("\n\n")[0].replace("\u00a0", " ")
+    entries = " ".join(listed.split()).split("; ")
+    return [tuple(one.split(" – ", 1)) for one in entries if " – " in one]
+
+
+def two_meanings(told: str, language: str) -> list[str]:
+    """Return the letters that stand for two quantities in one explanation."""
+    found: dict[str, str] = {}
+    return [f"{shown}: {words}" for shown, words in legend(told, language) if found.setdefault(shown, words) != words]
+
+
+def test_an_explanation_ends_with_what_its_symbols_mean():
+    told = "\n".join(explained("examples/v8-diesel.toml", "total_torque", "--at", "100", "--lang", "vi"))
+    words = dict(legend(told, "vi"))
+    assert words["M"] == "mômen quay trục khuỷu"
+    assert words["α"] == "góc quay trục khuỷu"
+    # the working cycle of books has letters that the motion has too
+    assert words["α_n"] == "hệ số dư lượng không khí"
+    assert words["λ_n"].startswith("tỉ số tăng áp suất")
+    assert "  M_1,n = α_n·M_0 = " in told
 
 
 def explained(*arguments: str) -> list[str]:

@@ -8,8 +8,9 @@ in as many as give the printed value again; all are roundings: no value is compu
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from types import MappingProxyType
 from typing import NamedTuple
 
 from crankwork.formula.expression import Formula, record, text
@@ -47,6 +48,8 @@ _OF_HARMONICS = (
     "harmonic_cosine", "harmonic_sine", "harmonic_amplitude", "harmonic_phase", "phase_sum", "total_harmonic_amplitude",
 )  # fmt: skip
 _AT_POINTS = ("cylinder_volume", "diagram_pressure")
+# parts of quantities of links that are no links or points
+_NO_LINKS = ("exact", "start", "drive", "all")
 _OF_ORDERS = ("free_force", "free_moment")
 _WITHOUT_ORDER = ("rotating", "counterweights")
 _TIGHT_UNITS = ("°", "%")
@@ -83,7 +86,7 @@ def equation_symbol(step: Line | Formula, language: Language) -> str:
 
 
 # quantities that links and points have, whose names are any words
-_OF_LINKS = frozenset(row.key for row in linkage.ROWS)
+OF_LINKS = frozenset(row.key for row in linkage.ROWS)
 
 
 def value_symbol(key: str, language: Language) -> str:
@@ -92,7 +95,7 @@ def value_symbol(key: str, language: Language) -> str:
     if base_key(kind) not in QUANTITIES:
         return kind
     shown = equation_symbol(ValueLine(kind, 0.0), language)
-    if kind in _OF_LINKS and names:
+    if kind in OF_LINKS and names and names[0] not in _NO_LINKS:
         return owned_symbol(shown, ".".join(names))
     known = texts("marks", language)
     if kind in _OF_ORDERS and names and names[0] in _WITHOUT_ORDER:
@@ -208,19 +211,23 @@ def _plain(block: Equation, language: Language) -> str:
     return " = ".join([*parts, *line_parts(step, language)])
 
 
-def line_parts(step: Line, language: Language) -> list[str]:
-    """Return what stands between the signs of equality of a line, as text: symbols, numbers, values with units."""
+def line_parts(step: Line, language: Language, symbols: Mapping[str, str] = MappingProxyType({})) -> list[str]:
+    """Return what stands between the signs of equality of a line, as text: symbols, numbers, values with units.
+
+    `symbols`: those that stand for some operands here, by argument name.
+    """
     parts, digits = [], enough_digits(step)
     if isinstance(step, FormulaLine):
         put_in = {name: one for name, one in step.values.items() if not is_exact_pi(name, one)}
         printed = {name: number(one, language, digits=digits) for name, one in put_in.items()}
-        parts = [text(step.expression, _symbols(step, language), language), text(step.expression, printed, language)]
+        shown = {**_symbols(step, language), **symbols}
+        parts = [text(step.expression, shown, language), text(step.expression, printed, language)]
     elif isinstance(step, DelayedLine):
         parts = [f"{value_symbol(step.of, language)}({value_text(step.degrees, 'deg', language)})"]
     elif isinstance(step, SumLine) and step.terms:
-        symbols = [value_symbol(one.key, language) for one in step.terms]
+        names = [value_symbol(one.key, language) for one in step.terms]
         numbers = [number(one.value, language, digits=digits) for one in step.terms]
-        parts = [" + ".join(symbols), " + ".join([numbers[0], *map(_fenced, numbers[1:])])]
+        parts = [" + ".join(names), " + ".join([numbers[0], *map(_fenced, numbers[1:])])]
     while parts and parts[-1] == number(step.value, language):
         # the same number follows with its unit
         parts.pop()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import textwrap
 from collections.abc import Callable, Iterable, Iterator
 
 from crankwork.analysis.results import Results
@@ -22,17 +23,21 @@ from crankwork.formula.known import (
     Total,
     Use,
 )
-from crankwork.formula.lines import FormulaLine, ValueLine, without_noise
-from crankwork.locale import capital, say
+from crankwork.formula.lines import FormulaLine, Line, ValueLine, without_noise
+from crankwork.locale import capital, has_text, say, texts
 from crankwork.notation import ARGUMENTS, argument_unit
 from crankwork.note.definitions import definition_text
-from crankwork.note.equations import line_parts, shown_values, value_symbol, value_text
+from crankwork.note.equations import OF_LINKS, line_parts, shown_values, value_symbol, value_text
+from crankwork.note.legends import words_of
 from crankwork.note.numbering import Numbering
-from crankwork.quantities import QUANTITIES, Language, base_key
+from crankwork.quantities import QUANTITIES, Language, base_key, cycle
 from crankwork.report.language import label, number
 from crankwork.sources import cite
 from crankwork.units import UNITS, from_si, to_si
 
+_OF_ANGLE = re.compile(r"^(sin|cos|tan) ?")
+_OF_CYCLE = frozenset(row.key for row in cycle.ROWS)
+_OWNERS = {"stroke": "of_piston"}
 _FENCES = re.compile(r"[() ]")
 
 
@@ -102,9 +107,11 @@ class _Printed:
     def __init__(self, explanation: Explanation, language: Language, place: Place) -> None:
         self._explanation, self._language, self._place = explanation, language, place
         self._sources: dict[str, int] = {}
+        self._own: dict[str, str] = {}
 
     def __iter__(self) -> Iterator[str]:
         every = list(self._explanation)
+        self._own = told_apart([one.known.key for one in every], self._language)
         made = [one for one in every if not is_given(one)]
         # what does not vary is known before anything that does
         steady = [one for one in made if one.degrees is None and not _stands_at(one)]
@@ -121,6 +128,7 @@ class _Printed:
             told |= dict.fromkeys(lines)
             yield from lines
         yield from self._given([one for one in every if is_given(one)])
+        yield from self._legend(every)
         if self._sources:
             yield from ("", say("explain.sources", self._language))
             yield from (f"  [{count}] {cite(source)}" for source, count in self._sources.items())
@@ -145,8 +153,17 @@ class _Printed:
             case OfAngle(function=function, multiple=multiple, shift=shift) if not _has_own_symbol(known):
                 return _of_angle(function, multiple, shift, self._language)
         if known.key and not goes_by_argument(known, argument):
-            return value_symbol(known.key, self._language)
+            return self._own.get(known.key) or value_symbol(known.key, self._language)
         return symbol(argument, self._language) if argument in ARGUMENTS else "?"
+
+    def _symbols(self, step: Line) -> dict[str, str]:
+        """Return the symbols of operands that have another here than elsewhere."""
+        if not isinstance(step, FormulaLine) or not self._own:
+            return {}
+        entries = {name: ARGUMENTS[name] for name in step.values if name in ARGUMENTS}
+        found = {name: one.pattern.format(self._own[one.quantity]) for name, one in entries.items()
+                 if one.quantity in self._own and not one.extra}  # fmt: skip
+        return found | {name: self._own[key] for name, key in step.named if key in self._own}
 
     def _line(self, one: Explained) -> str:
         """Return the line of a value."""
@@ -160,7 +177,7 @@ class _Printed:
                 step = without_noise(self._explanation.moment(one.degrees).step(known))
                 parts = ["0"] if one.residual else parts
                 parts += [say(f"memory.{one.word}", language)] if one.word else []
-                found = line_parts(step, language)
+                found = line_parts(step, language, self._symbols(step))
                 parts += found[: -len(shown_values(step))] if one.residual else found
                 source = step.formula.source if isinstance(step, FormulaLine) else ""
                 return " = ".join(_once(parts)) + self._cited(source) + self._held(one)
@@ -246,6 +263,61 @@ class _Printed:
             lines.append(f"  {' = '.join(values)}   {where}")
         if lines:
             yield from ("", capital(say("captions.data", self._language)), *dict.fromkeys(lines))
+
+    def _legend(self, every: list[Explained]) -> Iterator[str]:
+        """Yield what the symbols mean: each quantity once, whatever its point or link."""
+        meanings = dict.fromkeys(self._meaning(one) for one in every)
+        entries = [f"{shown} – {words}".replace(" ", "\u00a0", 2) for shown, words in meanings if words]
+        if entries:
+            yield ""
+            yield capital(say("note.where", self._language))
+            yield from textwrap.wrap("; ".join(entries), 116, initial_indent="  ", subsequent_indent="  ",
+                                     break_long_words=False, break_on_hyphens=False)  # fmt: skip
+
+    def _meaning(self, one: Explained) -> tuple[str, str]:
+        """Return a symbol as it stands for all its points and links, and its words."""
+        known, language = one.known, self._language
+        if isinstance(known.node, OfAngle) and not _has_own_symbol(known):
+            return value_symbol("crank_angle", language), label("crank_angle", language)
+        if not known.key or goes_by_argument(known, one.argument):
+            return _meaning_of_argument(one.argument, language)
+        kind, _, part = known.key.partition(".")
+        if kind not in QUANTITIES:
+            return "", ""
+        is_part = has_text(f"marks.{part}") and has_text(f"report.{part}")
+        words = label(known.key if is_part else kind, language)
+        return self._own.get(known.key) or symbol_of_kind(known.key, language), words
+
+
+def symbol_of_kind(key: str, language: Language) -> str:
+    """Return the symbol that a quantity has of any cylinder, and of any point or link with the subscript i."""
+    kind, _, part = key.partition(".")
+    if has_text(f"marks.{part}"):
+        return value_symbol(key if has_text(f"report.{part}") else kind, language)
+    return value_symbol(f"{kind}.i" if part and kind in OF_LINKS and kind != "efficiency" else kind, language)
+
+
+def _meaning_of_argument(name: str, language: Language) -> tuple[str, str]:
+    entry = ARGUMENTS.get(name)
+    if entry is None:
+        return "", ""
+    if has_text(f"arguments.{name}"):
+        return symbol(name, language), words_of(name, language)
+    return (value_symbol(entry.quantity, language), label(entry.quantity, language)) if entry.quantity else ("", "")
+
+
+def told_apart(keys: Iterable[str], language: Language) -> dict[str, str]:
+    """Return symbols with the mark of their owner, of quantities whose letters mean something else here too."""
+    kinds: dict[str, set[str]] = {}
+    for key in {"crank_angle", *keys} - {""}:
+        for shown in (value_symbol(key, language), symbol_of_kind(key, language)):
+            kinds.setdefault(_OF_ANGLE.sub("", shown), set()).add(base_key(key.partition(".")[0]))
+    marks, found = texts("marks", language), {}
+    for key in keys:
+        shown, owner = value_symbol(key, language), "cycle" if key in _OF_CYCLE else _OWNERS.get(key)
+        if owner and len(kinds.get(shown, ())) > 1:
+            found[key] = f"{shown}{',' if '_' in shown else '_'}{marks[owner]}"
+    return found
 
 
 def _stands_at(one: Explained) -> bool:

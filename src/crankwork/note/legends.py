@@ -44,7 +44,7 @@ def legend(
             if key == f"argument:{name}":
                 shown = symbol(name, language)
                 if not any(one in QUANTITIES and QUANTITIES[one].symbol(language) == shown for one in known):
-                    found[key] = Explanation(shown, _words_of(name, language) + after)
+                    found[key] = Explanation(shown, words_of(name, language) + after)
             else:
                 own = entry.pattern == "{}" or name in named
                 meaning = _meaning(key, language)
@@ -59,7 +59,7 @@ def _unit(name: str, key: str) -> str:
     return QUANTITIES[kind].si_unit if kind in QUANTITIES and kind != ARGUMENTS[name].quantity else argument_unit(name)
 
 
-def _words_of(name: str, language: Language) -> str:
+def words_of(name: str, language: Language) -> str:
     """Return what an argument means whose symbol is not that of a quantity alone."""
     if has_text(f"arguments.{name}"):
         return say(f"arguments.{name}", language)
