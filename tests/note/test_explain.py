@@ -94,6 +94,21 @@ def test_an_extreme_is_followed_where_it_stands():
     assert "  r = 0.06 m = 60 mm   crank.radius, set on the command line by --set" in lines
 
 
+def test_what_is_made_of_an_extreme_stands_after_it():
+    for file, key, made_of in (
+        ("petrol-four", "bearing_load_ratio.crankpin.1", "R_max,cp,1"),
+        ("two-stroke", "cylinder_temperature_max", "p"),
+    ):
+        lines = explained(f"examples/{file}.toml", key)
+        (line,) = (
+            at for at, one in enumerate(lines) if one.startswith(f"  {lines[0].split(': ')[1].split(' = ')[0]} = ")
+        )
+        before = max(
+            at for at, one in enumerate(lines[: lines.index("Given values")]) if one.startswith(f"  {made_of} = ")
+        )
+        assert before < line
+
+
 def test_another_cylinder_is_the_first_one_later():
     lines = explained("examples/petrol-four.toml", "total_torque", "--at", "30", "--method", "textbook")
     assert any(line.startswith("  F_T,4(30°) = F_T(390°) = ") for line in lines)

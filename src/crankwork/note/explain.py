@@ -114,8 +114,9 @@ class _Printed:
         self._own = told_apart([one.known.key for one in every], self._language)
         made = [one for one in every if not is_given(one)]
         # what does not vary is known before anything that does
-        steady = [one for one in made if one.degrees is None and not _stands_at(one)]
-        moving = [one for one in made if one.degrees is not None or _stands_at(one)]
+        later = _later(made)
+        steady = [one for one in made if id(one.known.node) not in later]
+        moving = [one for one in made if id(one.known.node) in later]
         yield from self._section("explain.steady", steady)
         here: float | None = None
         told: dict[str, None] = {}
@@ -318,6 +319,21 @@ def told_apart(keys: Iterable[str], language: Language) -> dict[str, str]:
         if owner and len(kinds.get(shown, ())) > 1:
             found[key] = f"{shown}{',' if '_' in shown else '_'}{marks[owner]}"
     return found
+
+
+def _later(made: list[Explained]) -> set[int]:
+    """Return what stands at a crank angle, and what is made of that: the nodes."""
+    found: set[int] = set()
+    for one in made:
+        if one.degrees is not None or _stands_at(one) or _is_made_of(one.known, found):
+            found.add(id(one.known.node))
+    return found
+
+
+def _is_made_of(known: Known, nodes: set[int]) -> bool:
+    parts = known.node.operands
+    written = (one for one in parts if isinstance(one.node, Arithmetic) and not one.key)
+    return any(id(one.node) in nodes for one in parts) or any(_is_made_of(one, nodes) for one in written)
 
 
 def _stands_at(one: Explained) -> bool:

@@ -21,7 +21,7 @@ from crankwork.loads import gas as gas_formulas
 from crankwork.loads.cycle import quadrature
 from crankwork.loads.indicator import IndicatorDiagram, Segment, VolumeAt
 from crankwork.loads.monotone import hermite
-from crankwork.loads.pressure import remembered_pressure
+from crankwork.loads.pressure import at_angle, remembered_pressure
 from crankwork.method import EXACT, Method
 from crankwork.working_cycle import first_law, wiebe, woschni
 from crankwork.working_cycle.calculated_cycle import Calculated
@@ -109,6 +109,7 @@ def heat_release(
     left = memory["heat_released"] - memory["wall_heat"] - memory["closed_work"] - memory["internal_energy_change"]
     memory["first_law_residual"] = left.named("first_law_residual")
     memory |= _extremes(gas, periods, segments, trace, pressure)
+    memory["cylinder_temperature_max"] = _hottest(gas, memory, pressure, worked)
     memory["indicated_work"] = Known(Found(diagram.work(volume_at), "integral", (pressure,)), "indicated_work")
     again = _by_quadrature(gas, periods, segments)
     again["first_law_residual"] = memory["heat_released"].value - again["wall_heat"] - again["closed_work"] - stored
@@ -199,6 +200,15 @@ def _extremes(
         rise = gas.rates(fine, hermite(segment.knots, segment.pressures, segment.slopes, fine), period)[0]
         steepest.append((fine, rise))
     return found | _greatest("pressure_rise", steepest, column, gas.data.cycle)
+
+
+def _hottest(gas: ClosedGas, memory: Mapping[str, Known], column: Known, worked: Worked) -> Known:
+    """Return the greatest temperature, of pressure and volume where it stands."""
+    degrees = math.degrees(memory["cylinder_temperature_max_angle"].value)
+    volume = volume_when(worked, float(gas.volume_at(np.array([degrees]))[0]), degrees)
+    state = at_angle(column, degrees, "cylinder_pressure"), volume
+    hottest = first_law.gas_temperature(*state, worked["gas_mass"], worked["specific_gas_constant"])
+    return hottest.named("cylinder_temperature_max")  # type: ignore[no-any-return]
 
 
 def _greatest(key: str, stretches: list[tuple[Array, Array]], column: Known, cycle: float) -> dict[str, Known]:
