@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal, Self
 
 from crankwork.errors import MethodError
+from crankwork.locale import Refusal
 
 STANDARD_GRAVITY = 9.80665
 MAX_SERIES_ORDER = 200
@@ -70,9 +71,7 @@ class Method:
             return replace(self, kinematics="exact", order=0, rod="rigid")
         if name == "textbook":
             return replace(self, kinematics="textbook", order=0, rod="two-mass")
-        raise MethodError(
-            f'method "{name[:40]}" does not exist; write exact, textbook or series:N, N from 1 to {MAX_SERIES_ORDER}'
-        )
+        raise MethodError(Refusal("method_unknown", name=name[:40], most=MAX_SERIES_ORDER))
 
 
 EXACT = Method()

@@ -97,7 +97,7 @@ def build_method(values: Mapping[str, Any], reader: Reader) -> Method:
     try:
         method = method.named(values.get("kinematics", "exact"))
     except MethodError as error:
-        reader.complain("method.kinematics", str(error))
+        reader.complain("method.kinematics", error.args[0])
         return EXACT
     rod = values.get("rod", method.rod)
     return method if rod == method.rod else Method(**{**vars(method), "rod": rod})

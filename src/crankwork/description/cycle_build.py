@@ -15,6 +15,7 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.extremes import dead_centres
 from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
+from crankwork.locale import Refusal
 from crankwork.machine import Gas
 from crankwork.working_cycle.calculated_cycle import CalculatedCycle, CalculatedPressure
 from crankwork.working_cycle.cycle_data import GrinevetskyData
@@ -65,18 +66,18 @@ def build_cycle(values: Mapping[str, Any], reader: Reader, pi: float) -> Cycle |
     if kind is None:
         return None
     for key in sorted(set(table) - _KEYS[kind]):
-        reader.complain(f"cycle.{key}", f'does not belong to a cycle of the kind "{kind}"; leave it out')
+        reader.complain(f"cycle.{key}", Refusal("cycle_key", kind=kind))
     ratio = values.get("cylinder", {}).get("compression_ratio")
     if ratio is None:
         if not reader.doubts("cylinder.compression_ratio", "cylinder.clearance_volume"):
-            reader.complain("cylinder.compression_ratio", "is missing; a calculated cycle starts from it: write 9.0")
+            reader.complain("cylinder.compression_ratio", Refusal("cycle_ratio"))
         return None
     if reader.doubts("cycle", "crank.speed") or "speed" not in values.get("crank", {}):
         return None
     try:
         return _built(values, table, float(ratio), pi)
     except CrankworkError as error:
-        reader.complain(_blamed(str(error), table), str(error))
+        reader.complain(_blamed(error.args[0], table), error.args[0])
         return None
 
 
@@ -192,12 +193,12 @@ def _fuel(given: object) -> Fuel | None:
         return None
     if isinstance(given, str):
         if given not in FUELS:
-            raise CrankworkError(f'fuel "{given}" is not known; write {" or ".join(FUELS)}, or its composition')
+            raise CrankworkError(Refusal("fuel_unknown", fuel=given, known=tuple(FUELS)))
         return FUELS[given]
     table = cast("Mapping[str, Any]", given)
     parts = [table.get(key, 0.0) for key in ("carbon", "hydrogen", "oxygen")]
     if abs(sum(parts) - 1) > 0.01:
-        raise CrankworkError(f"fuel has parts that add up to {sum(parts):g}; carbon, hydrogen and oxygen make 1")
+        raise CrankworkError(Refusal("fuel_parts", sum=f"{sum(parts):g}"))
     return Fuel(parts[0], parts[1], parts[2], table.get("molar_mass"), _si(table, "heating_value"))
 
 
@@ -251,12 +252,10 @@ def _heat_release(values: Mapping[str, Any], table: Mapping[str, Any], angle: fl
     }
     given |= {name: _degrees(place, key) for name, (place, key) in angles.items() if key in place}
     if given["heat"] is None:
-        raise CrankworkError(
-            'cycle_heat is missing; write the heat of one cycle in one cylinder, cycle_heat = "1500 J"'
-        )
+        raise CrankworkError(Refusal("cycle_heat_missing"))
     bore = _si(values.get("cylinder", {}), "bore")
     if bore is None:
-        raise CrankworkError('a release of heat needs the bore; write cylinder.bore = "85 mm"')
+        raise CrankworkError(Refusal("cycle_bore_missing"))
     return HeatReleaseData(
         bore=bore,
         rotational_speed=values["crank"]["speed"].value * 30 / math.pi,

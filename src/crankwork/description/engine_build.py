@@ -54,15 +54,13 @@ def build_engine(
     try:
         layout, notices = _layout(table, round(cycle / 180))
     except LayoutError as error:
-        reader.complain(error.key, str(error))
+        reader.complain(error.key, error.args[0])
         return None
     _check_places(layout, table, reader)
     sizes = values.get("bearings", {})
     balance, flywheel = values.get("balance", {}), values.get("flywheel", {})
     if sizes.get("counterweight") and sizes["counterweight"].value and balance.get("rotating_share"):
-        reader.complain(
-            "bearings.counterweight", "adds to the counterweights of balance.rotating_share; keep one of the two"
-        )
+        reader.complain("bearings.counterweight", Refusal("counterweight_twice"))
     return Engine(
         layout=layout,
         slaves=_slaves(table, layout, lengths, reader),
@@ -83,7 +81,7 @@ def _check_places(layout: Layout, table: Mapping[str, Any], reader: Reader) -> N
         try:
             check_journals(layout)
         except CrankworkError as error:
-            reader.complain("engine.bank_stagger" if "bank_stagger" in table else "engine.spacing", str(error))
+            reader.complain("engine.bank_stagger" if "bank_stagger" in table else "engine.spacing", error.args[0])
 
 
 def _value(table: Mapping[str, Any], key: str) -> float | None:
@@ -105,13 +103,13 @@ def _check_keys(table: Mapping[str, Any], reader: Reader) -> None:
     layout = table.get("layout", "")
     for key, layouts in _ONLY_FOR.items():
         if key in table and layout not in layouts:
-            reader.complain(f"engine.{key}", f'belongs to layout = "{layouts[0]}"; leave it out, or change the layout')
+            reader.complain(f"engine.{key}", Refusal("of_layout", layout=layouts[0]))
     if layout == "radial" and "throws" in table:
-        reader.complain("engine.throws", "a radial engine has one throw; leave it out")
+        reader.complain("engine.throws", Refusal("radial_throws"))
     if layout == "V" and "bank_angle" not in table:
-        reader.complain("engine.bank_angle", 'is missing; write bank_angle = "90 deg"')
+        reader.complain("engine.bank_angle", Refusal("missing", advice='bank_angle = "90 deg"'))
     if layout == "W" and "bank_angles" not in table:
-        reader.complain("engine.bank_angles", 'is missing; write bank_angles = ["-60 deg", "0 deg", "60 deg"]')
+        reader.complain("engine.bank_angles", Refusal("missing", advice='bank_angles = ["-60 deg", "0 deg", "60 deg"]'))
 
 
 def _layout(table: Mapping[str, Any], strokes: int) -> tuple[Layout, tuple[LayoutNotice, ...]]:
@@ -122,11 +120,7 @@ def _layout(table: Mapping[str, Any], strokes: int) -> tuple[Layout, tuple[Layou
     order = [int(one) for one in table.get("firing_order", ()) if one]
     if not order and kind != "radial":
         if usual is None:
-            raise LayoutError(
-                "engine.firing_order",
-                f"no usual order is known for {kind} with {cylinders} cylinders, {strokes} strokes and these angles; "
-                f"write it, like [1, 3, 4, 2]{_near(table, strokes)}",
-            )
+            raise LayoutError("engine.firing_order", _no_order(table, strokes))
         order = list(usual.order)
         throws = throws or list(usual.throws)
     options: dict[str, Any] = {
@@ -155,13 +149,14 @@ def _layout(table: Mapping[str, Any], strokes: int) -> tuple[Layout, tuple[Layou
     return arranged(banks, order, throws=throws, **options)
 
 
-def _near(table: Mapping[str, Any], strokes: int) -> str:
-    """Return the advice to take a customary engine with another split of its pins."""
+def _no_order(table: Mapping[str, Any], strokes: int) -> Refusal:
+    """Return what to write where no order is customary, or with which split of the pins one would be."""
+    asked = {"kind": table["layout"], "cylinders": int(table["cylinders"]), "strokes": strokes}
     axes = (-_degrees(table, "bank_angle") / 2, _degrees(table, "bank_angle") / 2)
     for one in standard_orders(table["layout"], int(table["cylinders"]), strokes):
         if one.axes == axes and one.pin_offset:
-            return f', or pin_offset = "{one.pin_offset:g} deg" for a usual one'
-    return ""
+            return Refusal("order_unusual_near", **asked, pin_offset=f"{one.pin_offset:g}")
+    return Refusal("order_unusual", **asked)
 
 
 def _usual(table: Mapping[str, Any], strokes: int) -> StandardOrder | None:
@@ -191,13 +186,13 @@ def _slaves(
         if len(angles) != len(slaves):
             reader.complain(
                 "engine.articulated.knuckle_angles",
-                f"has {len(angles)} entries; write one for each of the {len(slaves)} articulated rods",
+                Refusal("knuckle_count", count=len(angles), slaves=len(slaves)),
             )
             return ()
     if length <= 0:
         reader.complain(
             "engine.articulated.rod_length",
-            f"would be {length * 1e3:.6g} mm, master rod less knuckle radius; write the length, or a smaller radius",
+            Refusal("articulated_length", length=f"{length * 1e3:.6g}"),
         )
         return ()
     if radius >= lengths[1]:
@@ -214,6 +209,6 @@ def _slaves(
             if rod is not None:
                 check_articulated_rod(SliderCrank(*lengths), rod)
         except GeometryError as error:
-            reader.complain("engine.articulated.knuckle_radius", str(error))
+            reader.complain("engine.articulated.knuckle_radius", error.args[0])
             return ()
     return tuple(rods)

@@ -30,6 +30,7 @@ from crankwork.loads.process import ForceOnPoint, ProcessForce, TorqueOnLink
 from crankwork.loads.spring import SliderSpring, Spring
 from crankwork.loads.table import Table as LoadTable
 from crankwork.loads.weight import Weight
+from crankwork.locale import Refusal
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.decomposition import mechanism_of
 from crankwork.mechanism.description import linkage_from
@@ -69,7 +70,7 @@ def build_linkage(values: Mapping[str, Any], reader: Reader) -> LinkageMachine |
         reader.complain(problem.key or "links", problem.message)
     method = build_method(values.get("method", {}), reader)
     if not method.is_exact:
-        reader.complain("method.kinematics", "a linkage is computed exactly; write exact or leave it out")
+        reader.complain("method.kinematics", Refusal("linkage_exact"))
     loads = _loads(values, linkage, reader)
     drive = _drive(values, reader)
     transient = _transient(values, loads, reader)
@@ -129,10 +130,7 @@ def _without_effect(
     for name, stated in linkage.positions.items():
         if name in solved and name not in settle and math.dist(stated, solved[name]) > _ROUGHLY * size:
             x, y = (1e3 * one for one in solved[name])
-            yield Problem(f"positions.{name}", (
-                f"has no effect there: lengths and branches put {name} at {x:.4g} mm, {y:.4g} mm; write that, "
-                "or give the position of the joint or the branch that is meant"
-            ))  # fmt: skip
+            yield Problem(f"positions.{name}", Refusal("position_idle", name=name, x=f"{x:.4g}", y=f"{y:.4g}"))
 
 
 def _settling(linkage: Linkage, mechanism: Mechanism) -> set[str]:
@@ -156,12 +154,12 @@ def _moves(machine: LinkageMachine, reader: Reader) -> bool:
         reached, _ = reachable(machine, grid)
         motion = linkage_motion(machine.mechanism, reached)
     except GeometryError as error:
-        reader.complain(_unassembled_key(machine, grid), str(error))
+        reader.complain(_unassembled_key(machine, grid), error.args[0])
         return False
     try:
         applied_loads(machine.mechanism, motion, machine.loads)
     except GeometryError as error:
-        reader.complain("loads", str(error))
+        reader.complain("loads", error.args[0])
         return False
     return machine.transient is None or _ends(machine, machine.transient, motion, reader)
 
@@ -185,20 +183,18 @@ def _ends(machine: LinkageMachine, wanted: Transient, motion: Motion, reader: Re
     """Complain of a transient that cannot be followed to its end."""
     inertia = float(np.mean(reduced_inertia(machine.mechanism, motion).inertia)) + machine.drive.inertia
     if inertia <= 0:
-        reader.complain("transient", "nothing has a mass, so nothing limits the speed; give masses or crank.inertia")
+        reader.complain("transient", Refusal("transient_massless"))
         return False
     turns = (wanted.torque / inertia * wanted.time / 2 + wanted.speed) * wanted.time / math.tau
     if turns > _MOST_TURNS:
-        reader.complain("transient.time", (
-            f"is too long: the crank would turn about {turns:.2g} times; write a time for at most {_MOST_TURNS} turns"
-        ))  # fmt: skip
+        reader.complain("transient.time", Refusal("transient_long", turns=f"{turns:.2g}", most=_MOST_TURNS))
         return False
     try:
         transient_summary(machine)
     except GeometryError as error:
-        reader.complain("transient", str(error))
+        reader.complain("transient", error.args[0])
     except CrankworkError as error:
-        reader.complain("transient", f"{error}; write a larger torque, a speed to start with, or another crank.start")
+        reader.complain("transient", Refusal("transient_ended", mistake=error.args[0]))
     else:
         return True
     return False
@@ -218,7 +214,7 @@ def build_tabulated(values: Mapping[str, Any], reader: Reader) -> TabulatedMachi
     """Return the machine of a table of transfer functions, or None after complaints."""
     method = build_method(values.get("method", {}), reader)
     if not method.is_exact:
-        reader.complain("method.kinematics", "the motion is that of the table; write exact or leave it out")
+        reader.complain("method.kinematics", Refusal("table_exact"))
     drive = _drive(values, reader)
     if reader.problems:
         return None
@@ -226,9 +222,9 @@ def build_tabulated(values: Mapping[str, Any], reader: Reader) -> TabulatedMachi
     angles = _plain(transfer["angles"])
     count = len(angles)
     if any(after <= before for before, after in itertools.pairwise(angles)) or angles[-1] - angles[0] > _REVOLUTION:
-        reader.complain("transfer.angles", "must rise within one revolution; sort the positions by their angles")
+        reader.complain("transfer.angles", Refusal("table_rises"))
     if not transfer["bodies"]:
-        reader.complain("transfer.bodies", "is empty; write a table [transfer.bodies.NAME] for each moving mass")
+        reader.complain("transfer.bodies", Refusal("bodies_empty"))
     bodies = [_body(name, body, count, reader) for name, body in transfer["bodies"].items()]
     optional: dict[str, tuple[float, ...] | None] = {}
     for key in ("reduced_inertia_1", "static_torque", "balancing_torque"):
@@ -261,7 +257,7 @@ def _body(name: str, body: Mapping[str, Any], count: int, reader: Reader) -> Tab
     if not columns:
         reader.complain(
             f"transfer.bodies.{name}",
-            "says nothing of its motion; write velocity or rotation, a number for each position",
+            Refusal("body_still"),
         )
     still = (0.0,) * count
     return TabulatedBody(
@@ -272,7 +268,7 @@ def _body(name: str, body: Mapping[str, Any], count: int, reader: Reader) -> Tab
 
 def _check_count(key: str, column: tuple[float, ...], count: int, reader: Reader) -> None:
     if len(column) != count:
-        reader.complain(key, f"has {len(column)} values for {count} positions; give one for each of transfer.angles")
+        reader.complain(key, Refusal("column_count", count=len(column), positions=count))
 
 
 def _is_whole(part: object) -> bool:
@@ -291,14 +287,14 @@ def _drive(values: Mapping[str, Any], reader: Reader) -> Drive:
         series = Series(tuple(parts))
         whole = efficiency(series)
         if whole < _LEAST_EFFICIENCY:
-            reader.complain("efficiency.chain", f"comes to {whole:.2g} only; leave out what is counted twice")
+            reader.complain("efficiency.chain", Refusal("efficiency_small", whole=f"{whole:.2g}"))
             return drive
         drive = replace(drive, efficiency=whole, chain=series)
         if "decimals" in table:
             used = round(whole, int(table["decimals"]))
             drive = replace(drive, efficiency=used, exact_efficiency=whole)
             if used <= 0:
-                reader.complain("efficiency.decimals", f"rounds an efficiency of {whole:.6g} to 0; write more of them")
+                reader.complain("efficiency.decimals", Refusal("efficiency_rounded", whole=f"{whole:.6g}"))
     motor = values.get("motor")
     if motor and {"rated_power", "rated_speed", "overload", "pole_pairs"} <= set(motor):
         frequency = _value(motor, "frequency", 2 * math.pi * 50) / (2 * math.pi)
@@ -308,7 +304,7 @@ def _drive(values: Mapping[str, Any], reader: Reader) -> Drive:
                 frequency=frequency, pole_pairs=int(motor["pole_pairs"]),
             )  # fmt: skip
         except MethodError as error:
-            reader.complain("motor.rated_speed", str(error))
+            reader.complain("motor.rated_speed", error.args[0])
         else:
             geared = GearedMotor(own, motor.get("ratio", 1.0), _value(motor, "inertia"), drive.efficiency)
             drive = replace(drive, motor=geared, rated_power=motor["rated_power"].value)
@@ -320,9 +316,7 @@ def _transient(values: Mapping[str, Any], loads: tuple[Load, ...], reader: Reade
     if table is None:
         return None
     if values.get("method", {}).get("weights") or not all(isinstance(one, Spring) and not one.preload for one in loads):
-        reader.complain(
-            "transient", "takes springs between points, without preload, as its only loads; remove the others"
-        )
+        reader.complain("transient", Refusal("transient_loads"))
     return Transient(table["torque"].value, table["time"].value, _value(table, "speed"))
 
 
@@ -333,7 +327,7 @@ def _loads(values: Mapping[str, Any], linkage: Linkage | None, reader: Reader) -
             try:
                 made.append(_load(one))
             except ValueError as error:
-                reader.complain(f"loads[{number}]", str(error))
+                reader.complain(f"loads[{number}]", error.args[0])
     return tuple(made)
 
 
@@ -342,13 +336,13 @@ def _check_load(key: str, load: Mapping[str, Any], linkage: Linkage | None, read
     needed, allowed = _LOAD_KEYS[load["kind"]]
     for name in needed:
         if name not in load:
-            reader.complain(f"{key}.{name}", f"is missing; a {load['kind']} load needs it")
+            reader.complain(f"{key}.{name}", Refusal("load_needs", kind=load["kind"]))
     for name in set(load) - {"kind", *needed, *allowed}:
-        reader.complain(f"{key}.{name}", f"means nothing for this kind; it takes {', '.join(needed + allowed)}")
+        reader.complain(f"{key}.{name}", Refusal("load_key", known=", ".join(needed + allowed)))
     if load["kind"] == "spring" and ("between" in load) == ("slider" in load):
-        reader.complain(f"{key}.between", "a spring joins two points or holds a slider; give between or slider")
+        reader.complain(f"{key}.between", Refusal("spring_ends"))
     if len(set(load.get("between", "  x"))) < 2:
-        reader.complain(f"{key}.between", f"names {load['between'][0]} twice; a spring joins two different points")
+        reader.complain(f"{key}.between", Refusal("spring_twice", point=load["between"][0]))
     _check_table(key, load, reader)
     if linkage is not None:
         _check_names(key, load, linkage, reader)
@@ -362,15 +356,15 @@ def _check_names(key: str, load: Mapping[str, Any], linkage: Linkage, reader: Re
              "point": set(linkage.owners)}  # fmt: skip
     for name, known in names.items():
         if name in load and load[name] not in known:
-            reader.complain(f"{key}.{name}", f'there is no {name} "{load[name]}"; there is {", ".join(sorted(known))}')
+            reader.complain(f"{key}.{name}", Refusal(f"absent_{name}", name=load[name], known=", ".join(sorted(known))))
     for point in load.get("between", []):
         if point not in names["point"]:
             reader.complain(
-                f"{key}.between", f'there is no point "{point}"; there is {", ".join(sorted(names["point"]))}'
+                f"{key}.between", Refusal("absent_point", name=point, known=", ".join(sorted(names["point"])))
             )
     owners = linkage.owners.get(load.get("point", ""), [])
     if load["kind"] == "force" and owners and load.get("link", owners[0]) not in owners:
-        reader.complain(f"{key}.link", f"{load['point']} is no point of it; it is one of {', '.join(owners)}")
+        reader.complain(f"{key}.link", Refusal("load_elsewhere", point=load["point"], owners=", ".join(owners)))
 
 
 def _check_table(key: str, load: Mapping[str, Any], reader: Reader) -> None:
@@ -379,21 +373,17 @@ def _check_table(key: str, load: Mapping[str, Any], reader: Reader) -> None:
     values, at = load.get(column, []), load.get("at")
     if None in values or at is None or None in at:
         if at is None and len(values) > 1:
-            reader.complain(f"{key}.at", (
-                f"is missing: {len(values)} values of {column} need as many; a single value holds everywhere"
-            ))  # fmt: skip
+            reader.complain(f"{key}.at", Refusal("load_at_missing", count=len(values), column=column))
         return
     wanted = "angle" if column == "torque" or load.get("against") == "angle" else "length"
     if any(one.dimension != wanted for one in at):
-        example = '["0 deg", "90 deg", ...]' if wanted == "angle" else '["0 mm", "50 mm", ...]'
-        advice = '; for crank angles add against = "angle"' if wanted == "length" else ""
-        reader.complain(f"{key}.at", f"must hold values of one kind, {wanted}s, like {example}{advice}")
+        reader.complain(f"{key}.at", Refusal(f"load_at_{wanted}"))
     elif any(after.value <= before.value for before, after in itertools.pairwise(at)):
-        reader.complain(f"{key}.at", "must rise from value to value; sort it, together with the column beside it")
+        reader.complain(f"{key}.at", Refusal("load_at_rises"))
     elif wanted == "angle" and at[-1].value - at[0].value > _REVOLUTION:
-        reader.complain(f"{key}.at", "spans more than one revolution; write angles from 0 deg to 360 deg")
+        reader.complain(f"{key}.at", Refusal("load_at_turn"))
     if len(at) != len(values):
-        reader.complain(f"{key}.at", f"has {len(at)} values for {len(values)} of {column}; give as many")
+        reader.complain(f"{key}.at", Refusal("load_at_count", count=len(at), others=len(values), column=column))
 
 
 def _load(load: Mapping[str, Any]) -> Load:
