@@ -86,7 +86,7 @@ def rrr_forces(a: Wrench, b: Wrench, u: Vector, v: Vector, name: str = "") -> tu
     Moments of `a` and `b` are about the outer pins, from which `u` and `v` lead to the inner one [m]:
     u x R = M_a and v x R = -M_b give R = (M_a v + M_b u) / (u x v) (artobolevsky_1988, ch. 13).
     """
-    area = named(area_of_arms(u[0], v[1], u[1], v[0]), f"doubled_area.{name}_arms")
+    area = named(area_of_arms(u[0], v[1], u[1], v[0]), f"doubled_area.{name}.arms")
     inner = _vector(
         name, (rrr_inner_force(a.moment, one, b.moment, other, area) for one, other in zip(v, u, strict=True))
     )
@@ -101,9 +101,9 @@ def rrp_forces(link: Wrench, piece: Wrench, u: Vector, t: Vector, name: str = ""
     u_n R_t) / u_t (artobolevsky_1988, ch. 13).
     """
     along, across = -force_along(piece.x, t[0], piece.y, t[1]), force_across(piece.y, t[0], piece.x, t[1])
-    along, across = named(along, f"force_along.{name}"), named(across, f"force_across.{name}_piece")
+    along, across = named(along, f"force_along.{name}"), named(across, f"force_across.{name}.piece")
     arm_along, arm_across = along_guide(u[0], t[0], u[1], t[1]), across_guide(u[1], t[0], u[0], t[1])
-    arm_along, arm_across = named(arm_along, f"guide_along.{name}_arm"), named(arm_across, f"guide_across.{name}_arm")
+    arm_along, arm_across = named(arm_along, f"guide_along.{name}.arm"), named(arm_across, f"guide_across.{name}.arm")
     pressed = named(rrp_inner_force(link.moment, arm_across, along, arm_along), f"force_across.{name}")
     inner = _vector(name, (force_along_x(along, t[0], pressed, t[1]), force_along_y(along, t[1], pressed, t[0])))
     return _minus(inner, link), inner, OnGuide(-across - pressed, -piece.moment)
@@ -116,7 +116,7 @@ def rpr_forces(lever: Wrench, block: Wrench, u: Vector, t: Vector, name: str = "
     direction of the slot. The block gives R_t = -F_t and takes its moment from the slot; the lever gives
     N = (M + M_block) / u_t (artobolevsky_1988, ch. 13).
     """
-    reach = named(along_guide(u[0], t[0], u[1], t[1]), f"guide_along.{name}_arm")
+    reach = named(along_guide(u[0], t[0], u[1], t[1]), f"guide_along.{name}.arm")
     normal = named(rpr_normal_force(lever.moment, block.moment, reach), f"normal_force.{name}")
     pressed = -normal * t[1], normal * t[0]
     return _balance(block, pressed), OnGuide(normal, -block.moment), _minus(pressed, lever)
@@ -129,7 +129,7 @@ def prp_forces(a: Wrench, b: Wrench, t_a: Vector, t_b: Vector, name: str = "") -
     """
     sine = named(sine_between(t_a[0], t_b[1], t_a[1], t_b[0]), f"guide_sine.{name}")
     along_a, along_b = force_along(a.x, t_a[0], a.y, t_a[1]), -force_along(b.x, t_b[0], b.y, t_b[1])
-    along_a, along_b = named(along_a, f"force_along.{name}"), named(along_b, f"force_along.{name}_2")
+    along_a, along_b = named(along_a, f"force_along.{name}"), named(along_b, f"force_along.{name}.2")
     x = prp_inner_force(along_a, t_b[1], along_b, t_a[1], sine)
     y = prp_inner_force(along_b, t_a[0], along_a, t_b[0], sine)
     x, y = inner = _vector(name, (x, y))
@@ -152,7 +152,7 @@ def rpp_forces(
     normal = named(along / sine, f"normal_force.{name}")
     pressed = -normal * slot[1], normal * slot[0]
     on_yoke = force_across(pressed[1] - yoke.y, guide[0], pressed[0] - yoke.x, guide[1])
-    turning = named(moment_about(u[0], pressed[1], u[1], pressed[0]), f"link_moment.{name}_normal")
+    turning = named(moment_about(u[0], pressed[1], u[1], pressed[0]), f"link_moment.{name}.normal")
     moment = -yoke.moment - block.moment + turning
     return _balance(block, pressed), OnGuide(normal, -block.moment), OnGuide(on_yoke, moment)
 

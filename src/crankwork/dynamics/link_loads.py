@@ -104,7 +104,7 @@ def distinct(names: Iterable[str]) -> list[str]:
     result = []
     for name in names:
         seen[name] += 1
-        result.append(name if seen[name] == 1 else f"{name}_{seen[name]}")
+        result.append(name if seen[name] == 1 else f"{name}.{seen[name]}")
     return result
 
 
@@ -120,7 +120,7 @@ def link_wrenches(running: Running) -> Wrenches:
     """
     motion, loads = running.motion, all_loads(running)
     wrenches, still = Wrenches(motion), nothing(motion.grid)
-    names = distinct(f"{force.link}_load" for force in loads.forces)
+    names = distinct(f"{force.link}.load" for force in loads.forces)
     for name, force in zip(names, loads.forces, strict=True):
         moment = moment_of(arm(motion.frames[force.link].origin, force.at), (force.x, force.y), name)
         wrenches.add(force.link, Wrench(force.x, force.y, moment))

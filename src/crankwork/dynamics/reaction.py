@@ -72,13 +72,13 @@ def reaction_wrench(reaction: Reaction, motion: Motion, link: str) -> Wrench:
             guide = motion.frames[joint.link]
             x, y = -guide.sin * normal, guide.cos * normal
     x, y = named(x, f"joint_force_x.{joint.name}"), named(y, f"joint_force_y.{joint.name}")
-    moment = moment_of(arm(motion.frames[link].origin, joint_place(joint, motion)), (x, y), f"{link}_{joint.name}")
+    moment = moment_of(arm(motion.frames[link].origin, joint_place(joint, motion)), (x, y), f"{link}.{joint.name}")
     if not (is_known(couple) and couple.is_absent):
-        moment = named(moment + couple, f"link_moment.{link}_{joint.name}_both")
+        moment = named(moment + couple, f"link_moment.{link}.{joint.name}.both")
     if link == joint.link:
         return Wrench(x, y, moment)
     x, y, moment = (
-        named(-one, f"{key}.{link}_from_{joint.name}")
+        named(-one, f"{key}.{link}.from.{joint.name}")
         for key, one in zip(("link_force_x", "link_force_y", "link_moment"), (x, y, moment), strict=True)
     )
     return Wrench(x, y, moment)

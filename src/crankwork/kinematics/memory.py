@@ -132,9 +132,9 @@ def _point(name: str, at: tuple[float, float], path: str) -> Any:  # noqa: ANN40
 def _guide(name: str, guide: Guide, path: str) -> Guide:
     """Return a guide; what is zero of a fixed one is given, of a carried one absent."""
     if not guide.link:
-        at: Any = _point(f"{name}_guide", guide.point, f"{path}.through")
-        return Guide(at, _untyped(given(f"link_angle.{name}_guide", guide.angle, f"{path}.angle")))
-    return replace(_slot(f"{name}_guide", guide, path), link=guide.link)
+        at: Any = _point(f"{name}.guide", guide.point, f"{path}.through")
+        return Guide(at, _untyped(given(f"link_angle.{name}.guide", guide.angle, f"{path}.angle")))
+    return replace(_slot(f"{name}.guide", guide, path), link=guide.link)
 
 
 def _slot(name: str, slot: Guide, path: str) -> Guide:

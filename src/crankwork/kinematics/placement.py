@@ -53,8 +53,8 @@ class Placed:
     def guide(self, guide: Guide, piece: str = "chain") -> LinkMotion:
         """Return the motion of a guide, under the name of what slides on it."""
         line = guide_on_link(self.links[guide.link], guide) if guide.link else fixed_guide(guide)
-        line = named_link(line, f"{piece}_guide")
-        return line._replace(origin=named_point(line.origin, f"{piece}_guide"))
+        line = named_link(line, f"{piece}.guide")
+        return line._replace(origin=named_point(line.origin, f"{piece}.guide"))
 
 
 def place(mechanism: Mechanism, grid: CrankGrid, *, plain: Mechanism | None = None) -> Placed:

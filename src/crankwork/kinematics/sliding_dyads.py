@@ -174,13 +174,13 @@ def prp_motion(dyad: PRP, a: LinkMotion, b: LinkMotion) -> PRPMotion:
         return tuple(named(one, key) for one, key in zip((s_a, s_b), keys, strict=True))
 
     s_a, s_b = solved("", *(_column(guide.origin, 0) for guide in (a, b)))
-    names = f"{dyad.block_a}_place", f"{dyad.block_b}_place"
+    names = f"{dyad.block_a}.place", f"{dyad.block_b}.place"
     carried = [
         named_point(point_on_guide(guide, Transfer(s, zero, zero)), name)
         for guide, s, name in zip((a, b), (s_a, s_b), names, strict=True)
     ]
     s_a_1, s_b_1 = solved("_1", *(_column(one, 1) for one in carried))
-    names = f"{dyad.block_a}_carried", f"{dyad.block_b}_carried"
+    names = f"{dyad.block_a}.carried", f"{dyad.block_b}.carried"
     carried = [
         named_point(point_on_guide(guide, Transfer(s, s_1, zero)), name)
         for guide, s, s_1, name in zip((a, b), (s_a, s_b), (s_a_1, s_b_1), names, strict=True)

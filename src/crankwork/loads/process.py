@@ -84,7 +84,7 @@ def process_force(load: ProcessForce, motion: Motion, path: str = "") -> Applied
     slide = motion.sliders[load.slider]
     start: Value = load.start
     if is_known(slide.position):
-        start = given(f"slider_displacement.{load.slider}_start", start, f"{path}.start")
+        start = given(f"slider_displacement.{load.slider}.start", start, f"{path}.start")
     way = slide.position - start, slide.position_1
     way = _Way(*(way if load.forward == 1 else (-way[0], -way[1])))
     force = _force(load, way, motion, (load.slider, path))

@@ -60,11 +60,11 @@ def _stated(
     """Return what a spring is like, as given values where its length is remembered."""
     if not is_known(length):
         return load.stiffness, free, load.preload
-    pull, at_free = load.preload, given(f"spring_length.{name}_free", free, f"{path}.free_length")
+    pull, at_free = load.preload, given(f"spring_length.{name}.free", free, f"{path}.free_length")
     return (
         given(f"spring_stiffness.{name}", load.stiffness, f"{path}.stiffness"),
         at_free if free else absent("spring_length"),
-        given(f"spring_force.{name}_preload", pull, f"{path}.preload") if pull else absent("spring_force"),
+        given(f"spring_force.{name}.preload", pull, f"{path}.preload") if pull else absent("spring_force"),
     )
 
 
@@ -74,14 +74,14 @@ def point_spring(load: Spring, mechanism: Mechanism, motion: Motion, path: str =
         check_name("point", name, motion.points)
     start, end = motion.points[load.start], motion.points[load.end]
     x, y = end.x.position - start.x.position, end.y.position - start.y.position
-    name = f"{load.start}_{load.end}"
+    name = f"{load.start}.{load.end}"
     length = named(spring_length(x, y), f"spring_length.{name}")
     if not is_known(length) and np.any(length == 0):
         raise GeometryError(f"the ends of the spring from {load.start} to {load.end} meet; move one of them")
     stiffness, free, preload = _stated(load, load.free_length, name, length, path)
     force = named(spring_force(stiffness, length, free, preload), f"spring_force.{name}")
     x, y = named(x / length * force, f"load_x.{name}"), named(y / length * force, f"load_y.{name}")
-    back = named(-x, f"load_x.{name}_end"), named(-y, f"load_y.{name}_end")
+    back = named(-x, f"load_x.{name}.end"), named(-y, f"load_y.{name}.end")
     return force_at(mechanism, motion, load.start, (x, y), load.start_link).also(
         force_at(mechanism, motion, load.end, back, load.end_link)
     )

@@ -96,7 +96,7 @@ def value_symbol(key: str, language: Language) -> str:
         return kind
     shown = equation_symbol(ValueLine(kind, 0.0), language)
     if kind in OF_LINKS and names and names[0] not in _NO_LINKS:
-        return owned_symbol(shown, ".".join(names))
+        return owned_symbol(shown, ".".join(names), language)
     known = texts("marks", language)
     if kind in _OF_ORDERS and names and names[0] in _WITHOUT_ORDER:
         # what turns with the shaft has no order

@@ -205,7 +205,9 @@ class _Printed:
     def _found(self, word: str, of: tuple[Known, ...], at: float | None) -> str:
         """Return what was found of what: of columns that are not followed here with the key to ask for."""
         columns = ", ".join(
-            self._symbol(part) + (f": {part.key}" if at is None else "") for part in of if part.key and part.varies
+            self._symbol(part) + (f": {label(part.key.partition('.')[0], self._language)}" if at is None else "")
+            for part in of
+            if part.key and part.varies
         )
         words = say(f"memory.{word}", self._language)
         where = "" if at is None else say("explain.where", self._language, angle=_angle(at, self._language))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from crankwork.locale import say
+from crankwork.locale import Language, say, texts
 from crankwork.note.captions import note_text
 from crankwork.note.document import Figure, Heading, Math, Runs
 from crankwork.note.printed_units import printed_unit
@@ -13,6 +13,25 @@ from crankwork.quantities import QUANTITIES
 from crankwork.report.language import symbol as key_symbol
 from crankwork.units import from_si
 
+# what of a link or point: its guide, the arm from a joint, the load on it
+_PARTS = frozenset(
+    (
+        "guide",
+        "arm",
+        "arms",
+        "place",
+        "carried",
+        "load",
+        "both",
+        "normal",
+        "start",
+        "free",
+        "preload",
+        "piece",
+        "end",
+        "from",
+    )
+)
 _WITHIN = str.maketrans({".": ",", "/": ":", "′": "'", "″": "'"})
 
 
@@ -41,9 +60,7 @@ class Words(NoteWords):
         """Return the symbol of a key as `base_subscript`, the name of what it belongs to in the subscript."""
         kind, _, name = key.partition(".")
         shown = QUANTITIES[kind].symbol(self.language) if kind in QUANTITIES else key_symbol(kind, self.language)
-        if not name:
-            return shown
-        return owned_symbol(shown, name)
+        return owned_symbol(shown, name, self.language) if name else shown
 
     def titled(self, key: str, unit: str | None = None) -> Runs:
         """Return the heading of a column of a table: symbol and unit, that of the quantity if none is given."""
@@ -74,15 +91,17 @@ def subscript(name: str) -> str:
     return "-".join(name.translate(_WITHIN).split())
 
 
-def owned_symbol(shown: str, name: str) -> str:
+def owned_symbol(shown: str, name: str, language: Language) -> str:
     """Return a symbol with the name of the link or point that it belongs to in the subscript.
 
     Examples
     --------
-    >>> owned_symbol("R_x", "A"), owned_symbol("m_i", "upper rod")
-    ('R_x,A', 'm_upper-rod')
+    >>> owned_symbol("R_x", "A", "en"), owned_symbol("x", "upper rod.guide", "en")
+    ('R_x,A', 'x_upper-rod,g')
     """
-    name = subscript(name)
+    owner, *parts = name.split(".")
+    marks = texts("marks", language)
+    name = subscript(".".join([owner, *(marks[one] if one in _PARTS else one for one in parts)]))
     if "_i" in shown:
         return shown.replace("_i", f"_{name}", 1)
     return f"{shown}{',' if '_' in shown else '_'}{name}"
