@@ -120,6 +120,14 @@ def test_what_is_made_of_an_extreme_stands_after_it():
         assert before < line
 
 
+def test_an_integral_says_what_is_integrated(tmp_path):
+    file = tmp_path / "press.toml"
+    file.write_text(crankwork.template("toggle-press") + "\n[flywheel]\nfluctuation = 0.02\n", encoding="utf-8")
+    for path, integral in (("examples/petrol-four.toml", "∫(M_Σ − M_Σm) dφ"), (str(file), "−∫(M_st − M_m) dφ")):
+        lines = explained(path, "kinetic_energy_change", "--at", "50")
+        assert any(one.startswith(f"  ΔT = {integral} = ") for one in lines)
+
+
 def test_another_cylinder_is_the_first_one_later():
     lines = explained("examples/petrol-four.toml", "total_torque", "--at", "30", "--method", "textbook")
     assert any(line.startswith("  F_T,4(30°) = F_T(390°) = ") for line in lines)

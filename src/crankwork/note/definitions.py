@@ -49,6 +49,19 @@ def definition_text(key: str, language: Language) -> str:
     return ""
 
 
+# of which torque the kinetic energy takes what is beyond the mean: its mean, and the sign that it has there
+_BEYOND = {"total_torque": ("mean_total_torque", ""), "static_torque": ("mean_torque", "−")}
+
+
+def integral_text(of: str, language: Language) -> str:
+    """Return what is integrated over the crank angle of a torque beyond its mean, empty where it is none."""
+    if of not in _BEYOND:
+        return ""
+    mean, sign = _BEYOND[of]
+    torque, mean, phi = (QUANTITIES[one].symbol(language) for one in (of, mean, "crank_angle"))
+    return f"{sign}∫({torque} − {mean}) d{phi}"
+
+
 def _over(key: str, variable: str, language: Language) -> Row:
     return row(SPACE, _symbol(key, language), SPACE, Upright("d"), _symbol(variable, language))
 

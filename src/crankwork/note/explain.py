@@ -26,7 +26,7 @@ from crankwork.formula.known import (
 from crankwork.formula.lines import FormulaLine, Line, ValueLine, without_noise
 from crankwork.locale import capital, has_text, say, texts
 from crankwork.notation import ARGUMENTS, argument_unit
-from crankwork.note.definitions import definition_text
+from crankwork.note.definitions import definition_text, integral_text
 from crankwork.note.equations import OF_LINKS, line_parts, shown_values, value_symbol, value_text
 from crankwork.note.legends import words_of
 from crankwork.note.numbering import Numbering
@@ -194,8 +194,9 @@ class _Printed:
                 defined = definition_text(known.key, language) if known.key else ""
                 parts += [defined] if defined else []
                 parts.append(self._found(word, of, at))
-            case Table(word=word):
-                parts.append(say(f"memory.{word}", language))
+            case Table(word=word, operands=of):
+                integral = integral_text(of[0].key, language) if of and word == "integral" else ""
+                parts += [*([integral] if integral else []), say(f"memory.{word}", language)]
             case Component():
                 parts.append(say("explain.root", language))
             case HalfTurns():
