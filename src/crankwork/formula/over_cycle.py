@@ -29,10 +29,12 @@ _AT_LOOK = legendre.legvander(_LOOK, _NODES.size - 1)
 _SLOPE_AT_ENDS = np.stack([(-1.0) ** (_DEGREES + 1), np.ones(_NODES.size)]) * _DEGREES * (_DEGREES + 1) / 2
 _DERIVATIVE = np.pad(legendre.legder(np.eye(_NODES.size)), ((0, 1), (0, 0)))
 _WIDTH = 30.0
+# Numbers that are looked at together.
+_NUMBERS = 2**21
 _CONVERGED = 1e-12
 _PARTS = 3
 _CUTS = 9
-_NO_BETTER = 0.3
+_NO_BETTER = 0.03
 _PATIENT = 1
 # of equal values, whatever rounding says, the first counts
 _PLATEAU = 1e-13
@@ -85,23 +87,30 @@ class OverCycle:
         size = np.maximum(np.max(np.abs(coefficients).sum(axis=2), axis=1), 1e-300)
         self._scale = size[[self._row[size_of.get(key, key)] for key in self._row]]
         rounding = np.zeros(coefficients.shape[:2], dtype=bool)
+        done = []
         for cut in range(_CUTS):
             left = np.where(rounding, 0.0, self._left_out(coefficients))
-            coarse = np.flatnonzero(np.max(left, axis=0, initial=0.0) > _CONVERGED)
-            if not coarse.size:
+            is_coarse = np.max(left, axis=0, initial=0.0) > _CONVERGED
+            done.append((low[~is_coarse], high[~is_coarse], coefficients[:, ~is_coarse]))
+            low, high, coefficients = low[is_coarse], high[is_coarse], coefficients[:, is_coarse]
+            if not low.size:
                 break
-            between = self._cuts(coefficients[:, coarse], low[coarse], high[coarse])
-            fine_low, fine_high = between[:-1].ravel(), between[1:].ravel()
-            kept = np.delete(np.arange(low.size), coarse)
-            low, high = np.concatenate([low[kept], fine_low]), np.concatenate([high[kept], fine_high])
-            fine = self._fit(fine_low, fine_high)
-            coefficients = np.concatenate([coefficients[:, kept], fine], axis=1)
+            between = self._cuts(coefficients, low, high)
+            low, high = between[:-1].ravel(), between[1:].ravel()
+            coefficients = self._fit(low, high)
             # what is no nearer in any part is rounding, and no polynomial follows it
-            better = self._left_out(fine).reshape(-1, _PARTS, coarse.size).min(axis=1)
-            hopeless = rounding[:, coarse] | ((better > _NO_BETTER * left[:, coarse]) & (cut >= _PATIENT))
-            rounding = np.concatenate([rounding[:, kept], *[hopeless] * _PARTS], axis=1)
-        order = np.argsort(low)
-        self._low, self._high, self._coefficients = low[order], high[order], coefficients[:, order]
+            better = self._left_out(coefficients).reshape(-1, _PARTS, low.size // _PARTS).min(axis=1)
+            hopeless = rounding[:, is_coarse] | ((better > _NO_BETTER * left[:, is_coarse]) & (cut >= _PATIENT))
+            rounding = np.concatenate([hopeless] * _PARTS, axis=1)
+        done.append((low, high, coefficients))
+        self._low, self._high = (np.concatenate([one[at] for one in done]) for at in (0, 1))
+        order = np.argsort(self._low)
+        self._low, self._high = self._low[order], self._high[order]
+        self._coefficients = np.empty((len(self._row), order.size, _NODES.size))
+        place, start = np.argsort(order), 0
+        for some, _, part in done:
+            self._coefficients[:, place[start : start + some.size]] = part
+            start += some.size
         self.error = float(np.max(self._left_out(self._coefficients), initial=0.0))
 
     def _fit(self, low: Array, high: Array) -> Array:
@@ -212,28 +221,34 @@ class OverCycle:
 
     @cached_property
     def largest_and_least(self) -> dict[str, tuple[Extreme, Extreme]]:
-        """The largest and the least of every column, all replayed together."""
-        places = [self._may_stand(sign) for sign in (1.0, -1.0)]
+        """The largest and the least of every column, as many replayed together as memory has room for."""
+        keys, found = list(self._row), dict[str, tuple[Extreme, Extreme]]()
+        together = max(_NUMBERS // (self._low.size * _LOOK.size), 1)
+        for some in (keys[at : at + together] for at in range(0, len(keys), together)):
+            program = self._program if len(some) == len(keys) else Program({key: self.knowns[key] for key in some})
+            found |= self._extremes_of(some, program)
+        return found
+
+    def _extremes_of(self, keys: list[str], program: Program) -> dict[str, tuple[Extreme, Extreme]]:
+        rows = slice(self._row[keys[0]], self._row[keys[-1]] + 1)
+        places = [self._may_stand(sign * self._coefficients[rows], self._scale[rows]) for sign in (1.0, -1.0)]
         every = distinct(np.concatenate([self.edges, *(angles for _, angles in places)]))
-        columns = self._program(self._angles_at(every))
-        values = np.stack([columns[key] for key in self._row]) if columns else np.empty((0, every.size))
+        columns = program(self._angles_at(every))
+        values = np.stack([columns[key] for key in keys])
         largest, least = (
             self._first_of_equal(*place, every, sign * values) for place, sign in zip(places, (1.0, -1.0), strict=True)
         )
-        at = zip(values[np.arange(len(largest)), largest], every[largest], strict=True)
-        found = zip(at, zip(values[np.arange(len(least)), least], every[least], strict=True), strict=True)
         return {
-            key: (Extreme(*map(float, one)), Extreme(*map(float, other)))
-            for key, (one, other) in zip(self._row, found, strict=True)
+            key: (Extreme(float(column[one]), float(every[one])), Extreme(float(column[other]), float(every[other])))
+            for key, column, one, other in zip(keys, values, largest, least, strict=True)
         }
 
-    def _may_stand(self, sign: float) -> tuple[NDArray[np.intp], Array]:
-        """Return rows and crank angles where, but for edges, the largest of a column times the sign may stand."""
-        coefficients = sign * self._coefficients
+    def _may_stand(self, coefficients: Array, scale: Array) -> tuple[NDArray[np.intp], Array]:
+        """Return rows and crank angles where, but for edges, the largest of columns may stand."""
         looked = coefficients @ _AT_LOOK.T
-        top, span = looked.max(axis=(1, 2), initial=-np.inf), np.ptp(looked, axis=(1, 2)) if looked.size else 0.0
+        top, span = looked.max(axis=(1, 2)), np.ptp(looked, axis=(1, 2))
         high_up = looked >= (top - _NEAR_TOP * span)[:, None, None]
-        row_of_jump, jump = np.nonzero(np.abs(looked[:, 1:, 0] - looked[:, :-1, -1]) > _JUMP * self._scale[:, None])
+        row_of_jump, jump = np.nonzero(np.abs(looked[:, 1:, 0] - looked[:, :-1, -1]) > _JUMP * scale[:, None])
         inner = looked[:, :, 1:-1]
         row, interval, place = np.nonzero(
             (inner >= looked[:, :, :-2]) & (inner >= looked[:, :, 2:]) & high_up[:, :, 1:-1]
