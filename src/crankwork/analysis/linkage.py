@@ -27,6 +27,7 @@ from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.quality import FourBarType, grashof, limits_of_all, stroke_ratio, transmission_extremes
 from crankwork.linkage_machine import LinkageMachine, TabulatedMachine
 from crankwork.loads.load import applied_loads
+from crankwork.locale import Refusal
 from crankwork.mechanism.dyads import RRP, RRR
 from crankwork.mechanism.structure import mobility
 from crankwork.method import Method
@@ -62,9 +63,8 @@ def reachable(machine: LinkageMachine, grid: CrankGrid) -> tuple[CrankGrid, tupl
         if reached.size < 2:
             raise
         kept = grid[slice(int(reached[0]), int(reached[-1]) + 1)]
-        return kept, (
-            Notice("partial", {"message": str(error), "from": float(kept.degrees[0]), "to": float(kept.degrees[-1])}),
-        )
+        ends = {"from": float(kept.degrees[0]), "to": float(kept.degrees[-1])}
+        return kept, (Notice("partial", {"message": error.args[0], **ends}),)
     return grid, ()
 
 
@@ -103,7 +103,7 @@ def analyse_linkage(machine: LinkageMachine, grid: CrankGrid | None = None) -> R
     if inside.size == 0 and own_table:
         grid, inside = dense, np.arange(len(dense))
     if inside.size == 0:
-        raise CrankworkError(f"no angle of the table can be reached; the linkage moves from {low:g} to {high:g} deg")
+        raise CrankworkError(Refusal("table_unreached", low=f"{low:g}", high=f"{high:g}"))
     grid = grid[slice(int(inside[0]), int(inside[-1]) + 1)]
     memory = linkage_memory(machine, linkage_motion(machine.mechanism, dense))
     over = OverCycle({key: memory[key] for key in _followed(memory)}, CrankGrid.from_degrees, high - low, low)

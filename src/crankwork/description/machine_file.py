@@ -95,11 +95,14 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> AnyMachine |
             solve(machine, machine.method)
         except DiagramError as error:
             measured = read_values.get("gas", {}).get("measured", {})
-            reader.complain(error.key, f"{measured['file']}, {error}" if measured else str(error))
+            mistake = error.args[0]
+            if measured:
+                mistake = Refusal("in_file", file=measured["file"], mistake=mistake)
+            reader.complain(error.key, mistake)
         except CrankworkError as error:
             if "cycle" not in values:
                 raise
-            reader.complain("cycle", str(error))
+            reader.complain("cycle", error.args[0])
     return machine
 
 

@@ -13,6 +13,7 @@ from crankwork import files
 from crankwork.description.schema import Reader
 from crankwork.errors import CrankworkError
 from crankwork.loads.measured import MeasuredPressure
+from crankwork.locale import Refusal
 from crankwork.units import UNITS
 
 _KEY = "gas.measured.file"
@@ -28,10 +29,10 @@ def read_measured(values: Mapping[str, Any], reader: Reader, folder: Path) -> Me
         text = files.read_text(path, limit=files.MAX_DATA_FILE)
         samples = _samples(text, values)
     except CrankworkError as error:
-        reader.complain(_KEY, str(error))
+        reader.complain(_KEY, error.args[0])
         return None
     except ValueError as error:
-        reader.complain(_KEY, f"{values['file']}, {error}")
+        reader.complain(_KEY, Refusal("in_file", file=values["file"], mistake=error.args[0]))
         return None
     numbers, angles, pressures = zip(*samples, strict=True)
     degrees = np.array(angles) if values.get("angle_unit", "deg") == "deg" else np.degrees(angles)
@@ -44,7 +45,7 @@ def _samples(text: str, values: Mapping[str, Any]) -> list[tuple[int, float, flo
     """Return line number, angle and pressure of every row of numbers."""
     rows = _rows(text)
     if not rows:
-        raise ValueError("line 1: the file is empty; it needs a column of crank angle and one of pressure")
+        raise ValueError(Refusal("measured_empty"))
     number, first = rows[0]
     angle, pressure = _columns(first, number, values)
     has_heading = any(_float(cell) is None for cell in first[:2])
@@ -52,12 +53,11 @@ def _samples(text: str, values: Mapping[str, Any]) -> list[tuple[int, float, flo
     for number, row in rows[has_heading:]:
         if len(row) != len(first):
             raise ValueError(
-                f"line {number}: {len(row)} columns where line {rows[0][0]} has {len(first)}; "
-                "correct the row, and separate columns by semicolons if commas are decimal marks"
+                Refusal("measured_columns", line=number, count=len(row), first=rows[0][0], wanted=len(first))
             )
         samples.append((number, _number(row[angle], number), _number(row[pressure], number)))
     if not samples:
-        raise ValueError(f"line {number}: only a heading; write rows of numbers below it")
+        raise ValueError(Refusal("measured_heading", line=number))
     return samples
 
 
@@ -74,24 +74,21 @@ def _rows(text: str) -> list[tuple[int, list[str]]]:
             (number, next(csv.reader([line], delimiter=separator, skipinitialspace=True))) for number, line in lines
         ]
     except csv.Error:
-        raise ValueError("line 1: a cell is far too long; give a table of numbers") from None
+        raise ValueError(Refusal("measured_cell")) from None
 
 
 def _columns(heading: list[str], number: int, values: Mapping[str, Any]) -> tuple[int, int]:
     """Return the positions of the two columns, by heading if one is given."""
     names = [cell.strip() for cell in heading]
     if len(names) < 2:
-        raise ValueError(f"line {number}: only one column; write crank angle and pressure, separated by a comma")
+        raise ValueError(Refusal("measured_one_column", line=number))
     if len(names) > 2 and all(_float(name) is not None for name in names):
-        raise ValueError(
-            f"line {number}: {len(names)} columns without headings; keep two, "
-            "and separate them by semicolons if commas are decimal marks"
-        )
+        raise ValueError(Refusal("measured_no_heading", line=number, count=len(names)))
     positions = []
     for key, default in (("angle_column", 0), ("pressure_column", 1)):
         name = values.get(key)
         if name is not None and name not in names:
-            raise ValueError(f'line {number}: there is no column "{name}"; the headings are: {", ".join(names)[:200]}')
+            raise ValueError(Refusal("measured_absent", line=number, name=name, known=", ".join(names)[:200]))
         positions.append(default if name is None else names.index(name))
     return positions[0], positions[1]
 
@@ -99,9 +96,7 @@ def _columns(heading: list[str], number: int, values: Mapping[str, Any]) -> tupl
 def _number(cell: str, number: int) -> float:
     value = _float(cell)
     if value is None or not abs(value) < _LARGEST:
-        raise ValueError(
-            f'line {number}: "{cell.strip()[:40]}" is not a number that can be measured; correct or remove the row'
-        )
+        raise ValueError(Refusal("measured_no_number", line=number, cell=cell.strip()[:40]))
     return value
 
 

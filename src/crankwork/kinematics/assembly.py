@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from crankwork.errors import GeometryError
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dyads import Closure
+from crankwork.locale import Refusal
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad
 
@@ -35,72 +36,60 @@ def refusal(group: Dyad | Chain, closure: Closure, grid: CrankGrid, bad: NDArray
     value = np.where(bad, np.nan_to_num(closure.value, nan=-np.inf), np.inf)
     worst = int(np.argmin(value))
     singular = abs(float(closure.value.flat[worst])) <= _SINGULAR * closure.scale
-    what, why = _singular(group) if singular else _missing(group, float(closure.excess.flat[worst]))
-    return GeometryError(f"{what} at a crank angle of {grid.degrees[worst]:.7g} deg: {why}")
+    at = f"{grid.degrees[worst]:.7g}"
+    told = _singular(group, at) if singular else _missing(group, float(closure.excess.flat[worst]), at)
+    return GeometryError(told)
 
 
-_UNDETERMINED = (
-    "a singular position (dead centre or change point), in which the motion is not determined; "
-    "change a length, or leave this angle out"
-)
-
-
-def _singular(group: Dyad | Chain) -> tuple[str, str]:
-    """Return what is singular, and what would help."""
+def _singular(group: Dyad | Chain, at: str) -> Refusal:
+    """Return what is singular, and what would help; `at`: the crank angle as text [deg]."""
     match group:
         case RRR():
-            return f"links {group.link_a} and {group.link_b} are in line", _UNDETERMINED
+            return Refusal("rrr_singular", first=group.link_a, second=group.link_b, angle=at)
         case RRP():
-            return f"link {group.link} is square to the guide of {group.slider}", _UNDETERMINED
+            return Refusal("rrp_singular", link=group.link, slider=group.slider, angle=at)
         case RPR():
-            return f"the pin {group.joint} comes to where {group.link} may turn freely", _UNDETERMINED
+            return Refusal("rpr_singular", pin=group.joint, link=group.link, angle=at)
         case PRP():
-            return f"the guides of {group.block_a} and {group.block_b} are parallel", _UNDETERMINED
+            return Refusal("prp_singular", first=group.block_a, second=group.block_b, angle=at)
         case RPP():
-            return f"slot and guide of {group.link} are parallel", "they never meet; change the angle of the slot"
+            return Refusal("rpp_singular", link=group.link, angle=at)
         case Chain():
-            return f"links {_names(group)} are in a position", _UNDETERMINED
+            return Refusal("chain_singular", links=_names(group), angle=at)
 
 
-def _missing(group: Dyad | Chain, measure: float) -> tuple[str, str]:
-    """Return what does not meet, by how much, and what would help."""
+def _missing(group: Dyad | Chain, measure: float, at: str) -> Refusal:
+    """Return what does not meet, by how much, and what would help; `at`: the crank angle as text [deg]."""
     match group:
         case RRR():
-            return f"links {group.link_a} and {group.link_b} do not meet at {group.point}", _apart(group, measure)
+            return _apart(group, measure, at)
         case RRP():
-            return f"link {group.link} does not reach the guide of {group.slider}", (
-                f"it is {(abs(measure) - group.length) * 1e3:.4g} mm too short; lengthen it by more than that or "
-                "move the guide"
-            )
+            short = f"{(abs(measure) - group.length) * 1e3:.4g}"
+            return Refusal("rrp_short", link=group.link, slider=group.slider, missing=short, angle=at)
         case RPR():
-            return f"the pin {group.joint} comes nearer to {group.pivot} than the slot of {group.link} passes by", (
-                f"it misses {_slot_offset(group, measure) * 1e3:.4g} mm; reduce the offset of the slot or move "
-                f"{group.pivot}"
-            )
+            short = f"{_slot_offset(group, measure) * 1e3:.4g}"
+            return Refusal("rpr_near", pin=group.joint, pivot=group.pivot, link=group.link, missing=short, angle=at)
         case PRP() | RPP():
-            return _singular(group)
+            return _singular(group, at)
         case Chain():
-            return f"links {_names(group)} cannot be brought from their start at {math.degrees(group.start):g} deg", (
-                "a singular position lies between; change a length or the start"
-            )
+            start = f"{math.degrees(group.start):g}"
+            return Refusal("chain_lost", links=_names(group), start=start, angle=at)
 
 
 def _names(chain: Chain) -> str:
     return ", ".join(link.name for link in chain.links)
 
 
-def _apart(group: RRR, square: float) -> str:
+def _apart(group: RRR, square: float, at: str) -> Refusal:
     p, q, distance = group.length_a, group.length_b, math.sqrt(square)
+    names = {
+        "first": group.link_a, "second": group.link_b, "point": group.point,
+        "joint": group.joint_a, "other": group.joint_b, "angle": at,
+    }  # fmt: skip
     if distance > p + q:
-        return (
-            f"together they are {(distance - p - q) * 1e3:.4g} mm too short; lengthen one of them or bring "
-            f"{group.joint_a} and {group.joint_b} closer"
-        )
+        return Refusal("rrr_short", **names, missing=f"{(distance - p - q) * 1e3:.4g}")
     longer, shorter = (group.link_a, group.link_b) if p > q else (group.link_b, group.link_a)
-    return (
-        f"{longer} is {(abs(p - q) - distance) * 1e3:.4g} mm too long; shorten it, lengthen {shorter} or move "
-        f"{group.joint_a} and {group.joint_b} apart"
-    )
+    return Refusal("rrr_long", **names, longer=longer, shorter=shorter, missing=f"{(abs(p - q) - distance) * 1e3:.4g}")
 
 
 def _slot_offset(dyad: RPR, square: float) -> float:

@@ -16,6 +16,7 @@ from crankwork.errors import GeometryError
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import Arithmetic, called, is_known
 from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.locale import Refusal
 
 
 @formula("rod_ratio", "kolchin_demidov_2008, ch. 6")
@@ -170,11 +171,16 @@ def check_slider_crank(slider_crank: SliderCrank) -> None:
     """Raise if the crank cannot turn fully."""
     r, l, e = (float(np.max(np.abs(one))) for one in slider_crank)  # noqa: E741
     if np.any(np.less_equal(slider_crank.crank_radius, 0)) or np.any(np.less_equal(slider_crank.rod_length, 0)):
-        raise GeometryError("crank radius and rod length must be more than zero")
+        raise GeometryError(Refusal("lengths_zero"))
     if not turns_fully(slider_crank):
         raise GeometryError(
-            f"the rod ({l * 1e3:g} mm) must be longer than crank radius and offset together "
-            f"({r * 1e3:g} + {e * 1e3:g} mm); it misses {(r + e - l) * 1e3:.6g} mm: lengthen the rod"
+            Refusal(
+                "rod_too_short",
+                length=f"{l * 1e3:g}",
+                radius=f"{r * 1e3:g}",
+                offset=f"{e * 1e3:g}",
+                missing=f"{(r + e - l) * 1e3:.6g}",
+            )
         )
 
 

@@ -21,6 +21,7 @@ from crankwork.kinematics.extremes import reached
 from crankwork.loads.cycle import quadrature
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
+from crankwork.locale import Refusal
 
 Law = Literal["constant", "polytropic", "rounded"]
 # Cylinder volume [m3], or its derivative [m3/rad], of crank angles [deg].
@@ -202,7 +203,7 @@ class _Solver:
         key = f"gas.pieces[{number + 1}]"
         for name in (*piece.points, *([piece.reference] if piece.reference else [])):
             if name not in self.points:
-                raise DiagramError(f"{key}.points", f'there is no point "{name}" in [gas.points]')
+                raise DiagramError(f"{key}.points", Refusal("point_absent", name=name))
         match piece.law:
             case "constant":
                 return self._constant(key, piece)
@@ -217,9 +218,7 @@ class _Solver:
             return self.named[name][0]
         angle = self.points[name].angle
         if angle is None:
-            raise DiagramError(
-                key, f'point "{name}" needs an angle; only the end of a polytrope can be found by pressure'
-            )
+            raise DiagramError(key, Refusal("point_angle", name=name))
         return angle
 
     def pressure(self, key: str, name: str) -> float:
@@ -228,7 +227,7 @@ class _Solver:
             return self.named[name][1]
         pressure = self.points[name].pressure
         if pressure is None:
-            raise DiagramError(key, f'point "{name}" needs a pressure; nothing before it gives one')
+            raise DiagramError(key, Refusal("point_pressure", name=name))
         return pressure
 
     def settle(self, name: str, angle: float, pressure: float) -> None:
@@ -249,14 +248,12 @@ class _Solver:
 
     def _polytropic(self, key: str, piece: Piece) -> Segment:
         if piece.exponent is None:
-            raise DiagramError(f"{key}.exponent", "is missing for a polytropic piece; write exponent = 1.35")
+            raise DiagramError(f"{key}.exponent", Refusal("exponent_missing"))
         first, last = piece.points[0], piece.points[-1]
         reference = piece.reference or first
         state = (self.pressure(key, reference), self._volume(key, reference), piece.exponent)
         if state[0] <= 0:
-            raise DiagramError(
-                key, f'a polytrope needs a positive pressure at "{reference}"; write one, or pressures = "absolute"'
-            )
+            raise DiagramError(key, Refusal("polytrope_vacuum", name=reference))
         start = self.angle(key, first)
         end = self.points[last].angle
         if end is None:
@@ -275,7 +272,7 @@ class _Solver:
         """Return where the polytrope reaches the pressure of its end point, before the next dead centre."""
         wanted = self.points[last].pressure
         if wanted is None or wanted <= 0:
-            raise DiagramError(key, f'point "{last}" needs an angle or a positive pressure; write one of them')
+            raise DiagramError(key, Refusal("polytrope_end", name=last))
         turns = np.arange(0.0, max(self.cycle, start) + 720.0, 360.0)
         centres = np.sort(np.concatenate([turns + one for one in self.dead_centres]))
         low, high = start, float(centres[np.searchsorted(centres, start + 1e-9)])
@@ -287,22 +284,25 @@ class _Solver:
         if ends[0] * ends[1] > 0:
             raise DiagramError(
                 key,
-                f'the polytrope does not reach the pressure of "{last}" before the dead centre at {high:g} deg; begin '
-                f"it at {self.dead_centres[0]:g} or {self.dead_centres[1]:g} deg, or change the pressure",
+                Refusal(
+                    "polytrope_far",
+                    name=last,
+                    angle=f"{high:g}",
+                    first=f"{self.dead_centres[0]:g}",
+                    second=f"{self.dead_centres[1]:g}",
+                ),
             )
         return reached(pressure, wanted, low, high)
 
     def _rounded(self, key: str, piece: Piece) -> Segment:
         if len(piece.points) < 2:
-            raise DiagramError(f"{key}.points", "a rounded piece passes through at least two points")
+            raise DiagramError(f"{key}.points", Refusal("rounded_points"))
         knots = np.array([self.angle(key, name) for name in piece.points])
         pressures = np.array([self.pressure(key, name) for name in piece.points])
         if knots[0] == knots[-1]:
             slopes = np.zeros_like(knots)
         elif np.any(np.diff(knots) <= 0):
-            raise DiagramError(
-                f"{key}.points", "the points of a rounded piece must have rising crank angles; order them"
-            )
+            raise DiagramError(f"{key}.points", Refusal("rounded_rises"))
         else:
             slopes = monotone_slopes(knots, pressures)
         for name, angle, pressure in zip(piece.points, knots, pressures, strict=True):
@@ -316,22 +316,17 @@ def _check_chain(segments: list[Segment], cycle: float, named: Mapping[str, tupl
     end = 0.0
     for number, segment in enumerate(segments, start=1):
         if abs(segment.start - end) > 1e-6:
-            raise DiagramError(
-                f"gas.pieces[{number}]",
-                f"starts at {segment.start:g} deg, but the pieces before it end at {end:g} deg; "
-                + ("fill the gap" if segment.start > end else "do not let the angle go backwards"),
-            )
+            name = "piece_gap" if segment.start > end else "piece_overlap"
+            raise DiagramError(f"gas.pieces[{number}]", Refusal(name, start=f"{segment.start:g}", end=f"{end:g}"))
         if segment.end < segment.start:
             raise DiagramError(
                 f"gas.pieces[{number}]",
-                f"goes backwards, from {segment.start:g} to {segment.end:g} deg; order its points by crank angle",
+                Refusal("piece_backwards", start=f"{segment.start:g}", end=f"{segment.end:g}"),
             )
         end = segment.end
     if abs(end - cycle) > 1e-6:
         last = max(named, key=lambda name: named[name][0])
-        raise DiagramError(
-            "gas.pieces", f'the pieces end at {end:g} deg (point "{last}"); the cycle is closed at {cycle:g} deg'
-        )
+        raise DiagramError("gas.pieces", Refusal("pieces_end", end=f"{end:g}", name=last, cycle=f"{cycle:g}"))
 
 
 def _check_closed(segments: list[Segment]) -> None:
@@ -340,6 +335,5 @@ def _check_closed(segments: list[Segment]) -> None:
     if abs(first - last) > 0.02 * highest:
         raise DiagramError(
             "gas.pieces",
-            f"the diagram does not close: it starts at {first / 1e6:g} MPa and ends at {last / 1e6:g} MPa; "
-            "let its last piece lead back to the pressure of its first point",
+            Refusal("diagram_open", first=f"{first / 1e6:g}", last=f"{last / 1e6:g}"),
         )

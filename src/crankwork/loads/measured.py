@@ -10,6 +10,7 @@ import numpy as np
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.indicator import DiagramError, IndicatorDiagram, Segment
 from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
+from crankwork.locale import Refusal
 
 _GAP_FACTOR = 4.0
 _SAME_ANGLE = 1e-6
@@ -76,29 +77,34 @@ def _closed(degrees: Array, pressure: Array, cycle: float, places: Sequence[str]
 def _check_angles(measured: MeasuredPressure, cycle: float) -> None:
     degrees, rows = measured.degrees, measured.rows
     if len(degrees) < 8:
-        raise DiagramError("gas.measured", f"only {len(degrees)} samples; a cycle needs at least 8")
+        raise DiagramError("gas.measured", Refusal("samples_few", count=len(degrees)))
     steps = np.diff(degrees)
     if np.any(steps <= 0):
         worst = int(np.argmax(steps <= 0))
         raise DiagramError(
             "gas.measured",
-            f"line {rows[worst + 1]}: the angle goes backwards, from {degrees[worst]:g} to {degrees[worst + 1]:g} deg; "
-            "sort the rows, and let the angle of a second cycle go on counting",
+            Refusal(
+                "samples_backwards", line=rows[worst + 1], first=f"{degrees[worst]:g}", second=f"{degrees[worst + 1]:g}"
+            ),
         )
     typical = float(np.median(steps))
     if np.max(steps) > _GAP_FACTOR * typical:
         worst = int(np.argmax(steps))
         raise DiagramError(
             "gas.measured",
-            f"line {rows[worst + 1]}: gap from {degrees[worst]:g} to {degrees[worst + 1]:g} deg "
-            f"where the usual step is {typical:g} deg; fill in the missing samples",
+            Refusal(
+                "samples_gap",
+                line=rows[worst + 1],
+                first=f"{degrees[worst]:g}",
+                second=f"{degrees[worst + 1]:g}",
+                step=f"{typical:g}",
+            ),
         )
     covered = float(degrees[-1] - degrees[0]) + 1.5 * typical
     if covered < cycle:
         raise DiagramError(
             "gas.measured",
-            f"the samples cover {degrees[-1] - degrees[0]:g} deg; one cycle is {cycle:g} deg: "
-            "record it whole, or correct gas.cycle",
+            Refusal("samples_short", covered=f"{degrees[-1] - degrees[0]:g}", cycle=f"{cycle:g}"),
         )
 
 

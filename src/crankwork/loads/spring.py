@@ -11,6 +11,7 @@ from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import absent, given, is_known, named
 from crankwork.kinematics.motion import Motion
 from crankwork.loads.applied import AppliedForce, AppliedLoads, carried_point, check_name, force_along_guide, force_at
+from crankwork.locale import Refusal
 from crankwork.mechanism.joints import SlidingJoint, joints
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Mechanism
@@ -77,7 +78,7 @@ def point_spring(load: Spring, mechanism: Mechanism, motion: Motion, path: str =
     name = f"{load.start}.{load.end}"
     length = named(spring_length(x, y), f"spring_length.{name}")
     if not is_known(length) and np.any(length == 0):
-        raise GeometryError(f"the ends of the spring from {load.start} to {load.end} meet; move one of them")
+        raise GeometryError(Refusal("spring_shut", start=load.start, end=load.end))
     stiffness, free, preload = _stated(load, load.free_length, name, length, path)
     force = named(spring_force(stiffness, length, free, preload), f"spring_force.{name}")
     x, y = named(x / length * force, f"load_x.{name}"), named(y / length * force, f"load_y.{name}")

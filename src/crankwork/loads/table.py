@@ -12,6 +12,7 @@ import numpy as np
 
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.monotone import hermite, monotone_slopes
+from crankwork.locale import Refusal
 
 Curve = Callable[[Array], Array]
 
@@ -36,16 +37,16 @@ class Table:
 
     def __post_init__(self) -> None:
         if len(self.at) != len(self.values) or len(self.at) < 2:
-            raise ValueError(f"a table needs two points or more, not {len(self.at)} and {len(self.values)} numbers")
+            raise ValueError(Refusal("load_table_short", at=len(self.at), values=len(self.values)))
         if not all(math.isfinite(one) for one in (*self.at, *self.values)):
-            raise ValueError("a table needs finite numbers")
+            raise ValueError(Refusal("load_table_finite"))
         jumps = self.interpolation == "linear"
         if any(after < before or (after == before and not jumps) for before, after in pairwise(self.at)) or (
             self.at[0] == self.at[-1]
         ):
-            raise ValueError("the abscissas of a table must ascend")
+            raise ValueError(Refusal("load_table_rises"))
         if self.period and self.at[-1] - self.at[0] > self.period * (1 + 1e-12):
-            raise ValueError("a table must not be longer than its period")
+            raise ValueError(Refusal("load_table_period"))
 
     def __call__(self, at: Array) -> Array:
         """Return the values at some abscissas."""

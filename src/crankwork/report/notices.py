@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from crankwork.formula.expression import symbol
-from crankwork.locale import has_text, say
+from crankwork.locale import has_text, say, told
 from crankwork.notation import argument_unit
 from crankwork.quantities import QUANTITIES, Language
 from crankwork.report.language import FILE_KEYS, label, number, unit_name
@@ -22,7 +22,7 @@ def notice_text(code: str, values: Mapping[str, float | str], language: Language
         elif key == "argument":
             shown[key] = symbol(str(value), language)
         elif isinstance(value, str):
-            shown[key] = value
+            shown[key] = told(value, language)
         else:
             # pressure steps are the only values with a unit of their own, MPa
             shown[key] = number(value / 1e6 if key == "step" else value, language, digits=5)
