@@ -103,8 +103,9 @@ class Explanation:
         line = self.moment(degrees).step(known)
         shown = {name.partition(".")[0] for name in line.values} if isinstance(line, FormulaLine) else set()
         for name, one in zip(known.node.formula.arguments, known.node.inputs, strict=True):
-            if isinstance(one, Known) and name in shown:
-                yield one, degrees, name, False
+            if name in shown and name != "pi":
+                # a plain number is a constant of the analysis, and needs its value said as much
+                yield one if isinstance(one, Known) else Known(Given(one)), degrees, name, False
 
     def _explained(self, known: Known, law: Known, argument: str, at: float | None, *, residual: bool) -> Explained:
         node, stretch = known.node, None
