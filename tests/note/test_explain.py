@@ -155,6 +155,17 @@ def test_numbers_that_are_angles_have_their_unit_and_noise_is_zero():
     assert any(one.startswith("  cos θ_ram,g = cos(−1.57079632679 rad) = 0 ") for one in lines)
 
 
+def test_orders_of_a_series_are_told_apart():
+    lines = explained(ENGINE, "piston_acceleration", "--at", "77", "--method", "series:3")
+    assert any(one.startswith("  x″ = x″_k1 + x″_k2 = ") for one in lines)
+    assert any(one.startswith("  x″_k2 = a_k,2·cos 2φ = ") for one in lines)
+
+
+def test_a_constant_that_a_formula_takes_has_its_value():
+    lines = explained("examples/v8-diesel.toml", "main_journal_load.2", "--at", "100")
+    assert any(one.startswith("  cos ψ_k") for one in lines[lines.index("Given values") :])
+
+
 def test_a_mean_says_what_it_is_of():
     assert any("mean over the cycle (M: crank torque) = " in line for line in explained(ENGINE, "mean_torque"))
 

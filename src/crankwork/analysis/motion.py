@@ -124,5 +124,5 @@ def _order(solved: Solved, lengths: SliderCrank, angle: Value, order: int) -> Tr
         coefficient = first if order == 1 else first * lengths.rod_ratio
         return order_terms(angle, order, coefficient, absent(""), (absent("", 1.0), absent("")))
     cosine, sine = acceleration_harmonics(solved.lengths, order)
-    a_k, b_k, start = remembered_order(lengths, float(cosine[-1]), float(sine[-1]), (1.0, 0.0))
+    a_k, b_k, start = remembered_order(lengths, order, (float(cosine[-1]), float(sine[-1])), (1.0, 0.0))
     return order_terms(angle, order, a_k, b_k, start)

@@ -146,28 +146,29 @@ def series_transfer(slider_crank: SliderCrank, grid: CrankGrid, order: int) -> T
         if c == 0 and s == 0:
             continue
         at_top = (float(np.cos(k * dead_centre)), float(np.sin(k * dead_centre)))
-        taken = remembered_order(slider_crank, float(c), float(s), at_top) if remembers else (c, s, at_top)
+        taken = remembered_order(slider_crank, k, (float(c), float(s)), at_top) if remembers else (c, s, at_top)
         terms.append((k, order_terms(grid, k, *taken)))
     sums = (_sum(key, [(k, term[i]) for k, term in terms]) for i, key in enumerate(_KEYS))
     return Transfer(*sums)
 
 
 def remembered_order(
-    slider_crank: SliderCrank, a_k: float, b_k: float, start: tuple[float, float]
+    slider_crank: SliderCrank, order: int, coefficients: tuple[float, float], start: tuple[float, float]
 ) -> tuple[Known, Known, tuple[Known, Known]]:
     """Return the coefficients of one order as knowns; of a central mechanism those of the sines are absent.
 
     `start`: cosine and sine of order times the crank angle where the displacement is to be zero.
     """
-    first = Known(Found(a_k, "harmonic", slider_crank))
+    a_k, b_k = coefficients
+    first = Known(Found(a_k, "harmonic", slider_crank), f"series_cosine.{order}")
     if b_k == 0 and start == (1.0, 0.0):
         return first, absent(""), (absent("", 1.0), absent(""))
     return (
         first,
-        Known(Found(b_k, "harmonic", slider_crank)),
+        Known(Found(b_k, "harmonic", slider_crank), f"series_sine.{order}"),
         (Known(Found(start[0], "dead_centre", slider_crank)), Known(Found(start[1], "dead_centre", slider_crank))),
     )
 
 
 def _sum(key: str, terms: list[tuple[int, Value]]) -> Value:
-    return added(key, [one.named(f"{key}.order_{k}") if isinstance(one, Known) else one for k, one in terms])
+    return added(key, [one.named(f"{key}.k{k}") if isinstance(one, Known) else one for k, one in terms])

@@ -68,6 +68,8 @@ ROWS = (
              "Part of the second transfer function of the piston of first order."),
     Quantity("piston_transfer_2_second_order", "mm",
              "Part of the second transfer function of the piston of second order."),
+    Quantity("series_cosine", "mm", "Coefficient of the cosine of one order of the second transfer function."),
+    Quantity("series_sine", "mm", "Coefficient of the sine of one order of the second transfer function."),
     Quantity("rod_transfer_1", "", "Derivative of the rod angle by the crank angle."),
     Quantity("rod_transfer_2", "", "Second derivative of the rod angle by the crank angle."),
     Quantity("pin_distance", "mm", "Distance of the piston pin from the crankshaft axis along the cylinder axis."),
