@@ -5,15 +5,17 @@ The shaft is taken as throws simply supported at two main journals each, so that
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
+from crankwork.cylinders.articulated import sine_and_cosine
 from crankwork.cylinders.counterweights import Unbalance
-from crankwork.cylinders.layout import Layout
-from crankwork.cylinders.load_vectors import BearingLoad, turned_by
+from crankwork.cylinders.layout import Layout, Place
+from crankwork.cylinders.load_vectors import BearingLoad, turned, turned_by
 from crankwork.errors import CrankworkError
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import added, called, given, is_known
@@ -51,7 +53,7 @@ def main_journal_loads(
     check_journals(layout)
     journals, places = layout.journal_positions, layout.places
     acting = [
-        _Acting(turned_by(load, one.pin_angle).called(str(one.number)), one.position, one.throw, str(one.number))
+        _Acting(_in_shaft(load, one).called(str(one.number)), one.position, one.throw, str(one.number))
         for one, load in zip(places, loads, strict=True)
     ]
     acting += [
@@ -64,6 +66,15 @@ def main_journal_loads(
             part = BearingLoad(-share * one.load.x, -share * one.load.y)
             held[journal].append(part.called(f"main_journal.{journal + 1}.{one.name}"))
     return tuple(_sum(some, f"main_journal.{at}") for at, some in enumerate(held, start=1))
+
+
+def _in_shaft(load: BearingLoad, place: Place) -> BearingLoad:
+    """Return a load on a crankpin in the frame of the shaft, its angle remembered if the load is."""
+    if not is_known(load.x):
+        return turned_by(load, place.pin_angle)
+    pin = place.crankpin + 1
+    angle = given(f"crankpin_angle.{pin}", math.radians(place.pin_angle), "engine.layout")
+    return turned(load, *sine_and_cosine(place.pin_angle, angle, (f"crankpin_sine.{pin}", f"crankpin_cosine.{pin}")))
 
 
 class _Acting(NamedTuple):

@@ -11,6 +11,8 @@ ROWS = (
     Quantity("cylinder_number", "", "Number of the cylinder."),
     Quantity("bank_axis", "deg", "From the reference direction of the engine, positive with the rotation."),
     Quantity("crankpin_angle", "deg", "Angle of the crankpin ahead of that of cylinder 1, positive with the rotation."),
+    Quantity("crankpin_sine", "", "Sine of the angle of the crankpin."),
+    Quantity("crankpin_cosine", "", "Cosine of the angle of the crankpin."),
     # torque along the shaft
     Quantity("total_torque", "N*m", "Torque of all cylinders on the crankshaft, positive with the rotation."),
     Quantity("mean_total_torque", "N*m", "Mean of the torque of all cylinders over the cycle."),
