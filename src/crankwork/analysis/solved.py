@@ -23,6 +23,7 @@ from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.indicator import IndicatorDiagram, solve_diagram
 from crankwork.loads.measured import measured_diagram, wrap_is_rough
+from crankwork.locale import Refusal
 from crankwork.machine import Cylinder, Gas, Machine
 from crankwork.method import Method
 
@@ -190,5 +191,5 @@ def _clearance(cylinder: Cylinder, swept: float) -> float:
     if cylinder.clearance_volume is not None:
         return cylinder.clearance_volume
     if cylinder.compression_ratio is None:
-        raise CrankworkError("gas needs cylinder.clearance_volume or cylinder.compression_ratio")
+        raise CrankworkError(Refusal("gas_volume_missing"))
     return float(gas_formulas.clearance_volume(swept, cylinder.compression_ratio))

@@ -18,6 +18,7 @@ from crankwork.errors import GeometryError
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dyads import Closure, LinkMotion, guide_on_link, point_on_link, seen_from
 from crankwork.kinematics.transfer import PointMotion, Transfer
+from crankwork.locale import Refusal
 from crankwork.mechanism.chain import Chain, ChainLink, Slide
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide, Point
 
@@ -144,8 +145,12 @@ def _start(equations: _Equations, surroundings: Surroundings) -> _Solution:
     q, miss = _newton(equations, given, surroundings, here)
     if not np.isfinite(q).all():
         raise GeometryError(
-            f"links {equations.names} cannot be assembled at a crank angle of {math.degrees(chain.start):g} deg from "
-            f"the given start, whose loops are open by {float(miss[0]) * 1e3:.4g} mm; correct a length or the positions"
+            Refusal(
+                "chain_unassembled",
+                links=equations.names,
+                angle=f"{math.degrees(chain.start):g}",
+                open=f"{float(miss[0]) * 1e3:.4g}",
+            )
         )
     return _derivatives(equations, q, surroundings, here)
 
@@ -265,8 +270,7 @@ class _Equations:
         count = 2 * len(self.pins) + 2 * len(self.chain.slides)
         if count != 3 * len(self.index):
             raise GeometryError(
-                f"group of {self.names} has {count} equations for {3 * len(self.index)} coordinates; "
-                "a joint is missing or too many"
+                Refusal("chain_count", links=self.names, equations=count, coordinates=3 * len(self.index))
             )
         size = max(np.hypot(*point) for link in self.chain.links for point in link.points.values()) or 1.0
         self.scale = np.tile([size, size, 1.0], len(self.index))

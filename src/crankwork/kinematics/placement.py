@@ -31,6 +31,7 @@ from crankwork.kinematics.dyads import (
 from crankwork.kinematics.loops import ChainPath
 from crankwork.kinematics.sliding_dyads import prp_motion, rpp_motion, rpr_motion
 from crankwork.kinematics.transfer import PointMotion, Transfer
+from crankwork.locale import Refusal
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide
 from crankwork.mechanism.mechanism import Mechanism
@@ -76,10 +77,7 @@ def place(mechanism: Mechanism, grid: CrankGrid, *, plain: Mechanism | None = No
             try:
                 closure = _place_group(mechanism, index, placed)
             except KeyError as missing:
-                raise GeometryError(
-                    f"{_title(group)} rests on {missing}, which neither the ground nor the crank nor an earlier group "
-                    f"places; put it after the one that does"
-                ) from None
+                raise GeometryError(Refusal("group_unplaced", group=_title(group), missing=str(missing))) from None
             if closure is not None:
                 placed.closures.append(closure)
             _name(placed, placed.links.keys() - before, placed.points.keys() - standing)
@@ -207,16 +205,17 @@ def _closure_of(mechanism: Mechanism, index: int) -> Callable[[CrankGrid], Closu
     return lambda grid: place(part, grid).closures[index]
 
 
-def _title(group: Dyad | Chain) -> str:
+def _title(group: Dyad | Chain) -> Refusal:
     """Return what to call a group in a message."""
     match group:
         case RRR():
-            return f"dyad RRR of {group.link_a} and {group.link_b}"
+            pair = group.link_a, group.link_b
         case RRP():
-            return f"dyad RRP of {group.link} and {group.piece}"
+            pair = group.link, group.piece
         case RPR() | RPP():
-            return f"dyad {type(group).__name__} of {group.link} and {group.block}"
+            pair = group.link, group.block
         case PRP():
-            return f"dyad PRP of {group.block_a} and {group.block_b}"
+            pair = group.block_a, group.block_b
         case Chain():
-            return "group of " + ", ".join(link.name for link in group.links)
+            return Refusal("group_of", names=", ".join(link.name for link in group.links))
+    return Refusal("dyad_of", kind=type(group).__name__, first=pair[0], second=pair[1])

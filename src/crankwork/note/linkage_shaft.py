@@ -100,7 +100,7 @@ def checks(material: Material) -> Iterator[Block]:
 
 
 def _notice(notice: Notice, words: Words) -> str:
-    """Return a notice; what the calculation says of a refusal exists in English only and is left out elsewhere."""
+    """Return a notice; what a refusal says is left out where its decimal points would stand beside commas."""
     values = dict(notice.values)
     if words.language != "en" and "message" in values:
         values["message"] = ""

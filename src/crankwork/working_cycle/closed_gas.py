@@ -16,6 +16,7 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.slider_crank import mean_piston_speed
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.indicator import VolumeAt
+from crankwork.locale import Refusal
 from crankwork.working_cycle import first_law, wiebe, woschni
 from crankwork.working_cycle.heat_data import HeatReleaseData, Stage, check_heat_release, stages
 
@@ -153,8 +154,7 @@ class ClosedGas:
 
     def _not_followed(self, stage: Stage, angle: float) -> CrankworkError:
         return CrankworkError(
-            f"the pressure cannot be followed from {stage.start:g} to {stage.end:g} deg: at {angle:g} deg it changes "
-            "too fast; correct speed, bore, wall_temperature or cycle_heat, which do not suit each other"
+            Refusal("heat_unfollowed", start=f"{stage.start:g}", end=f"{stage.end:g}", angle=f"{angle:g}")
         )
 
     def energy_change(self, temperature: float) -> float:
@@ -188,10 +188,7 @@ def closed_gas(
         worked(wiebe.fuel_heat)
     mass, heat = worked(first_law.gas_mass).value, worked["fuel_heat"].value
     if heat > _MOST_HEAT * mass:
-        raise CrankworkError(
-            f"the heat, {heat:.4g} J, is {heat / mass / 1e6:.3g} MJ/kg of gas, more than any "
-            "fuel gives; write less cycle_heat, or a larger cylinder"
-        )
+        raise CrankworkError(Refusal("heat_excessive", heat=f"{heat:.4g}", share=f"{heat / mass / 1e6:.3g}"))
     return ClosedGas(
         data=data,
         volume_at=volume_at,

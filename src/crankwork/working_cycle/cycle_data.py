@@ -8,6 +8,7 @@ from typing import Literal
 
 from crankwork.formula.known import absent, given
 from crankwork.formula.worked import Worked
+from crankwork.locale import Refusal
 from crankwork.working_cycle.fuels import FUELS, CycleError, Fuel
 from crankwork.working_cycle.heat_capacities import HeatLaw, law_zero
 from crankwork.working_cycle.performance import MECHANICAL_LOSSES
@@ -117,7 +118,7 @@ def with_usual_values(data: GrinevetskyData) -> tuple[GrinevetskyData, tuple[str
 
 def _losses(key: str) -> tuple[float, float]:
     if key not in MECHANICAL_LOSSES:
-        raise CycleError(f'no mechanical losses are known for "{key}"; write one of {", ".join(MECHANICAL_LOSSES)}')
+        raise CycleError(Refusal("losses_unknown", name=key, known=", ".join(MECHANICAL_LOSSES)))
     return MECHANICAL_LOSSES[key]
 
 
@@ -179,25 +180,25 @@ _ANY_SIGN = {"heating", "cooler_drop"}
 def check_data(data: GrinevetskyData) -> None:
     """Raise unless a cycle can follow from the data."""
     if data.kind not in _USUAL:
-        raise CycleError(f'kind is "{data.kind}"; write petrol or diesel')
+        raise CycleError(Refusal("kind_of_fuel", kind=data.kind))
     _check_signs(data)
     if data.compression_ratio <= 1:
-        raise CycleError(f"compression_ratio is {data.compression_ratio:g}; it must be above 1")
+        raise CycleError(Refusal("not_above", name="compression_ratio", value=f"{data.compression_ratio:g}", limit=1))
     if 1.0 in (data.compression_exponent, data.expansion_exponent):
-        raise CycleError("an exponent of exactly 1 has no mean pressure in this form; write 1.0001 for an isotherm")
+        raise CycleError(Refusal("exponent_one"))
     _check_choices(data)
 
 
 def _check_choices(data: GrinevetskyData) -> None:
     """Raise if things are given that do not go together."""
     if data.strokes == 4 and data.lost_stroke:
-        raise CycleError("lost_stroke belongs to two-stroke engines; set strokes to 2 or leave it out")
+        raise CycleError(Refusal("lost_stroke_of_two"))
     if data.lost_stroke >= 1:
-        raise CycleError(f"lost_stroke is {data.lost_stroke:g}; it must be below 1")
+        raise CycleError(Refusal("lost_stroke_whole", value=f"{data.lost_stroke:g}"))
     if data.power and (data.bore or data.stroke):
-        raise CycleError("give either power, from which bore and stroke follow, or bore and stroke")
+        raise CycleError(Refusal("power_or_size"))
     if (data.bore is None) != (data.stroke is None):
-        raise CycleError("bore and stroke belong together; give both or neither")
+        raise CycleError(Refusal("bore_and_stroke"))
 
 
 def _check_signs(data: GrinevetskyData) -> None:
@@ -207,4 +208,7 @@ def _check_signs(data: GrinevetskyData) -> None:
         if isinstance(value, float | int) and not isinstance(value, bool) and one.name not in _ANY_SIGN:
             limit = 0.0 if one.name in ("lost_stroke", "scavenging") else None
             if not (value >= limit if limit is not None else value > 0):
-                raise CycleError(f"{one.name} is {value:g}; it must be {'0 or more' if limit == 0 else 'above 0'}")
+                told = {"name": one.name, "value": f"{value:g}"}
+                raise CycleError(
+                    Refusal("not_above", **told, limit=0) if limit is None else Refusal("not_negative", **told)
+                )

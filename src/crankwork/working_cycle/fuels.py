@@ -7,6 +7,7 @@ from typing import NamedTuple
 from crankwork.errors import CrankworkError
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.worked import Worked
+from crankwork.locale import Refusal
 
 
 class CycleError(CrankworkError):
@@ -53,8 +54,7 @@ def burning(worked: Worked, fuel: Fuel) -> None:
     elements = fuel[:3]
     if min(elements) < 0 or abs(sum(elements) - 1) > 0.02 or fuel.carbon + fuel.hydrogen <= 0:
         raise CycleError(
-            f"carbon {fuel.carbon:g}, hydrogen {fuel.hydrogen:g} and oxygen {fuel.oxygen:g} of 1 kg of fuel are shares "
-            "that sum to 1; write for example 0.855, 0.145 and 0"
+            Refusal("fuel_shares", carbon=f"{fuel.carbon:g}", hydrogen=f"{fuel.hydrogen:g}", oxygen=f"{fuel.oxygen:g}")
         )
     if fuel.heating_value is None:
         worked(lower_heating_value)

@@ -9,6 +9,7 @@ from crankwork.formula.known import Known
 from crankwork.formula.ranges import range_notices
 from crankwork.formula.worked import Worked
 from crankwork.loads.gas import clearance_volume
+from crankwork.locale import Refusal
 from crankwork.working_cycle import charge, combustion, performance
 from crankwork.working_cycle.calculated_cycle import CalculatedCycle, Corners, Notice
 from crankwork.working_cycle.cycle_data import GrinevetskyData, what_is_given, with_usual_values
@@ -79,19 +80,14 @@ def _intake(worked: Worked, data: GrinevetskyData) -> None:
         worked(charge.cooled_charge_temperature)
     warm = worked["charge_temperature"].value + worked["charge_heating"].value
     if min(warm, worked["charge_temperature"].value) <= 0:
-        raise CycleError(
-            f"heating leads to a charge of {warm:g} K; correct heating, cooler_drop or ambient_temperature"
-        )
+        raise CycleError(Refusal("charge_cold", temperature=f"{warm:g}"))
     worked(charge.charge_density)
     if data.intake_pressure is None:
         worked(charge.intake_pressure_loss)
         worked(charge.intake_pressure)
     intake, residual = worked["intake_pressure"].value, worked["residual_pressure"].value
     if data.compression_ratio * data.charge_up * intake <= data.scavenging * residual:
-        raise CycleError(
-            f"the pressure at the end of intake, {intake / 1e6:g} MPa, lets no fresh charge in against residual gas of "
-            f"{residual / 1e6:g} MPa; check intake_pressure, intake_speed and residual_pressure"
-        )
+        raise CycleError(Refusal("intake_weak", intake=f"{intake / 1e6:g}", residual=f"{residual / 1e6:g}"))
 
 
 def _compression(worked: Worked, data: GrinevetskyData) -> None:
@@ -104,10 +100,7 @@ def _compression(worked: Worked, data: GrinevetskyData) -> None:
     worked(charge.compression_pressure)
     temperature = worked(charge.compression_temperature).value
     if temperature > _HOTTEST:
-        raise CycleError(
-            f"at the end of compression the gas has {temperature:.4g} K, for which no heat capacities are known; "
-            "lower compression_ratio or compression_exponent"
-        )
+        raise CycleError(Refusal("compression_hot", temperature=f"{temperature:.4g}"))
 
 
 # residual gas, temperature and volumetric efficiency at the end of intake
@@ -157,10 +150,7 @@ def _rise(worked: Worked, data: GrinevetskyData) -> None:
     worked(combustion.dual_pressure)
     rho = worked(combustion.cut_off).value
     if not 1 <= rho <= data.compression_ratio:
-        raise CycleError(
-            f"the cut-off ratio comes out as {rho:g}; it lies between 1 and the compression ratio. "
-            + ("Lower the pressure_ratio" if rho < 1 else "Check heating value, excess air and heat_use")
-        )
+        raise CycleError(Refusal("cut_off_low" if rho < 1 else "cut_off_high", ratio=f"{rho:g}"))
 
 
 def _expansion(worked: Worked, data: GrinevetskyData) -> None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from crankwork.errors import CrankworkError
+from crankwork.locale import Refusal
 
 
 @dataclass(frozen=True)
@@ -77,8 +78,7 @@ def stages(data: HeatReleaseData, dead_centres: tuple[float, float]) -> tuple[St
     end = begin + data.burning_duration
     if begin < shut or end > opens:
         raise CrankworkError(
-            f"burning lasts from {begin:g} to {end:g} deg, but the cylinder is closed from {shut:g} to {opens:g} deg "
-            "only; move or shorten the burning, or correct the valve timing"
+            Refusal("burning_outside", begin=f"{begin:g}", end=f"{end:g}", shut=f"{shut:g}", opens=f"{opens:g}")
         )
     return Stage(shut, begin, False, False), Stage(begin, end, True, True), Stage(end, opens, False, True)  # noqa: FBT003
 
@@ -110,16 +110,13 @@ def check_heat_release(data: HeatReleaseData) -> None:
     """Raise unless every number makes sense by itself."""
     wrong = [name for name in _POSITIVE if not getattr(data, name) > 0]
     if wrong:
-        raise CrankworkError(f"{', '.join(wrong)} must be above zero; write such a number")
+        raise CrankworkError(Refusal("names_positive", names=", ".join(wrong)))
     wrong = [name for name in _NOT_NEGATIVE if not getattr(data, name) >= 0]
     if wrong or (data.heat is not None and data.heat < 0):
-        raise CrankworkError(f"{', '.join(wrong) or 'heat'} must not be negative; write zero or a number above it")
+        raise CrankworkError(Refusal("names_not_negative", names=", ".join(wrong) or "heat"))
     if data.cycle not in (360.0, 720.0):
-        raise CrankworkError(f"a cycle of {data.cycle:g} deg is neither 720 (four strokes) nor 360 (two strokes)")
+        raise CrankworkError(Refusal("cycle_angle", angle=f"{data.cycle:g}"))
     if data.heat_ratio + data.heat_ratio_slope * data.shut_temperature <= 1:
-        raise CrankworkError("the ratio of specific heats must exceed 1; correct heat_ratio and heat_ratio_slope")
+        raise CrankworkError(Refusal("heat_ratio_low"))
     if data.cycle == 360 and data.exhaust_opens < data.intake_opens:
-        raise CrankworkError(
-            f"the scavenging ports open {data.intake_opens:g} deg before bottom dead centre, earlier than the exhaust "
-            f"at {data.exhaust_opens:g} deg; let the exhaust open first"
-        )
+        raise CrankworkError(Refusal("ports_early", intake=f"{data.intake_opens:g}", exhaust=f"{data.exhaust_opens:g}"))

@@ -9,6 +9,7 @@ from typing import Any, Literal
 from crankwork.formula.expression import FORMULAS
 from crankwork.formula.known import Known
 from crankwork.formula.worked import Worked
+from crankwork.locale import Refusal
 from crankwork.notation import ARGUMENTS
 from crankwork.working_cycle import ideal_formulas as formulas
 from crankwork.working_cycle.calculated_cycle import CalculatedCycle, Corners
@@ -59,9 +60,14 @@ def ideal_cycle(data: IdealData) -> CalculatedCycle:
     rise, cut_off = worked["pressure_rise_ratio"], worked["cut_off"]
     if not (worked[hot].value > cold.value and rise.value >= 1 and 1 <= cut_off.value < data.compression_ratio):
         raise CycleError(
-            f"the heat leads from {cold.value:g} K after compression to {worked[hot].value:g} K with a pressure ratio "
-            f"of {rise.value:g} and a cut-off ratio of {cut_off.value:g}; heat must raise the temperature, and the "
-            f"cut-off lie between 1 and the compression ratio {data.compression_ratio:g}"
+            Refusal(
+                "heat_backwards",
+                cold=f"{cold.value:g}",
+                hot=f"{worked[hot].value:g}",
+                rise=f"{rise.value:g}",
+                cut_off=f"{cut_off.value:g}",
+                ratio=f"{data.compression_ratio:g}",
+            )
         )
     _results(worked, data, last)
     ratio, exponent = worked["compression_ratio"], worked["gas_heat_ratio"]
@@ -114,9 +120,7 @@ def _otto(worked: Worked, data: IdealData) -> None:
     elif "state_temperature.3" in worked.known:
         _work(worked, formulas.temperature_ratio)
     else:
-        raise CycleError(
-            "an Otto cycle does not say how much heat it takes; write heat, peak_temperature or pressure_ratio"
-        )
+        raise CycleError(Refusal("otto_heat"))
     _work(worked, formulas.raised_pressure, "state_pressure.3")
 
 
@@ -130,14 +134,12 @@ def _diesel(worked: Worked, data: IdealData) -> None:
     elif "state_temperature.3" in worked.known:
         _work(worked, formulas.temperature_ratio, "cut_off")
     else:
-        raise CycleError("a Diesel cycle does not say how much heat it takes; write heat, peak_temperature or cut_off")
+        raise CycleError(Refusal("diesel_heat"))
 
 
 def _dual(worked: Worked, data: IdealData) -> None:
     if data.pressure_ratio is None:
-        raise CycleError(
-            "a dual cycle has no rise of pressure; write pressure_ratio, and heat, peak_temperature or cut_off"
-        )
+        raise CycleError(Refusal("dual_rise"))
     _work(worked, formulas.raised_temperature, "state_temperature.3")
     raised = _work(worked, formulas.raised_pressure, "state_pressure.3")
     worked.known["state_pressure.4"] = raised.named("state_pressure.4")
@@ -148,9 +150,7 @@ def _dual(worked: Worked, data: IdealData) -> None:
     elif "state_temperature.4" in worked.known:
         _work(worked, formulas.temperature_ratio, "cut_off", later=1)
     else:
-        raise CycleError(
-            "a dual cycle does not say how much heat it takes; write heat, peak_temperature or cut_off as well"
-        )
+        raise CycleError(Refusal("dual_heat"))
 
 
 _HEATINGS = {"otto": _otto, "ideal-diesel": _diesel, "dual": _dual}
@@ -179,18 +179,18 @@ def _results(worked: Worked, data: IdealData, last: int) -> None:
 def _check(data: IdealData) -> None:
     """Raise unless the data are those of one cycle."""
     if data.kind not in _HEATINGS:
-        raise CycleError(f'kind is "{data.kind}"; write one of {", ".join(_HEATINGS)}')
+        raise CycleError(Refusal("kind_of_cycle", kind=data.kind, known=", ".join(_HEATINGS)))
     for name in ("pressure", "temperature", "gas_constant"):
         if not getattr(data, name) > 0:
-            raise CycleError(f"{name} is {getattr(data, name):g}; it must be above 0")
+            raise CycleError(Refusal("not_above", name=name, value=f"{getattr(data, name):g}", limit=0))
     for name in ("compression_ratio", "adiabatic_exponent"):
         if not getattr(data, name) > 1:
-            raise CycleError(f"{name} is {getattr(data, name):g}; it must be above 1")
+            raise CycleError(Refusal("not_above", name=name, value=f"{getattr(data, name):g}", limit=1))
     ways = [data.heat, data.peak_temperature]
     ways += [] if data.kind == "dual" else [data.pressure_ratio]
     ways += [data.cut_off]
     if sum(way is not None for way in ways) > 1:
-        raise CycleError("say once how hot the cycle becomes: by heat, by peak temperature, or by one ratio")
+        raise CycleError(Refusal("heat_said_twice"))
     if (data.kind == "otto" and data.cut_off) or (data.kind == "ideal-diesel" and data.pressure_ratio):
         wrong = "cut_off" if data.cut_off else "pressure_ratio"
-        raise CycleError(f"a cycle of kind {data.kind} has no {wrong}; leave it out, or write another kind")
+        raise CycleError(Refusal("cycle_has_no", kind=data.kind, name=wrong))

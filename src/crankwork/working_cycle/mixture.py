@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.worked import Worked
+from crankwork.locale import Refusal
 from crankwork.working_cycle.fuels import CycleError
 
 
@@ -83,7 +84,7 @@ def mixture(worked: Worked) -> None:
         for key in ("product_co", "product_h2"):
             worked.absent(key)
     if min(worked(carbon_dioxide).value, worked(water).value) < 0:
-        raise CycleError(f"with an excess air of {excess_air:g} the fuel cannot burn even to CO and H2; give more air")
+        raise CycleError(Refusal("mixture_rich", value=f"{excess_air:g}"))
     if is_rich:
         worked.absent("product_o2")
     else:

@@ -17,6 +17,7 @@ from crankwork.errors import CrankworkError
 from crankwork.kinematics.extremes import reached
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import VolumeAt
+from crankwork.locale import Refusal
 from crankwork.working_cycle.gas_exchange import from_before_zero
 from crankwork.working_cycle.rounded_pieces import Named, Part
 
@@ -100,18 +101,16 @@ def corners_of(
 def _check(theory: Mapping[str, float], timing: Timing) -> None:
     missing = [name for name in ("p_r", "p_a", "p_z", "n1", "n2") if not theory.get(name, 0.0) > 0]
     if missing:
-        raise CrankworkError(f"the theoretical cycle needs {', '.join(missing)} above zero")
+        raise CrankworkError(Refusal("theory_missing", names=", ".join(missing)))
     if timing.cycle not in (360.0, 720.0):
-        raise CrankworkError(f"a cycle of {timing.cycle:g} deg is neither 720 (four strokes) nor 360 (two strokes)")
+        raise CrankworkError(Refusal("cycle_angle", angle=f"{timing.cycle:g}"))
     if timing.ignition_advance and timing.ignition_delay >= timing.ignition_advance:
         raise CrankworkError(
-            f"with an ignition advance of {timing.ignition_advance:g} deg and a delay of {timing.ignition_delay:g} deg "
-            "the pressure rises only after top dead centre; give a larger advance or a shorter delay"
+            Refusal("ignition_late", advance=f"{timing.ignition_advance:g}", delay=f"{timing.ignition_delay:g}")
         )
     if timing.cycle == 360 and timing.exhaust_opens < timing.intake_opens:
         raise CrankworkError(
-            f"the scavenging ports open {timing.intake_opens:g} deg before bottom dead centre, earlier than the "
-            f"exhaust at {timing.exhaust_opens:g} deg; let the exhaust open first"
+            Refusal("ports_early", intake=f"{timing.intake_opens:g}", exhaust=f"{timing.exhaust_opens:g}")
         )
 
 
@@ -130,8 +129,7 @@ def compression_parts(corners: RoundedCorners) -> list[Part]:
     names, angles = zip(*events, strict=True)
     if any(after <= before for before, after in pairwise(angles)):
         raise CrankworkError(
-            f"the events of compression must follow each other, but {', '.join(names)} lie at "
-            f"{', '.join(f'{one:g}' for one in angles)} deg; correct intake_closes, ignition or ignition_delay"
+            Refusal("events_crossed", names=", ".join(names), angles=", ".join(f"{one:g}" for one in angles))
         )
     points = [Named(name, angle, corners.compression(angle)) for name, angle in zip(names, angles, strict=True)]
     return [Part("polytropic", pair, exponent=corners.theory["n1"], reference="~start") for pair in pairwise(points)]
@@ -152,10 +150,7 @@ def burning_parts(corners: RoundedCorners, level: float) -> list[Part]:
     highest = Named("z_d" if corners.rounding.school == "ru" else "z'", top + corners.rounding.peak_angle, peak)
     joined = max(highest.angle + corners.rounding.join_after, _falls_to(corners, _JOIN_BELOW * peak))
     if joined >= opened.angle or highest.angle <= top:
-        raise CrankworkError(
-            f"the peak at {corners.rounding.peak_angle:g} deg after top dead centre leaves no expansion before the "
-            f"exhaust opens; put it at 10 to 15 deg"
-        )
+        raise CrankworkError(Refusal("peak_late", angle=f"{corners.rounding.peak_angle:g}"))
     join = Named("~g", joined, corners.expansion(joined))
     rising = _rising(corners, peak)
     slopes = corners.slope("compression", rising[0].angle), corners.slope("expansion", joined)
@@ -176,8 +171,12 @@ def _rising(corners: RoundedCorners, peak: float) -> list[Named]:
         middle = compressed + (peak - compressed) / 3
     if not compressed < middle < peak:
         raise CrankworkError(
-            f"the pressure at c'' of {middle / 1e6:.4g} MPa does not lie between {compressed / 1e6:.4g} MPa at the end "
-            f"of compression and the peak of {peak / 1e6:.4g} MPa; correct pressure_ratio or peak_level"
+            Refusal(
+                "middle_outside",
+                middle=f"{middle / 1e6:.4g}",
+                compressed=f"{compressed / 1e6:.4g}",
+                peak=f"{peak / 1e6:.4g}",
+            )
         )
     # burning adds to the compression line as the square of the angle since it began
     angles = [(share, left.angle + share * (corners.top - left.angle)) for share in _RISING]
@@ -211,8 +210,7 @@ def exchange_parts(corners: RoundedCorners) -> list[Part]:
     entered = Named("a'" if timing.exhaust_closes else "~a", turn + timing.exhaust_closes, charge)
     if left.angle < out.angle:
         raise CrankworkError(
-            f"the exhaust opens {timing.exhaust_opens:g} deg before bottom dead centre and the intake "
-            f"{timing.intake_opens:g} deg before top: nothing is left of the exhaust stroke; correct the valve timing"
+            Refusal("exhaust_nothing", exhaust=f"{timing.exhaust_opens:g}", intake=f"{timing.intake_opens:g}")
         )
     blown = []
     if timing.exhaust_opens:
@@ -234,9 +232,7 @@ def _blow_down(corners: RoundedCorners, points: tuple[Named, ...]) -> list[Part]
         return []
     if any(after >= before for before, after in pairwise(pressures)):
         shown = ", ".join(f"{one / 1e6:.4g}" for one in pressures)
-        raise CrankworkError(
-            f"the pressure has to fall after the exhaust opens, but it would be {shown} MPa; correct p_r or p_z"
-        )
+        raise CrankworkError(Refusal("blow_down_rising", pressures=shown))
     return [Part("rounded", points, (corners.slope("expansion", points[0].angle), 0.0))]
 
 

@@ -6,6 +6,7 @@ from crankwork.formula.known import Found, Known, absent, given
 from crankwork.formula.worked import Worked
 from crankwork.kinematics.slider_crank import mean_piston_speed
 from crankwork.loads.gas import piston_area, swept_volume
+from crankwork.locale import Refusal
 from crankwork.working_cycle import engine_size
 from crankwork.working_cycle.calculated_cycle import Notice
 from crankwork.working_cycle.cycle_data import GrinevetskyData
@@ -42,7 +43,7 @@ def sized(worked: Worked, data: GrinevetskyData) -> list[Notice]:
             break
         stroke = found
     else:
-        raise CycleError("no stroke gives the wanted power at this speed; lower the speed or the stroke-bore ratio")
+        raise CycleError(Refusal("power_unreached"))
     if not data.rounds_size:
         _of_power(worked, data, stroke)
         return []
@@ -50,8 +51,7 @@ def sized(worked: Worked, data: GrinevetskyData) -> list[Notice]:
     _of_power(asked, data, stroke)
     if min(round(asked[key].value * 1e3) for key in ("bore", "stroke")) == 0:
         raise CycleError(
-            f"the wanted power needs a bore of {asked['bore'].value * 1e3:.2g} mm and a stroke of "
-            f"{asked['stroke'].value * 1e3:.2g} mm; write a larger power, or the bore and the stroke"
+            Refusal("power_tiny", bore=f"{asked['bore'].value * 1e3:.2g}", stroke=f"{asked['stroke'].value * 1e3:.2g}")
         )
     said: dict[str, float | str] = {}
     for key in ("bore", "stroke"):
@@ -66,14 +66,17 @@ def sized(worked: Worked, data: GrinevetskyData) -> list[Notice]:
 def _effective(worked: Worked, data: GrinevetskyData) -> None:
     """Work the effective mean pressure at a stroke."""
     if not isinstance(data.mechanical_loss, tuple):
-        raise CycleError("mechanical losses need the two coefficients of p_m = a + b v_p")
+        raise CycleError(Refusal("losses_two"))
     speed = worked(mean_piston_speed).value
     loss = worked(mechanical_loss_pressure).value
     if worked(effective_mean_pressure).value <= 0:
         raise CycleError(
-            f"at a mean piston speed of {speed:g} m/s the losses, {loss / 1e6:g} MPa, take all of the indicated mean "
-            f"pressure, {worked['indicated_mean_pressure'].value / 1e6:g} MPa; lower speed or stroke, or give other "
-            "mechanical losses"
+            Refusal(
+                "losses_all",
+                speed=f"{speed:g}",
+                loss=f"{loss / 1e6:g}",
+                indicated=f"{worked['indicated_mean_pressure'].value / 1e6:g}",
+            )
         )
 
 

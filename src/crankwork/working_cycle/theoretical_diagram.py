@@ -9,6 +9,7 @@ import numpy as np
 
 from crankwork.kinematics.extremes import reached
 from crankwork.loads.indicator import DiagramPoint, Piece, VolumeAt
+from crankwork.locale import Refusal
 from crankwork.working_cycle.calculated_cycle import Corners
 from crankwork.working_cycle.fuels import CycleError
 
@@ -101,8 +102,9 @@ def _angle_of_volume(volume_at: VolumeAt, wanted: float, small: float, large: fl
     ends = volume_at(np.array([low, high]))
     if not ends[0] <= wanted <= ends[1] * (1 + 1e-12):
         raise CycleError(
-            f"a point of the cycle needs {wanted * 1e6:g} cm3, but the piston sweeps from {ends[0] * 1e6:g} to "
-            f"{ends[1] * 1e6:g} cm3 there; check the compression ratio of the cylinder and of the cycle"
+            Refusal(
+                "volume_unreached", volume=f"{wanted * 1e6:g}", least=f"{ends[0] * 1e6:g}", most=f"{ends[1] * 1e6:g}"
+            )
         )
     return reached(volume_at, wanted, low, high)
 
