@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from crankwork.files import read_resource
+from crankwork.resources import read_resource
 from crankwork.sources import cite, sources
 
 

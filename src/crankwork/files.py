@@ -16,6 +16,7 @@ from pathlib import Path, PurePosixPath
 from typing import TextIO
 
 from crankwork.errors import CrankworkError
+from crankwork.locale import Refusal
 
 try:
     import fcntl
@@ -39,55 +40,43 @@ old and new results stand side by side. Run it again with --overwrite.
 _inputs: set[Path] = set()
 
 
-def read_resource(*names: str) -> str:
-    """Return the text of a file of the package."""
-    return Path(__file__).parent.joinpath(*names).read_text(encoding="utf-8")
-
-
-def resource_names(folder: str, suffix: str) -> list[str]:
-    """Return the sorted stems of the package files in a folder that end with `suffix`."""
-    entries = Path(__file__).parent.joinpath(folder).iterdir()
-    return sorted(entry.name.removesuffix(suffix) for entry in entries if entry.name.endswith(suffix))
-
-
-def read_text(path: str | Path, *, limit: int = MAX_MACHINE_FILE, advice: str = "check the path") -> str:
+def read_text(path: str | Path, *, limit: int = MAX_MACHINE_FILE, advice: str = "") -> str:
     """Return the text of a file, UTF-8 with or without a byte order mark.
 
-    `advice`: what to do if there is no such file.
+    `advice`: what to do if there is no such file, otherwise to check the path.
     """
-    path = Path(path)
+    path, advice = Path(path), advice or Refusal("check_path")
     try:
         mode = path.stat().st_mode
         if stat.S_ISDIR(mode):
-            raise CrankworkError(f"{path}: is a folder; give a file")
+            raise CrankworkError(Refusal("path_folder", path=path))
         # a pipe or a device may never end, and opening it may never return
         if not stat.S_ISREG(mode):
-            raise CrankworkError(f"{path}: is not an ordinary file; save its content to a file and give that")
+            raise CrankworkError(Refusal("path_odd", path=path))
         with path.open("rb") as stream:
             data = stream.read(limit + 1)
         _inputs.add(path.resolve())
     except FileNotFoundError:
-        raise CrankworkError(f"{path}: no such file; {advice}") from None
+        raise CrankworkError(Refusal("path_absent", path=path, advice=advice)) from None
     except (OSError, ValueError) as error:
-        raise CrankworkError(f"{path}: cannot be read ({_reason(error)}); {advice}") from None
+        raise CrankworkError(Refusal("path_unreadable", path=path, reason=_reason(error), advice=advice)) from None
     if len(data) > limit:
-        size = f"{limit >> 20} MB" if limit >= 1 << 20 else f"{limit >> 10} kB"
-        raise CrankworkError(f"{path}: larger than {size}; keep what is needed, or give another file")
+        if limit >= 1 << 20:
+            raise CrankworkError(Refusal("path_large", path=path, size=limit >> 20))
+        raise CrankworkError(Refusal("path_large_kb", path=path, size=limit >> 10))
     return _decoded(path, data)
 
 
 def _decoded(path: Path, data: bytes) -> str:
     """Return bytes as text, or raise with the line where they are none."""
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise CrankworkError(f"{path}:1: is UTF-16 text; save it as UTF-8")
+        raise CrankworkError(Refusal("path_utf_16", path=path))
     if b"\0" in data:
-        raise CrankworkError(f"{path}:{_line(data, data.index(0))}: is a binary file; give a text file")
+        raise CrankworkError(Refusal("path_binary", path=path, line=_line(data, data.index(0))))
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise CrankworkError(
-            f"{path}:{_line(data, error.start)}: is not UTF-8 text; give a text file, saved as UTF-8"
-        ) from None
+        raise CrankworkError(Refusal("path_no_utf_8", path=path, line=_line(data, error.start))) from None
 
 
 def _line(data: bytes, position: int) -> int:
@@ -110,11 +99,9 @@ def check_files(*paths: str | Path, overwrite: bool = False) -> None:
         _check_new(path, overwrite=overwrite)
         try:
             if not path.parent.is_dir():
-                raise CrankworkError(f"{path}: there is no folder {path.parent}; make it or choose another place")
+                raise CrankworkError(Refusal("folder_absent", path=path, folder=path.parent))
             if not os.access(path.parent, os.W_OK | os.X_OK):
-                raise CrankworkError(
-                    f"{path}: cannot be written ({path.parent} is not a writable folder); choose another place"
-                )
+                raise CrankworkError(Refusal("place_locked", path=path, folder=path.parent))
         except (OSError, ValueError) as error:
             raise _unwritable(path, error) from None
 
@@ -123,11 +110,11 @@ def _check_new(path: Path, *, overwrite: bool) -> None:
     """Raise if something stands where a file is to go."""
     try:
         if path.is_dir():
-            raise CrankworkError(f"{path}: is a folder; give a file name")
+            raise CrankworkError(Refusal("name_of_folder", path=path))
         if path.exists() and not path.is_file():
-            raise CrankworkError(f"{path}: is not an ordinary file; choose another name")
+            raise CrankworkError(Refusal("name_of_odd", path=path))
         if path.exists() and not overwrite:
-            raise CrankworkError(f"{path}: exists already; choose another name or add --overwrite")
+            raise CrankworkError(Refusal("name_taken", path=path))
     except (OSError, ValueError) as error:
         raise _unwritable(path, error) from None
 
@@ -188,14 +175,12 @@ def check_folder(folder: str | Path, *, overwrite: bool = False) -> None:
     folder = Path(folder)
     try:
         if folder.exists() and not folder.is_dir():
-            raise CrankworkError(f"{folder}: is a file; give a folder for -o")
+            raise CrankworkError(Refusal("folder_is_file", path=folder))
         if folder.is_dir() and not overwrite:
             _check_empty(folder)
         nearest = next(one for one in (folder, *folder.absolute().parents) if one.exists())
         if not nearest.is_dir() or not os.access(nearest, os.W_OK | os.X_OK):
-            raise CrankworkError(
-                f"{folder}: cannot be written ({nearest} is not a writable folder); choose another folder"
-            )
+            raise CrankworkError(Refusal("folder_locked", path=folder, folder=nearest))
     except (OSError, ValueError) as error:
         raise _unwritable(folder, error) from None
 
@@ -203,7 +188,7 @@ def check_folder(folder: str | Path, *, overwrite: bool = False) -> None:
 def _check_empty(folder: Path) -> None:
     """Raise if a folder holds anything but what a killed run left behind."""
     if any(not entry.name.startswith(_STAGING) and entry.name != MANIFEST for entry in folder.iterdir()):
-        raise CrankworkError(f"{folder}: holds files already; choose another folder or add --overwrite")
+        raise CrankworkError(Refusal("folder_full", path=folder))
 
 
 @contextlib.contextmanager
@@ -288,11 +273,11 @@ def _check_place(folder: Path, name: str) -> None:
     """Raise unless a result may go where its name says."""
     path = folder / name
     if (link := _link(folder, name)) is not None:
-        raise CrankworkError(f"{link}: is a link to another folder; move it away or choose another folder")
+        raise CrankworkError(Refusal("place_linked", path=link))
     if path.is_dir():
-        raise CrankworkError(f"{path}: is a folder; move it away or choose another folder")
+        raise CrankworkError(Refusal("place_folder", path=path))
     if path.resolve() in _inputs:
-        raise CrankworkError(f"{path}: is what this run reads; move it away or choose another folder")
+        raise CrankworkError(Refusal("place_read", path=path))
 
 
 def _link(folder: Path, name: str) -> Path | None:
@@ -352,8 +337,9 @@ def _locked(folder: Path) -> Iterator[None]:
 
 
 def _unwritable(path: Path, error: Exception) -> CrankworkError:
-    return CrankworkError(f"{path}: cannot be written ({_reason(error)}); choose another place or free some space")
+    return CrankworkError(Refusal("place_unwritable", path=path, reason=_reason(error)))
 
 
 def _reason(error: Exception) -> str:
-    return (getattr(error, "strerror", None) or "not a usable path").lower()
+    said = getattr(error, "strerror", None)
+    return said.lower() if said else Refusal("path_unusable")

@@ -7,7 +7,7 @@ import re
 from types import MappingProxyType
 from typing import NamedTuple
 
-from crankwork.files import read_resource
+from crankwork.resources import read_resource
 
 _ENTRY = re.compile(r"^@(?P<kind>\w+)\{(?P<key>\w+),$(?P<body>.*?)^\}$", re.MULTILINE | re.DOTALL)
 _FIELD = re.compile(r"^  (?P<name>\w+) = \{(?P<value>.*)\},$", re.MULTILINE)

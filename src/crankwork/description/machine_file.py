@@ -20,6 +20,7 @@ from crankwork.description.schema import Reader, Table, is_one_line
 from crankwork.errors import CrankworkError, InputError, Problem
 from crankwork.loads.indicator import DiagramError
 from crankwork.locale import Refusal
+from crankwork.resources import read_resource, resource_names
 
 if TYPE_CHECKING:
     from crankwork.linkage_machine import AnyMachine
@@ -49,7 +50,7 @@ def read(path: str | Path, overrides: Sequence[str | Setting] = ()) -> AnyMachin
         If the file cannot be read at all.
     """
     path = Path(path)
-    advice = f"check the path, or make one with: crankwork new engine -o {path}"
+    advice = Refusal("check_path_or_new", path=path)
     return read_machine(files.read_text(path, advice=advice), str(path), overrides, folder=path.parent)
 
 
@@ -256,7 +257,7 @@ def json_schema() -> str:
 
 def template_names() -> list[str]:
     """Return the names of the machines that `template` knows."""
-    return files.resource_names(TEMPLATES, ".toml")
+    return resource_names(TEMPLATES, ".toml")
 
 
 def template(name: str) -> str:
@@ -270,4 +271,4 @@ def template(name: str) -> str:
     if name not in template_names():
         known = ", ".join(template_names())
         raise CrankworkError(Refusal("no_template", name=_printable(name[:40]), known=known))
-    return files.read_resource(*TEMPLATES.split("/"), f"{name}.toml")
+    return read_resource(*TEMPLATES.split("/"), f"{name}.toml")

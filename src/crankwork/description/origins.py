@@ -109,5 +109,5 @@ def origins(path: str | Path, overrides: Sequence[str | Setting] = ()) -> Callab
 
     The value is compared with what stands there: what differs follows from it and does not stand there itself.
     """
-    source = files.read_text(Path(path), advice="check the path")
+    source = files.read_text(Path(path))
     return _File(source, str(path), settings_of(overrides)).origin

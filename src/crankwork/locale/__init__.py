@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import Literal, Self
 
-from crankwork.files import read_resource
+from crankwork.resources import read_resource
 
 Language = Literal["en", "ru", "vi"]
 LANGUAGES: tuple[Language, ...] = ("en", "ru", "vi")
@@ -120,9 +120,7 @@ def _each(value: object, clean: Callable[[str], str]) -> object:
     match value:
         case Refusal():
             return value.cleaned(clean)
-        case str():
-            return clean(value)
         case tuple() | list():
             return type(value)(_each(one, clean) for one in value)
         case _:
-            return value
+            return clean(str(value))
