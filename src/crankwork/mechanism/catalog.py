@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from crankwork.errors import GeometryError
+from crankwork.locale import Refusal
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Branch, Guide, Point
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, body_at
 
@@ -107,10 +108,7 @@ def crank_shaper(crank: float, pivot_distance: float, lever: float, link: float,
         Links `lever` and `link`, sliding pieces `block` and `ram`; at a crank angle of zero the crank stands upright.
     """
     if not crank < pivot_distance:
-        raise GeometryError(
-            f"the crank ({crank * 1e3:g} mm) must be shorter than the distance of the lever's pivot "
-            f"({pivot_distance * 1e3:g} mm), or the lever turns fully: use whitworth(...)"
-        )
+        raise GeometryError(Refusal("lever_turns", crank=f"{crank * 1e3:g}", pivot=f"{pivot_distance * 1e3:g}"))
     lever_dyad = RPR("crank_pin", "lever_pivot", "lever", "block")
     ram = RRP("tip", "ram_pin", "link", link, guide_point=(0.0, ram_height), block="ram")
     return Mechanism(
@@ -136,10 +134,7 @@ def whitworth(crank: float, pivot_distance: float, arm: float, link: float, ram_
         Height of the guide above the lever's pivot. [m]
     """
     if not crank > pivot_distance:
-        raise GeometryError(
-            f"the crank ({crank * 1e3:g} mm) must be longer than the distance of the lever's pivot "
-            f"({pivot_distance * 1e3:g} mm), or the lever only swings: use crank_shaper(...)"
-        )
+        raise GeometryError(Refusal("lever_swings", crank=f"{crank * 1e3:g}", pivot=f"{pivot_distance * 1e3:g}"))
     ram = RRP("tip", "ram_pin", "link", link, guide_point=(0.0, ram_height - pivot_distance), block="ram")
     return Mechanism(
         Crank(crank),

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from crankwork.errors import Problem
+from crankwork.locale import Refusal
 from crankwork.mechanism.chain import Chain, ChainLink, Slide
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Branch, Dyad, Guide, Point
 from crankwork.mechanism.linkage import Linkage, Member
@@ -148,8 +149,9 @@ class _Order:
         """Note branches of what has none."""
         for name in self.linkage.branches:
             if name not in self.branched:
-                choice = ", ".join(sorted(self.branched)) or "none"
-                self.problems.append(Problem(f"branch.{name}", f"{name} has no branch; there is one for: {choice}"))
+                choice = ", ".join(sorted(self.branched))
+                told = Refusal("branch_absent" if choice else "branch_none", name=name, known=choice)
+                self.problems.append(Problem(f"branch.{name}", told))
 
     def _angle_at_zero(self, link: str) -> float:
         """Return the direction of the solved frame of a link at a crank angle of zero. [rad]"""
@@ -178,10 +180,9 @@ class _Order:
             anchor = next((name for name in one.points if name in at), None)
             if anchor is None or (not one.guide and sum(name in at for name in one.points) < 2):
                 key = f"{'sliders' if one.guide else 'links'}.{one.name}"
-                self.problems.append(Problem(key, (
-                    f"{one.name} belongs to a group that is solved from a start; give the positions of its joints "
-                    f"{', '.join(one.points)} at a crank angle of 0"
-                )))  # fmt: skip
+                self.problems.append(
+                    Problem(key, Refusal("positions_needed", name=one.name, joints=", ".join(one.points)))
+                )
                 continue
             angle, (u, v) = self._drawn_angle(one.name, stated=True), one.points[anchor]
             cos, sin = math.cos(angle), math.sin(angle)

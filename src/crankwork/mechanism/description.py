@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, fields
 from typing import Any
 
 from crankwork.errors import Problem
+from crankwork.locale import Refusal
 from crankwork.mechanism.decomposition import mechanism_of
 from crankwork.mechanism.dyads import Branch, Guide, Point
 from crankwork.mechanism.linkage import Linkage, Member
@@ -88,15 +89,15 @@ class _Reader:
         if isinstance(table, Mapping):
             return table
         if key == "crank" and isinstance(table, list):
-            self._problem(key, f"there are {len(table)} cranks; a mechanism of one degree of freedom has one [crank]")
+            self._problem(key, Refusal("cranks_many", count=len(table)))
         else:
-            self._problem(key, f"must be a table; write [{key}]")
+            self._problem(key, Refusal("be_table", key=key))
         return {}
 
     def _known_keys(self, key: str, table: Table, known: tuple[str, ...]) -> None:
         for name in table:
             if name not in known:
-                self._problem(f"{key}.{name}".lstrip("."), f"is not known here; there is {', '.join(known)}")
+                self._problem(f"{key}.{name}".lstrip("."), Refusal("key_unknown", known=", ".join(known)))
 
     def _named(self, key: str, known: tuple[str, ...]) -> Iterator[tuple[str, Table]]:
         """Yield the tables below a table."""
@@ -105,13 +106,13 @@ class _Reader:
                 self._known_keys(f"{key}.{name}", table, known)
                 yield name, table
             else:
-                self._problem(f"{key}.{name}", f"must be a table; write [{key}.{name}]")
+                self._problem(f"{key}.{name}", Refusal("be_table", key=f"{key}.{name}"))
 
     def _number(self, key: str, value: object, *, positive: bool = False) -> float:
         if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-            self._problem(key, "must be a number" if value is not None else "is missing; give a number")
+            self._problem(key, Refusal("number_needed" if value is not None else "number_missing"))
         elif positive and not value > 0:
-            self._problem(key, f"must be greater than zero, not {value:g}; a link of no length is a joint")
+            self._problem(key, Refusal("length_zero", value=f"{value:g}"))
         else:
             return float(value)
         return 1.0
@@ -119,22 +120,20 @@ class _Reader:
     def _point(self, key: str, value: object) -> Point:
         if isinstance(value, list | tuple) and len(value) == 2:
             return self._number(key, value[0]), self._number(key, value[1])
-        self._problem(
-            key, "is missing; give two coordinates, [x, y]" if value is None else "must be two coordinates, like [x, y]"
-        )
+        self._problem(key, Refusal("pair_missing" if value is None else "pair_needed"))
         return 0.0, 0.0
 
     def _word(self, key: str, value: object) -> str:
         if isinstance(value, str) and value:
             return value
-        self._problem(key, "is missing; give a name" if value is None else "must be a name in quotes")
+        self._problem(key, Refusal("name_missing" if value is None else "name_needed"))
         return ""
 
     def _points(self, key: str, table: Table) -> dict[str, Point]:
         points = table.get("points", {})
         if isinstance(points, Mapping):
             return {name: self._point(f"{key}.points.{name}", at) for name, at in points.items()}
-        self._problem(f"{key}.points", "must be a table of coordinates, { S = [along, across] }")
+        self._problem(f"{key}.points", Refusal("be_coordinates"))
         return {}
 
     def _crank(self, ground: Mapping[str, Point]) -> tuple[Crank, dict[str, Point]]:
@@ -142,12 +141,12 @@ class _Reader:
         self._known_keys("crank", table, _CRANK)
         pivot, pin = self._word("crank.pivot", table.get("pivot")), self._word("crank.pin", table.get("pin"))
         if pivot and pivot not in ground:
-            self._problem("crank.pivot", f"{pivot} is not a fixed point; give it in [fixed_points]")
+            self._problem("crank.pivot", Refusal("pivot_unknown", name=pivot))
         if pin in ground:
-            self._problem("crank.pin", f"{pin} is a fixed point already; a moving pin needs a name of its own")
+            self._problem("crank.pin", Refusal("pin_fixed", name=pin))
         direction = table.get("direction", "anticlockwise")
         if direction not in _DIRECTIONS:
-            self._problem("crank.direction", f"must be clockwise or anticlockwise, not {str(direction)[:40]}")
+            self._problem("crank.direction", Refusal("direction_wrong", value=str(direction)[:40]))
         radius = self._number("crank.radius", table.get("radius"), positive=True)
         start = self._number("crank.start", table.get("start", 0.0))
         sense = _DIRECTIONS.get(str(direction), 1)
@@ -157,18 +156,14 @@ class _Reader:
         for name, table in self._named("links", _LINK):
             key, joins = f"links.{name}", table.get("joins")
             if not isinstance(joins, list | tuple) or len(joins) < 2 or not all(isinstance(one, str) for one in joins):
-                self._problem(f"{key}.joins", 'must be the names of two or more joints, ["A", "B"]')
+                self._problem(f"{key}.joins", Refusal("joins_two"))
                 continue
             if len(set(joins)) < len(joins):
-                self._problem(
-                    f"{key}.joins", f"names a joint twice: {', '.join(joins)[:80]}; a link joins different points"
-                )
+                self._problem(f"{key}.joins", Refusal("joins_twice", names=", ".join(joins)[:80]))
                 continue
             points = self._points(key, table)
             for point in {*points, ""}.intersection(joins[:2]):
-                self._problem(f"{key}.points.{point}", (
-                    f"{point} is one of the first two joints, whose places follow from the length; leave it out"
-                ))  # fmt: skip
+                self._problem(f"{key}.points.{point}", Refusal("point_of_joint", name=point))
             places = self._joint_places(key, table, list(joins), points, drawn)
             yield self._with_mass(key, table, Member(name, {**places, **points}))
 
@@ -182,19 +177,17 @@ class _Reader:
         elif first in drawn and second in drawn:
             length = math.dist(drawn[first], drawn[second])
             if length == 0:
-                self._problem(key, f"{first} and {second} are at the same place; a link of no length is a joint")
+                self._problem(key, Refusal("joints_together", first=first, second=second))
                 length = 1.0
         else:
-            self._problem(f"{key}.length", f"is missing; give it, or the positions of {first} and {second}")
+            self._problem(f"{key}.length", Refusal("link_length", first=first, second=second))
             length = 1.0
         places = {first: (0.0, 0.0), second: (length, 0.0)}
         for name in others:
             if name in points:
                 continue
             if not {first, second, name} <= drawn.keys():
-                self._problem(f"{key}.points.{name}", (
-                    f"is missing; give {name} along and across the line from {first} to {second}"
-                ))  # fmt: skip
+                self._problem(f"{key}.points.{name}", Refusal("link_point", name=name, first=first, second=second))
                 continue
             (x, y), (ax, ay), (bx, by) = drawn[name], drawn[first], drawn[second]
             cos, sin = (bx - ax) / math.dist((ax, ay), (bx, by)), (by - ay) / math.dist((ax, ay), (bx, by))
@@ -220,8 +213,11 @@ class _Reader:
             name = f"{member.name}.centre"
             return _replaced(member, {**member.points, name: self._point(f"{key}.centre", centre)}, mass, inertia, name)
         if centre not in member.points:
-            advice = f"write one of {', '.join(member.points)}, or [along, across]"
-            self._problem(f"{key}.centre", f"{centre or 'it'} is not a point of {member.name}; {advice}")
+            told = Refusal(
+                "centre_unknown" if centre else "centre_missing",
+                centre=centre, link=member.name, known=", ".join(member.points),
+            )  # fmt: skip
+            self._problem(f"{key}.centre", told)
         return _replaced(member, member.points, mass, inertia, centre)
 
     def _guide(self, name: str, table: Table, ground: Mapping[str, Point]) -> Guide:
@@ -232,7 +228,7 @@ class _Reader:
         elif through in ground and not link:
             point = ground[through]
         else:
-            self._problem(f"{key}.through", f"{through} is not a fixed point; give it, or [x, y]")
+            self._problem(f"{key}.through", Refusal("through_unknown", name=through))
             point = (0.0, 0.0)
         return Guide(point, self._number(f"{key}.angle", table.get("angle", 0.0)), link)
 
@@ -240,7 +236,7 @@ class _Reader:
         branches: dict[str, Branch] = {}
         for name, value in self._table("branch").items():
             if isinstance(value, bool) or value not in (1, -1):
-                self._problem(f"branch.{name}", f"{value!s:.40} does not exist; a branch is 1 or -1")
+                self._problem(f"branch.{name}", Refusal("branch_wrong", value=str(value)[:40]))
             else:
                 branches[name] = 1 if value == 1 else -1
         return branches
@@ -251,21 +247,19 @@ class _Reader:
         for one in linkage.members:
             table = "sliders" if one.guide else "links"
             if one.name in names:
-                self._problem(f"{table}.{one.name}", f"{one.name} is the name of another link; choose another name")
+                self._problem(f"{table}.{one.name}", Refusal("link_named_twice", name=one.name))
             names.add(one.name)
             if one.guide and one.guide not in linkage.guides:
-                self._problem(
-                    f"{table}.{one.name}.guide", f"{one.guide} is not a guide; give it in [guides.{one.guide}]"
-                )
+                self._problem(f"{table}.{one.name}.guide", Refusal("guide_unknown", name=one.guide))
         for name, guide in linkage.guides.items():
             if guide.link and guide.link not in names:
                 self._problem(
                     f"guides.{name}.link",
-                    f"{guide.link} is neither a link nor a slider; write one of these: {', '.join(sorted(names))}",
+                    Refusal("carrier_unknown", name=guide.link, known=", ".join(sorted(names))),
                 )
         for name in linkage.positions:
             if name in linkage.ground or name == linkage.crank.pin:
-                self._problem(f"positions.{name}", f"{name} is placed by the ground or the crank; leave it out")
+                self._problem(f"positions.{name}", Refusal("position_known", name=name))
 
 
 def _replaced(member: Member, points: Mapping[str, Point], mass: float, inertia: float, centre: str) -> Member:

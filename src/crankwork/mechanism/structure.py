@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
 from crankwork.errors import Problem
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import Known, given
-from crankwork.mechanism.linkage import GROUND, Linkage
+from crankwork.locale import Refusal
+from crankwork.mechanism.linkage import GROUND, Linkage, Member
 
 # sets of members looked at for one group; larger groups than any linkage has
 _MOST_CANDIDATES = 20_000
@@ -196,36 +197,30 @@ def _loose_ends(linkage: Linkage) -> list[Problem]:
         joints = [name for name in one.points if len(owners[name]) > 1]
         count = len(joints) + bool(one.guide) + (one.name in carriers)
         if count < 2:
-            what = f"only on {joints[0]}" if joints else "on nothing else" if not one.guide else "only on its guide"
-            alone = [name for name in one.points if len(owners[name]) == 1 and name != one.centre]
-            also = f", and nothing else is joined at {' or '.join(alone)}" if joints and alone else ""
-            problems.append(Problem(_key(linkage, one.name), (
-                f"{one.name} hangs {what}{also}; a link needs two joints: join it to another link, a fixed point or "
-                "a guide"
-            )))  # fmt: skip
+            problems.append(Problem(_key(linkage, one.name), _loose(one, joints, owners)))
     return problems
 
 
-def _too_free(linkage: Linkage, rest: list[str]) -> str:
-    return (
-        f"the linkage has {mobility(linkage).value:g} degrees of freedom with one crank: {', '.join(rest)} can move on "
-        f"their own; add a link or a guide, or take away {'one of these' if len(rest) > 1 else 'it'}"
-    )
+def _loose(one: Member, joints: list[str], owners: Mapping[str, Sequence[str]]) -> Refusal:
+    if not joints:
+        return Refusal("hangs_on_guide" if one.guide else "hangs_alone", name=one.name)
+    alone = tuple(name for name in one.points if len(owners[name]) == 1 and name != one.centre)
+    told = "hangs_on_one_also" if alone else "hangs_on_one"
+    return Refusal(told, name=one.name, joint=joints[0], alone=alone)
 
 
-def _too_stiff(linkage: Linkage, some: tuple[str, ...]) -> str:
-    what = " and ".join(some)
-    return (
-        f"{what} cannot move with the crank: {'it has' if len(some) == 1 else 'they have'} more joints than the rest "
-        f"leaves free (mobility {mobility(linkage).value:g}); take away a joint or a link"
-    )
+def _too_free(linkage: Linkage, rest: list[str]) -> Refusal:
+    freedom = f"{mobility(linkage).value:g}"
+    return Refusal("free_some" if len(rest) > 1 else "free_one", mobility=freedom, names=", ".join(rest))
 
 
-def _too_still(slider: str, some: tuple[str, ...], bearer: str) -> str:
-    return (
-        f"{slider} cannot slide, because {' and '.join(some)} are held by {bearer} alone; "
-        "join one of them to another link, or take them away"
-    )
+def _too_stiff(linkage: Linkage, some: tuple[str, ...]) -> Refusal:
+    freedom = f"{mobility(linkage).value:g}"
+    return Refusal("stiff_some" if len(some) > 1 else "stiff_one", names=list(some), mobility=freedom)
+
+
+def _too_still(slider: str, some: tuple[str, ...], bearer: str) -> Refusal:
+    return Refusal("still_slider", slider=slider, names=list(some), bearer=bearer)
 
 
 def _key(linkage: Linkage, name: str) -> str:
