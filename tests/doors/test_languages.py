@@ -2,10 +2,45 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
 
+from crankwork.description.machine_file import template
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+ORDER = "firing_order = [1, 3, 4, 2]"
+# the file, what a user writes in it, and how what is wrong begins in Russian and in Vietnamese
+MISTAKES = {
+    "wrong load": ("toggle-press", 'slider = "ram"', 'slider = "rm"', 'ползуна "rm" нет', 'không có con trượt "rm"'),
+    "load counted wrongly": ("toggle-press", 'at = ["11 mm", "21 mm", "31 mm"]', 'at = ["1 deg", "2 deg", "3 deg"]',
+                             "значения должны быть одного рода, длины", "các giá trị phải cùng loại, là chiều dài"),
+    "loose link": ("four-bar", "[links]", '[links]\nz = { joins = ["B", "Y"], length = "1 m" }',
+                   "z держится только на B, а в Y", "z chỉ nối tại B, và không có gì khác nối tại Y"),
+    "nowhere": ("toggle-press", 'through = "E"', 'through = ["900 mm", "0 mm"]',
+                "звено lower не достаёт до направляющей D", "khâu lower không với tới đường dẫn"),
+    "locked slider": ("scotch-yoke", '{ through = "O", angle = "0 deg" }', '{ link = "crank", angle = "90 deg" }',
+                      "yoke не может скользить, потому что yoke и block", "yoke không trượt được, vì yoke và block"),
+    "branch of no joint": ("four-bar", "B = 1 ", "Z = 1 ", "у Z нет ветви", "Z không có nhánh"),
+    "textbook": ("four-bar", "[branch]", '[method]\nkinematics = "textbook"\n[branch]',
+                 "рычажный механизм рассчитывается точно", "cơ cấu thanh được tính chính xác"),
+    "order repeats": ("petrol-four", ORDER, "firing_order = [1, 3, 4, 4]",
+                      "1-3-4-4: цилиндр 4 назван дважды, а цилиндр 2", "1-3-4-4 ghi xylanh 4 hai lần và thiếu"),
+    "order against throws": ("petrol-four", ORDER, f'{ORDER}\nthrows = ["0 deg", "0 deg", "180 deg", "180 deg"]',
+                             "коленчатый вал не допускает порядка работы", "trục khuỷu không cho phép thứ tự"),
+    "common pins disagree": ("v8-diesel", 'bank_angle = "90 deg"', 'bank_angle = "60 deg"',
+                             "цилиндры 1 и ", "xylanh 1 và "),
+    "unknown fuel": ("petrol-four", "excess_air = 0.96", 'fuel = "coal"',
+                     'топливо "coal" неизвестно; запишите petrol или diesel', 'không có nhiên liệu "coal"'),
+    "exponent of one": ("petrol-four", "1.377", "1.0", "показатель, равный 1,", "chỉ số đúng bằng 1"),
+    "burning too long": ("two-stroke", '"48 deg"', '"150 deg"', "сгорание длится от", "quá trình cháy kéo dài từ"),
+    "no intake": ("petrol-four", '"0.085 MPa"', '"0.005 MPa"', "при давлении в конце впуска", "áp suất cuối quá trình"),
+    "other method": ("petrol-four", ORDER, f'{ORDER}\n[method]\nkinematics = "x"', 'метода "x" нет',
+                     'không có phương pháp "x"'),
+}  # fmt: skip
+# words that sentences are made of, and no key of a file
+ENGLISH = re.compile(r"\b(the|is|are|it|its|has|not|of|and|or|to|there|write|leave|by|cannot|must|links?|deg|add)\b")
 WRONG = """titel = "x"
 [crank]
 radius = "50"
@@ -53,3 +88,40 @@ def test_what_a_file_describes_is_told_in_the_language(crankwork, language, said
     answer = crankwork("check", "one.toml", "--lang", language)
     assert (answer.code, answer.err) == (0, "")
     assert said in answer.out
+
+
+@pytest.mark.parametrize(("name", "old", "new", "russian", "vietnamese"), MISTAKES.values(), ids=MISTAKES)
+def test_what_is_refused_is_told_without_a_word_of_english(crankwork, name, old, new, russian, vietnamese):
+    source = EXAMPLES / f"{name}.toml"
+    text = source.read_text("utf-8") if source.exists() else template(name)
+    assert old in text
+    Path("my.toml").write_text(text.replace(old, new, 1), "utf-8")
+    for language, said in (("ru", russian), ("vi", vietnamese)):
+        answer = crankwork("check", "my.toml", "--lang", language)
+        assert answer.code == 2
+        told = [line for line in answer.err.splitlines() if f": {said}" in line]
+        assert told != [], answer.err
+        sentence = re.sub(r'"[^"]*"|\[[^]]*\]', "", told[0].partition(f": {said}")[2])
+        assert ENGLISH.findall(sentence) == []
+
+
+@pytest.mark.parametrize(
+    ("command", "russian", "vietnamese"),
+    [
+        (("check", "none.toml"), "такого файла нет; проверьте путь", "không có tệp này; hãy kiểm tra đường dẫn"),
+        (("check", "."), "это папка; укажите файл", "là thư mục; hãy cho một tệp"),
+        (("check", "wrong.toml"), "это не текст UTF-8", "không phải văn bản UTF-8"),
+        (("run", "my.toml", "-o", "wrong.toml"), "это файл; укажите папку для -o", "là tệp; hãy cho một thư mục"),
+    ],
+)
+def test_a_file_is_refused_in_the_language(crankwork, command, russian, vietnamese):
+    Path("wrong.toml").write_bytes(b"\xff")
+    Path("my.toml").write_text(template("four-bar"), "utf-8")
+    for language, said in (("ru", russian), ("vi", vietnamese)):
+        assert said in crankwork(*command, "--lang", language).err
+
+
+def test_why_a_linkage_stops_short_of_a_turn_is_told_in_the_language(crankwork):
+    Path("my.toml").write_text(template("four-bar").replace("112.5 mm", "75 mm"), "utf-8")
+    for language, said in (("ru", "звенья coupler и rocker не сходятся"), ("vi", "các khâu coupler và rocker không")):
+        assert said in crankwork("run", "my.toml", "--lang", language).out

@@ -156,7 +156,7 @@ def test_overwriting_replaces_a_note_and_a_full_disk_keeps_the_old_one(crankwork
     monkeypatch.setattr(os, "fsync", full)
     answer = crankwork("report", PRESS, "-o", "a.html", "--overwrite", "--no-figures", "--lang", "ru")
     check_mistakes(answer)
-    assert "a.html: cannot be written (no space left on device)" in answer.err
+    assert "a.html: запись невозможна (no space left on device)" in answer.err
     assert {one.name: one.read_bytes() for one in Path().iterdir()} == {"a.html": old}
 
 

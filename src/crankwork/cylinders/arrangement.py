@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import reduce
 from itertools import pairwise
 from statistics import fmean
 from typing import NamedTuple
@@ -23,6 +24,7 @@ from crankwork.cylinders.firing import (
     wrapped,
 )
 from crankwork.cylinders.layout import Banks, Layout, Place
+from crankwork.locale import Refusal
 
 
 class Seat(NamedTuple):
@@ -55,7 +57,7 @@ def arranged(
     """
     seats = _seats(banks)
     if strokes not in (2, 4):
-        raise LayoutError("engine.strokes", f"an engine has 2 or 4 strokes, not {strokes}")
+        raise LayoutError("engine.strokes", Refusal("strokes_wrong", count=strokes))
     order, cycle = checked_order(order, banks.cylinders), 180.0 * strokes
     if throws is None:
         pins = _pins_of_even_firing(banks, seats, order, cycle, uneven=uneven)
@@ -78,18 +80,14 @@ def _seats(banks: Banks) -> list[Seat]:
     """Return the seats by number, the throws in the order along the shaft."""
     count, rows = banks.cylinders, len(banks.axes)
     if count < 1 or count % rows:
-        of = f"in {rows} banks " if rows > 1 else ""
-        raise LayoutError(
-            "engine.cylinders",
-            f"{count} cylinders cannot stand {of}evenly; write "
-            + (f"a multiple of {rows}" if rows > 1 else "1 or more"),
-        )
+        told = Refusal("cylinders_uneven" if rows > 1 else "cylinders_none", count=count, rows=rows)
+        raise LayoutError("engine.cylinders", told)
     directions = {wrapped(axis) for axis in banks.axes}
     if len(directions) < rows and not banks.own_throws:
         key = "engine.bank_angle" if rows == 2 else "engine.bank_angles"
-        raise LayoutError(key, "two banks stand in the same direction; give each its own")
+        raise LayoutError(key, Refusal("banks_together"))
     if banks.numbering not in ("banks", "pairs"):
-        raise LayoutError("engine.numbering", f'write "banks" or "pairs", not "{banks.numbering}"')
+        raise LayoutError("engine.numbering", Refusal("numbering_wrong", given=banks.numbering))
     per_bank = count // rows
     seats = []
     for bank, axis in enumerate(banks.axes):
@@ -106,7 +104,7 @@ def _pins_of_throws(seats: Sequence[Seat], throws: Sequence[float]) -> list[floa
     if len(throws) != count:
         raise LayoutError(
             "engine.throws",
-            f"{len(throws)} angles are given, but the crankshaft has {count} throws; write {count} angles, the first 0",
+            Refusal("throws_count", given=len(throws), count=count),
         )
     # the first throw belongs to cylinder 1, from whose crankpin all others count
     return [wrapped(throws[seat.throw] - throws[0] + seat.pin_offset) for seat in seats]
@@ -147,15 +145,10 @@ def _disagreement(
     seat = seats[number - 1]
     partner = next(one.number for one in seats if one.throw == seat.throw and one.bank == 0)
     split = wrapped(seat.pin_offset + off[number] + 180.0) - 180.0
-    side = "ahead of" if split > 0 else "behind"
-    text = (
-        f"cylinders {partner} and {number} are on one throw, and even firing {order_text(order)} needs the crankpin of "
-        f"{number} {abs(split):.7g} deg {side} that of {partner}, but it is {seat.pin_offset:.7g} deg ahead"
-    )
     first_bank = [abs(angle - off[number]) <= SAME_ANGLE for one, angle in off.items() if seats[one - 1].bank]
-    ways = []
+    ways: list[str] = []
     if banks.kind == "V" and all(first_bank):
-        ways.append(f'set engine.pin_offset = "{split:.7g} deg"')
+        ways.append(Refusal("way_pin_offset", angle=f"{split:.7g}"))
         bank_angle = banks.axes[1] - banks.axes[0] - off[number]
         if 0 < abs(bank_angle) < 180:
             ways.append(f"engine.bank_angle = {bank_angle:.7g}")
@@ -163,13 +156,20 @@ def _disagreement(
     angles = firing_angles(order, dead_centres, cycle)
     if angles:
         steps = intervals([angles[one - 1] for one in order], cycle)
-        ways.append(f"engine.uneven = true, which fires at intervals of {angle_list(steps)} deg")
+        ways.append(Refusal("way_uneven", intervals=angle_list(steps)))
     ways += [f"engine.firing_order = {list(one)}" for one in even_orders(dead_centres, cycle, limit=2)]
     if not ways:
-        ways.append("write engine.throws, or another engine.firing_order")
-    return LayoutError(
-        "engine.pin_offset" if banks.kind == "V" else "engine.firing_order", f"{text}; {', or '.join(ways)}"
-    )
+        ways.append(Refusal("way_throws"))
+    told = Refusal(
+        "pins_ahead" if split > 0 else "pins_behind",
+        partner=partner, number=number, order=order_text(order), angle=f"{abs(split):.7g}",
+        given=f"{seat.pin_offset:.7g}", ways=reduce(_or, ways),
+    )  # fmt: skip
+    return LayoutError("engine.pin_offset" if banks.kind == "V" else "engine.firing_order", told)
+
+
+def _or(first: str, other: str) -> Refusal:
+    return Refusal("way_or", first=first, other=other)
 
 
 def _dead_centres(seats: Sequence[Seat], pins: Sequence[float]) -> list[float]:
@@ -182,20 +182,19 @@ def _firing(seats: Sequence[Seat], pins: Sequence[float], order: tuple[int, ...]
     angles = firing_angles(order, dead_centres, cycle)
     if angles:
         return angles
-    text = f"the crankshaft does not allow the firing order {order_text(order)}"
     ways = [order_text(one) for one in even_orders(dead_centres, cycle, limit=3)]
     possible = possible_order(dead_centres, cycle)
     if not ways and possible:
         ways.append(order_text(possible))
-    if ways:
-        text += f"; it allows {', '.join(ways)}"
+    told = {"order": order_text(order), "others": ", ".join(ways)}
     if len({seat.throw for seat in seats}) == len(seats):
         needed = even_angles(order, cycle)
         pairs = zip(seats, needed, strict=True)
         throws = {seat.throw: wrapped(seat.axis - seats[0].axis - angle) for seat, angle in pairs}
         quoted = ", ".join(f'"{throws[at]:.7g} deg"' for at in sorted(throws))
-        text += f"; that order needs engine.throws = [{quoted}]"
-    raise LayoutError("engine.firing_order", text)
+        name = "order_refused_both" if ways else "order_refused_throws"
+        raise LayoutError("engine.firing_order", Refusal(name, **told, throws=quoted))
+    raise LayoutError("engine.firing_order", Refusal("order_refused_others" if ways else "order_refused", **told))
 
 
 def _places(banks: Banks, seats: Sequence[Seat], pins: Sequence[float], firing: Sequence[float]) -> tuple[Place, ...]:
@@ -203,7 +202,7 @@ def _places(banks: Banks, seats: Sequence[Seat], pins: Sequence[float], firing: 
     masters = {seat.throw: seat.number for seat in reversed(seats) if seat.bank == 0}
     rows = len(banks.axes)
     if banks.articulated and (banks.own_throws or not common):
-        raise LayoutError("engine.articulated", "articulated rods hang on one crankpin; leave out engine.pin_offset")
+        raise LayoutError("engine.articulated", Refusal("articulated_pins"))
     places = []
     for seat, pin, angle in zip(seats, pins, firing, strict=True):
         crankpin = seat.throw if common or banks.own_throws else seat.throw * rows + seat.bank

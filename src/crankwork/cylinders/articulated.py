@@ -28,6 +28,7 @@ from crankwork.kinematics.slider_crank import (
     rod_transfer_2,
 )
 from crankwork.kinematics.transfer import PointMotion, Transfer
+from crankwork.locale import Refusal
 
 # Share of the rod length that adding up lengths may leave.
 _ROUNDING = 1e-12
@@ -273,7 +274,7 @@ def check_articulated_rod(lengths: SliderCrank, rod: ArticulatedRod) -> None:
     """Raise if crank, master rod and articulated rod cannot turn fully."""
     check_slider_crank(lengths)
     if rod.length <= 0 or rod.knuckle_radius < 0:
-        raise GeometryError("the articulated rod must be longer than zero, and its knuckle radius not negative")
+        raise GeometryError(Refusal("articulated_zero"))
 
     def across(degrees: Array) -> Transfer:
         return _motion(lengths, rod, CrankGrid.from_degrees(degrees)).knuckle.y
@@ -283,7 +284,11 @@ def check_articulated_rod(lengths: SliderCrank, rod: ArticulatedRod) -> None:
     worst = int(np.argmax(away))
     if away[worst] >= rod.length * (1 - _ROUNDING):
         raise GeometryError(
-            f"the articulated rod ({rod.length * 1e3:g} mm) does not reach its cylinder at a crank angle of "
-            f"{angles[worst] % 360:.1f} deg, where its knuckle pin is {away[worst] * 1e3:.6g} mm beside the axis; "
-            f"it misses {(away[worst] - rod.length) * 1e3:.6g} mm: lengthen it or take a smaller knuckle radius"
+            Refusal(
+                "articulated_short",
+                length=f"{rod.length * 1e3:g}",
+                angle=f"{angles[worst] % 360:.1f}",
+                away=f"{away[worst] * 1e3:.6g}",
+                missing=f"{(away[worst] - rod.length) * 1e3:.6g}",
+            )
         )

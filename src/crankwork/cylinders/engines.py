@@ -9,6 +9,7 @@ from crankwork.cylinders.arrangement import arranged
 from crankwork.cylinders.firing import LayoutError, LayoutNotice
 from crankwork.cylinders.layout import Banks, Layout
 from crankwork.cylinders.standard_orders import StandardOrder, radial_order
+from crankwork.locale import Refusal
 
 
 def inline(
@@ -88,7 +89,7 @@ def radial(
     intervals are wanted, so that there is no notice of them.
     """
     if not 0 <= master <= cylinders:
-        raise LayoutError("engine.master", f"there is no cylinder {master}; write one from 1 to {cylinders}, or 0")
+        raise LayoutError("engine.master", Refusal("master_absent", number=master, count=cylinders))
     banks = Banks("radial", cylinders, tuple(at * 360 / cylinders for at in range(cylinders)), span)
     order = radial_order(cylinders, strokes) if order is None else order
     layout, notices = arranged(banks, order, strokes=strokes, throws=(0.0,), uneven=uneven)

@@ -7,6 +7,7 @@ from itertools import islice, permutations, product
 from typing import NamedTuple
 
 from crankwork.errors import CrankworkError
+from crankwork.locale import Refusal
 
 # Angles closer than this are the same. [deg]
 SAME_ANGLE = 1e-6
@@ -64,18 +65,16 @@ def checked_order(order: Sequence[int], cylinders: int) -> tuple[int, ...]:
     key, given = "engine.firing_order", [int(one) for one in order]
     unknown = sorted({one for one in given if not 1 <= one <= cylinders})
     if unknown:
-        raise LayoutError(
-            key, f"there is no cylinder {unknown[0]}; an engine of {cylinders} has the numbers 1 to {cylinders}"
-        )
+        raise LayoutError(key, Refusal("cylinder_absent", number=unknown[0], count=cylinders))
     twice = sorted({one for one in given if given.count(one) > 1})
     missing = [one for one in range(1, cylinders + 1) if one not in given]
     if twice or missing:
-        faults = [f"names cylinder {twice[0]} twice"] if twice else []
-        faults += [f"leaves out cylinder {missing[0]}"] if missing else []
-        raise LayoutError(
-            key,
-            f"{order_text(given)} {' and '.join(faults)}; every number from 1 to {cylinders} must stand in it once",
-        )
+        told = {"order": order_text(given), "count": cylinders}
+        if not missing:
+            raise LayoutError(key, Refusal("order_twice", **told, twice=twice[0]))
+        if not twice:
+            raise LayoutError(key, Refusal("order_leaves_out", **told, missing=missing[0]))
+        raise LayoutError(key, Refusal("order_twice_leaves_out", **told, twice=twice[0], missing=missing[0]))
     first = given.index(1)
     return tuple(given[first:] + given[:first])
 

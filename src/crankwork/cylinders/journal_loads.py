@@ -20,6 +20,7 @@ from crankwork.errors import CrankworkError
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import added, called, given, is_known
 from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.locale import Refusal
 
 
 @formula("unbalance_force", "kolchin_demidov_2008, ch. 7")
@@ -116,18 +117,18 @@ def check_journals(layout: Layout) -> None:
     """Raise unless every throw lies between two main journals with its cylinders."""
     journals, throws = layout.journal_positions, max(place.throw for place in layout.places) + 1
     if len(journals) != throws + 1:
-        raise CrankworkError(
-            f"{throws} throws need {throws + 1} main journals, and {len(journals)} are given; "
-            "give the position of one more journal than throws"
-        )
+        raise CrankworkError(Refusal("journals_count", throws=throws, needed=throws + 1, given=len(journals)))
     if any(left >= right for left, right in pairwise(journals)):
-        raise CrankworkError(
-            "main journals must be given one after the other; write ascending positions, or a larger spacing"
-        )
+        raise CrankworkError(Refusal("journals_rise"))
     for place in layout.places:
         left, right = journals[place.throw], journals[place.throw + 1]
         if not left <= place.position <= right:
             raise CrankworkError(
-                f"cylinder {place.number} stands at {place.position * 1e3:g} mm, outside the journals of its throw "
-                f"({left * 1e3:g} to {right * 1e3:g} mm); move the cylinder or the journals"
+                Refusal(
+                    "cylinder_outside",
+                    number=place.number,
+                    position=f"{place.position * 1e3:g}",
+                    left=f"{left * 1e3:g}",
+                    right=f"{right * 1e3:g}",
+                )
             )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from crankwork.cylinders.firing import LayoutError
+from crankwork.locale import Refusal
 
 _TURN = 360.0
 
@@ -98,8 +99,7 @@ def radial_order(cylinders: int, strokes: int) -> tuple[int, ...]:
     if step == 2 and cylinders % 2 == 0 and cylinders:
         raise LayoutError(
             "engine.cylinders",
-            f"one row of {cylinders} radial cylinders cannot fire evenly in four strokes; take "
-            f"{cylinders - 1} or {cylinders + 1}, or write the firing order and allow uneven intervals",
+            Refusal("radial_even", count=cylinders, fewer=cylinders - 1, more=cylinders + 1),
         )
     return tuple(at * step % cylinders + 1 for at in range(cylinders))
 

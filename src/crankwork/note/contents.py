@@ -6,6 +6,7 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING
 
 from crankwork.errors import CrankworkError, MissingExtraError, missing_extras
+from crankwork.locale import Refusal
 from crankwork.machine import Machine
 from crankwork.note.document import Note
 from crankwork.note.options import NoteOptions
@@ -63,7 +64,7 @@ _MODULES: dict[str, dict[str, str]] = {".pdf": {"typst": "report"}, ".docx": {"d
 def check_format(name: str, *, with_figures: bool = False, with_sheets: bool = False) -> None:
     """Raise unless a note of this format can be written, before anything is computed."""
     if PurePath(name).suffix.lower() not in WRITERS:
-        raise CrankworkError(f"{name}: no format of a note has this ending; end it in {', '.join(WRITERS)}")
+        raise CrankworkError(Refusal("note_ending", name=name, known=", ".join(WRITERS)))
     modules = _MODULES[PurePath(name).suffix.lower()]
     if with_figures:
         modules = modules | {"matplotlib": "figures"}

@@ -14,6 +14,7 @@ from crankwork.errors import MethodError, MissingExtraError
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.loads.spring import Spring
+from crankwork.locale import Refusal
 from crankwork.mechanism.dyads import RRR
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.shaft.energy_motion import EnergyMachine
@@ -30,7 +31,7 @@ def energy_machine(
     for a crank and RRR dyads, with the extra `fast`.
     """
     if any(spring.preload for spring in springs):
-        raise MethodError("motion by energy takes springs without preload; give the length at which they do not pull")
+        raise MethodError(Refusal("spring_preload"))
     state = _compiled(mechanism, springs) if fast else functools.partial(_state, mechanism, springs)
     return EnergyMachine(_with_inertia(state, inertia) if inertia else state, drive)
 

@@ -11,6 +11,7 @@ from numpy.polynomial import legendre
 
 from crankwork.errors import MethodError
 from crankwork.kinematics.crank_grid import Array
+from crankwork.locale import Refusal
 from crankwork.shaft.fluctuation import speed_of_energy
 
 _POINTS = 14
@@ -108,7 +109,7 @@ class _Quadrature:
             if until[-1] >= time:
                 s, own = _found(time, pace, until)
                 return self._moment(time, self.h * (1 + s) + done * cycle, max(own, coarse**2 / time) / time)
-        raise MethodError(f"the time of {time:g} s takes more than {_MOST_CYCLES} cycles")
+        raise MethodError(Refusal("motion_long", time=f"{time:g}", most=_MOST_CYCLES))
 
     def _pace(self, inertia: Array, energy: Array, offset: Array) -> Array:
         """Return the time per angle."""
@@ -119,10 +120,7 @@ class _Quadrature:
         lost = ~(energy > 0)
         if lost.any():
             at = math.degrees(self.start + float(offset.ravel()[int(np.argmax(lost.ravel()))]))
-            raise MethodError(
-                f"the machine stands still shortly before a crank angle of {at:.2f} deg: the torque cannot bring it "
-                "over the hill of its springs and weights"
-            )
+            raise MethodError(Refusal("motion_stuck", angle=f"{at:.2f}"))
 
     def _moment(self, time: float, offset: float, tail: float) -> Moment:
         angle = self.start + offset

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
 from crankwork.kinematics.crank_grid import Array
+from crankwork.locale import Refusal
 from crankwork.shaft.flywheel import inertia_on_other_shaft
 
 
@@ -76,9 +77,13 @@ class AsynchronousMotor:
         w_0 = float(synchronous_speed(frequency, pole_pairs, math.pi))
         if not 0 < rated_speed < w_0 or overload <= 1:
             raise MethodError(
-                f"a motor with {pole_pairs} pairs of poles turns at {w_0 * 30 / math.pi:g} rev/min without load; its "
-                f"rated speed of {rated_speed * 30 / math.pi:g} rev/min must be below that, and its greatest torque "
-                f"above the rated one (given: {overload:g} times)"
+                Refusal(
+                    "motor_speed",
+                    pairs=pole_pairs,
+                    idle=f"{w_0 * 30 / math.pi:g}",
+                    rated=f"{rated_speed * 30 / math.pi:g}",
+                    overload=f"{overload:g}",
+                )
             )
         s_n = 1 - rated_speed / w_0
         if 2 * resistance_ratio * s_n * (overload - 1) >= 1:
