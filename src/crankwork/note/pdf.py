@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from crankwork.errors import CrankworkError, MissingExtraError
+from crankwork.locale import Refusal
 from crankwork.note.document import Note
 from crankwork.note.numbering import numbering
 from crankwork.note.typst_parts import svg_width, typst_source
@@ -32,9 +33,7 @@ def _missing_character(text: str) -> CrankworkError:
     # Typst writes rare characters as \u{1f600}
     shown = re.sub(r"\\u\{([0-9a-fA-F]+)\}", lambda code: chr(int(code[1], 16)), text)
     codes = " ".join(f"U+{ord(character):04X}" for character in shown)
-    return CrankworkError(
-        f'the fonts of the PDF have no character "{shown}" ({codes}); write it otherwise, or make a .docx or .html'
-    )
+    return CrankworkError(Refusal("glyph_missing", character=shown, codes=codes))
 
 
 def png(svg: bytes, pixels_per_inch: float = 110.0) -> bytes:
