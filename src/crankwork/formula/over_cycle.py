@@ -276,7 +276,9 @@ class OverCycle:
         equal = seen >= (largest - spare)[:, None]
         first = equal.argmax(axis=1)
         # an edge is meant where rounding alone tells the angle from it
-        near = equal & np.isin(every, self._low) & (every - every[first][:, None] < _AT_EDGE)
+        begins = np.zeros(every.size, dtype=bool)
+        begins[np.searchsorted(every, self._low)] = True
+        near = equal & begins & (every - every[first][:, None] < _AT_EDGE)
         return np.asarray(np.where(near.any(axis=1), near.argmax(axis=1), first))
 
     def _zeros(self, coefficients: Array, low: Array, high: Array, starts_below: NDArray[np.bool_]) -> Array:

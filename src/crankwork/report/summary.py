@@ -6,11 +6,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from crankwork.analysis import Results
-from crankwork.analysis.linkage import four_bar_type
-from crankwork.linkage_machine import LinkageMachine, TabulatedMachine
 from crankwork.locale import say
 from crankwork.machine import Machine
-from crankwork.mechanism.structure import structure
 from crankwork.quantities import Language
 from crankwork.report.language import (
     displayed,
@@ -25,7 +22,7 @@ from crankwork.report.language import (
 from crankwork.report.notices import notice_text
 
 if TYPE_CHECKING:
-    from crankwork.linkage_machine import AnyMachine
+    from crankwork.linkage_machine import AnyMachine, LinkageMachine, TabulatedMachine
 
 
 def summary_data(results: Results, *, per_area: bool = False) -> dict[str, Any]:
@@ -159,13 +156,17 @@ def _headline(machine: AnyMachine, summary: Mapping[str, float], language: Langu
 
 def method_words(machine: LinkageMachine | TabulatedMachine, language: Language) -> str:
     """Return how the results of a linkage are made, in words."""
-    if isinstance(machine, TabulatedMachine):
+    if not hasattr(machine, "linkage"):
         return say("report.tabulated", language)
     return method_name("exact", 0, "", language)
 
 
 def headline(machine: LinkageMachine | TabulatedMachine, language: Language) -> list[str]:
     """Return mobility, groups and formula of structure of a linkage, or the size of a table."""
+    # engines load none of this
+    from crankwork.linkage_machine import TabulatedMachine  # noqa: PLC0415
+    from crankwork.mechanism.structure import structure  # noqa: PLC0415
+
     if isinstance(machine, TabulatedMachine):
         return [say("check.table", language, bodies=len(machine.bodies), positions=len(machine.angles))]
     found, _ = structure(machine.linkage)
@@ -183,6 +184,8 @@ def headline(machine: LinkageMachine | TabulatedMachine, language: Language) -> 
 
 def _grashof_lines(machine: LinkageMachine, language: Language) -> list[str]:
     """Return the type of a four-bar linkage by Grashof."""
+    from crankwork.analysis.linkage import four_bar_type  # noqa: PLC0415 - engines do not load it
+
     kind = four_bar_type(machine)
     if not kind:
         return []
