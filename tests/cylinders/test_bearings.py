@@ -80,7 +80,35 @@ def test_a_direction_just_below_zero_does_not_round_to_a_full_turn():
     assert BearingLoad(np.array([1.0]), np.array([-1e-30])).direction == [0.0]
 
 
-# --- crankpin
+# --- crankpin of an engine without gas
+
+WITHOUT_GAS = """
+title = "Without gas"
+crank = { radius = "40 mm", speed = "3000 rpm", mass = "0.7 kg" }
+rod = { length = "140 mm", mass = "0.8 kg", small_end_share = 0.25 }
+piston = { mass = "0.5 kg" }
+cylinder = { bore = "80 mm" }
+engine = { layout = "inline", cylinders = 1 }
+bearings = { crankpin_diameter = "50 mm", crankpin_length = "25 mm" }
+"""
+
+
+def test_pressure_and_load_ratio_are_those_of_the_inertia_forces():
+    """The pin at r exp(i phi) bears 0.6 kg of the big end and, along the rod, what moves 0.7 kg in the cylinder."""
+    phi, w = np.radians(np.arange(0, 360, 0.25)), 100 * np.pi
+    beta = np.arcsin(0.04 * np.sin(phi) / 0.14)
+    slope = 0.04 * np.cos(phi) / (0.14 * np.cos(beta))
+    curve = (slope**2 * np.sin(beta) - 0.04 * np.sin(phi) / 0.14) / np.cos(beta)
+    # of the piston pin at r cos(phi) + l cos(beta) over the crankshaft, away from it
+    a = -(w**2) * (0.04 * np.cos(phi) + 0.14 * (np.cos(beta) * slope**2 + np.sin(beta) * curve))
+    pin = -0.7 * a / np.cos(beta) * np.exp(-1j * beta) + 0.6 * 0.04 * w**2 * np.exp(1j * phi)
+    load = np.abs(pin)
+    assert load.max() == pytest.approx(0.04 * w**2 * (0.6 + 0.7 * (1 + 0.04 / 0.14)), rel=1e-12), "at the top"
+    listing = crankwork.analyse(crankwork.read_machine(WITHOUT_GAS)).listings["bearing_loads"]
+    found = {key: values[listing.names.index("crankpin.1")] for key, values in listing.columns.items()}
+    assert found["bearing_load_ratio"] == pytest.approx(load.max() / load.mean(), rel=1e-9)
+    assert found["bearing_pressure"] == pytest.approx(load.mean() / (0.05 * 0.025), rel=1e-9)
+    assert found["bearing_pressure_max"] == pytest.approx(load.max() / (0.05 * 0.025), rel=1e-9)
 
 
 # --- printed engine

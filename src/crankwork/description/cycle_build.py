@@ -42,7 +42,8 @@ _OF_IDEAL = {
 }  # fmt: skip
 _OF_WIEBE = {
     "intake_pressure", "intake_temperature", "residual_pressure", "combustion_start", "combustion_duration", "shape",
-    "cycle_heat", "wall_temperature", "adiabatic_exponent", "timing",
+    "cycle_heat", "fuel_mass", "heating_value", "burning_efficiency", "wall_temperature", "adiabatic_exponent",
+    "timing",
 }  # fmt: skip
 _KEYS = (
     {"petrol": _COMMON | _OF_REAL - {"pressure_ratio"} | _CORNERS, "diesel": _COMMON | _OF_REAL | _CORNERS}
@@ -235,6 +236,9 @@ def _heat_release(values: Mapping[str, Any], table: Mapping[str, Any], angle: fl
     timing = table.get("timing", {})
     given: dict[str, Any] = {
         "heat": _si(table, "cycle_heat"),
+        "fuel_per_cycle": _si(table, "fuel_mass"),
+        "heating_value": _si(table, "heating_value"),
+        "burning_efficiency": table.get("burning_efficiency"),
         "burning_shape": table.get("shape"),
         "heat_ratio": table.get("adiabatic_exponent"),
         "has_wall_loss": "wall_temperature" in table,
@@ -251,7 +255,10 @@ def _heat_release(values: Mapping[str, Any], table: Mapping[str, Any], angle: fl
         "exhaust_closes": (timing, "exhaust_closes"),
     }
     given |= {name: _degrees(place, key) for name, (place, key) in angles.items() if key in place}
-    if given["heat"] is None:
+    of_fuel = [key for key in ("fuel_mass", "heating_value", "burning_efficiency") if key in table]
+    if given["heat"] is not None and of_fuel:
+        raise CrankworkError(Refusal("cycle_heat_twice", names=", ".join(of_fuel)))
+    if given["heat"] is None and not {"fuel_mass", "heating_value"} <= set(of_fuel):
         raise CrankworkError(Refusal("cycle_heat_missing"))
     bore = _si(values.get("cylinder", {}), "bore")
     if bore is None:

@@ -128,6 +128,9 @@ CYCLE = Table({
     "combustion_duration": Key(Quantity(("angle",), math.radians(1), math.pi), "for Wiebe"),
     "shape": Key(Number(0.0, 10.0), "exponent m of Wiebe"),
     "cycle_heat": Key(Quantity(("energy",), 1e-6, 1e9), "of the fuel, per cycle and cylinder, for Wiebe"),
+    "fuel_mass": Key(Quantity(("mass",), 1e-12, 1e3), "burnt per cycle and cylinder, for Wiebe, instead of cycle_heat"),
+    "heating_value": Key(Quantity(("specific_energy",), 1e6, 2e8), "lower one of the fuel, with fuel_mass"),
+    "burning_efficiency": Key(Number(0.1, 1.0), "share of the heating value that is released; by default 1"),
     "wall_temperature": Key(_TEMPERATURE, "of the walls, for Woschni; without it there is no heat loss"),
     "source": Key(Text(), "where the data come from"),
 })  # fmt: skip

@@ -233,9 +233,9 @@ def _give(worked: Worked, data: HeatReleaseData) -> None:
     for name, key, path in (
         ("bore", "bore", "cylinder.bore"),
         ("heat", "fuel_heat", "cycle.cycle_heat"),
-        ("fuel_per_cycle", "fuel_per_cycle", ""),
-        ("heating_value", "fuel_heating_value", ""),
-        ("burning_efficiency", "burning_efficiency", ""),
+        ("fuel_per_cycle", "fuel_per_cycle", "cycle.fuel_mass"),
+        ("heating_value", "fuel_heating_value", "cycle.heating_value"),
+        ("burning_efficiency", "burning_efficiency", "cycle.burning_efficiency"),
         ("burning_shape", "burning_shape", "cycle.shape"),
         ("heat_ratio_slope", "gas_heat_ratio_slope", ""),
         ("gas_constant", "specific_gas_constant", ""),
