@@ -110,6 +110,11 @@ def test_a_quantity_with_two_meanings_takes_either_and_says_which() -> None:
     [
         ("1,1 kg", "mass", 'write "1.1 kg"'),
         ("1,1 kg", "mass", 'decimal_mark = ","'),
+        ("105,8 mn", "length", 'not one of length; write it like "105.8 mm", in one of the units mm, cm, m'),
+        ("1,5 kg", "length", 'write it like "1.5 mm", in one of'),
+        ("1,5", "length", 'write "1.5 mm"'),
+        ("80,5 hp", "power", "745.7 W in others"),
+        ("٥ mm", "length", 'write it like "30 mm"'),
         ("9**9**9 mm", "length", "length is wanted: mm"),
         ("nan mm", "length", 'write it like "30 mm"'),
         ("inf mm", "length", 'write it like "30 mm"'),

@@ -120,11 +120,11 @@ EXAMPLES = {
 }
 
 _MAX_LENGTH = 100
-_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?"
+_NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?"
 # a unit that starts with a digit, 1/min, needs a space before it
 _UNIT = r"\s*(?P<unit>[^\s\d.,+-].*?|(?<=\s)1/\w+)?\s*\Z"
 _QUANTITY = re.compile(rf"\s*(?P<number>{_NUMBER}){_UNIT}")
-_WITH_COMMA = re.compile(rf"\s*(?P<number>[+-]?\d+,\d+(?:[eE][+-]?\d{{1,3}})?){_UNIT}")
+_WITH_COMMA = re.compile(rf"\s*(?P<number>[+-]?[0-9]+,[0-9]+(?:[eE][+-]?[0-9]{{1,3}})?){_UNIT}")
 _OPERATOR = re.compile(r"\s*([/*·])\s*")
 
 
@@ -146,38 +146,33 @@ def parse(text: str, dimensions: tuple[str, ...], *, decimal_comma: bool = False
     """
     example = EXAMPLES[dimensions[0]]
     text = unicodedata.normalize("NFC", text) if len(text) <= _MAX_LENGTH else text
-    match = _match(text, example, decimal_comma=decimal_comma)
-    value, name = float(match["number"].replace(",", ".")), match["unit"]
+    match = (_WITH_COMMA.match(text) or _QUANTITY.match(text)) if len(text) <= _MAX_LENGTH else None
+    if match is None:
+        raise ValueError(Refusal("no_quantity", text=_short(text), example=example))
+    number, name = match["number"].replace(",", "."), match["unit"]
+    spelling = _spelling(name or "")
+    if spelling.lower() == "hp":
+        raise ValueError(Refusal("horsepower", unit=_short(name)))
+    unit = UNITS.get(spelling)
+    fits = unit is not None and unit.dimension in dimensions
+    wanted = tuple(_dimension(one) for one in dimensions)
+    known = ", ".join(one for dimension in dimensions for one in spellings(dimension))
+    if "," in match["number"] and not decimal_comma:
+        point = f"{number} {name if fits else example.split()[1]}"
+        if fits or name is None:
+            raise ValueError(Refusal("decimal_comma", text=_short(text), point=point))
+        raise ValueError(Refusal("decimal_comma_unit", text=_short(text), wanted=wanted, point=point, known=known))
     if name is None:
         raise ValueError(Refusal("unit_missing", text=_short(text), example=example))
-    spelling = _spelling(name)
-    unit = UNITS.get(spelling)
-    if unit is None or unit.dimension not in dimensions:
-        known = ", ".join(one for dimension in dimensions for one in spellings(dimension))
-        if spelling.lower() == "hp":
-            raise ValueError(Refusal("horsepower", unit=_short(name)))
-        wanted = tuple(_dimension(one) for one in dimensions)
-        if unit is None:
-            raise ValueError(Refusal("unit_unknown", unit=_short(name), wanted=wanted, known=known))
+    if unit is None:
+        raise ValueError(Refusal("unit_unknown", unit=_short(name), wanted=wanted, known=known))
+    if not fits:
         measured = _dimension(unit.dimension)
         raise ValueError(Refusal("unit_other", unit=_short(name), measured=measured, wanted=wanted, known=known))
-    value = to_si(value, spelling)
+    value = to_si(float(number), spelling)
     if not math.isfinite(value):
         raise ValueError(Refusal("too_large", text=_short(text), example=example))
     return value, unit.dimension
-
-
-def _match(text: str, example: str, *, decimal_comma: bool) -> re.Match[str]:
-    """Return number and unit of a text, or raise with the advice."""
-    if len(text) <= _MAX_LENGTH:
-        comma = _WITH_COMMA.match(text)
-        if comma and not decimal_comma:
-            point = f"{comma['number'].replace(',', '.')} {comma['unit'] or example.split()[1]}"
-            raise ValueError(Refusal("decimal_comma", text=_short(text), point=point))
-        match = comma or _QUANTITY.match(text)
-        if match:
-            return match
-    raise ValueError(Refusal("no_quantity", text=_short(text), example=example))
 
 
 def _spelling(name: str) -> str:

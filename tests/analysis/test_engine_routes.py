@@ -27,6 +27,12 @@ def test_torque_and_side_force_are_those_of_the_linkage(file):
     assert checks["joint_side_force"] < 1e-14
 
 
+def test_a_rod_of_inertia_without_mass_loads_the_joints_by_its_couple():
+    checks = crankwork.analyse(crankwork.read(EXAMPLES / "two-stroke.toml", ["rod.mass=0 kg"])).checks
+    assert checks["joint_torque"] < 1e-14
+    assert checks["joint_side_force"] < 1e-14
+
+
 @pytest.mark.parametrize("name", CHAIN)
 def test_a_wrong_formula_of_the_chain_is_told(name):
     entry = FORMULAS[name]

@@ -141,6 +141,7 @@ def hostile_file(seed: int, number: int) -> str:
     values = tomllib.loads(sources()[name])
     for _ in range(draw.choice((1, 1, 1, 2, 2, 3, 5))):
         draw.choice(_MUTATIONS)(draw, values)
+        values = _unshared(values)
     text = _written(values)
     for _ in range(draw.choice((0, 0, 0, 0, 1, 2))):
         text = draw.choice(_TEXT_MUTATIONS)(draw, text)
@@ -183,6 +184,16 @@ def _in_unit(value: Any, old: object) -> Any:
             return [_in_unit(one, old) for one in value]
         case dict():
             return {name: _in_unit(one, old) for name, one in value.items()}
+    return value
+
+
+def _unshared(value: Any) -> Any:
+    """Return values of which no table or list stands in two places, so that none gets into itself."""
+    match value:
+        case list():
+            return [_unshared(one) for one in value]
+        case dict():
+            return {name: _unshared(one) for name, one in value.items()}
     return value
 
 

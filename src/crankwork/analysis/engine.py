@@ -13,10 +13,10 @@ from crankwork.analysis import origins
 from crankwork.analysis.forces import COLUMNS, FORCES, columns
 from crankwork.analysis.motion import HARMONICS, KINEMATICS
 from crankwork.analysis.results import Results
-from crankwork.analysis.solved import Solved, solve
+from crankwork.analysis.solved import Solved, apart, solve
 from crankwork.formula.known import Found, Known, given
 from crankwork.formula.over_cycle import OverCycle
-from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import (
     bottom_dead_centre_angle,
     mean_piston_speed,
@@ -168,9 +168,9 @@ def _checks(solved: Solved, summary: Mapping[str, float]) -> dict[str, float]:
     height = r * np.cos(dense["crank_angle"]) + l * np.cos(dense["rod_angle"])
     rigid = "_rigid" if "rod_transverse_force" in dense else ""
     result = {
-        f"crankpin_resultant{rigid}": _residual(T**2 + K**2, S**2 + across**2),
-        f"pin_resultant{rigid}": _residual(P**2 + (N + weight) ** 2, S**2 + across**2),
-        "overturning": _residual(T * r, weight * height - dense["overturning_moment"] - across * l),
+        f"crankpin_resultant{rigid}": apart(T**2 + K**2, S**2 + across**2),
+        f"pin_resultant{rigid}": apart(P**2 + (N + weight) ** 2, S**2 + across**2),
+        "overturning": apart(T * r, weight * height - dense["overturning_moment"] - across * l),
     }
     if solved.method.is_exact:
         from crankwork.analysis.engine_routes import joint_force_residuals  # noqa: PLC0415 - loaded where it is needed
@@ -197,8 +197,3 @@ def _moved_work(solved: Solved, summary: Mapping[str, float]) -> float:
     """Return the most work that the torque could do over a cycle; what it does in the end may be nothing."""
     largest = max(abs(summary["crank_torque_max"]), abs(summary["crank_torque_min"]))
     return largest * math.radians(solved.machine.cycle) or 1.0
-
-
-def _residual(one: Array, other: Array) -> float:
-    scale = float(np.max(np.abs(one)))
-    return float(np.max(np.abs(one - other))) / scale if scale else 0.0

@@ -67,7 +67,7 @@ def bearing_memory(whole: WholeEngine) -> dict[str, Known]:
         pin = whole.layout.places[0].crankpin + 1
         load = BearingLoad(-found[f"crankpin_radial_force.{pin}"], found[f"crankpin_tangential_force.{pin}"])
         size = found[f"crankpin_load.{pin}"]
-    on_rod = formulas.big_end_bearing_load(load, RodSwing(*(master[key] for key in _SWING))).called("big_end")
+    on_rod = formulas.big_end_bearing_load(load, RodSwing(*(master[key] for key in _SWING))).named("big_end")
     found |= {one.key: one for one in (*on_rod, size.named("big_end_load"), *_small_end(whole))}
     layout = _spaced(whole.layout)
     mains = main_journal_loads(layout, rods, shaft_unbalances(whole, layout), master["speed"])
@@ -121,7 +121,7 @@ def _small_end(whole: WholeEngine) -> Iterator[Known]:
     yield force
     side = total("side_force.small_end", across) if len(across) > 1 else across[0]
     swing = RodSwing(*(memory[key] for key in _SWING))
-    yield from formulas.small_end_bearing_load(force, side, swing).called("small_end")
+    yield from formulas.small_end_bearing_load(force, side, swing).named("small_end")
     size: Known = formulas.small_end_load(force, side)
     yield size
 

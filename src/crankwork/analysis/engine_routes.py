@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from crankwork.analysis.forces import columns
-from crankwork.analysis.solved import Solved
+from crankwork.analysis.solved import Solved, apart
 from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.dynamics.running import Running
@@ -41,8 +41,8 @@ def joint_force_residuals(solved: Solved) -> dict[str, float]:
     found = system_joint_forces(running)
     (guide,) = found.guides.values()
     return {
-        "joint_torque": _apart(own["crank_torque"], -found.balancing_torque),
-        "joint_side_force": _apart(own["side_force"], -guide.normal),
+        "joint_torque": apart(own["crank_torque"], -found.balancing_torque),
+        "joint_side_force": apart(own["side_force"], -guide.normal),
     }
 
 
@@ -68,12 +68,7 @@ def _bodies(crank: Crank, rod: RRP, masses: CrankGearMasses) -> Iterator[Body]:
     yield body_at(rod.slider, masses.piston, 0.0, rod.slider)
     yield body_at(crank.link, masses.crank, 0.0, crank.pin)
     whole = masses.rod_small_end + masses.rod_big_end
-    if whole:
-        share = masses.rod_small_end / whole
+    if whole or masses.rod_inertia_excess:
+        share = masses.rod_small_end / whole if whole else 0.0
         inertia = masses.rod_inertia_excess + whole * share * (1 - share) * rod.length**2
         yield Body(rod.link, whole, inertia, rod.joint, rod.slider, share)
-
-
-def _apart(one: Array, other: Array) -> float:
-    scale = float(np.max(np.abs(one)))
-    return float(np.max(np.abs(one - other))) / scale if scale else 0.0

@@ -193,3 +193,9 @@ def _clearance(cylinder: Cylinder, swept: float) -> float:
     if cylinder.compression_ratio is None:
         raise CrankworkError(Refusal("gas_volume_missing"))
     return float(gas_formulas.clearance_volume(swept, cylinder.compression_ratio))
+
+
+def apart(one: Array, other: Array) -> float:
+    """Return how far two columns are apart, as a share of the largest value of the first."""
+    scale = float(np.max(np.abs(one)))
+    return float(np.max(np.abs(one - other))) / scale if scale else 0.0

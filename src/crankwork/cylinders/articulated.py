@@ -16,7 +16,7 @@ import numpy as np
 
 from crankwork.errors import GeometryError
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import Found, Known, absent, called, given, is_known, plain
+from crankwork.formula.known import Found, Known, absent, given, is_known, named, plain
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.slider_crank import (
     RodSwing,
@@ -159,14 +159,14 @@ def _motion(lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGrid) -> Artic
     sin, cos, (delta_1, delta_2), master = _knuckle_direction(lengths, rod, grid, own.knuckle_angle - own.axis)
     x = knuckle_along(r, grid.cos, r_a, cos)
     y = knuckle_across(r, grid.sin, r_a, sin)
-    x_1 = called(-r * grid.sin - r_a * delta_1 * sin, "knuckle_x_1")
-    y_1 = called(r * grid.cos + r_a * delta_1 * cos, "knuckle_y_1")
-    x_2 = called(-r * grid.cos - r_a * (delta_2 * sin + delta_1 * delta_1 * cos), "knuckle_x_2")
-    y_2 = called(-r * grid.sin + r_a * (delta_2 * cos - delta_1 * delta_1 * sin), "knuckle_y_2")
-    sin_rod = called(articulated_rod_sine(y, e, l_a), "rod_sine.articulated")
+    x_1 = named(-r * grid.sin - r_a * delta_1 * sin, "knuckle_x_1")
+    y_1 = named(r * grid.cos + r_a * delta_1 * cos, "knuckle_y_1")
+    x_2 = named(-r * grid.cos - r_a * (delta_2 * sin + delta_1 * delta_1 * cos), "knuckle_x_2")
+    y_2 = named(-r * grid.sin + r_a * (delta_2 * cos - delta_1 * delta_1 * sin), "knuckle_y_2")
+    sin_rod = named(articulated_rod_sine(y, e, l_a), "rod_sine.articulated")
     with np.errstate(invalid="ignore", divide="ignore"):
-        cos_rod = called(articulated_rod_cosine(sin_rod, y, e, l_a), "rod_cosine.articulated")
-        beta_1 = called(articulated_rod_transfer_1(y_1, l_a, cos_rod), "rod_transfer_1.articulated")
+        cos_rod = named(articulated_rod_cosine(sin_rod, y, e, l_a), "rod_cosine.articulated")
+        beta_1 = named(articulated_rod_transfer_1(y_1, l_a, cos_rod), "rod_transfer_1.articulated")
         beta_2 = articulated_rod_transfer_2(y_2, l_a, beta_1, sin_rod, cos_rod)
         piston = Transfer(
             x + l_a * cos_rod,
@@ -207,20 +207,20 @@ def _knuckle_direction(
 ) -> tuple[Value, Value, tuple[Value, Value], RodSwing]:
     """Return sine and cosine of delta, its two derivatives, and the swing of the master rod."""
     turned = grid.shifted(rod.axis)
-    sin, cos = called(turned.sin, "master_sine"), called(turned.cos, "master_cosine")
+    sin, cos = named(turned.sin, "master_sine"), named(turned.cos, "master_cosine")
     of_master: Value = _MasterAngle(sin, cos, turned.one_minus_sin, turned.one_plus_sin)
-    lam = called(lengths.rod_ratio, "rod_ratio.master")
+    lam = named(lengths.rod_ratio, "rod_ratio.master")
     master = rod_swing(lengths, of_master, lam, part=".master")
-    beta_1 = called(rod_transfer_1(lam, of_master.cos, master.cos), "rod_transfer_1.master")
+    beta_1 = named(rod_transfer_1(lam, of_master.cos, master.cos), "rod_transfer_1.master")
     beta_2 = rod_transfer_2(beta_1, lam, of_master.sin, master.sin, master.cos)
-    beta_2 = called(beta_2, "rod_transfer_2.master")
-    fixed = called(ahead, "knuckle_direction.start")
+    beta_2 = named(beta_2, "rod_transfer_2.master")
+    fixed = named(ahead, "knuckle_direction.start")
     ahead_sin, ahead_cos = sine_and_cosine(
         rod.knuckle_angle - rod.axis, fixed, ("knuckle_sine.start", "knuckle_cosine.start")
     )
-    sin = called(ahead_sin * master.cos - ahead_cos * master.sin, "knuckle_sine")
-    cos = called(ahead_cos * master.cos + ahead_sin * master.sin, "knuckle_cosine")
-    return sin, cos, (called(-beta_1, "knuckle_direction_1"), called(-beta_2, "knuckle_direction_2")), master
+    sin = named(ahead_sin * master.cos - ahead_cos * master.sin, "knuckle_sine")
+    cos = named(ahead_cos * master.cos + ahead_sin * master.sin, "knuckle_cosine")
+    return sin, cos, (named(-beta_1, "knuckle_direction_1"), named(-beta_2, "knuckle_direction_2")), master
 
 
 def sine_and_cosine(degrees: float, angle: Value, keys: tuple[str, str]) -> tuple[Value, Value]:

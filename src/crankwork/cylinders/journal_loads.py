@@ -18,7 +18,7 @@ from crankwork.cylinders.layout import Layout, Place
 from crankwork.cylinders.load_vectors import BearingLoad, turned, turned_by
 from crankwork.errors import CrankworkError
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import added, called, given, is_known
+from crankwork.formula.known import added, given, is_known, named
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.locale import Refusal
 
@@ -54,7 +54,7 @@ def main_journal_loads(
     check_journals(layout)
     journals, places = layout.journal_positions, layout.places
     acting = [
-        _Acting(_in_shaft(load, one).called(str(one.number)), one.position, one.throw, str(one.number))
+        _Acting(_in_shaft(load, one).named(str(one.number)), one.position, one.throw, str(one.number))
         for one, load in zip(places, loads, strict=True)
     ]
     acting += [
@@ -65,7 +65,7 @@ def main_journal_loads(
         far = _far_share(one, journals[one.throw : one.throw + 2])
         for journal, share in ((one.throw, 1 - far), (one.throw + 1, far)):
             part = BearingLoad(-share * one.load.x, -share * one.load.y)
-            held[journal].append(part.called(f"main_journal.{journal + 1}.{one.name}"))
+            held[journal].append(part.named(f"main_journal.{journal + 1}.{one.name}"))
     return tuple(_sum(some, f"main_journal.{at}") for at, some in enumerate(held, start=1))
 
 
@@ -94,7 +94,7 @@ def _far_share(one: _Acting, ends: Sequence[float]) -> Value:
     names = (one.name, *(f"main_journal.{one.throw + at}" for at in (1, 2)))
     places = zip(names, (one.position, *ends), strict=True)
     stated = (given(f"shaft_position.{name}", at, "engine.spacing") for name, at in places)
-    return called(journal_share(*stated), f"journal_share.{one.name}")
+    return named(journal_share(*stated), f"journal_share.{one.name}")
 
 
 def _sum(loads: Sequence[BearingLoad], owner: str) -> BearingLoad:
@@ -109,8 +109,8 @@ def _span(position: float, journals: Sequence[float]) -> int:
 
 def _centrifugal(one: Unbalance, speed: Value) -> BearingLoad:
     grid = CrankGrid.from_degrees(one.angle)
-    force = called(unbalance_force(one.mass_moment, speed), f"unbalance_force.{one.name}")
-    return BearingLoad(force * float(grid.cos), force * float(grid.sin)).called(one.name)
+    force = named(unbalance_force(one.mass_moment, speed), f"unbalance_force.{one.name}")
+    return BearingLoad(force * float(grid.cos), force * float(grid.sin)).named(one.name)
 
 
 def check_journals(layout: Layout) -> None:

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import called
+from crankwork.formula.known import named
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 
 
@@ -58,9 +58,9 @@ class BearingLoad(NamedTuple):
         turned = np.degrees(np.arctan2(self.y, self.x)) % 360
         return np.asarray(np.where(turned == 360, 0.0, turned))
 
-    def called(self, owner: str) -> BearingLoad:
+    def named(self, owner: str) -> BearingLoad:
         """Return the load under the name of what it acts on, if it is remembered."""
-        return BearingLoad(called(self.x, f"bearing_force_x.{owner}"), called(self.y, f"bearing_force_y.{owner}"))
+        return BearingLoad(named(self.x, f"bearing_force_x.{owner}"), named(self.y, f"bearing_force_y.{owner}"))
 
     @property
     def opposite(self) -> BearingLoad:

@@ -12,7 +12,7 @@ from crankwork.cylinders.firing import intervals
 from crankwork.cylinders.layout import Layout, Place
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import absent, added, called, is_known
+from crankwork.formula.known import absent, added, is_known, named
 from crankwork.kinematics.crank_grid import Array
 
 _DECIMALS = 9
@@ -87,8 +87,8 @@ def torques_along_shaft(torques: Sequence[Value], layout: Layout) -> TorquesAlon
     journals = [absent("journal_torque.1") if is_known(*torques) else np.zeros_like(throws[0])]
     crankpins = []
     for at, throw in enumerate(throws, start=1):
-        crankpins.append(called(torque_of_crankpin(journals[-1], throw), f"crankpin_torque.{at}"))
-        journals.append(called(torque_behind_throw(journals[-1], throw), f"journal_torque.{at + 1}"))
+        crankpins.append(named(torque_of_crankpin(journals[-1], throw), f"crankpin_torque.{at}"))
+        journals.append(named(torque_behind_throw(journals[-1], throw), f"journal_torque.{at + 1}"))
     return TorquesAlongShaft(throws, tuple(journals), tuple(crankpins))
 
 

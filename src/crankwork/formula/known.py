@@ -326,11 +326,6 @@ def added(key: str, terms: Sequence[Any]) -> Any:  # noqa: ANN401 - numbers give
     return total(key, terms) if is_known(*terms) else sum(terms)
 
 
-def called(value: Any, key: str) -> Any:  # noqa: ANN401 - numbers have no name
-    """Return a value under a name, if it is a known."""
-    return value.named(key) if isinstance(value, Known) else value
-
-
 def plain(value: Any) -> Any:  # noqa: ANN401 - whatever number it is
     """Return the number behind a value that may be a known, for procedures that are not remembered."""
     return value.value if isinstance(value, Known) else value

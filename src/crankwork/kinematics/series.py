@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import Found, Known, absent, added, is_known, plain
+from crankwork.formula.known import Found, Known, absent, added, is_known, named, plain
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank, piston_transfer_2, rod_swing
 from crankwork.kinematics.transfer import Transfer
@@ -171,4 +171,4 @@ def remembered_order(
 
 
 def _sum(key: str, terms: list[tuple[int, Value]]) -> Value:
-    return added(key, [one.named(f"{key}.k{k}") if isinstance(one, Known) else one for k, one in terms])
+    return added(key, [named(one, f"{key}.k{k}") for k, one in terms])

@@ -14,7 +14,7 @@ import numpy as np
 
 from crankwork.errors import GeometryError
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import Arithmetic, called, is_known
+from crankwork.formula.known import Arithmetic, is_known, named
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.locale import Refusal
 
@@ -200,9 +200,9 @@ def rod_swing(slider_crank: SliderCrank, grid: CrankGrid, lam: Value = None, *, 
     `.master`. Source: kolchin_demidov_2008, ch. 6, for sin(beta).
     """
     r, l, e = slider_crank  # noqa: E741
-    sin_beta = called(rod_sine(slider_crank.rod_ratio if lam is None else lam, grid.sin, e, r), f"rod_sine{part}")
+    sin_beta = named(rod_sine(slider_crank.rod_ratio if lam is None else lam, grid.sin, e, r), f"rod_sine{part}")
     cos_beta = rod_cosine(sin_beta, r, l, e, grid.one_minus_sin, grid.one_plus_sin)
-    cos_beta = called(cos_beta, f"rod_cosine{part}")
+    cos_beta = named(cos_beta, f"rod_cosine{part}")
     return RodSwing(
         sin_beta,
         cos_beta,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from string import Formatter
 
 from crankwork.locale import Language, capital, say, texts
@@ -14,7 +15,7 @@ from crankwork.units import from_si
 _TIGHT = ("°", "%")
 
 
-class NoteWords:
+class NoteWords(ABC):
     """What a note says, in one language."""
 
     def __init__(self, language: Language) -> None:
@@ -55,9 +56,9 @@ class NoteWords:
         """Return a sentence as a paragraph."""
         return Paragraph(self.sentence(key, **values))
 
+    @abstractmethod
     def symbol(self, key: str) -> str:
         """Return the symbol of a key as `base_subscript`."""
-        raise NotImplementedError
 
     def amount(self, value: float, unit: str, *, digits: int = 6) -> str:
         """Return a value in SI as text in a unit."""
