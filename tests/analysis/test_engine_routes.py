@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import crankwork
+from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.formula.expression import FORMULAS, instead
 
 MACHINES = Path(__file__).parents[1] / "machines"
@@ -31,6 +34,14 @@ def test_a_rod_of_inertia_without_mass_loads_the_joints_by_its_couple():
     checks = crankwork.analyse(crankwork.read(EXAMPLES / "two-stroke.toml", ["rod.mass=0 kg"])).checks
     assert checks["joint_torque"] < 1e-14
     assert checks["joint_side_force"] < 1e-14
+
+
+def test_a_rod_that_pushes_no_piston_is_measured_by_its_own_forces():
+    machine = crankwork.with_method(crankwork.read(EXAMPLES / "spark-engine.toml"), "exact")
+    masses = CrankGearMasses(rod_small_end=3e-10, rod_big_end=1.2)
+    results = crankwork.analyse(replace(machine, gas=None, masses=masses))
+    assert 0 < np.max(np.abs(results["side_force"])) < 1e-6
+    assert not results.unmet
 
 
 @pytest.mark.parametrize("name", CHAIN)

@@ -14,7 +14,7 @@ from crankwork.analysis.linkage_memory import efficiency_of, linkage_memory, spe
 from crankwork.analysis.linkage_speed import transient_summary, turn_of
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import Notice
-from crankwork.analysis.tabulated import analyse_tabulated
+from crankwork.analysis.tabulated import DYNAMICS, analyse_tabulated
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.routes import ROUTES, by_groups
 from crankwork.dynamics.running import Running
@@ -34,9 +34,6 @@ from crankwork.method import Method
 
 _DENSE_STEP = 1.0
 _MOST_COEFFICIENTS = 10_000_000
-DYNAMICS = (
-    "reduced_inertia", "reduced_inertia_1", "static_torque", "dynamic_torque", "balancing_torque", "driving_torque",
-)  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -195,7 +195,7 @@ def _clearance(cylinder: Cylinder, swept: float) -> float:
     return float(gas_formulas.clearance_volume(swept, cylinder.compression_ratio))
 
 
-def apart(one: Array, other: Array) -> float:
-    """Return how far two columns are apart, as a share of the largest value of the first."""
-    scale = float(np.max(np.abs(one)))
+def apart(one: Array, other: Array, size: float = 0.0) -> float:
+    """Return how far two columns are apart, as a share of the largest value of the first, or of a size above it."""
+    scale = max(float(np.max(np.abs(one))), size)
     return float(np.max(np.abs(one - other))) / scale if scale else 0.0

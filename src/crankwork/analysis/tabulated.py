@@ -27,12 +27,9 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.linkage_machine import TabulatedMachine
 from crankwork.method import Method
 
-GROUPS = {
-    "dynamics": (
-        "reduced_inertia", "reduced_inertia_1", "static_torque", "dynamic_torque", "balancing_torque",
-        "driving_torque",
-    )
-}  # fmt: skip
+DYNAMICS = (
+    "reduced_inertia", "reduced_inertia_1", "static_torque", "dynamic_torque", "balancing_torque", "driving_torque",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -52,7 +49,9 @@ def analyse_tabulated(machine: TabulatedMachine) -> Results:
     columns = Program(memory)(grid)
     summary = _summary(machine, columns, memory)
     values = {key: one.value for key, one in summary.items()}
-    return Results(solved, grid, columns, values, {}, _notices(machine), GROUPS, memory={**memory, **summary})
+    return Results(
+        solved, grid, columns, values, {}, _notices(machine), {"dynamics": DYNAMICS}, memory={**memory, **summary}
+    )
 
 
 @dataclass(frozen=True)

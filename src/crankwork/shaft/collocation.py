@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -17,13 +18,27 @@ from crankwork.kinematics.crank_grid import Array
 
 Rate = Callable[[Array, Array], Array]
 
+
+class Gauss(NamedTuple):
+    """Gauss points of a panel from 0 to 1: values there -> Legendre coefficients -> integral from the panel's start."""
+
+    nodes: Array
+    weights: Array
+    to_series: Array
+    to_integral: Array
+    integration: Array  # from values at the points to the integral up to each
+
+
+def gauss(points: int) -> Gauss:
+    """Return the Gauss points of a panel."""
+    x, w = legendre.leggauss(points)
+    to_series = (np.arange(points) + 0.5)[:, None] * legendre.legvander(x, points - 1).T * w
+    to_integral = legendre.legint(np.eye(points), lbnd=-1) / 2
+    return Gauss((x + 1) / 2, w / 2, to_series, to_integral, legendre.legvander(x, points) @ to_integral @ to_series)
+
+
 POINTS = 8
-_X, _W = legendre.leggauss(POINTS)
-NODES, WEIGHTS = (_X + 1) / 2, _W / 2
-# values at the points -> Legendre coefficients -> integral from the start of the panel, at any point of it
-_TO_SERIES = (np.arange(POINTS) + 0.5)[:, None] * legendre.legvander(_X, POINTS - 1).T * _W
-_TO_INTEGRAL = legendre.legint(np.eye(POINTS), lbnd=-1) / 2
-INTEGRATION = legendre.legvander(_X, POINTS) @ _TO_INTEGRAL @ _TO_SERIES
+NODES, WEIGHTS, _TO_SERIES, _TO_INTEGRAL, _INTEGRATION = gauss(POINTS)
 
 # a solution that wants to pass zero step after step has no place above it
 _MOST_HELD = 6
@@ -114,8 +129,8 @@ def _newton(rate: Rate, edges: Array, values: Array, start: float | None, *, pos
         slope = (rate(x, y + step) - f) / step
         if not (np.all(np.isfinite(f)) and np.all(np.isfinite(slope))):
             break
-        matrix = np.eye(POINTS) - h[:, None, None] * INTEGRATION * slope[:, None, :]
-        miss = values[:-1, None] + h[:, None] * (f @ INTEGRATION.T) - y
+        matrix = np.eye(POINTS) - h[:, None, None] * _INTEGRATION * slope[:, None, :]
+        miss = values[:-1, None] + h[:, None] * (f @ _INTEGRATION.T) - y
         answer = np.linalg.solve(matrix, np.stack([miss, np.ones_like(miss)], axis=-1))
         own, by_start = answer[..., 0], answer[..., 1]
         added = h * ((f + slope * own) @ WEIGHTS) + values[:-1] - values[1:]

@@ -12,14 +12,10 @@ from numpy.polynomial import legendre
 from crankwork.errors import MethodError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Refusal
+from crankwork.shaft.collocation import gauss
 from crankwork.shaft.fluctuation import speed_of_energy
 
-_POINTS = 14
-_X, _W = legendre.leggauss(_POINTS)
-_NODES, _WEIGHTS = (_X + 1) / 2, _W / 2
-_TO_SERIES = (np.arange(_POINTS) + 0.5)[:, None] * legendre.legvander(_X, _POINTS - 1).T * _W
-_TO_INTEGRAL = legendre.legint(np.eye(_POINTS), lbnd=-1) / 2
-_INTEGRATION = legendre.legvander(_X, _POINTS) @ _TO_INTEGRAL @ _TO_SERIES
+_NODES, _WEIGHTS, _TO_SERIES, _TO_INTEGRAL, _INTEGRATION = gauss(14)
 _LARGEST, _SMALLEST, _SHORT = 1024, 12, 6
 _TOLERANCE = 1e-12
 _MOST_CYCLES = 1_000_000
