@@ -332,7 +332,58 @@ class TestRefusals:
         assert _error(points, _between("rounded", *points)).key == "gas.pieces"
 
 
+class TestPlacesByVolume:
+    """The volume of the tests is that of a sine: the angle of a share of the stroke is arccos(1 - 2 share)."""
+
+    POINTS: Mapping[str, DiagramPoint] = {
+        "a": DiagramPoint(stroke=0.0, pressure=1e6), "b": DiagramPoint(stroke=0.3),
+        "c": DiagramPoint(stroke=0.9), "d": DiagramPoint(stroke=0.9, pressure=1e5),
+        "e": DiagramPoint(stroke=0.2), "f": DiagramPoint(stroke=0.0, pressure=1e6),
+    }  # fmt: skip
+    PIECES = (
+        _between("constant", "a", "b"), _between("polytropic", "b", "c", exponent=1.1),
+        _between("rounded", "c", "d"), _between("constant", "d", "e"), _between("polytropic", "e", "f", exponent=1.1),
+    )  # fmt: skip
+
+    def _solved(self, points: Mapping[str, DiagramPoint], cycle: float = 360.0) -> IndicatorDiagram:
+        return solve_diagram(points, self.PIECES, cycle, volume_at, dead_centres=DEAD_CENTRES)
+
+    def test_shares_of_the_stroke_are_passed_one_after_the_other(self) -> None:
+        found = self._solved(self.POINTS).named
+        out, back = (math.degrees(math.acos(1 - 2 * share)) for share in (0.3, 0.9))
+        assert found["a"][0] == 0
+        assert found["b"][0] == pytest.approx(out, rel=1e-14)
+        assert found["c"][0] == pytest.approx(back, rel=1e-14)
+        assert found["d"][0] == pytest.approx(360 - back, rel=1e-14)
+        assert found["e"][0] == pytest.approx(360 - math.degrees(math.acos(0.6)), rel=1e-14)
+        assert found["f"][0] == 360
+
+    def test_a_volume_places_a_point_that_has_no_other_place(self) -> None:
+        by_volume = {**self.POINTS, "b": DiagramPoint(volume=6.25e-5 + 0.3 * 5e-4)}
+        expected, found = self._solved(self.POINTS).named["b"], self._solved(by_volume).named["b"]
+        assert found == pytest.approx(expected, rel=1e-12)
+
+    def test_a_volume_beyond_the_stroke_names_its_point(self) -> None:
+        with pytest.raises(DiagramError) as caught:
+            self._solved({**self.POINTS, "b": DiagramPoint(volume=6e-4)})
+        assert caught.value.key == "gas.points.b.volume"
+        assert "between 62.5 and 562.5 cm3" in str(caught.value)
+
+    def test_a_polytrope_may_not_pass_an_empty_cylinder(self) -> None:
+        points = {"a": DiagramPoint(0.0, 1e5), "b": DiagramPoint(180.0), "c": DiagramPoint(360.0, 1e5)}
+        pieces = (_between("constant", "a", "b"), _between("polytropic", "b", "c", exponent=1.3))
+        with pytest.raises(DiagramError, match="passes 360 deg, where the volume is zero; give a clearance"):
+            solve_diagram(points, pieces, 360.0, lambda at: volume_at(at) - 6.25e-5, dead_centres=DEAD_CENTRES)
+
+
 class TestJumps:
+    def test_the_pressure_of_the_last_point_may_lie_a_jump_away(self) -> None:
+        points = {"a": (0.0, 5e5), "b": (180.0, None), "c": (180.0, P0), "d": (360.0, 5e5)}
+        diagram = _solve(points, _between("constant", "a", "b"), _between("constant", "c", "d"), cycle=360.0)
+        assert diagram.jumps == (("d", 360.0, 4e5),)
+        assert _pressure(diagram, 0.0, 180.0, 360.0) == [5e5, 5e5, P0]
+        assert diagram.work(volume_at) == pytest.approx(4e5 * 5e-4, rel=1e-14)
+
     def test_a_pressure_other_than_the_computed_one_is_reported_as_a_jump(self) -> None:
         computed = P0 * 9**1.35
         points = {**OTTO_POINTS, "c": (360.0, 2.5e6)}

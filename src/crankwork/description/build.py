@@ -312,6 +312,7 @@ def _point(values: Mapping[str, Any]) -> DiagramPoint:
         angle=None if angle is None else round(math.degrees(angle.value), 9),
         pressure=None if pressure is None else pressure.value,
         volume=None if volume is None else volume.value,
+        stroke=values.get("stroke"),
     )
 
 

@@ -56,10 +56,19 @@ _CYLINDER = Table({
 _POINT = Table(
     {
         "angle": Key(
-            Quantity(("angle",), 0.0, 4 * math.pi + 1e-9), "crank angle; may be left out where a polytrope ends"
+            Quantity(("angle",), 0.0, 4 * math.pi + 1e-9),
+            "crank angle; without one, where a polytrope ends, or by stroke or volume",
+            instead_of=("stroke",),
+        ),
+        "stroke": Key(
+            Number(0.0, 1.0),
+            "share of the stroke that the next passage of the piston has come to",
+            instead_of=("angle",),
         ),
         "pressure": Key(_PRESSURE, "pressure; may be left out where a law that ends here gives it"),
-        "volume": Key(_VOLUME, "volume to use for a polytrope through this point, where a document prints its own"),
+        "volume": Key(
+            _VOLUME, "volume to use for a polytrope through this point, where a document prints its own; or where it is"
+        ),
     }
 )
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -28,6 +29,8 @@ Law = Literal["constant", "polytropic", "rounded"]
 VolumeAt = Callable[[Array], Array]
 
 _CLOSING = 1e-3
+# share of the stroke by which a volume may miss that of a dead centre
+_SAME_PLACE = 1e-12
 
 
 class DiagramError(CrankworkError):
@@ -42,12 +45,14 @@ class DiagramError(CrankworkError):
 class DiagramPoint:
     """A named point: crank angle [deg] and pressure [Pa]; either may be left to the law that ends there.
 
-    `volume` replaces the volume of the cylinder at that angle where a document prints its own. [m3]
+    `volume` replaces the volume of the cylinder at that angle where a document prints its own [m3]. Without an angle
+    the point is where the volume next comes to it, or to a share of the stroke. [-]
     """
 
     angle: float | None = None
     pressure: float | None = None
     volume: float | None = None
+    stroke: float | None = None
 
 
 @dataclass(frozen=True)
@@ -88,7 +93,7 @@ class Segment:
     @property
     def is_measured(self) -> bool:
         """Whether its knots are samples of a file."""
-        return any(":" in one for one in self.places) or "gas.measured.file" in self.places
+        return any(":" in one or one.endswith("measured.file") for one in self.places)
 
     def rounded(self, degrees: Array) -> Array:
         """Return the pressure on the curve through the knots, shape (n,). [Pa]"""
@@ -168,16 +173,18 @@ def solve_diagram(
     cycle: float,
     volume_at: VolumeAt,
     *,
-    dead_centres: tuple[float, float],
+    dead_centres: tuple[float, ...],
+    path: str = "gas",
 ) -> IndicatorDiagram:
     """Return the diagram that named points and laws describe.
 
-    Each piece starts where the one before ends; the dead centres are top and bottom within one revolution [deg].
+    Each piece starts where the one before ends. `dead_centres`: crank angles of one revolution where the volume turns
+    back, the least and the largest among them [deg]; `path`: where a description states the diagram.
     """
-    solver = _Solver(points, volume_at, dead_centres, cycle)
+    solver = _Solver(points, volume_at, dead_centres, cycle, path)
     segments = [replace(solver.segment(at, piece), piece=at + 1) for at, piece in enumerate(pieces)]
-    _check_chain(segments, cycle, solver.named)
-    _check_closed(segments)
+    _check_chain(segments, cycle, solver.named, path)
+    _check_closed(segments, solver.named[pieces[-1].points[-1]][1], path)
     return IndicatorDiagram(tuple(one for one in segments if one.end > one.start), solver.named, tuple(solver.jumps))
 
 
@@ -188,19 +195,22 @@ class _Solver:
         self,
         points: Mapping[str, DiagramPoint],
         volume_at: VolumeAt,
-        dead_centres: tuple[float, float],
+        dead_centres: tuple[float, ...],
         cycle: float,
+        path: str,
     ) -> None:
         self.points = points
         self.volume_at = volume_at
         self.dead_centres = dead_centres
         self.cycle = cycle
+        self.path = path
         self.named: dict[str, tuple[float, float]] = {}
         self.jumps: list[tuple[str, float, float]] = []
+        self.ended = 0.0
 
     def segment(self, number: int, piece: Piece) -> Segment:
         """Solve one piece and remember what it says about its points."""
-        key = f"gas.pieces[{number + 1}]"
+        key = f"{self.path}.pieces[{number + 1}]"
         for name in (*piece.points, *([piece.reference] if piece.reference else [])):
             if name not in self.points:
                 raise DiagramError(f"{key}.points", Refusal("point_absent", name=name))
@@ -212,14 +222,61 @@ class _Solver:
             case "rounded":
                 return self._rounded(key, piece)
 
-    def angle(self, key: str, name: str) -> float:
-        """Return the crank angle of a point, given or already found. [deg]"""
+    def start(self, key: str, name: str) -> float:
+        """Return the crank angle of the point where a piece begins: where the one before ended, if it may be. [deg]"""
+        point, end = self.points[name], self.ended
+        if name in self.named or point.angle is not None or not self._is_by_volume(point):
+            return self.angle(key, name, end)
+        low, high = self._reach
+        is_here = abs(float(self.volume_at(np.array([end]))[0]) - self._wanted(point)) <= _SAME_PLACE * (high - low)
+        return end if is_here else self.angle(key, name, end)
+
+    def angle(self, key: str, name: str, after: float) -> float:
+        """Return the crank angle of a point, given, already found, or where its volume is reached next. [deg]"""
         if name in self.named:
             return self.named[name][0]
-        angle = self.points[name].angle
-        if angle is None:
+        point = self.points[name]
+        if point.angle is not None:
+            return point.angle
+        if not self._is_by_volume(point):
             raise DiagramError(key, Refusal("point_angle", name=name))
-        return angle
+        return self._angle_of_volume(name, after)
+
+    @staticmethod
+    def _is_by_volume(point: DiagramPoint) -> bool:
+        return point.angle is None and (point.stroke is not None or point.volume is not None)
+
+    @cached_property
+    def _reach(self) -> tuple[float, float]:
+        """The least and the largest volume. [m3]"""
+        volumes = self.volume_at(np.array(self.dead_centres))
+        return float(np.min(volumes)), float(np.max(volumes))
+
+    def _wanted(self, point: DiagramPoint) -> float:
+        """Return the volume that places a point. [m3]"""
+        low, high = self._reach
+        return low + point.stroke * (high - low) if point.stroke is not None else point.volume or 0.0
+
+    def _centres_after(self, start: float) -> Array:
+        """Return the dead centres behind a crank angle, those of the next revolution among them. [deg]"""
+        turns = np.arange(0.0, max(self.cycle, start) + 720.0, 360.0)
+        centres = np.sort(np.concatenate([turns + one for one in self.dead_centres]))
+        return np.asarray(centres[np.searchsorted(centres, start + 1e-9) :])
+
+    def _angle_of_volume(self, name: str, after: float) -> float:
+        """Return where the volume next comes to that of a point. [deg]"""
+        wanted, (low, high) = self._wanted(self.points[name]), self._reach
+        edges = np.array([after, *self._centres_after(after)])
+        apart = self.volume_at(edges) - wanted
+        apart[np.abs(apart) <= _SAME_PLACE * (high - low)] = 0.0
+        for at in range(len(edges) - 1):
+            if apart[at + 1] == 0:
+                return float(edges[at + 1])
+            if apart[at] * apart[at + 1] < 0:
+                return reached(self.volume_at, wanted, float(edges[at]), float(edges[at + 1]))
+        key = "volume" if self.points[name].stroke is None else "stroke"
+        shown = {"low": f"{low * 1e6:.6g}", "high": f"{high * 1e6:.6g}"}
+        raise DiagramError(f"{self.path}.points.{name}.{key}", Refusal("point_volume_far", **shown))
 
     def pressure(self, key: str, name: str) -> float:
         """Return the pressure of a point, given or already found. [Pa]"""
@@ -236,11 +293,13 @@ class _Solver:
         if given is not None and abs(given - pressure) > _CLOSING * max(abs(given), abs(pressure)):
             self.jumps.append((name, angle, given - pressure))
         self.named[name] = (angle, pressure if given is None else given)
+        self.ended = angle
 
     def _constant(self, key: str, piece: Piece) -> Segment:
         first, last = piece.points[0], piece.points[-1]
         pressure = self.pressure(key, first)
-        start, end = self.angle(key, first), self.angle(key, last)
+        start = self.start(key, first)
+        end = self.angle(key, last, start)
         self.settle(first, start, pressure)
         self.settle(last, end, pressure)
         knots = np.array([start, end])
@@ -251,31 +310,45 @@ class _Solver:
             raise DiagramError(f"{key}.exponent", Refusal("exponent_missing"))
         first, last = piece.points[0], piece.points[-1]
         reference = piece.reference or first
-        state = (self.pressure(key, reference), self._volume(key, reference), piece.exponent)
+        start = self.start(key, first)
+        volume = self._volume(key, reference, start if reference == first else self.ended)
+        state = (self.pressure(key, reference), volume, piece.exponent)
         if state[0] <= 0:
             raise DiagramError(key, Refusal("polytrope_vacuum", name=reference))
-        start = self.angle(key, first)
-        end = self.points[last].angle
-        if end is None:
+        ending = self.points[last]
+        if ending.angle is not None:
+            end = ending.angle
+        elif ending.stroke is not None or (ending.volume is not None and ending.pressure is None):
+            end = self._angle_of_volume(last, start)
+        else:
             end = self._angle_of_pressure(key, start, last, state)
+        self._check_filled(key, start, end, volume)
         degrees = np.array([start, end])
         ends = np.asarray(polytropic_pressure(*state[:2], self.volume_at(degrees), state[2]))
         self.settle(first, start, float(ends[0]))
         self.settle(last, end, float(ends[1]))
         return Segment(start, end, "polytropic", degrees, ends, np.zeros(2), state, reference)
 
-    def _volume(self, key: str, name: str) -> float:
+    def _volume(self, key: str, name: str, after: float) -> float:
         given = self.points[name].volume
-        return float(self.volume_at(np.array([self.angle(key, name)]))[0]) if given is None else given
+        return float(self.volume_at(np.array([self.angle(key, name, after)]))[0]) if given is None else given
+
+    def _check_filled(self, key: str, start: float, end: float, reference: float) -> None:
+        """Raise if a polytrope passes where the volume is nothing."""
+        if min(self._reach[0], reference) > _SAME_PLACE * self._reach[1]:
+            return
+        centres = self._centres_after(start)
+        at = np.array([start, *centres[centres < end], end])
+        volumes = self.volume_at(at)
+        if min(float(np.min(volumes)), reference) <= _SAME_PLACE * self._reach[1]:
+            raise DiagramError(key, Refusal("polytrope_empty", angle=f"{float(at[np.argmin(volumes)]):g}"))
 
     def _angle_of_pressure(self, key: str, start: float, last: str, state: tuple[float, float, float]) -> float:
         """Return where the polytrope reaches the pressure of its end point, before the next dead centre."""
         wanted = self.points[last].pressure
         if wanted is None or wanted <= 0:
             raise DiagramError(key, Refusal("polytrope_end", name=last))
-        turns = np.arange(0.0, max(self.cycle, start) + 720.0, 360.0)
-        centres = np.sort(np.concatenate([turns + one for one in self.dead_centres]))
-        low, high = start, float(centres[np.searchsorted(centres, start + 1e-9)])
+        low, high = start, float(self._centres_after(start)[0])
 
         def pressure(degrees: Array) -> Array:
             return np.asarray(polytropic_pressure(*state[:2], self.volume_at(degrees), state[2]))
@@ -288,8 +361,7 @@ class _Solver:
                     "polytrope_far",
                     name=last,
                     angle=f"{high:g}",
-                    first=f"{self.dead_centres[0]:g}",
-                    second=f"{self.dead_centres[1]:g}",
+                    centres=", ".join(f"{one:g}" for one in self.dead_centres),
                 ),
             )
         return reached(pressure, wanted, low, high)
@@ -297,7 +369,10 @@ class _Solver:
     def _rounded(self, key: str, piece: Piece) -> Segment:
         if len(piece.points) < 2:
             raise DiagramError(f"{key}.points", Refusal("rounded_points"))
-        knots = np.array([self.angle(key, name) for name in piece.points])
+        angles = [self.start(key, piece.points[0])]
+        for name in piece.points[1:]:
+            angles.append(self.angle(key, name, angles[-1]))
+        knots = np.array(angles)
         pressures = np.array([self.pressure(key, name) for name in piece.points])
         if knots[0] == knots[-1]:
             slopes = np.zeros_like(knots)
@@ -307,33 +382,34 @@ class _Solver:
             slopes = monotone_slopes(knots, pressures)
         for name, angle, pressure in zip(piece.points, knots, pressures, strict=True):
             self.settle(name, float(angle), float(pressure))
-        places = tuple(f"gas.points.{name}.pressure" for name in piece.points)
+        places = tuple(f"{self.path}.points.{name}.pressure" for name in piece.points)
         return Segment(float(knots[0]), float(knots[-1]), "rounded", knots, pressures, slopes, places=places)
 
 
-def _check_chain(segments: list[Segment], cycle: float, named: Mapping[str, tuple[float, float]]) -> None:
+def _check_chain(segments: list[Segment], cycle: float, named: Mapping[str, tuple[float, float]], path: str) -> None:
     """Raise unless every segment starts where the one before ends, from 0 to the end of the cycle."""
     end = 0.0
     for number, segment in enumerate(segments, start=1):
         if abs(segment.start - end) > 1e-6:
             name = "piece_gap" if segment.start > end else "piece_overlap"
-            raise DiagramError(f"gas.pieces[{number}]", Refusal(name, start=f"{segment.start:g}", end=f"{end:g}"))
+            raise DiagramError(f"{path}.pieces[{number}]", Refusal(name, start=f"{segment.start:g}", end=f"{end:g}"))
         if segment.end < segment.start:
             raise DiagramError(
-                f"gas.pieces[{number}]",
+                f"{path}.pieces[{number}]",
                 Refusal("piece_backwards", start=f"{segment.start:g}", end=f"{segment.end:g}"),
             )
         end = segment.end
     if abs(end - cycle) > 1e-6:
         last = max(named, key=lambda name: named[name][0])
-        raise DiagramError("gas.pieces", Refusal("pieces_end", end=f"{end:g}", name=last, cycle=f"{cycle:g}"))
+        raise DiagramError(f"{path}.pieces", Refusal("pieces_end", end=f"{end:g}", name=last, cycle=f"{cycle:g}"))
 
 
-def _check_closed(segments: list[Segment]) -> None:
-    first, last = float(segments[0].pressures[0]), float(segments[-1].pressures[-1])
+def _check_closed(segments: list[Segment], last: float, path: str) -> None:
+    """Raise unless the pressure stated at the last point, or found there, is that of the first."""
+    first = float(segments[0].pressures[0])
     highest = max(float(np.max(np.abs(segment.pressures))) for segment in segments)
     if abs(first - last) > 0.02 * highest:
         raise DiagramError(
-            "gas.pieces",
+            f"{path}.pieces",
             Refusal("diagram_open", first=f"{first / 1e6:g}", last=f"{last / 1e6:g}"),
         )

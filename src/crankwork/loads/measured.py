@@ -15,7 +15,6 @@ from crankwork.locale import Refusal
 _GAP_FACTOR = 4.0
 _SAME_ANGLE = 1e-6
 _WRAP = 0.05
-_FILE = "gas.measured.file"
 
 
 @dataclass(frozen=True)
@@ -30,14 +29,15 @@ class MeasuredPressure:
 
 
 def measured_diagram(
-    measured: MeasuredPressure, cycle: float, *, shift: float = 0.0, step: float | None = None
+    measured: MeasuredPressure, cycle: float, *, shift: float = 0.0, step: float | None = None, path: str = "gas"
 ) -> tuple[IndicatorDiagram, int, float]:
     """Return the closed diagram of measured pressure, how many cycles it averages, and its step from end to start. [Pa]
 
     `shift` is added to every angle, so that zero is top dead centre [deg]; without a `step` to resample at, the samples
-    of the first cycle set the angles [deg].
+    of the first cycle set the angles [deg]. `path`: where a description states the diagram.
     """
-    _check_angles(measured, cycle)
+    _check_angles(measured, cycle, f"{path}.measured")
+    file = f"{path}.measured.file"
     start, end = measured.degrees[0], measured.degrees[-1]
     typical = float(np.median(np.diff(measured.degrees)))
     cycles = max(1, int((end - start + 1.5 * typical) // cycle))
@@ -53,16 +53,20 @@ def measured_diagram(
     samples = [hermite(degrees, pressure, slopes, start + number * cycle + offsets) for number in range(cycles)]
     # what is averaged or resampled stands on no line
     rows = measured.rows[: len(offsets)] if cycles == 1 and step is None else ()
-    places = [f"{measured.file}:{row}" for row in rows] or [_FILE] * len(offsets)
-    return _closed(offsets + start + shift, np.mean(samples, axis=0), cycle, places), cycles, wrap
+    places = [f"{measured.file}:{row}" for row in rows] or [file] * len(offsets)
+    return _closed(offsets + start + shift, np.mean(samples, axis=0), cycle, (places, file)), cycles, wrap
 
 
-def _closed(degrees: Array, pressure: Array, cycle: float, places: Sequence[str]) -> IndicatorDiagram:
-    """Return a diagram from 0 to `cycle` through samples at any angles of one period."""
+def _closed(degrees: Array, pressure: Array, cycle: float, stated: tuple[Sequence[str], str]) -> IndicatorDiagram:
+    """Return a diagram from 0 to `cycle` through samples at any angles of one period.
+
+    `stated`: the line of each sample, and the key of their file.
+    """
+    places, file = stated
     degrees = np.asarray(np.round(np.mod(degrees, cycle), 9) % cycle)
     order = np.argsort(degrees)
     degrees, pressure = degrees[order], pressure[order]
-    stated = {degree: places[at] for degree, at in zip(degrees.tolist(), order.tolist(), strict=True)}
+    lines = {degree: places[at] for degree, at in zip(degrees.tolist(), order.tolist(), strict=True)}
     around = np.concatenate([[degrees[-1] - cycle], degrees, [degrees[0] + cycle]])
     values = np.concatenate([pressure[-1:], pressure, pressure[:1]])
     slopes = monotone_slopes(around[1:], values[1:], periodic=True)
@@ -70,19 +74,19 @@ def _closed(degrees: Array, pressure: Array, cycle: float, places: Sequence[str]
     curve = (around, values, slopes)
     inside = np.concatenate([[0.0], around[(around > 0) & (around < cycle)], [cycle]])
     values, slopes = hermite(*curve, inside), hermite_slope(*curve, inside)
-    names = tuple(stated.get(one % cycle, _FILE) for one in inside.tolist())
+    names = tuple(lines.get(one % cycle, file) for one in inside.tolist())
     return IndicatorDiagram((Segment(0.0, cycle, "rounded", inside, values, slopes, places=names),), {})
 
 
-def _check_angles(measured: MeasuredPressure, cycle: float) -> None:
+def _check_angles(measured: MeasuredPressure, cycle: float, key: str) -> None:
     degrees, rows = measured.degrees, measured.rows
     if len(degrees) < 8:
-        raise DiagramError("gas.measured", Refusal("samples_few", count=len(degrees)))
+        raise DiagramError(key, Refusal("samples_few", count=len(degrees)))
     steps = np.diff(degrees)
     if np.any(steps <= 0):
         worst = int(np.argmax(steps <= 0))
         raise DiagramError(
-            "gas.measured",
+            key,
             Refusal(
                 "samples_backwards", line=rows[worst + 1], first=f"{degrees[worst]:g}", second=f"{degrees[worst + 1]:g}"
             ),
@@ -91,7 +95,7 @@ def _check_angles(measured: MeasuredPressure, cycle: float) -> None:
     if np.max(steps) > _GAP_FACTOR * typical:
         worst = int(np.argmax(steps))
         raise DiagramError(
-            "gas.measured",
+            key,
             Refusal(
                 "samples_gap",
                 line=rows[worst + 1],
@@ -103,7 +107,7 @@ def _check_angles(measured: MeasuredPressure, cycle: float) -> None:
     covered = float(degrees[-1] - degrees[0]) + 1.5 * typical
     if covered < cycle:
         raise DiagramError(
-            "gas.measured",
+            key,
             Refusal("samples_short", covered=f"{degrees[-1] - degrees[0]:g}", cycle=f"{cycle:g}"),
         )
 

@@ -18,11 +18,19 @@ from crankwork.loads.indicator import IndicatorDiagram, Segment
 _SAME_VOLUME = 1e-12
 
 
-def remembered_pressure(diagram: IndicatorDiagram, volume: Known) -> Known:
-    """Return the pressure of a diagram as the laws that follow one another."""
-    laws = tuple(_law(diagram, segment, volume) for segment in diagram.segments)
+def remembered_pressure(diagram: IndicatorDiagram, volume: Known, path: str = "gas") -> Known:
+    """Return the pressure of a diagram as the laws that follow one another.
+
+    `path`: where a description states the diagram, `chambers.NAME` that of a chamber.
+    """
+    laws = tuple(_law(diagram, segment, volume, path) for segment in diagram.segments)
     ends = [segment.end for segment in diagram.segments]
-    return Known(Pieces(ends, laws, diagram.breaks.tolist()), "diagram_pressure")
+    return Known(Pieces(ends, laws, diagram.breaks.tolist()), _of("diagram_pressure", path))
+
+
+def _of(key: str, path: str, name: str = "") -> str:
+    """Return the key of a column, or of its value at a named point, with the chamber it belongs to."""
+    return ".".join((key, *(one for one in (path.partition(".")[2], name) if one)))
 
 
 def at_angle(column: Known, degrees: float, key: str) -> Known:
@@ -31,7 +39,9 @@ def at_angle(column: Known, degrees: float, key: str) -> Known:
     return Known(Found(value, "at", (column,), degrees), key)
 
 
-def polytrope_origin(diagram: IndicatorDiagram, segment: Segment, volume: Known) -> tuple[Known, Known, Known]:
+def polytrope_origin(
+    diagram: IndicatorDiagram, segment: Segment, volume: Known, path: str = "gas"
+) -> tuple[Known, Known, Known]:
     """Return pressure and volume of the state that a polytrope passes through, and its exponent."""
     pressure, state_volume, exponent = segment.state
     name = segment.origin
@@ -44,23 +54,24 @@ def polytrope_origin(diagram: IndicatorDiagram, segment: Segment, volume: Known)
                 return p_1, burnt, n_p
         at = diagram.named.get(name, (None, 0.0))[0]
         return p_1, Known(Found(state_volume, "at", (volume, *others), at), f"cylinder_volume.{name}"), n_p
-    p_1 = given(f"diagram_pressure.{name}" if name else "", pressure, f"gas.points.{name}.pressure")
-    V_1 = given(f"cylinder_volume.{name}" if name else "", state_volume, f"gas.points.{name}.volume")
+    keys = [_of(key, path, name) if name else "" for key in ("diagram_pressure", "cylinder_volume")]
+    p_1 = given(keys[0], pressure, f"{path}.points.{name}.pressure")
+    V_1 = given(keys[1], state_volume, f"{path}.points.{name}.volume")
     if name in diagram.named:
         computed = at_angle(volume, diagram.named[name][0], V_1.key)
         if math.isclose(computed.value, state_volume, rel_tol=_SAME_VOLUME):
             V_1 = computed
-    return p_1, V_1, given("polytropic_exponent", exponent, f"gas.pieces[{segment.piece}].exponent")
+    return p_1, V_1, given("polytropic_exponent", exponent, f"{path}.pieces[{segment.piece}].exponent")
 
 
-def _law(diagram: IndicatorDiagram, segment: Segment, volume: Known) -> Known:
+def _law(diagram: IndicatorDiagram, segment: Segment, volume: Known, path: str) -> Known:
     match segment.law:
         case "constant":
             name, pressure = segment.origin, float(segment.pressures[0])
-            stated = given(f"diagram_pressure.{name}", pressure, f"gas.points.{name}.pressure")
+            stated = given(_of("diagram_pressure", path, name), pressure, f"{path}.points.{name}.pressure")
             return segment.of[0] if segment.of else stated
         case "polytropic":
-            p_1, V_1, exponent = polytrope_origin(diagram, segment, volume)
+            p_1, V_1, exponent = polytrope_origin(diagram, segment, volume, path)
             return polytropic_pressure(p_1, V_1, volume, exponent)  # type: ignore[no-any-return]
     word = "first_law" if segment.of else "measured" if segment.is_measured else "curve"
     return Known(Table(PressureCurve(segment), word, segment.knots.tolist(), segment.of), "diagram_pressure")
