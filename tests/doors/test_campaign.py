@@ -56,6 +56,11 @@ def test_a_file_of_a_number_is_always_the_same() -> None:
     assert [hostile_file(3, number) for number in range(20)] == [again(3, number) for number in range(20)]
 
 
+def test_no_list_of_a_file_gets_into_itself() -> None:
+    """Of this file a list is repeated, and a part of one copy put into another."""
+    assert outcome(hostile_file(20261122, 26335)).kind == "refused"
+
+
 @pytest.mark.parametrize(
     ("fault", "kind"),
     [

@@ -49,9 +49,8 @@ def analyse_tabulated(machine: TabulatedMachine) -> Results:
     columns = Program(memory)(grid)
     summary = _summary(machine, columns, memory)
     values = {key: one.value for key, one in summary.items()}
-    return Results(
-        solved, grid, columns, values, {}, _notices(machine), {"dynamics": DYNAMICS}, memory={**memory, **summary}
-    )
+    groups = {"dynamics": DYNAMICS}
+    return Results(solved, grid, columns, values, {}, _notices(machine), groups, memory={**memory, **summary})
 
 
 @dataclass(frozen=True)
