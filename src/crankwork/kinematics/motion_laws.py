@@ -1,0 +1,305 @@
+"""Motion laws: the coordinate of a driver over one period of time, and its two rates.
+
+A segment is a way from one value of the coordinate to another. What share of it is done after what share of the time
+says the normalised law, a polynomial or a sine beside a straight line, piece after piece. The period is one turn of
+360 degrees of the angle that all columns follow.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from types import MappingProxyType
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import Known, Pieces, Table, absent, given
+from crankwork.formula.replay import Program
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.transfer import Transfer
+from crankwork.mechanism.driver import Law, LawKind, Segment
+
+_LAWS = "norton_2012, ch. 8"
+
+
+@formula("way_share", _LAWS)
+def polynomial_law(  # noqa: PLR0913 - the coefficients of a polynomial
+    z: Value, c_0: Value, c_1: Value, c_2: Value, c_3: Value, c_4: Value, c_5: Value, c_6: Value, c_7: Value
+) -> Value:
+    """Share of the way by a polynomial of the share of the time."""
+    return c_0 + c_1 * z + c_2 * z**2 + c_3 * z**3 + c_4 * z**4 + c_5 * z**5 + c_6 * z**6 + c_7 * z**7
+
+
+@formula("way_share_1", _LAWS)
+def polynomial_law_1(  # noqa: PLR0913 - the coefficients of a polynomial
+    z: Value, c_1: Value, c_2: Value, c_3: Value, c_4: Value, c_5: Value, c_6: Value, c_7: Value
+) -> Value:
+    """Normalised velocity of a polynomial law."""
+    return c_1 + 2 * c_2 * z + 3 * c_3 * z**2 + 4 * c_4 * z**3 + 5 * c_5 * z**4 + 6 * c_6 * z**5 + 7 * c_7 * z**6
+
+
+@formula("way_share_2", _LAWS)
+def polynomial_law_2(  # noqa: PLR0913 - the coefficients of a polynomial
+    z: Value, c_2: Value, c_3: Value, c_4: Value, c_5: Value, c_6: Value, c_7: Value
+) -> Value:
+    """Normalised acceleration of a polynomial law."""
+    return 2 * c_2 + 6 * c_3 * z + 12 * c_4 * z**2 + 20 * c_5 * z**3 + 30 * c_6 * z**4 + 42 * c_7 * z**5
+
+
+@formula("way_share", _LAWS)
+def sine_law(c_0: Value, c_1: Value, z: Value, A_s: Value, k_s: Value, d_s: Value) -> Value:
+    """Share of the way by a straight line less a sine."""
+    return c_0 + c_1 * z - A_s / k_s**2 * np.sin(k_s * z + d_s)
+
+
+@formula("way_share_1", _LAWS)
+def sine_law_1(c_1: Value, A_s: Value, k_s: Value, z: Value, d_s: Value) -> Value:
+    """Normalised velocity of a law with a sine."""
+    return c_1 - A_s / k_s * np.cos(k_s * z + d_s)
+
+
+@formula("way_share_2", _LAWS)
+def sine_law_2(A_s: Value, k_s: Value, z: Value, d_s: Value) -> Value:
+    """Normalised acceleration of a law with a sine."""
+    return A_s * np.sin(k_s * z + d_s)
+
+
+@formula("driver_displacement", _LAWS)
+def law_displacement(q_a: Value, h_q: Value, f_z: Value) -> Value:
+    """Coordinate of a driver on its way from one value to another."""
+    return q_a + h_q * f_z
+
+
+@formula("driver_velocity", _LAWS)
+def law_velocity(h_q: Value, f_z1: Value, T_s: Value) -> Value:
+    """Rate of the coordinate of a driver."""
+    return h_q * f_z1 / T_s
+
+
+@formula("driver_acceleration", _LAWS)
+def law_acceleration(h_q: Value, f_z2: Value, T_s: Value) -> Value:
+    """Second rate of the coordinate of a driver."""
+    return h_q * f_z2 / T_s**2
+
+
+class Piece(NamedTuple):
+    """A normalised law up to a share of the time: a polynomial, less a sine of an acceleration where it has one."""
+
+    end: float
+    coefficients: tuple[float, ...]
+    amplitude: float = 0.0
+    frequency: float = 0.0
+    phase: float = 0.0
+
+
+class _Pushed(NamedTuple):
+    """An acceleration up to a share of the time: constant, or that amplitude of a sine."""
+
+    end: float
+    acceleration: float
+    frequency: float = 0.0
+    phase: float = 0.0
+
+
+def _from_accelerations(pushed: Sequence[_Pushed]) -> tuple[Piece, ...]:
+    """Return the law from rest to rest that some accelerations give, the way scaled to one."""
+    start, place, rate = 0.0, 0.0, 0.0
+    pieces = []
+    for one in pushed:
+        if one.frequency:
+            k, a = one.frequency, one.acceleration
+            slope = rate + a / k * math.cos(k * start + one.phase)
+            constant = place - slope * start + a / k**2 * math.sin(k * start + one.phase)
+            pieces.append(Piece(one.end, (constant, slope), a, k, one.phase))
+            place = constant + slope * one.end - a / k**2 * math.sin(k * one.end + one.phase)
+            rate = slope - a / k * math.cos(k * one.end + one.phase)
+        else:
+            a = one.acceleration
+            coefficients = (place - rate * start + a / 2 * start**2, rate - a * start, a / 2)
+            pieces.append(Piece(one.end, coefficients))
+            step = one.end - start
+            place, rate = place + rate * step + a / 2 * step**2, rate + a * step
+        start = one.end
+    return tuple(
+        one._replace(coefficients=tuple(c / place for c in one.coefficients), amplitude=one.amplitude / place)
+        for one in pieces
+    )
+
+
+_TURN = 2 * math.pi
+_POLYNOMIALS: Mapping[LawKind, tuple[float, ...]] = MappingProxyType({
+    "constant": (0.0, 1.0),
+    "cubic": (0.0, 0.0, 3.0, -2.0),
+    "3-4-5": (0.0, 0.0, 0.0, 10.0, -15.0, 6.0),
+    "4-5-6-7": (0.0, 0.0, 0.0, 0.0, 35.0, -84.0, 70.0, -20.0),
+})  # fmt: skip
+_ACCELERATIONS: Mapping[LawKind, tuple[_Pushed, ...]] = MappingProxyType({
+    "parabolic": (_Pushed(0.5, 1.0), _Pushed(1.0, -1.0)),
+    "harmonic": (_Pushed(1.0, 1.0, math.pi, math.pi / 2),),
+    "cycloidal": (_Pushed(1.0, 1.0, _TURN),),
+    "modified-sine": (
+        _Pushed(1 / 8, 1.0, 2 * _TURN), _Pushed(7 / 8, 1.0, 2 * _TURN / 3, math.pi / 3), _Pushed(1.0, 1.0, 2 * _TURN),
+    ),
+    "modified-trapezoidal": (
+        _Pushed(1 / 8, 1.0, 2 * _TURN), _Pushed(3 / 8, 1.0), _Pushed(5 / 8, 1.0, 2 * _TURN, -math.pi),
+        _Pushed(7 / 8, -1.0), _Pushed(1.0, 1.0, 2 * _TURN),
+    ),
+})  # fmt: skip
+
+
+@cache
+def shape(kind: LawKind, ramp: float = 1 / 3) -> tuple[Piece, ...]:
+    """Return a normalised law of a segment that rises or returns, piece after piece (norton_2012, ch. 8).
+
+    The names are those of VDI 2143. A trapezoidal law has a trapezoid of velocity; `ramp` is the part of the time in
+    which it rises, and in which it falls.
+    """
+    if kind in _POLYNOMIALS:
+        return (Piece(1.0, _POLYNOMIALS[kind]),)
+    if kind == "trapezoidal":
+        return _from_accelerations((_Pushed(ramp, 1.0), _Pushed(1 - ramp, 0.0), _Pushed(1.0, -1.0)))
+    return _from_accelerations(_ACCELERATIONS[kind])
+
+
+def smooth_shape(shares: Sequence[float], ways: Sequence[float], *, is_closed: bool) -> tuple[Piece, ...]:
+    """Return the cubic spline through some points as a normalised law.
+
+    `shares`: from 0 to 1, rising; `ways`: of any scale. Both ends are at rest, or, where it is closed, one place.
+    """
+    z, y = np.array(shares, dtype=float), np.array(ways, dtype=float)
+    count, step = z.size, np.diff(z)
+    slopes = np.diff(y) / step
+    matrix, right = np.zeros((count, count)), np.zeros(count)
+    for k in range(1, count - 1):
+        matrix[k, k - 1 : k + 2] = 1 / step[k - 1], 2 / step[k - 1] + 2 / step[k], 1 / step[k]
+        right[k] = 3 * (slopes[k - 1] / step[k - 1] + slopes[k] / step[k])
+    matrix[0, 0] = matrix[-1, -1] = 1.0
+    if is_closed:
+        # one rate and one acceleration at both ends
+        matrix[-1, 0] = -1.0
+        matrix[0] = 0.0
+        matrix[0, :2] += 2 / step[0], 1 / step[0]
+        matrix[0, -2:] += 1 / step[-1], 2 / step[-1]
+        right[0] = 3 * (slopes[0] / step[0] + slopes[-1] / step[-1])
+    rate = np.linalg.solve(matrix, right)
+    pieces = []
+    for k in range(count - 1):
+        h, bend = step[k], (3 * slopes[k] - 2 * rate[k] - rate[k + 1]) / step[k]
+        local = np.polynomial.Polynomial([y[k], rate[k], bend, (rate[k] + rate[k + 1] - 2 * slopes[k]) / h**2])
+        whole = local(np.polynomial.Polynomial([-z[k], 1.0]))
+        pieces.append(Piece(float(z[k + 1]), tuple(whole.coef.tolist())))
+    return tuple(pieces)
+
+
+# keys of coordinate, rates and way of a driver that moves along a line, and of one that turns
+_KEYS = {
+    False: (("driver_displacement", "driver_velocity", "driver_acceleration"), "driver_way"),
+    True: (("driver_angle", "driver_speed", "driver_angular_acceleration"), "driver_turn"),
+}
+
+
+class _Way(NamedTuple):
+    """A segment in its place: where it starts and ends [deg], from which value on, how far, and its pieces."""
+
+    start: float
+    end: float
+    origin: float
+    way: float
+    pieces: tuple[Piece, ...]
+
+
+def _ways(law: Law) -> Iterator[_Way]:
+    shares = np.cumsum([0.0, *(one.share for one in law.segments)]) / sum(one.share for one in law.segments)
+    edges, origin = (360.0 * shares).tolist(), law.start
+    for segment, (start, end) in zip(law.segments, itertools.pairwise(edges), strict=True):
+        way, pieces = _shape_of(segment, origin, is_alone=len(law.segments) == 1)
+        yield _Way(start, end, origin, way, pieces)
+        origin = segment.to
+
+
+def _shape_of(segment: Segment, origin: float, *, is_alone: bool) -> tuple[float, tuple[Piece, ...]]:
+    """Return the way of a segment and its normalised law; a rest has neither."""
+    if segment.kind == "table":
+        shares = (0.0, *(share for share, _ in segment.points), 1.0)
+        places = (origin, *(place for _, place in segment.points), segment.to)
+        way = max(places) - min(places) or 1.0
+        ways = [(place - origin) / way for place in places]
+        return way, smooth_shape(shares, ways, is_closed=is_alone and segment.to == origin)
+    if segment.kind == "dwell" or segment.to == origin:
+        return 0.0, ()
+    return segment.to - origin, shape(segment.kind, segment.ramp)
+
+
+@dataclass(frozen=True)
+class Clock:
+    """Time by the angle of a period. [s]"""
+
+    period: float
+
+    def __call__(self, degrees: Array) -> Array:
+        """Return the time at angles of the period. [deg]"""
+        return degrees * (self.period / 360.0)
+
+
+def clock(law: Law) -> Known:
+    """Return the time as a known over the angle of one period. [s]"""
+    return Known(Table(Clock(law.period), "clock"), "time")
+
+
+def remembered_law(law: Law, *, turns: bool) -> Transfer:
+    """Return coordinate, rate and second rate of a driver as knowns over the angle of one period.
+
+    `turns`: whether the coordinate is an angle and not a length.
+    """
+    keys, way_key = _KEYS[turns]
+    time, ends = clock(law), list[float]()
+    columns: tuple[list[Known], ...] = ([], [], [])
+    for number, one in enumerate(_ways(law), start=1):
+        origin = given(f"{keys[0]}.start_{number}", one.origin)
+        if not one.pieces:
+            ends.append(one.end)
+            for column, known in zip(columns, (origin, absent(keys[1]), absent(keys[2])), strict=True):
+                column.append(known)
+            continue
+        begins, lasts = (law.period * degrees / 360.0 for degrees in (one.start, one.end - one.start))
+        begin = given(f"start_time.{number}", begins) if begins else absent("start_time")
+        way, duration = given(f"{way_key}.{number}", one.way), given(f"segment_time.{number}", lasts)
+        z = ((time - begin) / duration).named(f"time_share.{number}")
+        for piece in one.pieces:
+            f, f_1, f_2 = _normalised(piece, z)
+            ends.append(one.start + piece.end * (one.end - one.start))
+            columns[0].append(law_displacement(origin, way, f))
+            columns[1].append(law_velocity(way, f_1, duration))
+            columns[2].append(f_2 if f_2.is_absent else law_acceleration(way, f_2, duration))
+    ends[-1] = 360.0
+    return Transfer(*(Known(Pieces(ends, tuple(laws)), key) for laws, key in zip(columns, keys, strict=True)))
+
+
+def _normalised(piece: Piece, z: Known) -> tuple[Known, Known, Known]:
+    """Return the share of the way, normalised velocity and acceleration of one piece; none of a constant rate."""
+    if piece.amplitude:
+        c_0, c_1, *_ = (_coefficient(c) for c in piece.coefficients)
+        a, k, d = piece.amplitude, piece.frequency, _coefficient(piece.phase)
+        return sine_law(c_0, c_1, z, a, k, d), sine_law_1(c_1, a, k, z, d), sine_law_2(a, k, z, d)
+    c = [_coefficient(one) for one in (*piece.coefficients, *[0.0] * (8 - len(piece.coefficients)))]
+    second = polynomial_law_2(z, *c[2:]) if any(piece.coefficients[2:]) else absent("way_share_2")
+    return polynomial_law(z, *c), polynomial_law_1(z, *c[1:]), second
+
+
+def _coefficient(value: float) -> Known | float:
+    return value or absent("law_coefficient")
+
+
+@cache
+def _program(law: Law) -> Program:
+    return Program(dict(zip(_KEYS[False][0], remembered_law(law, turns=False), strict=True)))
+
+
+def law_at(law: Law, grid: CrankGrid) -> Transfer:
+    """Return coordinate, rate and second rate of a driver at angles of its period, arrays of shape (n,)."""
+    return Transfer(*_program(law)(grid).values())

@@ -1,0 +1,84 @@
+"""Motion laws: they keep their places, their rates are derivatives, and they are smooth where they promise it."""
+
+import numpy as np
+import pytest
+
+from crankwork.formula.known import breaks_of
+from crankwork.formula.over_cycle import OverCycle
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.motion_laws import clock, law_at, remembered_law
+from crankwork.mechanism.driver import Law, Segment
+
+KINDS = (
+    "constant", "parabolic", "trapezoidal", "modified-trapezoidal", "cubic", "3-4-5", "4-5-6-7", "harmonic",
+    "cycloidal", "modified-sine",
+)  # fmt: skip
+THERE_AND_BACK = {
+    kind: Law((Segment(kind, 0.3, 0.4, 0.25), Segment("dwell", 0.3, 0.1), Segment(kind, 0.05, 0.5, 0.25)), 2.5, 0.05)
+    for kind in KINDS
+}
+TABLE = Law((Segment("table", 0.1, 1.0, points=((0.15, 0.2), (0.4, 0.35), (0.8, 0.05))),), 4.0, 0.1)
+ONE_WAY = Law((Segment("dwell", 0.0, 0.2), Segment("table", 0.4, 0.8, points=((0.5, 0.3),))), 2.0, 0.0)
+LAWS = [*THERE_AND_BACK.values(), TABLE, ONE_WAY]
+
+
+def at(law, degrees):
+    """Return coordinate and rates at angles of the period."""
+    return law_at(law, CrankGrid.from_degrees(degrees))
+
+
+@pytest.mark.parametrize("law", LAWS, ids=[*KINDS, "table", "one way"])
+def test_rates_are_derivatives_by_time(law):
+    degrees = np.random.default_rng(3).uniform(1.0, 359.0, 400)
+    edges = breaks_of(remembered_law(law, turns=False), 360.0)
+    degrees = degrees[np.min(np.abs(degrees[:, None] - edges), axis=1) > 0.1]
+    step = 1e-3
+    per_second = law.period / 360.0
+    (before, rate_before, _), (_, rate, second), (after, rate_after, _) = (
+        at(law, degrees + d) for d in (-step, 0, step)
+    )
+    assert (after - before) / (2 * step * per_second) == pytest.approx(rate, abs=2e-6)
+    assert (rate_after - rate_before) / (2 * step * per_second) == pytest.approx(second, abs=2e-6)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_segments_end_where_they_are_sent(kind):
+    law = THERE_AND_BACK[kind]
+    found = at(law, [0.0, 144.0, 150.0, 180.0, 360.0]).position
+    assert found == pytest.approx([0.05, 0.3, 0.3, 0.3, 0.05], abs=1e-15)
+    assert law.returns
+
+
+@pytest.mark.parametrize("kind", [one for one in KINDS if one != "constant"])
+def test_rates_have_no_jumps(kind):
+    law = THERE_AND_BACK[kind]
+    edges = breaks_of(remembered_law(law, turns=False), 360.0)[1:-1]
+    before, after = (at(law, edges + d) for d in (-1e-9, 1e-9))
+    assert before.position_1 == pytest.approx(after.position_1, abs=1e-9)
+    if kind not in ("parabolic", "trapezoidal", "cubic", "harmonic"):
+        assert before.position_2 == pytest.approx(after.position_2, abs=1e-7)
+
+
+def test_a_table_is_smooth_through_its_points():
+    shares, places = np.array([0.0, 0.15, 0.4, 0.8, 1.0]), [0.1, 0.2, 0.35, 0.05, 0.1]
+    assert at(TABLE, 360.0 * shares).position == pytest.approx(places, abs=1e-14)
+    before, after = (at(TABLE, 360.0 * shares[1:-1] + d) for d in (-1e-9, 1e-9))
+    assert before.position_2 == pytest.approx(after.position_2, abs=1e-7)
+    # what returns is smooth over its end too
+    for order in (1, 2):
+        first, last = at(TABLE, [1e-9, 360.0])[order]
+        assert first == pytest.approx(last, abs=1e-7)
+    assert at(ONE_WAY, [72.0 + 1e-9, 360.0]).position_1 == pytest.approx([0.0, 0.0], abs=1e-7)
+
+
+def test_extremes_and_time_of_a_law():
+    law = THERE_AND_BACK["3-4-5"]
+    q, velocity, acceleration = remembered_law(law, turns=True)
+    over = OverCycle({"q": q, "v": velocity, "a": acceleration, "t": clock(law)}, CrankGrid.from_degrees, 360.0)
+    found = over.largest_and_least
+    # the rise takes 1 s and 250 mm, the return 1.25 s
+    assert found["v"][0].value == pytest.approx(1.875 * 0.25, rel=1e-12)
+    assert found["v"][1].value == pytest.approx(-1.875 * 0.25 / 1.25, rel=1e-12)
+    assert found["a"][0].value == pytest.approx(10 / 3**0.5 * 0.25, rel=1e-12)
+    assert found["t"][0].value == 2.5
+    assert q.key == "driver_angle"
