@@ -121,6 +121,17 @@ def test_a_file_is_refused_in_the_language(crankwork, command, russian, vietname
         assert said in crankwork(*command, "--lang", language).err
 
 
+@pytest.mark.parametrize(("language", "mark"), [("en", "."), ("ru", ","), ("vi", ",")])
+def test_a_number_has_the_decimal_mark_of_the_language_unless_it_is_typed_into_a_file(crankwork, language, mark):
+    def told(setting: str) -> str:
+        return crankwork("check", str(EXAMPLES / "petrol-four.toml"), "--set", setting, "--lang", language).err
+
+    wrong = told("cycle.intake_pressure=0.005 MPa")
+    assert f"0{mark}005 M" in wrong
+    assert f"0{mark}118 M" in wrong
+    assert re.search(r"0\.5 .* 1\.001 .* 100$", told("cylinder.compression_ratio=0.5"), re.MULTILINE)
+
+
 def test_why_a_linkage_stops_short_of_a_turn_is_told_in_the_language(crankwork):
     Path("my.toml").write_text(template("four-bar").replace("112.5 mm", "75 mm"), "utf-8")
     for language, said in (("ru", "звенья coupler и rocker не сходятся"), ("vi", "các khâu coupler và rocker không")):

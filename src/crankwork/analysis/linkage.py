@@ -100,7 +100,7 @@ def analyse_linkage(machine: LinkageMachine, grid: CrankGrid | None = None) -> R
     if inside.size == 0 and own_table:
         grid, inside = dense, np.arange(len(dense))
     if inside.size == 0:
-        raise CrankworkError(Refusal("table_unreached", low=f"{low:g}", high=f"{high:g}"))
+        raise CrankworkError(Refusal("table_unreached", low=low, high=high))
     grid = grid[slice(int(inside[0]), int(inside[-1]) + 1)]
     memory = linkage_memory(machine, linkage_motion(machine.mechanism, dense))
     over = OverCycle({key: memory[key] for key in _followed(memory)}, CrankGrid.from_degrees, high - low, low)

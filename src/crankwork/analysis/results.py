@@ -217,13 +217,13 @@ class Results:
         if known is None or self.has_positions:
             if abs(float(self.grid.degrees[row]) - at) > _SAME_ANGLE:
                 nearest = f"{self.grid.degrees[row]:g}"
-                raise CrankworkError(Refusal("angle_between_rows", key=key, angle=f"{at:g}", nearest=nearest))
+                raise CrankworkError(Refusal("angle_between_rows", key=key, angle=at, nearest=nearest))
             if known is None:
                 return float(self.columns[key][row])
         with np.errstate(all="ignore"):
             value = float(Program({key: known})(CrankGrid.from_degrees([at]))[key][0])
         if not math.isfinite(value):
-            raise CrankworkError(Refusal("angle_unreached", key=key, angle=f"{at:g}"))
+            raise CrankworkError(Refusal("angle_unreached", key=key, angle=at))
         return value
 
     @property
@@ -237,7 +237,7 @@ class Results:
             middle = float(self.grid.degrees[len(self.grid) // 2])
             raise CrankworkError(Refusal("angle_missing", key=key, example=f"{middle:g}"))
         if not 0 <= at <= self.machine.cycle:
-            raise CrankworkError(Refusal("angle_outside", angle=f"{at:g}", cycle=f"{self.machine.cycle:g}"))
+            raise CrankworkError(Refusal("angle_outside", angle=at, cycle=self.machine.cycle))
         return float(at)
 
     def _unknown(self, key: str, known: Iterable[str]) -> UnknownKeyError:

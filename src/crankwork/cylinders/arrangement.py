@@ -162,8 +162,8 @@ def _disagreement(
         ways.append(Refusal("way_throws"))
     told = Refusal(
         "pins_ahead" if split > 0 else "pins_behind",
-        partner=partner, number=number, order=order_text(order), angle=f"{abs(split):.7g}",
-        given=f"{seat.pin_offset:.7g}", ways=reduce(_or, ways),
+        partner=partner, number=number, order=order_text(order), angle=abs(split),
+        given=seat.pin_offset, ways=reduce(_or, ways),
     )  # fmt: skip
     return LayoutError("engine.pin_offset" if banks.kind == "V" else "engine.firing_order", told)
 

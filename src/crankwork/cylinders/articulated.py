@@ -286,9 +286,9 @@ def check_articulated_rod(lengths: SliderCrank, rod: ArticulatedRod) -> None:
         raise GeometryError(
             Refusal(
                 "articulated_short",
-                length=f"{rod.length * 1e3:g}",
-                angle=f"{angles[worst] % 360:.1f}",
-                away=f"{away[worst] * 1e3:.6g}",
-                missing=f"{(away[worst] - rod.length) * 1e3:.6g}",
+                length=rod.length * 1e3,
+                angle=angles[worst] % 360,
+                away=away[worst] * 1e3,
+                missing=(away[worst] - rod.length) * 1e3,
             )
         )

@@ -127,8 +127,8 @@ def check_journals(layout: Layout) -> None:
                 Refusal(
                     "cylinder_outside",
                     number=place.number,
-                    position=f"{place.position * 1e3:g}",
-                    left=f"{left * 1e3:g}",
-                    right=f"{right * 1e3:g}",
+                    position=place.position * 1e3,
+                    left=left * 1e3,
+                    right=right * 1e3,
                 )
             )

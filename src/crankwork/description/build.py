@@ -50,7 +50,7 @@ def build_machine(values: Mapping[str, Any], reader: Reader, read_measured: Read
         if angle > cycle + 1e-9 and not reader.doubts("gas.cycle"):
             reader.complain(
                 f"table.special_angles[{number}]",
-                Refusal("angle_beyond", angle=f"{angle:g}", cycle=f"{cycle:g}"),
+                Refusal("angle_beyond", angle=angle, cycle=cycle),
             )
     engine = None
     if is_whole:
@@ -129,7 +129,7 @@ def _lengths(
     if not turns_fully(SliderCrank(radius, length, offset)):
         key = "rod.ratio" if ratio is not None else "rod.length"
         lengths = {"length": length, "radius": radius, "offset": abs(offset), "missing": radius + abs(offset) - length}
-        shown = {name: f"{one * 1e3:.6g}" for name, one in lengths.items()}
+        shown = {name: one * 1e3 for name, one in lengths.items()}
         reader.complain(key, Refusal("rod_short", **shown))
         return None
     return radius, length, offset
@@ -156,7 +156,7 @@ def _check_clearance(cylinder: Cylinder | None, lengths: tuple[float, float, flo
     if swept < _LEAST_RISE * cylinder.clearance_volume:
         reader.complain(
             "cylinder.clearance_volume",
-            Refusal("clearance_large", times=f"{cylinder.clearance_volume / swept:.3g}", swept=f"{swept * 1e6:.3g}"),
+            Refusal("clearance_large", times=cylinder.clearance_volume / swept, swept=swept * 1e6),
         )
 
 
@@ -212,7 +212,7 @@ def _centre_of_mass(rod: Mapping[str, Any], length: float, reader: Reader) -> fl
         return None
     centre = float(rod["centre_of_mass"].value)
     if centre >= length:
-        reader.complain("rod.centre_of_mass", Refusal("rod_centre_beyond", length=f"{length * 1e3:.6g}"))
+        reader.complain("rod.centre_of_mass", Refusal("rod_centre_beyond", length=length * 1e3))
         return None
     return centre
 

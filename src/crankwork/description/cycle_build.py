@@ -199,7 +199,7 @@ def _fuel(given: object) -> Fuel | None:
     table = cast("Mapping[str, Any]", given)
     parts = [table.get(key, 0.0) for key in ("carbon", "hydrogen", "oxygen")]
     if abs(sum(parts) - 1) > 0.01:
-        raise CrankworkError(Refusal("fuel_parts", sum=f"{sum(parts):g}"))
+        raise CrankworkError(Refusal("fuel_parts", sum=sum(parts)))
     return Fuel(parts[0], parts[1], parts[2], table.get("molar_mass"), _si(table, "heating_value"))
 
 

@@ -192,11 +192,11 @@ def _slaves(
     if length <= 0:
         reader.complain(
             "engine.articulated.rod_length",
-            Refusal("articulated_length", length=f"{length * 1e3:.6g}"),
+            Refusal("articulated_length", length=length * 1e3),
         )
         return ()
     if radius >= lengths[1]:
-        told = Refusal("knuckle_far", radius=f"{radius * 1e3:.6g}", rod=f"{lengths[1] * 1e3:.6g}")
+        told = Refusal("knuckle_far", radius=radius * 1e3, rod=lengths[1] * 1e3)
         reader.complain("engine.articulated.knuckle_radius", told)
         return ()
     of_number = dict(zip(between, angles, strict=True))

@@ -129,8 +129,8 @@ def _without_effect(
     size = max((math.dist(one, other) for one in solved.values() for other in solved.values()), default=0.0)
     for name, stated in linkage.positions.items():
         if name in solved and name not in settle and math.dist(stated, solved[name]) > _ROUGHLY * size:
-            x, y = (1e3 * one for one in solved[name])
-            yield Problem(f"positions.{name}", Refusal("position_idle", name=name, x=f"{x:.4g}", y=f"{y:.4g}"))
+            x, y = (f"{1e3 * one:.4g}" for one in solved[name])
+            yield Problem(f"positions.{name}", Refusal("position_idle", name=name, x=x, y=y))
 
 
 def _settling(linkage: Linkage, mechanism: Mechanism) -> set[str]:
@@ -187,7 +187,7 @@ def _ends(machine: LinkageMachine, wanted: Transient, motion: Motion, reader: Re
         return False
     turns = (wanted.torque / inertia * wanted.time / 2 + wanted.speed) * wanted.time / math.tau
     if turns > _MOST_TURNS:
-        reader.complain("transient.time", Refusal("transient_long", turns=f"{turns:.2g}", most=_MOST_TURNS))
+        reader.complain("transient.time", Refusal("transient_long", turns=turns, most=_MOST_TURNS))
         return False
     try:
         transient_summary(machine)
@@ -287,14 +287,14 @@ def _drive(values: Mapping[str, Any], reader: Reader) -> Drive:
         series = Series(tuple(parts))
         whole = efficiency(series)
         if whole < _LEAST_EFFICIENCY:
-            reader.complain("efficiency.chain", Refusal("efficiency_small", whole=f"{whole:.2g}"))
+            reader.complain("efficiency.chain", Refusal("efficiency_small", whole=whole))
             return drive
         drive = replace(drive, efficiency=whole, chain=series)
         if "decimals" in table:
             used = round(whole, int(table["decimals"]))
             drive = replace(drive, efficiency=used, exact_efficiency=whole)
             if used <= 0:
-                reader.complain("efficiency.decimals", Refusal("efficiency_rounded", whole=f"{whole:.6g}"))
+                reader.complain("efficiency.decimals", Refusal("efficiency_rounded", whole=whole))
     motor = values.get("motor")
     if motor and {"rated_power", "rated_speed", "overload", "pole_pairs"} <= set(motor):
         frequency = _value(motor, "frequency", 2 * math.pi * 50) / (2 * math.pi)

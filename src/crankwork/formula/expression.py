@@ -22,7 +22,7 @@ from typing import Any, TypeVar, cast
 import numpy as np
 
 from crankwork.formula.known import Known, Use, is_known
-from crankwork.locale import say
+from crankwork.locale import decimal, say
 from crankwork.notation import ARGUMENTS
 from crankwork.quantities import QUANTITIES, Language
 
@@ -260,7 +260,7 @@ def _text(tree: Expression, values: Mapping[str, str], language: Language) -> tu
             shown = symbol(name, language)
             return shown, _binding(shown)
         case Number(value):
-            shown = f"{value:.15g}".replace("-", "−").replace(".", "." if language == "en" else ",")
+            shown = decimal(f"{value:.15g}", language).replace("-", "−")
             return shown, _binding(shown)
         case Operation(function, (left, right)) if function in _BINARY:
             return _binary_text(function, left, right, values, language)

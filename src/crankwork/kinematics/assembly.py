@@ -36,13 +36,13 @@ def refusal(group: Dyad | Chain, closure: Closure, grid: CrankGrid, bad: NDArray
     value = np.where(bad, np.nan_to_num(closure.value, nan=-np.inf), np.inf)
     worst = int(np.argmin(value))
     singular = abs(float(closure.value.flat[worst])) <= _SINGULAR * closure.scale
-    at = f"{grid.degrees[worst]:.7g}"
+    at = float(grid.degrees[worst])
     told = _singular(group, at) if singular else _missing(group, float(closure.excess.flat[worst]), at)
     return GeometryError(told)
 
 
-def _singular(group: Dyad | Chain, at: str) -> Refusal:
-    """Return what is singular, and what would help; `at`: the crank angle as text [deg]."""
+def _singular(group: Dyad | Chain, at: float) -> Refusal:
+    """Return what is singular, and what would help; `at`: the crank angle [deg]."""
     match group:
         case RRR():
             return Refusal("rrr_singular", first=group.link_a, second=group.link_b, angle=at)
@@ -58,21 +58,21 @@ def _singular(group: Dyad | Chain, at: str) -> Refusal:
             return Refusal("chain_singular", links=_names(group), angle=at)
 
 
-def _missing(group: Dyad | Chain, measure: float, at: str) -> Refusal:
-    """Return what does not meet, by how much, and what would help; `at`: the crank angle as text [deg]."""
+def _missing(group: Dyad | Chain, measure: float, at: float) -> Refusal:
+    """Return what does not meet, by how much, and what would help; `at`: the crank angle [deg]."""
     match group:
         case RRR():
             return _apart(group, measure, at)
         case RRP():
-            short = f"{(abs(measure) - group.length) * 1e3:.4g}"
+            short = (abs(measure) - group.length) * 1e3
             return Refusal("rrp_short", link=group.link, slider=group.slider, missing=short, angle=at)
         case RPR():
-            short = f"{_slot_offset(group, measure) * 1e3:.4g}"
+            short = _slot_offset(group, measure) * 1e3
             return Refusal("rpr_near", pin=group.joint, pivot=group.pivot, link=group.link, missing=short, angle=at)
         case PRP() | RPP():
             return _singular(group, at)
         case Chain():
-            start = f"{math.degrees(group.start):g}"
+            start = math.degrees(group.start)
             return Refusal("chain_lost", links=_names(group), start=start, angle=at)
 
 
@@ -80,16 +80,16 @@ def _names(chain: Chain) -> str:
     return ", ".join(link.name for link in chain.links)
 
 
-def _apart(group: RRR, square: float, at: str) -> Refusal:
+def _apart(group: RRR, square: float, at: float) -> Refusal:
     p, q, distance = group.length_a, group.length_b, math.sqrt(square)
     names = {
         "first": group.link_a, "second": group.link_b, "point": group.point,
         "joint": group.joint_a, "other": group.joint_b, "angle": at,
     }  # fmt: skip
     if distance > p + q:
-        return Refusal("rrr_short", **names, missing=f"{(distance - p - q) * 1e3:.4g}")
+        return Refusal("rrr_short", **names, missing=(distance - p - q) * 1e3)
     longer, shorter = (group.link_a, group.link_b) if p > q else (group.link_b, group.link_a)
-    return Refusal("rrr_long", **names, longer=longer, shorter=shorter, missing=f"{(abs(p - q) - distance) * 1e3:.4g}")
+    return Refusal("rrr_long", **names, longer=longer, shorter=shorter, missing=(abs(p - q) - distance) * 1e3)
 
 
 def _slot_offset(dyad: RPR, square: float) -> float:

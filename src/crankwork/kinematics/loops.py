@@ -148,8 +148,8 @@ def _start(equations: _Equations, surroundings: Surroundings) -> _Solution:
             Refusal(
                 "chain_unassembled",
                 links=equations.names,
-                angle=f"{math.degrees(chain.start):g}",
-                open=f"{float(miss[0]) * 1e3:.4g}",
+                angle=math.degrees(chain.start),
+                open=float(miss[0]) * 1e3,
             )
         )
     return _derivatives(equations, q, surroundings, here)

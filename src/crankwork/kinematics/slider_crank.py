@@ -176,10 +176,10 @@ def check_slider_crank(slider_crank: SliderCrank) -> None:
         raise GeometryError(
             Refusal(
                 "rod_too_short",
-                length=f"{l * 1e3:g}",
-                radius=f"{r * 1e3:g}",
-                offset=f"{e * 1e3:g}",
-                missing=f"{(r + e - l) * 1e3:.6g}",
+                length=l * 1e3,
+                radius=r * 1e3,
+                offset=e * 1e3,
+                missing=(r + e - l) * 1e3,
             )
         )
 

@@ -275,8 +275,9 @@ class _Solver:
             if apart[at] * apart[at + 1] < 0:
                 return reached(self.volume_at, wanted, float(edges[at]), float(edges[at + 1]))
         key = "volume" if self.points[name].stroke is None else "stroke"
-        shown = {"low": f"{low * 1e6:.6g}", "high": f"{high * 1e6:.6g}"}
-        raise DiagramError(f"{self.path}.points.{name}.{key}", Refusal("point_volume_far", **shown))
+        raise DiagramError(
+            f"{self.path}.points.{name}.{key}", Refusal("point_volume_far", low=low * 1e6, high=high * 1e6)
+        )
 
     def pressure(self, key: str, name: str) -> float:
         """Return the pressure of a point, given or already found. [Pa]"""
@@ -341,7 +342,7 @@ class _Solver:
         at = np.array([start, *centres[centres < end], end])
         volumes = self.volume_at(at)
         if min(float(np.min(volumes)), reference) <= _SAME_PLACE * self._reach[1]:
-            raise DiagramError(key, Refusal("polytrope_empty", angle=f"{float(at[np.argmin(volumes)]):g}"))
+            raise DiagramError(key, Refusal("polytrope_empty", angle=float(at[np.argmin(volumes)])))
 
     def _angle_of_pressure(self, key: str, start: float, last: str, state: tuple[float, float, float]) -> float:
         """Return where the polytrope reaches the pressure of its end point, before the next dead centre."""
@@ -360,7 +361,7 @@ class _Solver:
                 Refusal(
                     "polytrope_far",
                     name=last,
-                    angle=f"{high:g}",
+                    angle=high,
                     centres=", ".join(f"{one:g}" for one in self.dead_centres),
                 ),
             )
@@ -392,16 +393,16 @@ def _check_chain(segments: list[Segment], cycle: float, named: Mapping[str, tupl
     for number, segment in enumerate(segments, start=1):
         if abs(segment.start - end) > 1e-6:
             name = "piece_gap" if segment.start > end else "piece_overlap"
-            raise DiagramError(f"{path}.pieces[{number}]", Refusal(name, start=f"{segment.start:g}", end=f"{end:g}"))
+            raise DiagramError(f"{path}.pieces[{number}]", Refusal(name, start=segment.start, end=end))
         if segment.end < segment.start:
             raise DiagramError(
                 f"{path}.pieces[{number}]",
-                Refusal("piece_backwards", start=f"{segment.start:g}", end=f"{segment.end:g}"),
+                Refusal("piece_backwards", start=segment.start, end=segment.end),
             )
         end = segment.end
     if abs(end - cycle) > 1e-6:
         last = max(named, key=lambda name: named[name][0])
-        raise DiagramError(f"{path}.pieces", Refusal("pieces_end", end=f"{end:g}", name=last, cycle=f"{cycle:g}"))
+        raise DiagramError(f"{path}.pieces", Refusal("pieces_end", end=end, name=last, cycle=cycle))
 
 
 def _check_closed(segments: list[Segment], last: float, path: str) -> None:
@@ -411,5 +412,5 @@ def _check_closed(segments: list[Segment], last: float, path: str) -> None:
     if abs(first - last) > 0.02 * highest:
         raise DiagramError(
             f"{path}.pieces",
-            Refusal("diagram_open", first=f"{first / 1e6:g}", last=f"{last / 1e6:g}"),
+            Refusal("diagram_open", first=first / 1e6, last=last / 1e6),
         )

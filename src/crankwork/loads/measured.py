@@ -87,9 +87,7 @@ def _check_angles(measured: MeasuredPressure, cycle: float, key: str) -> None:
         worst = int(np.argmax(steps <= 0))
         raise DiagramError(
             key,
-            Refusal(
-                "samples_backwards", line=rows[worst + 1], first=f"{degrees[worst]:g}", second=f"{degrees[worst + 1]:g}"
-            ),
+            Refusal("samples_backwards", line=rows[worst + 1], first=degrees[worst], second=degrees[worst + 1]),
         )
     typical = float(np.median(steps))
     if np.max(steps) > _GAP_FACTOR * typical:
@@ -99,16 +97,16 @@ def _check_angles(measured: MeasuredPressure, cycle: float, key: str) -> None:
             Refusal(
                 "samples_gap",
                 line=rows[worst + 1],
-                first=f"{degrees[worst]:g}",
-                second=f"{degrees[worst + 1]:g}",
-                step=f"{typical:g}",
+                first=degrees[worst],
+                second=degrees[worst + 1],
+                step=typical,
             ),
         )
     covered = float(degrees[-1] - degrees[0]) + 1.5 * typical
     if covered < cycle:
         raise DiagramError(
             key,
-            Refusal("samples_short", covered=f"{degrees[-1] - degrees[0]:g}", cycle=f"{cycle:g}"),
+            Refusal("samples_short", covered=degrees[-1] - degrees[0], cycle=cycle),
         )
 
 

@@ -10,7 +10,7 @@ import functools
 import re
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
-from typing import Literal, Self
+from typing import Literal, NamedTuple, Self
 
 from crankwork.resources import read_resource
 
@@ -42,6 +42,17 @@ def say(key: str, language: Language, **values: object) -> str:
     return found.format(**values) if values else found
 
 
+def decimal(text: str, language: Language) -> str:
+    """Return a number as text with the decimal mark of a language.
+
+    Examples
+    --------
+    >>> decimal("0.25", "ru")
+    '0,25'
+    """
+    return text if language == "en" else text.replace(".", ",")
+
+
 def has_text(key: str) -> bool:
     """Return whether there is a text of that key."""
     room, _, name = key.partition(".")
@@ -63,7 +74,8 @@ class Refusal(str):
     """What is refused, in English; it keeps its key and values, so that `told` can say it in another language.
 
     The name is that of a text in the room `refusals`. Of the values entries of a tuple are joined by "or", those of a
-    list by "and".
+    list by "and". A number is printed as the text says, `{heat:.4g}`, or else with up to six digits, with the decimal
+    mark of the language; what somebody typed, or is to type, is text.
 
     Examples
     --------
@@ -103,11 +115,13 @@ def told(message: str, language: Language) -> str:
 def _filled(name: str, values: Mapping[str, object], language: Language) -> str:
     known = texts("refusals", language)
 
-    def joined(value: object) -> str:
+    def joined(value: object) -> str | _Printed:
         match value:
             case tuple() | list():
                 word = known["or" if isinstance(value, tuple) else "and"]
-                return f" {word} ".join(joined(one) for one in value)
+                return f" {word} ".join(format(joined(one)) for one in value)
+            case float():
+                return _Printed(value, language)
             case str():
                 return told(value, language)
             case _:
@@ -116,10 +130,22 @@ def _filled(name: str, values: Mapping[str, object], language: Language) -> str:
     return known[name].format(**{key: joined(value) for key, value in values.items()})
 
 
+class _Printed(NamedTuple):
+    """A number that goes into a text."""
+
+    value: float
+    language: Language
+
+    def __format__(self, form: str) -> str:
+        return decimal(format(self.value, form or "g"), self.language)
+
+
 def _each(value: object, clean: Callable[[str], str]) -> object:
     match value:
         case Refusal():
             return value.cleaned(clean)
+        case float():
+            return value
         case tuple() | list():
             return type(value)(_each(one, clean) for one in value)
         case _:

@@ -112,7 +112,7 @@ class _Reader:
         if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
             self._problem(key, Refusal("number_needed" if value is not None else "number_missing"))
         elif positive and not value > 0:
-            self._problem(key, Refusal("length_zero", value=f"{value:g}"))
+            self._problem(key, Refusal("length_zero", value=value))
         else:
             return float(value)
         return 1.0

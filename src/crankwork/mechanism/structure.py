@@ -210,12 +210,12 @@ def _loose(one: Member, joints: list[str], owners: Mapping[str, Sequence[str]]) 
 
 
 def _too_free(linkage: Linkage, rest: list[str]) -> Refusal:
-    freedom = f"{mobility(linkage).value:g}"
+    freedom = float(mobility(linkage).value)
     return Refusal("free_some" if len(rest) > 1 else "free_one", mobility=freedom, names=", ".join(rest))
 
 
 def _too_stiff(linkage: Linkage, some: tuple[str, ...]) -> Refusal:
-    freedom = f"{mobility(linkage).value:g}"
+    freedom = float(mobility(linkage).value)
     return Refusal("stiff_some" if len(some) > 1 else "stiff_one", names=list(some), mobility=freedom)
 
 

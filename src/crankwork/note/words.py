@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from string import Formatter
 
-from crankwork.locale import Language, capital, say, texts
+from crankwork.locale import Language, capital, decimal, say, texts
 from crankwork.note.captions import note_text
 from crankwork.note.document import Math, Paragraph, Run, Runs
 from crankwork.note.printed_units import printed_unit
@@ -77,4 +77,4 @@ class NoteWords(ABC):
         shown = f"{value:.{decimals}f}"
         if not shown.strip("-0."):
             shown = shown.lstrip("-")
-        return (shown if self.language == "en" else shown.replace(".", ",")).replace("-", "−")
+        return decimal(shown, self.language).replace("-", "−")

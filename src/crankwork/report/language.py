@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from crankwork.locale import has_text, say, texts
+from crankwork.locale import decimal, has_text, say, texts
 from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.units import from_si
 
@@ -36,9 +36,7 @@ def number(value: float, language: Language, *, digits: int = 6) -> str:
     if power:
         text = f"{mantissa[:-1]}10" if mantissa in ("1", "-1") else f"{mantissa}·10"
         text += str(int(exponent)).translate(_RAISED)
-    if language != "en":
-        text = text.replace(".", ",")
-    return text.replace("-", "−")
+    return decimal(text, language).replace("-", "−")
 
 
 def _is_angle(key: str) -> bool:

@@ -105,7 +105,7 @@ class _Quadrature:
             if until[-1] >= time:
                 s, own = _found(time, pace, until)
                 return self._moment(time, self.h * (1 + s) + done * cycle, max(own, coarse**2 / time) / time)
-        raise MethodError(Refusal("motion_long", time=f"{time:g}", most=_MOST_CYCLES))
+        raise MethodError(Refusal("motion_long", time=time, most=_MOST_CYCLES))
 
     def _pace(self, inertia: Array, energy: Array, offset: Array) -> Array:
         """Return the time per angle."""
@@ -116,7 +116,7 @@ class _Quadrature:
         lost = ~(energy > 0)
         if lost.any():
             at = math.degrees(self.start + float(offset.ravel()[int(np.argmax(lost.ravel()))]))
-            raise MethodError(Refusal("motion_stuck", angle=f"{at:.2f}"))
+            raise MethodError(Refusal("motion_stuck", angle=at))
 
     def _moment(self, time: float, offset: float, tail: float) -> Moment:
         angle = self.start + offset

@@ -80,9 +80,9 @@ class AsynchronousMotor:
                 Refusal(
                     "motor_speed",
                     pairs=pole_pairs,
-                    idle=f"{w_0 * 30 / math.pi:g}",
-                    rated=f"{rated_speed * 30 / math.pi:g}",
-                    overload=f"{overload:g}",
+                    idle=w_0 * 30 / math.pi,
+                    rated=rated_speed * 30 / math.pi,
+                    overload=overload,
                 )
             )
         s_n = 1 - rated_speed / w_0

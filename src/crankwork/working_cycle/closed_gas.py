@@ -153,9 +153,7 @@ class ClosedGas:
         return solution.sol, solution.y[:, -1]
 
     def _not_followed(self, stage: Stage, angle: float) -> CrankworkError:
-        return CrankworkError(
-            Refusal("heat_unfollowed", start=f"{stage.start:g}", end=f"{stage.end:g}", angle=f"{angle:g}")
-        )
+        return CrankworkError(Refusal("heat_unfollowed", start=stage.start, end=stage.end, angle=angle))
 
     def energy_change(self, temperature: float) -> float:
         """Return the change of internal energy since intake closing, at a temperature [K]. [J]"""
@@ -188,7 +186,7 @@ def closed_gas(
         worked(wiebe.fuel_heat)
     mass, heat = worked(first_law.gas_mass).value, worked["fuel_heat"].value
     if heat > _MOST_HEAT * mass:
-        raise CrankworkError(Refusal("heat_excessive", heat=f"{heat:.4g}", share=f"{heat / mass / 1e6:.3g}"))
+        raise CrankworkError(Refusal("heat_excessive", heat=heat, share=heat / mass / 1e6))
     return ClosedGas(
         data=data,
         volume_at=volume_at,

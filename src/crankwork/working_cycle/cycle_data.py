@@ -183,7 +183,7 @@ def check_data(data: GrinevetskyData) -> None:
         raise CycleError(Refusal("kind_of_fuel", kind=data.kind))
     _check_signs(data)
     if data.compression_ratio <= 1:
-        raise CycleError(Refusal("not_above", name="compression_ratio", value=f"{data.compression_ratio:g}", limit=1))
+        raise CycleError(Refusal("not_above", name="compression_ratio", value=data.compression_ratio, limit=1))
     if 1.0 in (data.compression_exponent, data.expansion_exponent):
         raise CycleError(Refusal("exponent_one"))
     _check_choices(data)
@@ -194,7 +194,7 @@ def _check_choices(data: GrinevetskyData) -> None:
     if data.strokes == 4 and data.lost_stroke:
         raise CycleError(Refusal("lost_stroke_of_two"))
     if data.lost_stroke >= 1:
-        raise CycleError(Refusal("lost_stroke_whole", value=f"{data.lost_stroke:g}"))
+        raise CycleError(Refusal("lost_stroke_whole", value=data.lost_stroke))
     if data.power and (data.bore or data.stroke):
         raise CycleError(Refusal("power_or_size"))
     if (data.bore is None) != (data.stroke is None):
@@ -208,7 +208,7 @@ def _check_signs(data: GrinevetskyData) -> None:
         if isinstance(value, float | int) and not isinstance(value, bool) and one.name not in _ANY_SIGN:
             limit = 0.0 if one.name in ("lost_stroke", "scavenging") else None
             if not (value >= limit if limit is not None else value > 0):
-                told = {"name": one.name, "value": f"{value:g}"}
+                told = {"name": one.name, "value": value}
                 raise CycleError(
                     Refusal("not_above", **told, limit=0) if limit is None else Refusal("not_negative", **told)
                 )

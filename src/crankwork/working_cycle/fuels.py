@@ -53,9 +53,7 @@ def burning(worked: Worked, fuel: Fuel) -> None:
     """
     elements = fuel[:3]
     if min(elements) < 0 or abs(sum(elements) - 1) > 0.02 or fuel.carbon + fuel.hydrogen <= 0:
-        raise CycleError(
-            Refusal("fuel_shares", carbon=f"{fuel.carbon:g}", hydrogen=f"{fuel.hydrogen:g}", oxygen=f"{fuel.oxygen:g}")
-        )
+        raise CycleError(Refusal("fuel_shares", carbon=fuel.carbon, hydrogen=fuel.hydrogen, oxygen=fuel.oxygen))
     if fuel.heating_value is None:
         worked(lower_heating_value)
     worked(air_mass_needed)

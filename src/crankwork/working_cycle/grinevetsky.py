@@ -80,14 +80,14 @@ def _intake(worked: Worked, data: GrinevetskyData) -> None:
         worked(charge.cooled_charge_temperature)
     warm = worked["charge_temperature"].value + worked["charge_heating"].value
     if min(warm, worked["charge_temperature"].value) <= 0:
-        raise CycleError(Refusal("charge_cold", temperature=f"{warm:g}"))
+        raise CycleError(Refusal("charge_cold", temperature=warm))
     worked(charge.charge_density)
     if data.intake_pressure is None:
         worked(charge.intake_pressure_loss)
         worked(charge.intake_pressure)
     intake, residual = worked["intake_pressure"].value, worked["residual_pressure"].value
     if data.compression_ratio * data.charge_up * intake <= data.scavenging * residual:
-        raise CycleError(Refusal("intake_weak", intake=f"{intake / 1e6:g}", residual=f"{residual / 1e6:g}"))
+        raise CycleError(Refusal("intake_weak", intake=intake / 1e6, residual=residual / 1e6))
 
 
 def _compression(worked: Worked, data: GrinevetskyData) -> None:
@@ -100,7 +100,7 @@ def _compression(worked: Worked, data: GrinevetskyData) -> None:
     worked(charge.compression_pressure)
     temperature = worked(charge.compression_temperature).value
     if temperature > _HOTTEST:
-        raise CycleError(Refusal("compression_hot", temperature=f"{temperature:.4g}"))
+        raise CycleError(Refusal("compression_hot", temperature=temperature))
 
 
 # residual gas, temperature and volumetric efficiency at the end of intake
@@ -150,7 +150,7 @@ def _rise(worked: Worked, data: GrinevetskyData) -> None:
     worked(combustion.dual_pressure)
     rho = worked(combustion.cut_off).value
     if not 1 <= rho <= data.compression_ratio:
-        raise CycleError(Refusal("cut_off_low" if rho < 1 else "cut_off_high", ratio=f"{rho:g}"))
+        raise CycleError(Refusal("cut_off_low" if rho < 1 else "cut_off_high", ratio=rho))
 
 
 def _expansion(worked: Worked, data: GrinevetskyData) -> None:

@@ -77,9 +77,7 @@ def stages(data: HeatReleaseData, dead_centres: tuple[float, float]) -> tuple[St
     begin = top + 360.0 - data.burning_advance
     end = begin + data.burning_duration
     if begin < shut or end > opens:
-        raise CrankworkError(
-            Refusal("burning_outside", begin=f"{begin:g}", end=f"{end:g}", shut=f"{shut:g}", opens=f"{opens:g}")
-        )
+        raise CrankworkError(Refusal("burning_outside", begin=begin, end=end, shut=shut, opens=opens))
     return Stage(shut, begin, False, False), Stage(begin, end, True, True), Stage(end, opens, False, True)  # noqa: FBT003
 
 
@@ -115,8 +113,8 @@ def check_heat_release(data: HeatReleaseData) -> None:
     if wrong or (data.heat is not None and data.heat < 0):
         raise CrankworkError(Refusal("names_not_negative", names=", ".join(wrong) or "heat"))
     if data.cycle not in (360.0, 720.0):
-        raise CrankworkError(Refusal("cycle_angle", angle=f"{data.cycle:g}"))
+        raise CrankworkError(Refusal("cycle_angle", angle=data.cycle))
     if data.heat_ratio + data.heat_ratio_slope * data.shut_temperature <= 1:
         raise CrankworkError(Refusal("heat_ratio_low"))
     if data.cycle == 360 and data.exhaust_opens < data.intake_opens:
-        raise CrankworkError(Refusal("ports_early", intake=f"{data.intake_opens:g}", exhaust=f"{data.exhaust_opens:g}"))
+        raise CrankworkError(Refusal("ports_early", intake=data.intake_opens, exhaust=data.exhaust_opens))

@@ -62,11 +62,11 @@ def ideal_cycle(data: IdealData) -> CalculatedCycle:
         raise CycleError(
             Refusal(
                 "heat_backwards",
-                cold=f"{cold.value:g}",
-                hot=f"{worked[hot].value:g}",
-                rise=f"{rise.value:g}",
-                cut_off=f"{cut_off.value:g}",
-                ratio=f"{data.compression_ratio:g}",
+                cold=cold.value,
+                hot=worked[hot].value,
+                rise=rise.value,
+                cut_off=cut_off.value,
+                ratio=data.compression_ratio,
             )
         )
     _results(worked, data, last)
@@ -182,10 +182,10 @@ def _check(data: IdealData) -> None:
         raise CycleError(Refusal("kind_of_cycle", kind=data.kind, known=", ".join(_HEATINGS)))
     for name in ("pressure", "temperature", "gas_constant"):
         if not getattr(data, name) > 0:
-            raise CycleError(Refusal("not_above", name=name, value=f"{getattr(data, name):g}", limit=0))
+            raise CycleError(Refusal("not_above", name=name, value=getattr(data, name), limit=0))
     for name in ("compression_ratio", "adiabatic_exponent"):
         if not getattr(data, name) > 1:
-            raise CycleError(Refusal("not_above", name=name, value=f"{getattr(data, name):g}", limit=1))
+            raise CycleError(Refusal("not_above", name=name, value=getattr(data, name), limit=1))
     ways = [data.heat, data.peak_temperature]
     ways += [] if data.kind == "dual" else [data.pressure_ratio]
     ways += [data.cut_off]

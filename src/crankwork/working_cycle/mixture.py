@@ -84,7 +84,7 @@ def mixture(worked: Worked) -> None:
         for key in ("product_co", "product_h2"):
             worked.absent(key)
     if min(worked(carbon_dioxide).value, worked(water).value) < 0:
-        raise CycleError(Refusal("mixture_rich", value=f"{excess_air:g}"))
+        raise CycleError(Refusal("mixture_rich", value=excess_air))
     if is_rich:
         worked.absent("product_o2")
     else:

@@ -103,15 +103,11 @@ def _check(theory: Mapping[str, float], timing: Timing) -> None:
     if missing:
         raise CrankworkError(Refusal("theory_missing", names=", ".join(missing)))
     if timing.cycle not in (360.0, 720.0):
-        raise CrankworkError(Refusal("cycle_angle", angle=f"{timing.cycle:g}"))
+        raise CrankworkError(Refusal("cycle_angle", angle=timing.cycle))
     if timing.ignition_advance and timing.ignition_delay >= timing.ignition_advance:
-        raise CrankworkError(
-            Refusal("ignition_late", advance=f"{timing.ignition_advance:g}", delay=f"{timing.ignition_delay:g}")
-        )
+        raise CrankworkError(Refusal("ignition_late", advance=timing.ignition_advance, delay=timing.ignition_delay))
     if timing.cycle == 360 and timing.exhaust_opens < timing.intake_opens:
-        raise CrankworkError(
-            Refusal("ports_early", intake=f"{timing.intake_opens:g}", exhaust=f"{timing.exhaust_opens:g}")
-        )
+        raise CrankworkError(Refusal("ports_early", intake=timing.intake_opens, exhaust=timing.exhaust_opens))
 
 
 def compression_parts(corners: RoundedCorners) -> list[Part]:
@@ -150,7 +146,7 @@ def burning_parts(corners: RoundedCorners, level: float) -> list[Part]:
     highest = Named("z_d" if corners.rounding.school == "ru" else "z'", top + corners.rounding.peak_angle, peak)
     joined = max(highest.angle + corners.rounding.join_after, _falls_to(corners, _JOIN_BELOW * peak))
     if joined >= opened.angle or highest.angle <= top:
-        raise CrankworkError(Refusal("peak_late", angle=f"{corners.rounding.peak_angle:g}"))
+        raise CrankworkError(Refusal("peak_late", angle=corners.rounding.peak_angle))
     join = Named("~g", joined, corners.expansion(joined))
     rising = _rising(corners, peak)
     slopes = corners.slope("compression", rising[0].angle), corners.slope("expansion", joined)
@@ -173,9 +169,9 @@ def _rising(corners: RoundedCorners, peak: float) -> list[Named]:
         raise CrankworkError(
             Refusal(
                 "middle_outside",
-                middle=f"{middle / 1e6:.4g}",
-                compressed=f"{compressed / 1e6:.4g}",
-                peak=f"{peak / 1e6:.4g}",
+                middle=middle / 1e6,
+                compressed=compressed / 1e6,
+                peak=peak / 1e6,
             )
         )
     # burning adds to the compression line as the square of the angle since it began
@@ -209,9 +205,7 @@ def exchange_parts(corners: RoundedCorners) -> list[Part]:
     left = Named("r'" if timing.intake_opens else "r", turn - timing.intake_opens, low)
     entered = Named("a'" if timing.exhaust_closes else "~a", turn + timing.exhaust_closes, charge)
     if left.angle < out.angle:
-        raise CrankworkError(
-            Refusal("exhaust_nothing", exhaust=f"{timing.exhaust_opens:g}", intake=f"{timing.intake_opens:g}")
-        )
+        raise CrankworkError(Refusal("exhaust_nothing", exhaust=timing.exhaust_opens, intake=timing.intake_opens))
     blown = []
     if timing.exhaust_opens:
         expanded = corners.expansion(corners.bottom)

@@ -50,9 +50,7 @@ def sized(worked: Worked, data: GrinevetskyData) -> list[Notice]:
     asked = worked.again(".before_rounding")
     _of_power(asked, data, stroke)
     if min(round(asked[key].value * 1e3) for key in ("bore", "stroke")) == 0:
-        raise CycleError(
-            Refusal("power_tiny", bore=f"{asked['bore'].value * 1e3:.2g}", stroke=f"{asked['stroke'].value * 1e3:.2g}")
-        )
+        raise CycleError(Refusal("power_tiny", bore=asked["bore"].value * 1e3, stroke=asked["stroke"].value * 1e3))
     said: dict[str, float | str] = {}
     for key in ("bore", "stroke"):
         exact = worked.keep(asked[key].named(key))
@@ -73,9 +71,9 @@ def _effective(worked: Worked, data: GrinevetskyData) -> None:
         raise CycleError(
             Refusal(
                 "losses_all",
-                speed=f"{speed:g}",
-                loss=f"{loss / 1e6:g}",
-                indicated=f"{worked['indicated_mean_pressure'].value / 1e6:g}",
+                speed=speed,
+                loss=loss / 1e6,
+                indicated=worked["indicated_mean_pressure"].value / 1e6,
             )
         )
 

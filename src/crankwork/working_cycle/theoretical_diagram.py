@@ -101,11 +101,7 @@ def _angle_of_volume(volume_at: VolumeAt, wanted: float, small: float, large: fl
     low, high = float(small), float(large)
     ends = volume_at(np.array([low, high]))
     if not ends[0] <= wanted <= ends[1] * (1 + 1e-12):
-        raise CycleError(
-            Refusal(
-                "volume_unreached", volume=f"{wanted * 1e6:g}", least=f"{ends[0] * 1e6:g}", most=f"{ends[1] * 1e6:g}"
-            )
-        )
+        raise CycleError(Refusal("volume_unreached", volume=wanted * 1e6, least=ends[0] * 1e6, most=ends[1] * 1e6))
     return reached(volume_at, wanted, low, high)
 
 
