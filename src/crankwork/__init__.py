@@ -26,7 +26,6 @@ if TYPE_CHECKING:
         UnknownKeyError,
     )
     from crankwork.kinematics.crank_grid import CrankGrid
-    from crankwork.linkage_machine import LinkageMachine
     from crankwork.machine import Machine
     from crankwork.mechanism.catalog import (
         crank_shaper,
@@ -55,7 +54,6 @@ _HOMES = {
     "DoubtfulError": "errors",
     "GeometryError": "errors",
     "InputError": "errors",
-    "LinkageMachine": "linkage_machine",
     "Machine": "machine",
     "Method": "method",
     "MethodError": "errors",
@@ -90,7 +88,6 @@ __all__ = [
     "DoubtfulError",
     "GeometryError",
     "InputError",
-    "LinkageMachine",
     "Machine",
     "Method",
     "MethodError",

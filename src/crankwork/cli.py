@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from crankwork.analysis import Results
     from crankwork.description.machine_file import Setting
-    from crankwork.linkage_machine import AnyMachine
+    from crankwork.machine import Machine
     from crankwork.quantities import Language
 
 _LANGUAGE = click.Choice(["en", "ru", "vi"])
@@ -331,17 +331,14 @@ def schema() -> None:
     click.echo(json_schema())
 
 
-def _machine(
-    file: str, settings: tuple[str, ...], step: str | None, method: str | None, *, per_area: bool
-) -> AnyMachine:
+def _machine(file: str, settings: tuple[str, ...], step: str | None, method: str | None, *, per_area: bool) -> Machine:
     """Return the machine of a file with the options of a command put into it."""
     from crankwork.description.machine_file import read
-    from crankwork.machine import Machine
 
     machine = read(file, _overrides(settings, step, method))
-    if per_area and not isinstance(machine, Machine):
+    if per_area and not machine.is_crank_gear:
         raise CrankworkError(_refusal("per_area_linkage"))
-    if per_area and isinstance(machine, Machine) and machine.cylinder is None:
+    if per_area and machine.cylinder is None:
         raise CrankworkError(_refusal("per_area_bore"))
     return machine
 

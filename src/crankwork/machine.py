@@ -15,6 +15,11 @@ from crankwork.method import EXACT, Method
 
 if TYPE_CHECKING:
     from crankwork.cylinders.articulated import ArticulatedRod
+    from crankwork.dynamics.efficiency import Series
+    from crankwork.dynamics.tabulated import Differences, TabulatedBody
+    from crankwork.loads.load import Load
+    from crankwork.mechanism.linkage import Linkage
+    from crankwork.shaft.motor import GearedMotor
     from crankwork.working_cycle.calculated_cycle import CalculatedPressure
 
 
@@ -126,10 +131,6 @@ class Engine:
         Shares of the masses that counterweights balance, beyond `counterweight`. [-]
     balance_shafts : tuple of int
         Orders that pairs of balance shafts take out.
-    fluctuation : float or None
-        Wanted fluctuation of the speed. [-]
-    inertia : float
-        What turns with the crankshaft, without the flywheel to be found. [kg m2]
     notices : tuple of (str, mapping)
         What the reader should know of the layout: code and values.
     """
@@ -141,27 +142,101 @@ class Engine:
     rotating_share: float = 0.0
     reciprocating_share: float = 0.0
     balance_shafts: tuple[int, ...] = ()
-    fluctuation: float | None = None
-    inertia: float = 0.0
     notices: tuple[tuple[str, Mapping[str, float | str]], ...] = ()
 
 
 @dataclass(frozen=True)
+class Drive:
+    """What turns with the crank and drives it, or is driven by it.
+
+    Parameters
+    ----------
+    efficiency : float
+        Of the joints between motor and process, as the calculation uses it. [-]
+    exact_efficiency : float or None
+        Before a document rounded it. [-]
+    inertia : float
+        Moment of inertia that turns with the crank, without the flywheel to be found. [kg m2]
+    motor : GearedMotor or None
+        The motor, as the crank feels it.
+    rated_power : float
+        Of the motor. [W]
+    fluctuation : float or None
+        Wanted fluctuation of the speed, for which a flywheel is to be found. [-]
+    chain : Series or None
+        The efficiencies that make up the whole, as they are given.
+    """
+
+    efficiency: float = 1.0
+    exact_efficiency: float | None = None
+    inertia: float = 0.0
+    motor: GearedMotor | None = None
+    rated_power: float = 0.0
+    fluctuation: float | None = None
+    chain: Series | None = None
+
+
+@dataclass(frozen=True)
+class Transient:
+    """Motion from a crank angle of zero under a constant torque. [N m], [s], [rad/s]"""
+
+    torque: float
+    time: float
+    speed: float = 0.0
+
+
+@dataclass(frozen=True)
+class TransferTable:
+    """Transfer functions by position, as a document prints them, instead of a mechanism.
+
+    Parameters
+    ----------
+    angles : tuple of float
+        Crank angles of the positions. [rad]
+    bodies : tuple of TabulatedBody
+        Moving masses and their transfer functions at the positions.
+    reduced_inertia_1 : tuple of float or None
+        Derivative of the reduced inertia, where the document prints its own. [kg m2]
+    differences : str
+        How it is taken otherwise.
+    static_torque, balancing_torque : tuple of float or None
+        Torque that balances the loads, or that and the dynamic torque together. [N m]
+    """
+
+    angles: tuple[float, ...]
+    bodies: tuple[TabulatedBody, ...]
+    reduced_inertia_1: tuple[float, ...] | None = None
+    differences: Differences = "central"
+    static_torque: tuple[float, ...] | None = None
+    balancing_torque: tuple[float, ...] | None = None
+
+
+@dataclass(frozen=True)
 class Machine:
-    """One machine, all in SI.
+    """One machine, all in SI: what of it is known decides what is analysed.
 
     Parameters
     ----------
     mechanism : Mechanism
-        What moves.
+        What moves; a crank alone where transfer functions are given instead.
     speed, angular_acceleration : float
         Of the crank. [rad/s], [rad/s2]
     title : str
         What the owner calls it.
+    linkage : Linkage or None
+        The mechanism as it was drawn, for its structure; None for a crank gear, which is given by its lengths.
+    transfer : TransferTable or None
+        Transfer functions instead of a mechanism.
     cylinder, masses, gas : optional
-        What is known besides the motion.
+        What is known of a crank gear besides the motion.
     has_gravity : bool
-        Whether weights count.
+        Whether its weights count; those of a linkage are loads.
+    loads : tuple of Load
+        What pushes a linkage.
+    drive : Drive
+        What turns with the crank and drives it.
+    transient : Transient or None
+        A start to be followed.
     method : Method
         How to compute unless told otherwise.
     table_step, table_special : float and tuple of float
@@ -174,16 +249,33 @@ class Machine:
     speed: float
     angular_acceleration: float = 0.0
     title: str = ""
+    linkage: Linkage | None = None
+    transfer: TransferTable | None = None
     cylinder: Cylinder | None = None
     masses: CrankGearMasses | None = None
     gas: Gas | None = None
     has_gravity: bool = False
+    loads: tuple[Load, ...] = ()
+    drive: Drive = Drive()
+    transient: Transient | None = None
     method: Method = EXACT
     table_step: float = 10.0
     table_special: tuple[float, ...] = ()
     engine: Engine | None = None
     # The numbers of the description by their paths: `crank.stroke`; a machine may be made without one
     stated: Mapping[str, Stated] = field(default_factory=dict, compare=False, repr=False)
+
+    @property
+    def is_crank_gear(self) -> bool:
+        """Whether it is given by the lengths of crank and rod, and told in the terms of engines."""
+        return self.linkage is None and self.transfer is None
+
+    @property
+    def drawn(self) -> Linkage:
+        """The linkage as it was drawn, of a machine that is one."""
+        if self.linkage is None:
+            raise TypeError("this machine was not drawn as a linkage")
+        return self.linkage
 
     @property
     def cycle(self) -> float:

@@ -9,11 +9,10 @@ import pytest
 
 import crankwork
 from crankwork.formula.replay import replay
-from crankwork.machine import Machine
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 MACHINES = {path.stem: crankwork.read(path) for path in sorted(EXAMPLES.glob("*.toml"))}
-ENGINES = {name: one for name, one in MACHINES.items() if isinstance(one, Machine)}
+ENGINES = {name: one for name, one in MACHINES.items() if one.is_crank_gear}
 
 
 @pytest.mark.parametrize("method", ["exact", "textbook", "series:6"])

@@ -19,7 +19,7 @@ from crankwork.cylinders.articulated import articulated_motion
 from crankwork.cylinders.engines import boxer, inline, radial, vee
 from crankwork.cylinders.torque import cylinder_angle
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.machine import Bearings, Engine, Machine
+from crankwork.machine import Bearings, Drive, Engine, Machine
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ENGINES = ("petrol-four", "v8-diesel", "radial-five", "two-stroke")
@@ -162,7 +162,7 @@ def test_strokes_of_articulated_cylinders_differ_from_that_of_the_master():
 
 
 def test_the_flywheel_gives_the_wanted_fluctuation():
-    machine = _machine(LAYOUTS["I4"], fluctuation=0.01, inertia=0.05)
+    machine = replace(_machine(LAYOUTS["I4"]), drive=Drive(fluctuation=0.01, inertia=0.05))
     results = crankwork.analyse(machine)
     assert results["speed_fluctuation"] == pytest.approx(0.01, rel=1e-12)
     w = results["speed"]

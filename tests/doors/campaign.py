@@ -25,7 +25,6 @@ import numpy as np
 from crankwork.analysis import Results, analyse
 from crankwork.description.machine_file import read_machine
 from crankwork.errors import CrankworkError, InputError
-from crankwork.linkage_machine import TabulatedMachine
 from crankwork.report.summary import description_text, summary_text
 
 hostile_file = runpy.run_path(str(Path(__file__).with_name("mutations.py")))["hostile_file"]
@@ -87,7 +86,7 @@ def _alarm(*_: object) -> None:
 
 def _analysed(text: str) -> Outcome:
     machine = read_machine(text, NAME)
-    if not isinstance(machine, TabulatedMachine):
+    if machine.transfer is None:
         machine = replace(machine, table_step=30.0)
     results = analyse(machine)
     description_text(machine, results)

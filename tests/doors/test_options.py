@@ -16,6 +16,10 @@ WRONG = {
     "set too deep": (("--set", "a.b.c.d.e=1"), "--set a.b.c.d.e=1: write --set KEY=VALUE"),
     "set below a value": (("--set", "crank.radius.x=1"), "--set crank.radius.x: radius is not a table in this file"),
     "set in a list": (("--set", "gas.pieces.law=1"), "--set gas.pieces.law: pieces is not a table in this file"),
+    "set beyond a list": (("--set", "gas.pieces[9].law=1"), "--set gas.pieces[9].law: there is no entry 9"),
+    "set of entry 0": (("--set", "gas.pieces[0].law=1"), "--set gas.pieces[0].law: there is no entry 0"),
+    "set of an entry of no list": (("--set", "crank[1]=1"), "--set crank[1]: crank is not a list in this file"),
+    "set in brackets that are none": (("--set", "gas.pieces[a]=1"), "--set gas.pieces[a]=1: write --set KEY=VALUE"),
     "set of an unknown key": (("--set", "rod.ratoi=1"), "--set rod.ratoi: unknown key; did you mean ratio?"),
     "set of an unknown table": (("--set", "rdo.ratio=1"), "--set rdo: unknown table; did you mean rod?"),
     "set of a table": (("--set", "crank=5"), "--set crank: must be a table; put its keys below a line [crank]"),
@@ -146,6 +150,13 @@ def test_a_setting_replaces_what_says_the_same(crankwork, machine_file) -> None:
 )
 def test_a_setting_is_read_as_in_the_file(crankwork, machine_file, setting, key, value) -> None:
     assert _summary(crankwork("run", machine_file(), "--json", "--set", setting))[key]["value"] == pytest.approx(value)
+
+
+def test_a_setting_reaches_into_lists(crankwork, machine_file) -> None:
+    name, setting = machine_file(), "gas.pieces[3].exponent=1.3"
+    plain, changed = (_summary(crankwork("run", name, "--json", *one)) for one in ((), ("--set", setting)))
+    # a compression of a smaller exponent takes less work
+    assert changed["indicated_work"]["value"] > plain["indicated_work"]["value"]
 
 
 def test_the_last_of_two_settings_counts(crankwork, machine_file) -> None:

@@ -49,7 +49,7 @@ class Adapter:
     def methods(path: Path) -> list[str]:
         """Return the file's own method and, for engines, the others."""
         machine = crankwork.read(path)
-        if not isinstance(machine, crankwork.Machine):
+        if not machine.is_crank_gear:
             return [OWN]
         own = crankwork.analyse(machine).method.name
         return [OWN, *(method for method in METHODS if method != own)]
@@ -70,7 +70,6 @@ class Adapter:
         """Return columns by key, single values by key, and listings by name and key, all in SI."""
         machine = crankwork.read(path)
         if method != OWN:
-            assert isinstance(machine, crankwork.Machine)
             machine = crankwork.with_method(machine, method)
         results = crankwork.analyse(machine, crankwork.CrankGrid.from_degrees(degrees))
         listings = {

@@ -19,7 +19,6 @@ from crankwork.formula.lines import FormulaLine, Moment
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import mean_piston_speed
 from crankwork.loads import gas
-from crankwork.machine import Machine
 from crankwork.note.document import (
     Bibliography,
     Bold,
@@ -73,7 +72,7 @@ def groups_of():
     """Give the groups of lines that a note shows, at chosen crank angles."""
 
     def found(results, *degrees):
-        return (engine_lines if isinstance(results.machine, Machine) else linkage_lines)(results, *degrees)
+        return (engine_lines if results.machine.is_crank_gear else linkage_lines)(results, *degrees)
 
     return found
 

@@ -18,7 +18,7 @@ from crankwork.formula.lines import FormulaLine, SumLine, ValueLine
 from crankwork.formula.replay import replay
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.locale import has_text
-from crankwork.machine import Bearings, Engine
+from crankwork.machine import Bearings, Drive, Engine
 from crankwork.quantities import QUANTITIES, base_key
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -54,11 +54,13 @@ MACHINES |= {name: _machine(layout) for name, layout in LAYOUTS.items()}
 SIZED = {"bearings": Bearings(0.06, 0.03, 0.07, 0.03, 0.025, 0.03), "counterweight": 0.02, "rotating_share": 0.4}
 MACHINES |= {
     "weights": replace(_machine(LAYOUTS["V8"], **SIZED), has_gravity=True),
-    "unsteady": replace(_machine(LAYOUTS["I4"], fluctuation=0.02, inertia=0.1), angular_acceleration=900.0),
+    "unsteady": replace(
+        _machine(LAYOUTS["I4"]), drive=Drive(fluctuation=0.02, inertia=0.1), angular_acceleration=900.0
+    ),
     "radial with weights": replace(MACHINES["radial-five"], has_gravity=True),
     "gas alone": replace(_machine(LAYOUTS["I4"]), masses=None),
     "motion alone": replace(_machine(LAYOUTS["I4"]), masses=None, gas=None),
-    "enough": _machine(LAYOUTS["I4"], fluctuation=0.02, inertia=1e3),
+    "enough": replace(_machine(LAYOUTS["I4"]), drive=Drive(fluctuation=0.02, inertia=1e3)),
     "shafts": _machine(LAYOUTS["I4"], balance_shafts=(2,), **SIZED),
 }
 every_machine = pytest.mark.parametrize("machine", MACHINES.values(), ids=MACHINES)

@@ -15,7 +15,6 @@ from crankwork.analysis.whole_engine import as_engine
 from crankwork.description.machine_file import read, read_machine, template, template_names
 from crankwork.formula.lines import FormulaLine, Moment
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.machine import Machine
 from crankwork.note import engine_material, linkage_material
 from crankwork.note.contents import note_of
 from crankwork.note.document import Equation
@@ -37,12 +36,12 @@ def machine_of(name):
 @functools.cache
 def analysed(name, method):
     machine = machine_of(name)
-    results = analyse(with_method(machine, method)) if isinstance(machine, Machine) else analyse(machine)
+    results = analyse(with_method(machine, method)) if machine.is_crank_gear else analyse(machine)
     return as_engine(results), note_of(results, OPTIONS)
 
 
 CASES = [(name, "exact") for name in FILES]
-CASES += [(name, "textbook") for name in FILES if isinstance(machine_of(name), Machine)]
+CASES += [(name, "textbook") for name in FILES if machine_of(name).is_crank_gear]
 
 
 def named(results):
@@ -61,7 +60,7 @@ def moments(results):
     if results.has_positions:
         degrees = results.grid.degrees.tolist()
     else:
-        material = engine_material if isinstance(results.machine, Machine) else linkage_material
+        material = engine_material if results.machine.is_crank_gear else linkage_material
         groups = material.Material(results, OPTIONS).groups.values()
         degrees = {one.degrees for one in groups if one.degrees is not None}
     return [Moment(CrankGrid.from_degrees, one) for one in degrees] or [Moment(CrankGrid.from_degrees, 0.0)]

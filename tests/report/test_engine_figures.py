@@ -18,7 +18,7 @@ from crankwork.cylinders.engines import inline, radial, vee
 from crankwork.cylinders.torque_harmonics import phase_star
 from crankwork.description.machine_file import read
 from crankwork.kinematics.slider_crank import SliderCrank
-from crankwork.machine import Bearings, Engine, Machine
+from crankwork.machine import Bearings, Drive, Engine
 from crankwork.quantities import LANGUAGES
 from crankwork.report.engine_figure_axes import round_ticks
 from crankwork.report.engine_figure_axes import sign as sign_paper
@@ -46,10 +46,9 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 def _engine(layout: str, **changes: object) -> Results:
     machine = read(ROOT / "examples" / "spark-engine.toml")
-    assert isinstance(machine, Machine)
     method = replace(machine.method, kinematics="exact", rod="rigid", inertia_rod_ratio=None)
-    engine = Engine(LAYOUTS[layout][0], fluctuation=0.01, bearings=Bearings(0.06, 0.03))
-    return analyse(replace(machine, method=method, engine=replace(engine, **changes)))
+    engine = replace(Engine(LAYOUTS[layout][0], bearings=Bearings(0.06, 0.03)), **changes)
+    return analyse(replace(machine, method=method, engine=engine, drive=Drive(fluctuation=0.01)))
 
 
 @pytest.fixture(scope="module", params=list(LAYOUTS))

@@ -14,8 +14,6 @@ import pytest
 from crankwork.analysis import Results, analyse
 from crankwork.description.machine_file import read, read_machine
 from crankwork.errors import CrankworkError, MissingExtraError
-from crankwork.linkage_machine import LinkageMachine
-from crankwork.machine import Machine
 from crankwork.quantities import LANGUAGES, QUANTITIES
 from crankwork.report.figure_data import drawn_from, figure_title
 from crankwork.report.figures import figures
@@ -24,7 +22,7 @@ pytest.importorskip("matplotlib")
 ROOT = Path(__file__).parents[2]
 TEMPLATES = ROOT / "src" / "crankwork" / "description" / "templates"
 FILES = [*sorted((ROOT / "examples").glob("*.toml")), *sorted(TEMPLATES.glob("*.toml"))]
-ENGINES = [path for path in FILES if isinstance(read(path), Machine)]
+ENGINES = [path for path in FILES if read(path).is_crank_gear]
 LINKAGES = [path for path in FILES if path not in ENGINES]
 FORCES = ["piston_forces", "rod_forces", "crankpin_forces", "torque", "crankpin_polar"]
 MOTION = ["kinematics", "brix", "tolle"]
@@ -70,7 +68,7 @@ def test_every_linkage_has_its_plans_and_the_curves_of_what_is_known(path):
         warnings.simplefilter("error")
         drawn = figures(results, language=LANGUAGES[len(path.stem) % 3])
     expected = {"reduced_inertia", "torques"}
-    if isinstance(results.machine, LinkageMachine):
+    if results.machine.linkage is not None:
         expected |= {"position_plans", "velocity_plan", "acceleration_plan", "joint_forces"}
         expected |= {"sliders"} if any(key.startswith("slider_") for key in results.columns) else set()
     assert set(drawn) == expected

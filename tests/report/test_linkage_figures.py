@@ -22,7 +22,7 @@ from crankwork.analysis.skeleton import skeleton
 from crankwork.errors import CrankworkError, MissingExtraError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
-from crankwork.linkage_machine import LinkageMachine
+from crankwork.machine import Machine
 from crankwork.mechanism.catalog import (
     crank_shaper,
     four_bar,
@@ -194,7 +194,7 @@ def test_numbers_follow_the_formula_of_structure():
     found, _ = structure(linkage_from(SHAPER)[0])
     members = skeleton(LINKAGES["described shaper"], found.links).members
     assert {one.name: one.number for one in members} == {"crank": 1, "lever": 2, "link": 3, "block": 4, "ram": 5}
-    machine = LinkageMachine(LINKAGES["described shaper"], linkage_from(SHAPER)[0], 10.0)
+    machine = Machine(LINKAGES["described shaper"], 10.0, linkage=linkage_from(SHAPER)[0])
     assert "4 – block" in _tree(machine).findtext(f"{SVG}desc")
     assert "4 – block" in _tree(LINKAGES["described shaper"], links=found.links).findtext(f"{SVG}desc")
 

@@ -13,15 +13,15 @@ from crankwork.machine import Machine
 from crankwork.method import Method
 
 if TYPE_CHECKING:
-    from crankwork.linkage_machine import AnyMachine
+    from crankwork.machine import Machine
 
 
-def analyse(machine: AnyMachine, grid: CrankGrid | None = None, *, method: Method | None = None) -> Results:
+def analyse(machine: Machine, grid: CrankGrid | None = None, *, method: Method | None = None) -> Results:
     """Return everything a machine does over one cycle.
 
     Parameters
     ----------
-    machine : Machine, LinkageMachine or TabulatedMachine
+    machine : Machine
         What to compute.
     grid : CrankGrid, shape (n,), optional
         Ascending crank angles for the columns, within one cycle; the machine's own table otherwise. [rad]
@@ -40,14 +40,18 @@ def analyse(machine: AnyMachine, grid: CrankGrid | None = None, *, method: Metho
     MethodError
         If a method is asked for that the machine does not have.
     """
-    if isinstance(machine, Machine):
+    if machine.is_crank_gear:
         return analyse_engine(machine, grid, method=method)
     if method is not None and not method.is_exact:
         raise MethodError(f"method {method.name} exists for a slider-crank only; use exact")
     # an engine would wait longer for these rooms than for its results
-    from crankwork.analysis.linkage import analyse_any_linkage  # noqa: PLC0415 - loaded where it is needed
+    if machine.transfer is not None:
+        from crankwork.analysis.tabulated import analyse_tabulated  # noqa: PLC0415 - loaded where it is needed
 
-    return analyse_any_linkage(machine, grid)
+        return analyse_tabulated(machine, machine.transfer)
+    from crankwork.analysis.linkage import analyse_linkage  # noqa: PLC0415 - loaded where it is needed
+
+    return analyse_linkage(machine, grid)
 
 
 def with_method(machine: Machine, name: str) -> Machine:

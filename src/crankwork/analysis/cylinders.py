@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.analysis.solved import Solved, solve_slave
+from crankwork.analysis.solved import SolvedCylinder, solve_slave
 from crankwork.cylinders.articulated import ArticulatedRod
 from crankwork.cylinders.layout import Layout, Place
 from crankwork.dynamics.masses import CrankGearMasses
@@ -24,7 +24,7 @@ class WholeEngine:
 
     machine: Machine
     engine: Engine
-    cylinders: tuple[Solved, ...]
+    cylinders: tuple[SolvedCylinder, ...]
 
     def of(self, number: int, key: str) -> Known:
         """Return a column of a cylinder at the crank angle of cylinder 1, under its key and the number."""
@@ -60,7 +60,7 @@ class WholeEngine:
         return self.engine.layout
 
     @property
-    def master(self) -> Solved:
+    def master(self) -> SolvedCylinder:
         """Cylinder 1."""
         return self.cylinders[0]
 
@@ -76,13 +76,13 @@ class WholeEngine:
         return {pin: tuple(one for one in self.layout.places if one.crankpin == pin) for pin in pins}
 
 
-def whole_engine(solved: Solved) -> WholeEngine:
+def whole_engine(solved: SolvedCylinder) -> WholeEngine:
     """Return the engine that a solved crank gear is the first cylinder of."""
     machine = solved.machine
     engine = machine.engine
     if engine is None:
         raise TypeError("this machine is one crank gear only")
-    kinds: dict[object, Solved] = {}
+    kinds: dict[object, SolvedCylinder] = {}
     for at in range(len(engine.layout.places)):
         kind = _kind(machine, engine, at)
         if kind not in kinds:

@@ -13,7 +13,7 @@ from crankwork.analysis import origins
 from crankwork.analysis.forces import COLUMNS, FORCES, columns
 from crankwork.analysis.motion import HARMONICS, KINEMATICS
 from crankwork.analysis.results import Results
-from crankwork.analysis.solved import Solved, apart, solve
+from crankwork.analysis.solved import SolvedCylinder, apart, solve
 from crankwork.formula.known import Found, Known, given
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.kinematics.crank_grid import CrankGrid
@@ -79,7 +79,7 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
     return with_whole_engine(results, whole)
 
 
-def _followed(solved: Solved) -> tuple[dict[str, Known], dict[str, str]]:
+def _followed(solved: SolvedCylinder) -> tuple[dict[str, Known], dict[str, str]]:
     """Return what the summary is about, of an approximate method with its errors, and what each is an error of."""
     memory, wrong = solved.memory, dict[str, str]()
     found = {key: memory[key] for key in (*_MOVING, *_PUSHING) if key in memory}
@@ -94,7 +94,7 @@ def _followed(solved: Solved) -> tuple[dict[str, Known], dict[str, str]]:
     return found, wrong
 
 
-def _geometry(solved: Solved) -> dict[str, Known]:
+def _geometry(solved: SolvedCylinder) -> dict[str, Known]:
     memory, lengths = solved.memory, solved.lengths
     found = {key: memory[key] for key in ("crank_radius", "rod_length")}
     r, l, e = found["crank_radius"], found["rod_length"], memory["offset"]  # noqa: E741
@@ -108,7 +108,7 @@ def _geometry(solved: Solved) -> dict[str, Known]:
     return found | {key: memory[key] for key in (*of_cylinder, "reciprocating_mass", "rotating_mass") if key in memory}
 
 
-def _motion(solved: Solved, over: OverCycle) -> dict[str, Known]:
+def _motion(solved: SolvedCylinder, over: OverCycle) -> dict[str, Known]:
     memory = solved.memory
     n = origins.revolutions(solved.machine)
     stroke = origins.stroke(solved.moving.lengths)
@@ -126,7 +126,7 @@ def _motion(solved: Solved, over: OverCycle) -> dict[str, Known]:
     return found
 
 
-def _forces(solved: Solved, over: OverCycle) -> dict[str, Known]:
+def _forces(solved: SolvedCylinder, over: OverCycle) -> dict[str, Known]:
     memory, cycle = solved.memory, origins.cycle_angle(solved.machine)
     if "piston_force" not in memory:
         return {}
@@ -155,7 +155,7 @@ def _cycle_values(values: Mapping[str, _Value]) -> dict[str, _Value]:
     return {f"{key}.cycle" if key in own else key: value for key, value in shown.items()}
 
 
-def _checks(solved: Solved, summary: Mapping[str, float]) -> dict[str, float]:
+def _checks(solved: SolvedCylinder, summary: Mapping[str, float]) -> dict[str, float]:
     """Return the residuals of identities between the results, relative to the largest term."""
     if "piston_force" not in solved.memory:
         return {}
@@ -186,14 +186,14 @@ def _checks(solved: Solved, summary: Mapping[str, float]) -> dict[str, float]:
     return result
 
 
-def _allowed(solved: Solved, summary: Mapping[str, float]) -> dict[str, float]:
+def _allowed(solved: SolvedCylinder, summary: Mapping[str, float]) -> dict[str, float]:
     """Return how far the work of the torque may be from that of the gas by the error of the torque that is stated."""
     if "crank_torque_error" not in summary or solved.space is None:
         return {}
     return {"work": summary["crank_torque_error"] * math.radians(solved.machine.cycle) / _moved_work(solved, summary)}
 
 
-def _moved_work(solved: Solved, summary: Mapping[str, float]) -> float:
+def _moved_work(solved: SolvedCylinder, summary: Mapping[str, float]) -> float:
     """Return the most work that the torque could do over a cycle; what it does in the end may be nothing."""
     largest = max(abs(summary["crank_torque_max"]), abs(summary["crank_torque_min"]))
     return largest * math.radians(solved.machine.cycle) or 1.0

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from crankwork.analysis.forces import columns
-from crankwork.analysis.solved import Solved, apart
+from crankwork.analysis.solved import SolvedCylinder, apart
 from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.dynamics.running import Running
@@ -25,7 +25,7 @@ from crankwork.mechanism.mechanism import Body, Crank, body_at
 _STEP, _FIRST = 30.0, 7.0
 
 
-def joint_force_residuals(solved: Solved) -> dict[str, float]:
+def joint_force_residuals(solved: SolvedCylinder) -> dict[str, float]:
     """Return how far torque and side force are from those of the linkage, as a share of the largest or of joint forces.
 
     Nothing for a method that only comes near the motion, and for a rod that hangs on another.
@@ -48,7 +48,7 @@ def joint_force_residuals(solved: Solved) -> dict[str, float]:
     }
 
 
-def _running(solved: Solved, rod: RRP, grid: CrankGrid, gas_force: Array) -> Running:
+def _running(solved: SolvedCylinder, rod: RRP, grid: CrankGrid, gas_force: Array) -> Running:
     machine = solved.machine
     masses = machine.masses or CrankGearMasses()
     mechanism = replace(machine.mechanism, bodies=tuple(_bodies(machine.mechanism.crank, rod, masses)))

@@ -91,7 +91,7 @@ def engine_torque(
     edges, of = np.radians(over.edges), (memory["total_torque"],)
     first = whole.of(1, "crank_torque").key
     one, all_ = (Curve.legendre(edges, over.polynomials(key)) for key in (first, "total_torque"))
-    found, w, engine = excess_work(all_), whole.master.memory["speed"], whole.engine
+    found, w, drive = excess_work(all_), whole.master.memory["speed"], whole.machine.drive
     summary = {"mean_total_torque": over.mean("total_torque", "mean_total_torque")}
     summary |= {key: one for key, one in extremes.items() if key.startswith("total_torque_")}
     excess = summary["excess_work"] = Known(Found(found.work, "range", of), "excess_work")
@@ -100,12 +100,12 @@ def engine_torque(
         work = work_of_mean_torque(mean, origins.cycle_angle(whole.machine))
         between["work_per_cycle"] = work
         summary["energy_fluctuation"] = fluctuation_of_energy(excess, work if mean.value > 0 else -work)
-    own = given("reduced_inertia", engine.inertia, "flywheel.inertia") if engine.inertia else absent("reduced_inertia")
+    own = given("reduced_inertia", drive.inertia, "flywheel.inertia") if drive.inertia else absent("reduced_inertia")
     notices, whole_inertia = [], own
-    if engine.fluctuation is not None:
-        wanted = given("speed_fluctuation", engine.fluctuation, "flywheel.fluctuation")
+    if drive.fluctuation is not None:
+        wanted = given("speed_fluctuation", drive.fluctuation, "flywheel.fluctuation")
         try:
-            check_fluctuation(engine.fluctuation, w.value)
+            check_fluctuation(drive.fluctuation, w.value)
             wheel, needed = _flywheel(excess, wanted, w, own)
             summary["flywheel_inertia"] = wheel
             if wheel.value:

@@ -13,7 +13,7 @@ from crankwork.analysis.motion import (
     inertia_acceleration,
 )
 from crankwork.analysis.results import Results
-from crankwork.analysis.solved import Solved
+from crankwork.analysis.solved import SolvedCylinder
 from crankwork.cylinders.articulated_forces import slave_forces
 from crankwork.dynamics import piston_forces as forces
 from crankwork.dynamics.masses import CrankGearMasses, reciprocating_mass, rotating_mass
@@ -32,7 +32,7 @@ FORCES = (
 COLUMNS = ("crank_angle", *KINEMATICS, "cylinder_volume", *FORCES, "knuckle_side_force", "knuckle_couple")
 
 
-def cylinder_memory(solved: Solved) -> dict[str, Known]:
+def cylinder_memory(solved: SolvedCylinder) -> dict[str, Known]:
     """Return everything about one cylinder by key: motion, gas and forces, each remembering how it came about.
 
     Source: kolchin_demidov_2008, ch. 6 and 7.
@@ -52,7 +52,7 @@ def cylinder_memory(solved: Solved) -> dict[str, Known]:
     return memory
 
 
-def columns(solved: Solved, grid: CrankGrid, keys: Iterable[str] = COLUMNS) -> dict[str, Array]:
+def columns(solved: SolvedCylinder, grid: CrankGrid, keys: Iterable[str] = COLUMNS) -> dict[str, Array]:
     """Return columns of one cylinder at crank angles within one cycle. [SI]
 
     `keys`: which; those that the machine does not have are left out.
@@ -64,13 +64,13 @@ def _by_key(found: Iterable[Known]) -> dict[str, Known]:
     return {one.key: one for one in found}
 
 
-def _masses(solved: Solved, masses: CrankGearMasses, moving: MovingCylinder) -> Iterator[Known]:
+def _masses(solved: SolvedCylinder, masses: CrankGearMasses, moving: MovingCylinder) -> Iterator[Known]:
     found = origins.masses(solved.machine, masses, moving.memory.get("piston_area"), moving.lengths.rod_length)
     piston, crank, small, big, *excess = found
     yield from (piston, small, crank, big, *excess, reciprocating_mass(piston, small), rotating_mass(crank, big))
 
 
-def _axial_forces(solved: Solved, moving: MovingCylinder) -> Iterator[Known]:
+def _axial_forces(solved: SolvedCylinder, moving: MovingCylinder) -> Iterator[Known]:
     """Yield inertia, weight and, with the gas, their sum along the cylinder axis."""
     machine, memory = solved.machine, moving.memory
     inertia, weight = absent("inertia_force"), absent("weight_force")
@@ -91,7 +91,7 @@ def _axial_forces(solved: Solved, moving: MovingCylinder) -> Iterator[Known]:
     yield forces.piston_force(memory.get("gas_force", absent("gas_force")), inertia, weight)
 
 
-def _rod_forces(solved: Solved, moving: MovingCylinder) -> Iterator[Known]:
+def _rod_forces(solved: SolvedCylinder, moving: MovingCylinder) -> Iterator[Known]:
     """Yield what the rod passes on, alone or with the correction couple that makes it a rigid rod, and the torque."""
     memory, (r, l, e), angle = moving.memory, moving.lengths, moving.angle  # noqa: E741
     P, swing, masses = memory["piston_force"], moving.motion.swing, solved.machine.masses
@@ -115,7 +115,7 @@ def _rod_forces(solved: Solved, moving: MovingCylinder) -> Iterator[Known]:
     yield forces.overturning_moment(rod.side, memory["pin_distance"], P, e)
 
 
-def _rotating(solved: Solved, moving: MovingCylinder) -> Iterator[Known]:
+def _rotating(solved: SolvedCylinder, moving: MovingCylinder) -> Iterator[Known]:
     """Yield the inertia force of the rotating mass, and its torque where it has one."""
     machine, memory, angle = solved.machine, moving.memory, moving.angle
     if machine.masses is None:
@@ -128,7 +128,7 @@ def _rotating(solved: Solved, moving: MovingCylinder) -> Iterator[Known]:
         yield forces.rotating_torque(mass, r, g, angle.sin, cos, angle.cos, sin, moving.angular_acceleration)
 
 
-def _slave_forces(solved: Solved, moving: MovingCylinder) -> Iterator[Known]:
+def _slave_forces(solved: SolvedCylinder, moving: MovingCylinder) -> Iterator[Known]:
     """Yield the forces of a cylinder whose rod hangs on the master rod; those on the crankpin come through that."""
     if solved.slave is None or moving.slave is None:
         return
@@ -153,6 +153,6 @@ def force_functions(results: Results) -> dict[str, Array]:
     kolchin_demidov_2008, ch. 7.
     """
     solved = results.solved
-    if not isinstance(solved, Solved):
+    if not isinstance(solved, SolvedCylinder):
         raise MethodError("functions of the rod angle exist for an engine only; give the results of one")
     return columns(solved, results.grid, FACTORS)

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from crankwork.analysis import origins
 from crankwork.analysis.motion import MovingCylinder
-from crankwork.analysis.solved import Solved, WorkingSpace
+from crankwork.analysis.solved import SolvedCylinder, WorkingSpace
 from crankwork.formula.known import Known, absent, given
 from crankwork.loads import gas
 from crankwork.loads.gas import gauge_pressure
 from crankwork.loads.pressure import at_angle, polytrope_origin, remembered_pressure
 
 
-def space_memory(solved: Solved, moving: MovingCylinder) -> dict[str, Known]:
+def space_memory(solved: SolvedCylinder, moving: MovingCylinder) -> dict[str, Known]:
     """Return areas and volumes of the cylinder, as far as they are known (kolchin_demidov_2008, ch. 5)."""
     cylinder, space = solved.machine.cylinder, solved.space
     if cylinder is None:
@@ -33,7 +33,7 @@ def space_memory(solved: Solved, moving: MovingCylinder) -> dict[str, Known]:
     return {one.key: one for one in found}
 
 
-def gas_memory(solved: Solved, space: WorkingSpace, moving: MovingCylinder) -> dict[str, Known]:
+def gas_memory(solved: SolvedCylinder, space: WorkingSpace, moving: MovingCylinder) -> dict[str, Known]:
     """Return volume, pressure and force of the gas (kolchin_demidov_2008, ch. 5 and 7).
 
     `moving`: the motion, with areas and volumes in its memory.
@@ -54,17 +54,17 @@ def gas_memory(solved: Solved, space: WorkingSpace, moving: MovingCylinder) -> d
     return {one.key: one for one in (volume, read, pressure, force)} | _ends_of_polytropes(solved, space, volume)
 
 
-def _ambient(solved: Solved) -> str:
+def _ambient(solved: SolvedCylinder) -> str:
     """Return where the pressure on the crankcase side is stated."""
     is_calculated = solved.machine.gas is not None and solved.machine.gas.calculated is not None
     return "cycle.ambient_pressure" if is_calculated else "gas.ambient"
 
 
-def _rod_diameter(solved: Solved) -> float:
+def _rod_diameter(solved: SolvedCylinder) -> float:
     return solved.machine.cylinder.piston_rod_diameter if solved.machine.cylinder is not None else 0.0
 
 
-def _ends_of_polytropes(solved: Solved, space: WorkingSpace, volume: Known) -> dict[str, Known]:
+def _ends_of_polytropes(solved: SolvedCylinder, space: WorkingSpace, volume: Known) -> dict[str, Known]:
     """Return volume and pressure at the ends of each polytrope of a diagram that was given by its points."""
     given_gas, found = solved.machine.gas, dict[str, Known]()
     if given_gas is None or given_gas.measured is not None or given_gas.calculated is not None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -13,8 +12,8 @@ from numpy.typing import ArrayLike
 from crankwork.analysis.linkage_memory import efficiency_of, linkage_memory, speed_of
 from crankwork.analysis.linkage_speed import transient_summary, turn_of
 from crankwork.analysis.results import Results
-from crankwork.analysis.solved import Notice
-from crankwork.analysis.tabulated import DYNAMICS, analyse_tabulated
+from crankwork.analysis.solved import Notice, Solved
+from crankwork.analysis.tabulated import DYNAMICS
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.routes import ROUTES, by_groups
 from crankwork.dynamics.running import Running
@@ -25,32 +24,17 @@ from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.quality import FourBarType, grashof, limits_of_all, stroke_ratio, transmission_extremes
-from crankwork.linkage_machine import LinkageMachine, TabulatedMachine
 from crankwork.loads.load import applied_loads
 from crankwork.locale import Refusal
+from crankwork.machine import Machine
 from crankwork.mechanism.dyads import RRP, RRR
 from crankwork.mechanism.structure import mobility
-from crankwork.method import Method
 
 _DENSE_STEP = 1.0
 _MOST_COEFFICIENTS = 10_000_000
 
 
-@dataclass(frozen=True)
-class SolvedLinkage:
-    """A linkage made ready: angular speed with the method's own pi. [rad/s]"""
-
-    machine: LinkageMachine
-    method: Method
-    speed: float
-
-
-def solve_linkage(machine: LinkageMachine) -> SolvedLinkage:
-    """Return a linkage made ready."""
-    return SolvedLinkage(machine, machine.method, machine.speed * machine.method.pi / math.pi)
-
-
-def reachable(machine: LinkageMachine, grid: CrankGrid) -> tuple[CrankGrid, tuple[Notice, ...]]:
+def reachable(machine: Machine, grid: CrankGrid) -> tuple[CrankGrid, tuple[Notice, ...]]:
     """Return the crank angles that the linkage can reach, and a notice if those are not all."""
     try:
         linkage_motion(machine.mechanism, grid)
@@ -65,7 +49,7 @@ def reachable(machine: LinkageMachine, grid: CrankGrid) -> tuple[CrankGrid, tupl
     return grid, ()
 
 
-def four_bar_type(machine: LinkageMachine) -> FourBarType | Literal[""]:
+def four_bar_type(machine: Machine) -> FourBarType | Literal[""]:
     """Return the type of a four-bar linkage by Grashof, empty for any other linkage."""
     crank, ground = machine.mechanism.crank, machine.mechanism.ground
     match machine.mechanism.dyads:
@@ -77,20 +61,20 @@ def four_bar_type(machine: LinkageMachine) -> FourBarType | Literal[""]:
     return ""
 
 
-def running_at(solved: SolvedLinkage, motion: Motion) -> Running:
+def running_at(solved: Solved, motion: Motion) -> Running:
     """Return the linkage at work, with its loads."""
     machine = solved.machine
     loads = applied_loads(machine.mechanism, motion, machine.loads)
     return Running(machine.mechanism, motion, solved.speed, loads, machine.angular_acceleration)
 
 
-def analyse_linkage(machine: LinkageMachine, grid: CrankGrid | None = None) -> Results:
+def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
     """Return everything a linkage does over one revolution.
 
     Columns, summary, checks and notices; only the angles that the linkage reaches. `grid`: ascending crank angles
     within one revolution; the machine's own table otherwise [rad].
     """
-    solved = solve_linkage(machine)
+    solved = Solved(machine, machine.method, machine.speed * machine.method.pi / math.pi)
     own_table = grid is None
     if grid is None:
         grid = CrankGrid.steps(machine.table_step, 360.0, special=machine.table_special)
@@ -106,7 +90,7 @@ def analyse_linkage(machine: LinkageMachine, grid: CrankGrid | None = None) -> R
     over = OverCycle({key: memory[key] for key in _followed(memory)}, CrankGrid.from_degrees, high - low, low)
     summary = _summary(solved, over, memory, is_whole=not notices)
     checks = _checks(solved, dense)
-    between = {"mobility": mobility(machine.linkage)}
+    between = {"mobility": mobility(machine.drawn)}
     if not notices and "reduced_inertia" in memory:
         turn = turn_of(machine, over, {**memory, **summary})
         memory |= turn.columns
@@ -121,20 +105,13 @@ def analyse_linkage(machine: LinkageMachine, grid: CrankGrid | None = None) -> R
     return Results(solved, grid, columns, values, checks, notices, _groups(columns), memory=memory)
 
 
-def analyse_any_linkage(machine: LinkageMachine | TabulatedMachine, grid: CrankGrid | None = None) -> Results:
-    """Return the results of a linkage, or of a table of transfer functions at its own positions."""
-    return analyse_linkage(machine, grid) if isinstance(machine, LinkageMachine) else analyse_tabulated(machine)
-
-
 def _followed(memory: Mapping[str, Known]) -> list[str]:
     """Return the columns that single values are taken from."""
     kinds = ("slider_displacement", "link_angle", "joint_force", "slider_velocity")
     return [key for key in memory if key in DYNAMICS or key.partition(".")[0] in kinds]
 
 
-def _summary(
-    solved: SolvedLinkage, over: OverCycle, memory: Mapping[str, Known], *, is_whole: bool
-) -> dict[str, Known]:
+def _summary(solved: Solved, over: OverCycle, memory: Mapping[str, Known], *, is_whole: bool) -> dict[str, Known]:
     machine = solved.machine
     result = {"rotational_speed": given("rotational_speed", machine.speed, "crank.speed"), "speed": speed_of(machine)}
     if machine.angular_acceleration:
@@ -163,7 +140,7 @@ def _summary(
     return {key: one.named(key) for key, one in result.items()}
 
 
-def _quality(machine: LinkageMachine, memory: Mapping[str, Known]) -> dict[str, Known]:
+def _quality(machine: Machine, memory: Mapping[str, Known]) -> dict[str, Known]:
     """Return time ratios and the least transmission angles of a linkage that turns fully."""
     mechanism, result = machine.mechanism, {}
     groups = [index for index, dyad in enumerate(mechanism.dyads) if isinstance(dyad, RRR | RRP)]
@@ -182,14 +159,14 @@ def _quality(machine: LinkageMachine, memory: Mapping[str, Known]) -> dict[str, 
     return result
 
 
-def _checks(solved: SolvedLinkage, grid: CrankGrid) -> dict[str, float]:
+def _checks(solved: Solved, grid: CrankGrid) -> dict[str, float]:
     """Return how far four independent routes to the balancing torque differ, relative to the forces."""
     if not (solved.machine.mechanism.bodies or solved.machine.loads):
         return {}
     running = running_at(solved, linkage_motion(solved.machine.mechanism, grid))
     found = joint_forces(running)
     reference = found.balancing_torque
-    some = _every(grid, len(solved.machine.linkage.members))
+    some = _every(grid, len(solved.machine.drawn.members))
     part = running_at(solved, linkage_motion(solved.machine.mechanism, grid[some]))
     # forces that do no work balance each other to their own rounding, so a torque of zero is measured by them
     turning = solved.machine.mechanism.crank.radius * max(float(np.max(pin.resultant)) for pin in found.pins.values())
@@ -210,7 +187,7 @@ class TorqueByRoutes(NamedTuple):
 
 def torque_by_routes(results: Results, degrees: ArrayLike) -> TorqueByRoutes:
     """Return the balancing torque by five routes."""
-    solved: SolvedLinkage = results.solved
+    solved: Solved = results.solved
     running = running_at(solved, linkage_motion(solved.machine.mechanism, CrankGrid.from_degrees(degrees)))
     torques = {"by_groups": by_groups(running), **{name: route(running) for name, route in ROUTES.items()}}
     return TorqueByRoutes(torques, differences(list(torques.values())))

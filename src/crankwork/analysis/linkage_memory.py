@@ -17,11 +17,11 @@ from crankwork.formula.known import Found, Known, Pieces, absent, given
 from crankwork.kinematics import transfer as rates
 from crankwork.kinematics.memory import angle_of, course_of, given_mechanism, remembered_motion
 from crankwork.kinematics.motion import Motion
-from crankwork.linkage_machine import Drive, LinkageMachine, TabulatedMachine
 from crankwork.loads.load import applied_loads
+from crankwork.machine import Drive, Machine
 
 
-def linkage_memory(machine: LinkageMachine, moved: Motion) -> dict[str, Known]:
+def linkage_memory(machine: Machine, moved: Motion) -> dict[str, Known]:
     """Return all columns of a linkage (artobolevsky_1988, ch. 13-16).
 
     Columns by key; those of points, links, sliders and joints are `key.NAME`. `moved`: its motion in numbers, over
@@ -38,7 +38,7 @@ def linkage_memory(machine: LinkageMachine, moved: Motion) -> dict[str, Known]:
     return {key: one.named(key) for key, one in columns.items()}
 
 
-def speed_of(machine: LinkageMachine | TabulatedMachine) -> Known:
+def speed_of(machine: Machine) -> Known:
     """Return the angular speed of the crank, with the method's own pi."""
     if machine.method.pi == math.pi and not machine.stated:
         return given("speed", machine.speed, "crank.speed")
@@ -61,7 +61,7 @@ def _stated(key: str, value: float, path: str) -> Known:
     return given(key, value, path) if value else absent(key)
 
 
-def _moving(machine: LinkageMachine, motion: Motion, w: Known, eps: Known) -> Iterator[tuple[str, Known]]:
+def _moving(machine: Machine, motion: Motion, w: Known, eps: Known) -> Iterator[tuple[str, Known]]:
     """Yield positions, velocities and accelerations of everything that moves."""
     for name, (x, y) in motion.points.items():
         if name in machine.mechanism.ground:
@@ -83,7 +83,7 @@ def _moving(machine: LinkageMachine, motion: Motion, w: Known, eps: Known) -> It
         yield f"slider_acceleration.{name}", rates.slider_acceleration(one.position_2, w, one.position_1, eps)
 
 
-def _at_work(machine: LinkageMachine, motion: Motion, w: Known, eps: Known) -> dict[str, Known]:
+def _at_work(machine: Machine, motion: Motion, w: Known, eps: Known) -> dict[str, Known]:
     """Return reduction, torques and forces in joints."""
     mechanism = given_mechanism(machine.mechanism, machine.linkage)
     loads = applied_loads(mechanism, motion, machine.loads)
@@ -118,7 +118,7 @@ def _driving(static: Known, dynamic: Known, balancing: Known, drive: Drive, moti
     return Known(Pieces(ends, tuple(brake if one else motor for one in is_brake)), "driving_torque")
 
 
-def _forces(machine: LinkageMachine, found: JointForces) -> Iterator[tuple[str, Known]]:
+def _forces(machine: Machine, found: JointForces) -> Iterator[tuple[str, Known]]:
     """Yield the forces in joints and guides; the joint of crank and ground has the name of its fixed point."""
     crank = machine.mechanism.crank
     pivot = next((name for name, place in machine.mechanism.ground.items() if place == crank.pivot), "")

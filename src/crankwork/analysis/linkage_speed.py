@@ -15,8 +15,8 @@ from crankwork.formula.known import Found, Known, Table, absent, given
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.linkage_machine import LinkageMachine
 from crankwork.loads.spring import Spring
+from crankwork.machine import Machine
 from crankwork.shaft.curve import AtDegrees, Curve
 from crankwork.shaft.energy_machine import energy_machine
 from crankwork.shaft.energy_motion import moment_after
@@ -53,7 +53,7 @@ class Turn(NamedTuple):
     between: dict[str, Known]
 
 
-def turn_of(machine: LinkageMachine, over: OverCycle, memory: Mapping[str, Known]) -> Turn:
+def turn_of(machine: Machine, over: OverCycle, memory: Mapping[str, Known]) -> Turn:
     """Return flywheel, motor and true speed of a linkage, as far as they are asked for."""
     drive, w = machine.drive, speed_of(machine)
     turn = Turn({}, {}, {}, (), {})
@@ -153,7 +153,7 @@ def _wheel(one: Flywheel, inertia: Curve, w: Known, wanted: Known, of: tuple[Kno
 
 
 def _driven(
-    machine: LinkageMachine, memory: Mapping[str, Known], motor: GearedMotor, curves: tuple[Curve, Curve], added: float
+    machine: Machine, memory: Mapping[str, Known], motor: GearedMotor, curves: tuple[Curve, Curve], added: float
 ) -> tuple[dict[str, Known], tuple[Notice, ...]]:
     """Return the power that the motor needs and the speed that it settles at."""
     drive, w, (inertia, load) = machine.drive, speed_of(machine), curves
@@ -187,7 +187,7 @@ def _steady(
     return {}, (Notice("stalls", {"torque": greatest, "angle": float(np.degrees(stalls))}),)
 
 
-def transient_summary(machine: LinkageMachine) -> dict[str, Known]:
+def transient_summary(machine: Machine) -> dict[str, Known]:
     """Return crank angle and speed after the time of a transient.
 
     Values by key; none without a transient.

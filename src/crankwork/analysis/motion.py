@@ -17,7 +17,7 @@ from crankwork.machine import Machine
 from crankwork.method import Method
 
 if TYPE_CHECKING:
-    from crankwork.analysis.solved import Solved
+    from crankwork.analysis.solved import SolvedCylinder
 
 KINEMATICS = (
     "piston_displacement", "piston_velocity", "piston_acceleration",
@@ -79,7 +79,7 @@ _SWING = ("rod_sine", "rod_cosine", "crank_rod_sine", "crank_rod_cosine")
 _PISTON = ("piston_displacement", "piston_transfer_1", "piston_transfer_2")
 
 
-def inertia_acceleration(solved: Solved) -> Known:
+def inertia_acceleration(solved: SolvedCylinder) -> Known:
     """Return the acceleration behind the inertia force, with its own rod ratio where a document has one."""
     moving = solved.moving
     ratio = solved.method.inertia_rod_ratio
@@ -96,7 +96,7 @@ def inertia_acceleration(solved: Solved) -> Known:
     return acceleration.named("inertia_acceleration")
 
 
-def harmonic_memory(solved: Solved) -> dict[str, Known]:
+def harmonic_memory(solved: SolvedCylinder) -> dict[str, Known]:
     """Return the first- and second-order parts of displacement, velocity and acceleration: of the textbook its own two.
 
     Source: kolchin_demidov_2008, ch. 6; taylor_1985, vol. 2, ch. 8.
@@ -118,7 +118,7 @@ def harmonic_memory(solved: Solved) -> dict[str, Known]:
     return found
 
 
-def _order(solved: Solved, lengths: SliderCrank, angle: Value, order: int) -> Transfer:
+def _order(solved: SolvedCylinder, lengths: SliderCrank, angle: Value, order: int) -> Transfer:
     if solved.method.kinematics == "textbook" and lengths.offset.is_absent:
         first = lengths.crank_radius
         coefficient = first if order == 1 else first * lengths.rod_ratio

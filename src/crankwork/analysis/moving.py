@@ -14,7 +14,6 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.piston import as_slider_crank
 from crankwork.kinematics.transfer import PointMotion
-from crankwork.linkage_machine import LinkageMachine
 from crankwork.machine import Machine
 from crankwork.mechanism.mechanism import Mechanism
 
@@ -83,7 +82,7 @@ def transfer_ratios(mechanism: Mechanism, degrees: ArrayLike) -> dict[str, Array
     return ratios | {f"velocity_ratio.{name}": one.position_1 for name, one in found.sliders.items()}
 
 
-def reached_angles(machine: LinkageMachine, step: float) -> tuple[Array, bool]:
+def reached_angles(machine: Machine, step: float) -> tuple[Array, bool]:
     """Return crank angles of a revolution as far as a linkage reaches them [deg], and whether it reaches all.
 
     `step`: step [deg].
@@ -92,9 +91,9 @@ def reached_angles(machine: LinkageMachine, step: float) -> tuple[Array, bool]:
     return grid.degrees, not notices
 
 
-def drawn_mechanism(machine: Machine | LinkageMachine) -> Mechanism:
+def drawn_mechanism(machine: Machine) -> Mechanism:
     """Return the mechanism to draw: of an engine with several rods on a crankpin, all of these."""
-    lengths = as_slider_crank(machine.mechanism) if isinstance(machine, Machine) else None
-    if not isinstance(machine, Machine) or machine.engine is None or lengths is None:
+    lengths = as_slider_crank(machine.mechanism) if machine.engine is not None else None
+    if machine.engine is None or lengths is None:
         return machine.mechanism
     return throw_mechanism(machine.engine.layout, lengths, machine.engine.slaves)

@@ -19,7 +19,7 @@ from crankwork.method import Method
 from crankwork.units import UNITS
 
 if TYPE_CHECKING:
-    from crankwork.linkage_machine import AnyMachine
+    from crankwork.machine import Machine
 
 _SAME = 1e-12
 
@@ -67,12 +67,12 @@ def stroke(lengths: SliderCrank) -> Known:
     return found
 
 
-def revolutions(machine: AnyMachine) -> Known:
+def revolutions(machine: Machine) -> Known:
     """Return the speed of the crank in revolutions per minute."""
     return given("rotational_speed", machine.speed * 30 / math.pi, "crank.speed", "rpm")
 
 
-def speed(machine: AnyMachine, method: Method) -> Known:
+def speed(machine: Machine, method: Method) -> Known:
     """Return the angular speed of the crank: stated, or of its revolutions with the method's own pi."""
     stated, found = _stated(machine, "crank.speed"), angular_speed(method.pi, revolutions(machine))
     in_radians = stated is not None and UNITS[stated.unit].factor == 1.0
@@ -139,7 +139,7 @@ def _excess(machine: Machine, mass: Known, centre: Known, length: Known, excess:
     return _checked(rod_inertia_excess(own, mass, centre, length), excess)
 
 
-def _stated(machine: AnyMachine, path: str) -> Stated | None:
+def _stated(machine: Machine, path: str) -> Stated | None:
     return machine.stated.get(path)
 
 

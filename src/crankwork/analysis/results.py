@@ -22,7 +22,7 @@ from crankwork.method import Method
 from crankwork.quantities import QUANTITIES
 
 if TYPE_CHECKING:
-    from crankwork.linkage_machine import AnyMachine
+    from crankwork.machine import Machine
 
 
 # a residual above this is more than rounding
@@ -46,7 +46,7 @@ class Results:
 
     Parameters
     ----------
-    solved : Solved, SolvedLinkage or SolvedTable
+    solved : Solved
         The machine and the method that made the results.
     grid : CrankGrid, shape (n,)
         Crank angles of the columns. [rad]
@@ -81,9 +81,9 @@ class Results:
     memory: Mapping[str, Known] = field(default_factory=dict)
 
     @property
-    def machine(self) -> AnyMachine:
+    def machine(self) -> Machine:
         """The machine."""
-        machine: AnyMachine = self.solved.machine
+        machine: Machine = self.solved.machine
         return machine
 
     @property

@@ -60,16 +60,21 @@ class WorkingSpace(NamedTuple):
 
 @dataclass(frozen=True)
 class Solved:
-    """A machine made ready for one method: lengths, speed and diagram known.
-
-    `speed` is the angular speed with the method's own pi [rad/s]; `moving` the remembered motion; `slave` the
-    articulated rod of a cylinder that hangs on the master rod.
-    """
+    """A machine made ready for one method: angular speed with the method's own pi. [rad/s]"""
 
     machine: Machine
     method: Method
-    lengths: SliderCrank
     speed: float
+
+
+@dataclass(frozen=True)
+class SolvedCylinder(Solved):
+    """A crank gear made ready: its lengths and its diagram known.
+
+    `moving` is the remembered motion; `slave` the articulated rod of a cylinder that hangs on the master rod.
+    """
+
+    lengths: SliderCrank
     space: WorkingSpace | None
     moving: MovingCylinder = field(compare=False)
     notices: tuple[Notice, ...] = ()
@@ -104,7 +109,7 @@ class Solved:
         return found.stroke, found.top_angle, found.bottom_angle
 
 
-def solve(machine: Machine, method: Method) -> Solved:
+def solve(machine: Machine, method: Method) -> SolvedCylinder:
     """Return a machine made ready for a method.
 
     Lengths, angular speed and the solved indicator diagram.
@@ -123,11 +128,11 @@ def solve(machine: Machine, method: Method) -> Solved:
         notices.append(Notice("ambient", {"pressure": machine.gas.ambient / 1e6}))
     if machine.masses is not None and machine.masses.rod_inertia_excess and method.rod != "rigid":
         notices.append(Notice("no_couple", {}))
-    solved = Solved(machine, method, lengths, float(speed), None, moving_cylinder(machine, method, lengths))
+    solved = SolvedCylinder(machine, method, float(speed), lengths, None, moving_cylinder(machine, method, lengths))
     return _with_space(solved, notices)
 
 
-def solve_slave(solved: Solved, slave: ArticulatedRod) -> Solved:
+def solve_slave(solved: SolvedCylinder, slave: ArticulatedRod) -> SolvedCylinder:
     """Return a cylinder of the same engine whose rod hangs on the master rod.
 
     The same machine with the stroke, dead centres and diagram of that rod.
@@ -136,7 +141,7 @@ def solve_slave(solved: Solved, slave: ArticulatedRod) -> Solved:
     return _with_space(replace(solved, slave=slave, moving=moving, space=None, notices=()), [])
 
 
-def _with_space(solved: Solved, notices: list[Notice]) -> Solved:
+def _with_space(solved: SolvedCylinder, notices: list[Notice]) -> SolvedCylinder:
     """Return a cylinder with its working space, if it has one."""
     machine, method = solved.machine, solved.method
     gas, cylinder = machine.gas, machine.cylinder

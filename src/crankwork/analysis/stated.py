@@ -7,11 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.linkage_machine import LinkageMachine
 from crankwork.loads.load import Load
 from crankwork.loads.process import ForceOnPoint, ProcessForce, ProcessForceAtPoint, TorqueOnLink
 from crankwork.loads.spring import SliderSpring, Spring
 from crankwork.loads.weight import Weight
+from crankwork.machine import Machine
 
 
 class StatedLoad(NamedTuple):
@@ -23,7 +23,7 @@ class StatedLoad(NamedTuple):
     amounts: Mapping[str, tuple[float | None, str]]
 
 
-def stated_loads(machine: LinkageMachine) -> tuple[StatedLoad, ...]:
+def stated_loads(machine: Machine) -> tuple[StatedLoad, ...]:
     """Return the loads of a linkage as its description states them."""
     return tuple(_stated(one) for one in machine.loads)
 

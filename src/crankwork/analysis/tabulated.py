@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from crankwork.analysis.linkage_memory import efficiency_of, speed_of
 from crankwork.analysis.results import Results
-from crankwork.analysis.solved import Notice
+from crankwork.analysis.solved import Notice, Solved
 from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor
 from crankwork.dynamics.force_parts import (
     balancing_torque_of_parts,
@@ -24,33 +24,23 @@ from crankwork.dynamics.tabulated import TabulatedBody, difference_derivative, r
 from crankwork.formula.known import Found, Known, OfAngle, Pieces, Table, absent, given, total
 from crankwork.formula.replay import Program, replay
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.linkage_machine import TabulatedMachine
-from crankwork.method import Method
+from crankwork.machine import Machine, TransferTable
 
 DYNAMICS = (
     "reduced_inertia", "reduced_inertia_1", "static_torque", "dynamic_torque", "balancing_torque", "driving_torque",
 )  # fmt: skip
 
 
-@dataclass(frozen=True)
-class SolvedTable:
-    """A tabulated machine made ready: angular speed with the method's own pi. [rad/s]"""
-
-    machine: TabulatedMachine
-    method: Method
-    speed: float
-
-
-def analyse_tabulated(machine: TabulatedMachine) -> Results:
+def analyse_tabulated(machine: Machine, table: TransferTable) -> Results:
     """Return reduced inertia and torques at the positions of a table (artobolevsky_1988, ch. 15 and 16)."""
-    solved = SolvedTable(machine, machine.method, machine.speed * machine.method.pi / math.pi)
-    grid = CrankGrid.from_degrees([round(math.degrees(one), 9) for one in machine.angles])
-    memory = _memory(machine, grid)
+    solved = Solved(machine, machine.method, machine.speed * machine.method.pi / math.pi)
+    grid = CrankGrid.from_degrees([round(math.degrees(one), 9) for one in table.angles])
+    memory = _memory(machine, table, grid)
     columns = Program(memory)(grid)
     summary = _summary(machine, columns, memory)
     values = {key: one.value for key, one in summary.items()}
     groups = {"dynamics": DYNAMICS}
-    return Results(solved, grid, columns, values, {}, _notices(machine), groups, memory={**memory, **summary})
+    return Results(solved, grid, columns, values, {}, _notices(machine, table), groups, memory={**memory, **summary})
 
 
 @dataclass(frozen=True)
@@ -80,7 +70,7 @@ class StatedRows(Rows):
         return given("", self.values[at], f"{self.path}[{at + 1}]")
 
 
-def _memory(machine: TabulatedMachine, grid: CrankGrid) -> dict[str, Known]:
+def _memory(machine: Machine, table: TransferTable, grid: CrankGrid) -> dict[str, Known]:
     """Return the columns of a table."""
 
     def row(key: str, values: Iterable[float], path: str = "", of: tuple[Known, ...] = ()) -> Known:
@@ -102,12 +92,12 @@ def _memory(machine: TabulatedMachine, grid: CrankGrid) -> dict[str, Known]:
         found: Known = reduced_inertia_of_ratios(mass, velocity, inertia, rotation)
         return found.named(f"reduced_inertia.{body.name}")
 
-    w, inertia = speed_of(machine), total("reduced_inertia", [part(one) for one in machine.bodies])
+    w, inertia = speed_of(machine), total("reduced_inertia", [part(one) for one in table.bodies])
     memory = {"crank_angle": Known(OfAngle("angle"), "crank_angle"), "reduced_inertia": inertia}
-    memory["reduced_inertia_1"] = change = _change(machine, grid, inertia, row).named("reduced_inertia_1")
+    memory["reduced_inertia_1"] = change = _change(table, grid, inertia, row).named("reduced_inertia_1")
     dynamic: Known = dynamic_torque(w, change, absent("reduced_inertia"), absent("angular_acceleration"))
     memory |= {"kinetic_energy": kinetic_energy(inertia, w), "dynamic_torque": dynamic.named("dynamic_torque")}
-    static = _static(machine, dynamic.named("dynamic_torque"), row)
+    static = _static(table, dynamic.named("dynamic_torque"), row)
     if static is None:
         return memory
     balancing: Known = balancing_torque_of_parts(static, memory["dynamic_torque"])
@@ -119,17 +109,17 @@ def _memory(machine: TabulatedMachine, grid: CrankGrid) -> dict[str, Known]:
     return memory | {"static_torque": static, "balancing_torque": balancing, "driving_torque": driving}
 
 
-def _change(machine: TabulatedMachine, grid: CrankGrid, inertia: Known, row: Callable[..., Known]) -> Known:
+def _change(table: TransferTable, grid: CrankGrid, inertia: Known, row: Callable[..., Known]) -> Known:
     """Return the derivative of the reduced inertia: of the document, by differences, or of all positions at once."""
     key = "reduced_inertia_1"
-    if machine.reduced_inertia_1 is not None:
-        return row(key, machine.reduced_inertia_1, "transfer.reduced_inertia_1")
+    if table.reduced_inertia_1 is not None:
+        return row(key, table.reduced_inertia_1, "transfer.reduced_inertia_1")
     column, of = replay(inertia, grid), (inertia,)
-    if machine.differences == "spectral":
+    if table.differences == "spectral":
         return row(key, difference_derivative(grid.angle, column, "spectral"), of=of)
     ahead = row("reduced_inertia.next", np.roll(column, -1), of=of)
     step = np.append(np.diff(grid.angle), grid.angle[0] + 2 * np.pi - grid.angle[-1])
-    if machine.differences == "forward":
+    if table.differences == "forward":
         forward: Known = forward_difference(ahead, inertia, row("crank_angle.step", step))
         return forward
     behind = row("reduced_inertia.previous", np.roll(column, 1), of=of)
@@ -137,18 +127,18 @@ def _change(machine: TabulatedMachine, grid: CrankGrid, inertia: Known, row: Cal
     return central
 
 
-def _static(machine: TabulatedMachine, dynamic: Known, row: Callable[..., Known]) -> Known | None:
+def _static(table: TransferTable, dynamic: Known, row: Callable[..., Known]) -> Known | None:
     """Return the static torque, given or left of the balancing torque."""
-    if machine.static_torque is not None:
-        return row("static_torque", machine.static_torque, "transfer.static_torque")
-    if machine.balancing_torque is not None:
-        balancing = row("balancing_torque", machine.balancing_torque, "transfer.balancing_torque")
+    if table.static_torque is not None:
+        return row("static_torque", table.static_torque, "transfer.static_torque")
+    if table.balancing_torque is not None:
+        balancing = row("balancing_torque", table.balancing_torque, "transfer.balancing_torque")
         left: Known = static_torque_of_balancing(balancing, dynamic)
         return left.named("static_torque")
     return None
 
 
-def _summary(machine: TabulatedMachine, columns: Mapping[str, Array], memory: Mapping[str, Known]) -> dict[str, Known]:
+def _summary(machine: Machine, columns: Mapping[str, Array], memory: Mapping[str, Known]) -> dict[str, Known]:
     result = {"rotational_speed": given("rotational_speed", machine.speed, "crank.speed"), "speed": speed_of(machine)}
     if machine.drive.efficiency != 1:
         result["efficiency"] = efficiency_of(machine.drive)
@@ -161,12 +151,12 @@ def _summary(machine: TabulatedMachine, columns: Mapping[str, Array], memory: Ma
     return {key: one.named(key) for key, one in result.items()}
 
 
-def _notices(machine: TabulatedMachine) -> tuple[Notice, ...]:
-    notices = [Notice("positions", {"count": len(machine.angles)})]
-    if machine.reduced_inertia_1 is not None:
+def _notices(machine: Machine, table: TransferTable) -> tuple[Notice, ...]:
+    notices = [Notice("positions", {"count": len(table.angles)})]
+    if table.reduced_inertia_1 is not None:
         notices.append(Notice("given_derivative", {}))
-    elif machine.differences != "spectral":
-        notices.append(Notice("differences", {"scheme": machine.differences}))
+    elif table.differences != "spectral":
+        notices.append(Notice("differences", {"scheme": table.differences}))
     if machine.drive.exact_efficiency is not None:
         notices.append(Notice("rounded_efficiency", {
             "used": machine.drive.efficiency, "exact": machine.drive.exact_efficiency,

@@ -28,13 +28,13 @@ from crankwork.analysis.engine_torque import (
     torque_memory,
 )
 from crankwork.analysis.results import Listing, Results
-from crankwork.analysis.solved import Notice, Solved
+from crankwork.analysis.solved import Notice, SolvedCylinder
 from crankwork.cylinders.engines import inline
 from crankwork.formula.known import Known
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.machine import Engine, Machine
+from crankwork.machine import Engine
 
 _TORQUES = ("crank_torque.", "total_torque", "journal_torque.", "crankpin_torque.")
 _WHOLE_VALUES = ("cylinder_count", "displacement", "engine_indicated_power")
@@ -58,7 +58,7 @@ class WholeMemory(NamedTuple):
     @classmethod
     def of(
         cls,
-        solved: Solved,
+        solved: SolvedCylinder,
         beside: Mapping[str, Known] = MappingProxyType({}),
         size_of: Mapping[str, str] = MappingProxyType({}),
     ) -> WholeMemory:
@@ -175,7 +175,7 @@ _FOUR_STROKES = 720.0
 def as_engine(results: Results) -> Results:
     """Return results with those of the whole engine; a crank gear of its own is an engine of one cylinder."""
     machine = results.machine
-    if not isinstance(machine, Machine) or machine.engine is not None or "crank_torque" not in results.columns:
+    if not machine.is_crank_gear or machine.engine is not None or "crank_torque" not in results.columns:
         return results
     layout, notices = inline(1, (1,), strokes=4 if machine.cycle == _FOUR_STROKES else 2)
     if layout.cycle != machine.cycle:

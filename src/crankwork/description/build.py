@@ -15,7 +15,7 @@ from crankwork.loads.gas import piston_area
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.loads.measured import MeasuredPressure
 from crankwork.locale import Refusal
-from crankwork.machine import Cylinder, Gas, Machine
+from crankwork.machine import Cylinder, Drive, Gas, Machine
 from crankwork.mechanism.mechanism import slider_crank
 from crankwork.method import EXACT, STANDARD_GRAVITY, Method
 from crankwork.units import UNITS
@@ -42,7 +42,7 @@ def build_machine(values: Mapping[str, Any], reader: Reader, read_measured: Read
     _check_clearance(cylinder, lengths, reader)
     masses = _masses(values, lengths, cylinder, method, reader)
     gas = calculated.gas if calculated else _gas(values.get("gas"), cylinder, reader, read_measured)
-    table = values.get("table", {})
+    table, flywheel = values.get("table", {}), values.get("flywheel", {})
     special = [math.degrees(angle.value) for angle in table.get("special_angles", []) if angle]
     is_whole = not _ENGINE_TABLES.isdisjoint(values)
     cycle = gas.cycle if gas else 180.0 * values.get("engine", {}).get("strokes", 4) if is_whole else 360.0
@@ -72,6 +72,7 @@ def build_machine(values: Mapping[str, Any], reader: Reader, read_measured: Read
         table_step=round(math.degrees(_value(table, "step", math.radians(10.0))), 9),
         table_special=tuple(round(angle, 9) for angle in special),
         engine=engine,
+        drive=Drive(inertia=_value(flywheel, "inertia"), fluctuation=flywheel.get("fluctuation")),
         stated=stated,
     )
 

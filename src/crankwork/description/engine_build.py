@@ -58,7 +58,7 @@ def build_engine(
         return None
     _check_places(layout, table, reader)
     sizes = values.get("bearings", {})
-    balance, flywheel = values.get("balance", {}), values.get("flywheel", {})
+    balance = values.get("balance", {})
     if sizes.get("counterweight") and sizes["counterweight"].value and balance.get("rotating_share"):
         reader.complain("bearings.counterweight", Refusal("counterweight_twice"))
     return Engine(
@@ -69,8 +69,6 @@ def build_engine(
         rotating_share=balance.get("rotating_share", 0.0),
         reciprocating_share=balance.get("reciprocating_share", 0.0),
         balance_shafts=tuple(dict.fromkeys(balance.get("shafts", ()))),
-        fluctuation=flywheel.get("fluctuation"),
-        inertia=_value(flywheel, "inertia") or 0.0,
         notices=tuple((one.code, one.values) for one in notices),
     )
 

@@ -24,19 +24,19 @@ from crankwork.kinematics.assembly import unassembled
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.placement import place
-from crankwork.linkage_machine import Drive, LinkageMachine, TabulatedMachine, Transient
 from crankwork.loads.load import Load, applied_loads
 from crankwork.loads.process import ForceOnPoint, ProcessForce, TorqueOnLink
 from crankwork.loads.spring import SliderSpring, Spring
 from crankwork.loads.table import Table as LoadTable
 from crankwork.loads.weight import Weight
 from crankwork.locale import Refusal
+from crankwork.machine import Drive, Machine, TransferTable, Transient
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.decomposition import mechanism_of
 from crankwork.mechanism.description import linkage_from
 from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.linkage import Linkage
-from crankwork.mechanism.mechanism import Mechanism
+from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.shaft.motor import AsynchronousMotor, GearedMotor
 
 _GEOMETRY = ("fixed_points", "crank", "links", "guides", "sliders", "branch", "positions")
@@ -56,7 +56,7 @@ _LOAD_KEYS = {
 }
 
 
-def build_linkage(values: Mapping[str, Any], reader: Reader) -> LinkageMachine | None:
+def build_linkage(values: Mapping[str, Any], reader: Reader) -> Machine | None:
     """Return the linkage machine, or None after complaints."""
     if reader.problems:
         return None
@@ -80,7 +80,7 @@ def build_linkage(values: Mapping[str, Any], reader: Reader) -> LinkageMachine |
     if values.get("method", {}).get("weights"):
         loads = (*loads, Weight(method.gravity))
     crank, table = values["crank"], values.get("table", {})
-    machine = LinkageMachine(
+    machine = Machine(
         mechanism=mechanism,
         linkage=linkage,
         speed=crank_speed(crank["speed"], method),
@@ -147,7 +147,7 @@ def _settling(linkage: Linkage, mechanism: Mechanism) -> set[str]:
     return found
 
 
-def _moves(machine: LinkageMachine, reader: Reader) -> bool:
+def _moves(machine: Machine, reader: Reader) -> bool:
     """Complain of a linkage that can be assembled nowhere, or whose transient does not come to its end."""
     grid = CrankGrid.steps(_STEP, 360.0)
     try:
@@ -179,7 +179,7 @@ def _with_starts(loads: tuple[Load, ...], values: Mapping[str, Any], mechanism: 
     return tuple(result)
 
 
-def _ends(machine: LinkageMachine, wanted: Transient, motion: Motion, reader: Reader) -> bool:
+def _ends(machine: Machine, wanted: Transient, motion: Motion, reader: Reader) -> bool:
     """Complain of a transient that cannot be followed to its end."""
     inertia = float(np.mean(reduced_inertia(machine.mechanism, motion).inertia)) + machine.drive.inertia
     if inertia <= 0:
@@ -200,17 +200,17 @@ def _ends(machine: LinkageMachine, wanted: Transient, motion: Motion, reader: Re
     return False
 
 
-def _unassembled_key(machine: LinkageMachine, grid: CrankGrid) -> str:
+def _unassembled_key(machine: Machine, grid: CrankGrid) -> str:
     """Return the key of the first link of the group that can be assembled nowhere."""
     for group, closure in zip(machine.mechanism.dyads, place(machine.mechanism, grid).closures, strict=True):
         if unassembled(closure) is not None:
             names = [one.name for one in group.links] if isinstance(group, Chain) else vars(group).values()
-            member = next(one for one in machine.linkage.members if one.name in names)
+            member = next(one for one in machine.drawn.members if one.name in names)
             return f"{'sliders' if member.guide else 'links'}.{member.name}"
     return "links"
 
 
-def build_tabulated(values: Mapping[str, Any], reader: Reader) -> TabulatedMachine | None:
+def build_tabulated(values: Mapping[str, Any], reader: Reader) -> Machine | None:
     """Return the machine of a table of transfer functions, or None after complaints."""
     method = build_method(values.get("method", {}), reader)
     if not method.is_exact:
@@ -234,17 +234,14 @@ def build_tabulated(values: Mapping[str, Any], reader: Reader) -> TabulatedMachi
         optional[key] = column
     if reader.problems:
         return None
-    return TabulatedMachine(
+    table = TransferTable(tuple(angles), tuple(bodies), differences=transfer.get("differences", "central"), **optional)
+    return Machine(
+        Mechanism(Crank(radius=0.0), ()),
         speed=crank_speed(values["crank"]["speed"], method),
-        angles=tuple(angles),
-        bodies=tuple(bodies),
         title=values.get("title", ""),
-        differences=transfer.get("differences", "central"),
+        transfer=table,
         drive=drive,
         method=method,
-        reduced_inertia_1=optional["reduced_inertia_1"],
-        static_torque=optional["static_torque"],
-        balancing_torque=optional["balancing_torque"],
         stated=stated_numbers(values),
     )
 

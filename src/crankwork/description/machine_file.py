@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import re
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -16,18 +17,20 @@ from crankwork.description.keys import MACHINE_FILE, SIZED_FILE
 from crankwork.description.linkage_keys import LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.locate import locate
 from crankwork.description.measured_file import read_measured
-from crankwork.description.schema import Reader, Table, is_one_line
+from crankwork.description.schema import ListOf, Named, Nested, Reader, Table, is_one_line
 from crankwork.errors import CrankworkError, InputError, Problem
 from crankwork.loads.indicator import DiagramError
 from crankwork.locale import Refusal
 from crankwork.resources import read_resource, resource_names
 
 if TYPE_CHECKING:
-    from crankwork.linkage_machine import AnyMachine
+    from crankwork.machine import Machine
 
 TEMPLATES = "description/templates"
 _MAX_PARTS = 8
 _OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
+# a name, and numbers of entries where it is a list
+_STEP = re.compile(r"[^\[\]]+(\[[0-9]{1,4}\])*")
 _STRINGS = re.compile(r"""\"(?:\\.|[^\"\\])*\"?|'[^']*'?""")
 
 
@@ -39,7 +42,7 @@ class Setting(NamedTuple):
     value: Any
 
 
-def read(path: str | Path, overrides: Sequence[str | Setting] = ()) -> AnyMachine:
+def read(path: str | Path, overrides: Sequence[str | Setting] = ()) -> Machine:
     """Return the machine that a file describes.
 
     Raises
@@ -56,7 +59,7 @@ def read(path: str | Path, overrides: Sequence[str | Setting] = ()) -> AnyMachin
 
 def read_machine(
     source: str, name: str = "text", overrides: Sequence[str | Setting] = (), *, folder: Path | None = None
-) -> AnyMachine:
+) -> Machine:
     """Return the machine that a text describes.
 
     Raises
@@ -78,7 +81,7 @@ def read_machine(
     return machine
 
 
-def _build(values: dict[str, Any], reader: Reader, folder: Path) -> AnyMachine | None:
+def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | None:
     """Return the machine of the values, or None after complaints."""
     keys = file_keys(values)
     read_values = keys.read(values, "", reader) or {}
@@ -175,7 +178,7 @@ def _setting(text: str) -> Setting:
     """Return the setting that `KEY=VALUE` means, its value as TOML reads it or as the plain text it is."""
     key, sign, value = (part.strip() for part in text.partition("="))
     names = key.split(".")
-    if not sign or not all(names) or len(names) > 4:
+    if not sign or not all(_STEP.fullmatch(name) for name in names) or len(names) > 4:
         raise CrankworkError(Refusal("setting_form", setting=_printable(text[:60])))
     if len(value) > files.MAX_LINE:
         raise CrankworkError(Refusal("setting_long", setting=_printable(key[:60])))
@@ -189,20 +192,50 @@ def lay(values: dict[str, Any], setting: Setting) -> None:
     """Lay a setting over the values; what says the same gives way."""
     if setting.option == "--step" and "transfer" in values:
         raise CrankworkError(Refusal("step_of_table"))
-    *path, last = setting.key.split(".")
+    *path, last = _steps(setting.key)
     table: Any = values
     entry: Any = file_keys(values)
-    for name in path:
-        known = entry.keys.get(name) if isinstance(entry, Table) else None
-        entry = known.kind if known else None
-        table = table.setdefault(name, {})
-        if not isinstance(table, dict):
-            shown = f"{setting.option} {_printable(setting.key[:60])}"
-            raise CrankworkError(Refusal("setting_no_table", setting=shown, name=_printable(name[:40])))
+    shown = f"{setting.option} {_printable(setting.key[:60])}"
+    for step, following in itertools.pairwise([*path, last]):
+        entry = _below(entry, step)
+        table = _entry_of(table, step, shown) if isinstance(step, int) else table.setdefault(step, {})
+        if not isinstance(table, list if isinstance(following, int) else dict):
+            name = step if isinstance(step, str) else f"[{step}]"
+            told = "setting_no_list" if isinstance(following, int) else "setting_no_table"
+            raise CrankworkError(Refusal(told, setting=shown, name=_printable(name[:40])))
+    if isinstance(last, int):
+        _entry_of(table, last, shown)
+        table[last - 1] = setting.value
+        return
     known = entry.keys.get(last) if isinstance(entry, Table) else None
     for other in known.instead_of if known else ():
         table.pop(other, None)
     table[last] = setting.value
+
+
+def _steps(key: str) -> Iterator[str | int]:
+    """Yield names, and the numbers of entries of lists, that lead to a key such as `loads[2].stiffness`."""
+    for part in key.split("."):
+        name, *entries = part.replace("]", "").split("[")
+        yield name
+        yield from map(int, entries)
+
+
+def _entry_of(table: list[Any], number: int, shown: str) -> Any:  # noqa: ANN401 - what the file has there
+    """Return an entry of a list, counted from one."""
+    if not 1 <= number <= len(table):
+        raise CrankworkError(Refusal("setting_no_entry", setting=shown, number=number, count=len(table)))
+    return table[number - 1]
+
+
+def _below(entry: object, step: str | int) -> object:
+    """Return the kind of what stands below a table or list."""
+    match entry:
+        case Table():
+            return entry.keys[step].kind if isinstance(step, str) and step in entry.keys else None
+        case Named() | ListOf() | Nested():
+            return entry.entry
+    return None
 
 
 def _input_error(source: str, name: str, reader: Reader, settings: Sequence[Setting]) -> InputError:

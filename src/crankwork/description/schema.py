@@ -110,18 +110,25 @@ class Quantity(NamedTuple):
         return (self.low < number if self.above else self.low <= number) and number <= self.high
 
     def _out_of_range(self, value: str, dimension: str) -> Refusal:
-        unit = units.EXAMPLES[dimension].split()[1]
-        low, high = (f'"{units.from_si(one, unit):.6g} {unit}"' for one in (self.low, self.high))
+        low, high = (f'"{one}"' for one in self._range(dimension))
         return Refusal(f"quantity_range{'_above' * self.above}", value=value, low=low, high=high)
+
+    def _range(self, dimension: str) -> tuple[str, str]:
+        """Return the least and the largest value with a unit."""
+        unit = units.EXAMPLES[dimension].split()[1]
+        low, high = (f"{units.from_si(one, unit):.6g} {unit}" for one in (self.low, self.high))
+        return low, high
 
     def schema(self) -> dict[str, Any]:
         """Return the schema of a text with a unit."""
         named = " or ".join(dimension.replace("_", " ") for dimension in self.dimensions)
         known = [one for dimension in self.dimensions for one in units.spellings(dimension)]
+        low, high = self._range(self.dimensions[0])
+        span = f"{'above' if self.above else 'from'} {low} to {high}"
         return {
             "type": "string",
             "pattern": r"^\s*[+-]?[0-9.,]+([eE][+-]?[0-9]+)?\s*\S.*$",
-            "description": f"{named}; units: {', '.join(known)}",
+            "description": f"{named}; {span}; units: {', '.join(known)}",
             "examples": [units.EXAMPLES[self.dimensions[0]]],
         }
 

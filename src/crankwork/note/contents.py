@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from crankwork.errors import CrankworkError, MissingExtraError, missing_extras
 from crankwork.locale import Refusal
-from crankwork.machine import Machine
 from crankwork.note.document import Note
 from crankwork.note.options import NoteOptions
 from crankwork.note.pdf import pdf
@@ -23,7 +22,7 @@ def note_of(results: Results, options: NoteOptions | None = None) -> Note:
     """Return the calculation note of a machine."""
     # the words of one kind of machine are not loaded for the other
     options = options or NoteOptions()
-    if isinstance(results.machine, Machine):
+    if results.machine.is_crank_gear:
         from crankwork.note.engine_note import engine_note  # noqa: PLC0415 - loaded where it is needed
 
         return engine_note(results, options)
@@ -39,7 +38,7 @@ def sheets_of(results: Results, options: NoteOptions | None = None) -> dict[str,
     from crankwork.note import sheets  # noqa: PLC0415 - loaded where it is needed
 
     paper = sheets.Paper(block=sheets.TitleBlock(drawn_by=options.author) if options.order == "ru" else None)
-    if isinstance(results.machine, Machine):
+    if results.machine.is_crank_gear:
         from crankwork.analysis.whole_engine import as_engine  # noqa: PLC0415 - loaded where it is needed
         from crankwork.note.sheets.engine_whole import whole_engine_extra  # noqa: PLC0415 - loaded where it is needed
 

@@ -90,8 +90,8 @@ def _rows(material: Material) -> Iterator[tuple[Cell, ...]]:
     if engine is not None:
         yield from _engine(engine, words) if len(engine.layout.places) > 1 else ()
         yield from _sizes(engine.bearings, words)
-        if engine.fluctuation is not None:
-            yield value_row("speed_fluctuation", engine.fluctuation, words)
+        if machine.drive.fluctuation is not None:
+            yield value_row("speed_fluctuation", machine.drive.fluctuation, words)
 
 
 def _cylinder(material: Material) -> Iterator[tuple[Cell, ...]]:

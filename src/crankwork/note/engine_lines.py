@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import cast
 
 from crankwork.analysis import Results
 from crankwork.formula.known import Delayed, Use
 from crankwork.formula.known import Given as GivenNode
 from crankwork.formula.lines import Line, Moment, ValueLine
-from crankwork.machine import Engine, Machine
+from crankwork.machine import Engine
 from crankwork.note.groups import Group
 
 _DEGREES, _TURN = 30.0, 360.0
@@ -94,7 +93,7 @@ def engine_lines(results: Results, degrees: float = _DEGREES, force_degrees: flo
 
     Forces by default stand as far into the last revolution: of four strokes that is the working one.
     """
-    machine, at = cast("Machine", results.machine), degrees
+    machine, at = results.machine, degrees
     there = machine.cycle - _TURN + at if force_degrees is None else force_degrees
     moving, loaded = results.moment(at), results.moment(there)
     has_forces = "piston_force" in results.memory
@@ -178,7 +177,7 @@ def _cycle(results: Results) -> Iterator[Line]:
         return
     values = results.solved.space.calculated.values
     last = {line.key: at for at, line in enumerate(lines)}
-    others = {"displacement"} if cast("Machine", results.machine).engine is not None else set()
+    others = {"displacement"} if results.machine.engine is not None else set()
 
     def key_of(key: str) -> str:
         return f"{key}.cycle" if f"{key}.cycle" in results.summary or key in others else key

@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import cast
 
 import numpy as np
 
@@ -46,7 +45,7 @@ class Material:
     @property
     def machine(self) -> Machine:
         """The machine."""
-        return cast("Machine", self.results.machine)
+        return self.results.machine
 
     @property
     def order(self) -> str:

@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator
 from crankwork.analysis import Results
 from crankwork.analysis.whole_engine import as_engine
 from crankwork.errors import CrankworkError
-from crankwork.machine import Machine
 from crankwork.note.document import Block, Contents, Note, PageBreak, TitlePage
 from crankwork.note.engine_cycle import cycle, indicator
 from crankwork.note.engine_data import data, method, preface
@@ -44,7 +43,7 @@ def engine_note(results: Results, options: NoteOptions) -> Note:
     if options.order not in _ORDERS:
         raise CrankworkError(f'no school of notes is called "{options.order}"; take en, ru or vi')
     machine = results.machine
-    has_engine = isinstance(machine, Machine) and machine.engine is not None
+    has_engine = machine.engine is not None
     material = Material(as_engine(results), options, has_engine=has_engine)
     words = material.words
     blocks: list[Block] = [TitlePage(), Contents(), PageBreak()]

@@ -33,7 +33,7 @@ def task(material: Material) -> Iterator[Block]:
         radius=words.amount(crank.radius, "mm"),
         direction=turning,
         start=words.amount(crank.start, "deg"),
-        value=words.amount(material.solved.speed, "rad/s"),
+        value=words.amount(material.results.solved.speed, "rad/s"),
     )
     if machine.angular_acceleration:
         yield words.paragraph("acceleration", value=words.amount(machine.angular_acceleration, "rad/s2"))
@@ -65,7 +65,7 @@ def method(material: Material) -> Block:
 
 def _links(material: Material) -> Table:
     """Return links and sliding pieces with their masses."""
-    words, linkage = material.words, material.machine.linkage
+    words, linkage = material.words, material.machine.drawn
     owners = linkage.owners
     rows = []
     for number, one in enumerate(linkage.members, start=2):
@@ -102,7 +102,7 @@ def _centre(member: Member, words: Words) -> str:
 
 def _places(material: Material) -> Iterator[Table]:
     """Yield fixed points and guides."""
-    words, linkage = material.words, material.machine.linkage
+    words, linkage = material.words, material.machine.drawn
     rows = [(name, words.number(x * 1e3), words.number(y * 1e3)) for name, (x, y) in linkage.ground.items()]
     axes = (words.titled("point_x"), words.titled("point_y"))
     if rows:

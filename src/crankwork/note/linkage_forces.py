@@ -99,7 +99,7 @@ def torques(material: Material) -> Iterator[Block]:
 def efficiency(material: Material) -> Iterator[Block]:
     """Yield what is said of the efficiency of the joints."""
     words = material.words
-    drive = (material.results.machine).drive  # type: ignore[union-attr]
+    drive = material.machine.drive
     yield words.heading("efficiency", 2)
     if drive.efficiency == 1:
         yield words.paragraph("no_losses")

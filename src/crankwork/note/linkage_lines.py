@@ -4,17 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import cast
 
 import numpy as np
 
 from crankwork.analysis import Results
 from crankwork.formula.known import Found, Given, Known, Use, in_order
 from crankwork.formula.lines import Line, ValueLine
-from crankwork.linkage_machine import LinkageMachine, TabulatedMachine
 from crankwork.note.groups import Group
-
-AnyLinkage = LinkageMachine | TabulatedMachine
 
 _DEGREES = 30.0
 
@@ -84,7 +80,7 @@ def _inertia(results: Results) -> Iterator[Known]:
 
 def _efficiency(results: Results) -> Iterator[Line]:
     """Yield the efficiencies of a chain of joints, and what they come to before it is rounded."""
-    drive, memory = cast("AnyLinkage", results.machine).drive, results.memory
+    drive, memory = results.machine.drive, results.memory
     if drive.chain is None or "efficiency" not in memory:
         return
     moment = results.moment()

@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import cast
 
 import numpy as np
 
 from crankwork.analysis import Array, Results
-from crankwork.analysis.linkage import SolvedLinkage
 from crankwork.analysis.moving import reached_angles
 from crankwork.formula.lines import Line
-from crankwork.linkage_machine import LinkageMachine, TabulatedMachine
+from crankwork.machine import Machine, TransferTable
 from crankwork.mechanism.structure import Structure, structure
 from crankwork.note.document import Block
 from crankwork.note.groups import Group
@@ -38,25 +36,21 @@ class Material:
         return Words(self.options.language)
 
     @property
-    def machine(self) -> LinkageMachine:
-        """The linkage."""
-        return cast("LinkageMachine", self.results.machine)
+    def machine(self) -> Machine:
+        """The machine."""
+        return self.results.machine
 
     @property
-    def table(self) -> TabulatedMachine:
-        """The table of transfer functions."""
-        return cast("TabulatedMachine", self.results.machine)
-
-    @property
-    def solved(self) -> SolvedLinkage:
-        """The linkage made ready."""
-        solved: SolvedLinkage = self.results.solved
-        return solved
+    def table(self) -> TransferTable:
+        """Its transfer functions, where they are given."""
+        if self.machine.transfer is None:
+            raise TypeError("this machine has a mechanism instead of transfer functions")
+        return self.machine.transfer
 
     @cached_property
     def structure(self) -> Structure | None:
         """Mobility and groups."""
-        return structure(self.machine.linkage)[0]
+        return structure(self.machine.drawn)[0]
 
     @cached_property
     def positions(self) -> Array:
@@ -82,7 +76,7 @@ class Material:
     def groups(self) -> dict[str, Group]:
         """Lines of the memory by the name of their group, worked where the loads need the largest torque."""
         degrees = None
-        if isinstance(self.results.machine, LinkageMachine) and self.results.machine.loads:
+        if self.machine.loads:
             at = int(np.argmax(np.abs(self.columns["static_torque"])))
             degrees = float(self.positions[at])
         return {one.name: one for one in linkage_lines(self.results, degrees)}

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from crankwork.analysis import Results
-from crankwork.linkage_machine import TabulatedMachine
 from crankwork.note import linkage_table_note as table
 from crankwork.note.document import Block, Contents, Note, PageBreak, TitlePage
 from crankwork.note.linkage_data import structural_analysis, task
@@ -36,7 +35,7 @@ _OF_TABLE: tuple[Section, ...] = (
 def linkage_note(results: Results, options: NoteOptions) -> Note:
     """Return the note of a linkage, or of a table of transfer functions (artobolevsky_1988, ch. 2-16)."""
     material = Material(results, options)
-    words, of_table = material.words, isinstance(results.machine, TabulatedMachine)
+    words, of_table = material.words, results.machine.transfer is not None
     sections = _OF_TABLE if of_table else _REPORT if options.order == "en" else _COURSE
     blocks: list[Block] = [TitlePage(), Contents(), PageBreak()]
     for section in sections:

@@ -8,7 +8,6 @@ import numpy as np
 
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import Notice
-from crankwork.linkage_machine import TabulatedMachine
 from crankwork.locale import capital, say
 from crankwork.note.document import Bibliography, Block, Bold, ItemList, Math, Paragraph, Reference, Runs, Table
 from crankwork.note.linkage_material import Material
@@ -80,7 +79,7 @@ def _marks(ways: Iterable[str], words: Words) -> Mapping[str, str]:
 def checks(material: Material) -> Iterator[Block]:
     """Yield the identities that were checked, and what the reader should know."""
     words, results = material.words, material.results
-    is_table = isinstance(results.machine, TabulatedMachine)
+    is_table = results.machine.transfer is not None
     if not (results.checks or results.notices or is_table):
         return
     yield words.heading("checks")

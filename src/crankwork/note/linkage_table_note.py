@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from crankwork.formula.known import in_order
 from crankwork.formula.replay import Program
-from crankwork.linkage_machine import TabulatedMachine
+from crankwork.machine import TransferTable
 from crankwork.note.document import Block, Citation, Equation, ItemList, Math, Reference, Runs
 from crankwork.note.linkage_data import method
 from crankwork.note.linkage_forces import efficiency
@@ -34,7 +34,7 @@ def table_task(material: Material) -> Iterator[Block]:
         yield words.paragraph("sheets")
 
 
-def _body(table: TabulatedMachine, at: int, words: Words) -> Runs:
+def _body(table: TransferTable, at: int, words: Words) -> Runs:
     body = table.bodies[at]
     mass, inertia = Math(words.symbol(f"body_mass.{body.name}")), Math(f"J_{subscript(body.name)}")
     runs: list[str | Math] = [f"{body.name}: "]

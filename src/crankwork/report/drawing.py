@@ -12,7 +12,6 @@ import numpy as np
 from crankwork.analysis.moving import drawn_mechanism, moving
 from crankwork.analysis.skeleton import skeleton
 from crankwork.errors import CrankworkError
-from crankwork.linkage_machine import LinkageMachine
 from crankwork.locale import capital, say
 from crankwork.machine import Machine
 from crankwork.mechanism.mechanism import Mechanism
@@ -31,7 +30,7 @@ _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def moving_drawing(
-    machine: Machine | LinkageMachine | Mechanism,
+    machine: Machine | Mechanism,
     *,
     language: Language = "en",
     seconds: float = 4.0,
@@ -42,18 +41,17 @@ def moving_drawing(
 
     Lengths are to scale and the motion is exact, points moving on straight lines between frames; strokes, joints,
     blocks and letters have their own size. Links are in the order of their numbers, as `Structure.links` gives them;
-    without them those of a LinkageMachine, or group after group.
+    without them those of a Machine, or group after group.
     """
     if frames < 8 or not 0 < seconds < math.inf:
         raise CrankworkError("a moving drawing needs at least 8 frames and a time above zero")
     mechanism, whole = (machine, None) if isinstance(machine, Mechanism) else (drawn_mechanism(machine), machine)
     moved = moving(mechanism, np.arange(frames + 1) * 360 / frames)
     duration, still = f"{seconds:g}s", round(frames * _STILL / 360)
-    if isinstance(whole, LinkageMachine) and not links:
+    if whole is not None and whole.linkage is not None and not links:
         found, _ = structure(whole.linkage)
         links = found.links if found else ()
-    engine = whole if isinstance(whole, Machine) else None
-    gear = crank_gear(mechanism, engine.cylinder if engine else None, has_gas=bool(engine and engine.gas))
+    gear = crank_gear(mechanism, whole.cylinder if whole else None, has_gas=bool(whole and whole.gas))
     if gear:
         drawn, reach, scale = engine_drawing(gear, moved, duration, still)
     else:

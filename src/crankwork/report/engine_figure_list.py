@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 
 from crankwork.locale import say
-from crankwork.machine import Machine
 from crankwork.report.engine_figure_axes import Graph
 from crankwork.report.engine_figure_bearings import (
     big_end_polar,
@@ -75,7 +74,7 @@ def figure_list(engine: EngineDrawn) -> dict[str, Draw]:
     """Return what draws each figure of a machine."""
     machine, columns = engine.drawn.results.machine, engine.drawn.columns
     result = {name: draw for name, (draw, key) in _ONE_CYLINDER.items() if key in columns}
-    if not isinstance(machine, Machine) or machine.engine is None or "crank_torque" not in columns:
+    if machine.engine is None or "crank_torque" not in columns:
         return result
     result |= _polars(engine) | _LOADS
     if engine.diagrams.count > 1:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from crankwork.analysis import Results
-from crankwork.machine import Machine
 from crankwork.quantities import Language
 from crankwork.report.engine_figure_list import engine_figures
 from crankwork.report.figure_data import drawn_from
@@ -23,6 +22,6 @@ def figures(results: Results, *, language: Language = "en", per_area: bool = Fal
     """
     # whose fonts all figures use
     drawing_library()
-    if not isinstance(results.machine, Machine):
+    if not results.machine.is_crank_gear:
         return linkage_figures(results, language=language)
     return dict(engine_figures(drawn_from(results, language, per_area=per_area)))

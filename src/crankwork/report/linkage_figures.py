@@ -9,8 +9,8 @@ import numpy as np
 from crankwork.analysis import Array, Results
 from crankwork.analysis.diagrams import Fluctuation
 from crankwork.analysis.moving import moving, reached_angles
-from crankwork.linkage_machine import LinkageMachine
 from crankwork.locale import say
+from crankwork.machine import Machine
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import Language
 from crankwork.report.language import label
@@ -29,7 +29,7 @@ _PER_PANEL = 4
 def linkage_figures(results: Results, *, language: Language = "en") -> dict[str, bytes]:
     """Return the figures of a linkage as SVG by name; those for which nothing is known are left out."""
     machine, style = results.machine, Style(language, (), results_method(results, language))
-    if not isinstance(machine, LinkageMachine):
+    if machine.linkage is None:
         return _dynamics(results.grid.degrees, results.columns, style)
     found, _ = structure(machine.linkage)
     style = style._replace(links=found.links if found is not None else ())
@@ -43,7 +43,7 @@ def linkage_figures(results: Results, *, language: Language = "en") -> dict[str,
     return drawn
 
 
-def _plans(machine: LinkageMachine, degrees: Array, speed: float, style: Style, *, is_whole: bool) -> dict[str, bytes]:
+def _plans(machine: Machine, degrees: Array, speed: float, style: Style, *, is_whole: bool) -> dict[str, bytes]:
     """Return position plans of the whole turn, and the plans of velocity and acceleration at one crank angle."""
     mechanism = machine.mechanism
     plans = {"position_plans": position_plans(mechanism, style=style)} if is_whole else {}
@@ -84,7 +84,7 @@ def _dynamics(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[
 
 
 def _evenness(
-    machine: LinkageMachine, degrees: Array, known: Mapping[str, Array], speed: float, style: Style
+    machine: Machine, degrees: Array, known: Mapping[str, Array], speed: float, style: Style
 ) -> dict[str, bytes]:
     """Return the energy-mass diagram and the speed with the flywheel found."""
     if "crank_speed" not in known or machine.drive.fluctuation is None:

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 
 from crankwork.analysis import Results
 from crankwork.errors import GeometryError, MissingExtraError, missing_extras
-from crankwork.linkage_machine import TabulatedMachine
 from crankwork.quantities import Language
 from crankwork.report.drawing import moving_drawing
 from crankwork.report.figures import figures
@@ -43,7 +42,7 @@ def results_folder(
     }
     if not missing_extras(_WORKBOOK):
         yield {"tables.xlsx": workbook(results, language=language, per_area=per_area)}
-    if not isinstance(results.machine, TabulatedMachine):
+    if results.machine.transfer is None:
         # a linkage that cannot turn fully has a notice that says so, and no moving drawing
         with contextlib.suppress(GeometryError):
             yield {"machine.svg": moving_drawing(results.machine, language=language).encode()}

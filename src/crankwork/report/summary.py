@@ -22,7 +22,7 @@ from crankwork.report.language import (
 from crankwork.report.notices import notice_text
 
 if TYPE_CHECKING:
-    from crankwork.linkage_machine import AnyMachine, LinkageMachine, TabulatedMachine
+    from crankwork.machine import Machine
 
 
 def summary_data(results: Results, *, per_area: bool = False) -> dict[str, Any]:
@@ -95,7 +95,7 @@ def aligned(rows: list[tuple[str, str, str, str]]) -> list[str]:
 
 def results_method(results: Results, language: Language) -> str:
     """Return how results were made, in words."""
-    if not isinstance(results.machine, Machine):
+    if not results.machine.is_crank_gear:
         # an engine starts faster without these words
         from crankwork.report.summary import method_words  # noqa: PLC0415 - loaded where it is needed
 
@@ -117,7 +117,7 @@ def warning_text(results: Results, language: Language = "en") -> str:
     return say("check.partial", language, notice=notice)
 
 
-def description_text(machine: AnyMachine, results: Results, language: Language = "en") -> str:
+def description_text(machine: Machine, results: Results, language: Language = "en") -> str:
     """Return what a machine file describes, in a few lines."""
     summary = results.summary
     keys = [key for key in summary if not any(part in key for part in ("_max", "_min")) and not key.endswith("_error")]
@@ -133,8 +133,8 @@ def description_text(machine: AnyMachine, results: Results, language: Language =
     return "\n".join([*_headline(machine, summary, language), *aligned(rows)])
 
 
-def _headline(machine: AnyMachine, summary: Mapping[str, float], language: Language) -> list[str]:
-    if not isinstance(machine, Machine):
+def _headline(machine: Machine, summary: Mapping[str, float], language: Language) -> list[str]:
+    if not machine.is_crank_gear:
         from crankwork.report.summary import headline  # noqa: PLC0415 - loaded where it is needed
 
         return headline(machine, language)
@@ -154,22 +154,22 @@ def _headline(machine: AnyMachine, summary: Mapping[str, float], language: Langu
     return lines
 
 
-def method_words(machine: LinkageMachine | TabulatedMachine, language: Language) -> str:
+def method_words(machine: Machine, language: Language) -> str:
     """Return how the results of a linkage are made, in words."""
-    if not hasattr(machine, "linkage"):
+    if machine.transfer is not None:
         return say("report.tabulated", language)
     return method_name("exact", 0, "", language)
 
 
-def headline(machine: LinkageMachine | TabulatedMachine, language: Language) -> list[str]:
+def headline(machine: Machine, language: Language) -> list[str]:
     """Return mobility, groups and formula of structure of a linkage, or the size of a table."""
     # engines load none of this
-    from crankwork.linkage_machine import TabulatedMachine  # noqa: PLC0415
     from crankwork.mechanism.structure import structure  # noqa: PLC0415
 
-    if isinstance(machine, TabulatedMachine):
-        return [say("check.table", language, bodies=len(machine.bodies), positions=len(machine.angles))]
-    found, _ = structure(machine.linkage)
+    if machine.transfer is not None:
+        bodies, positions = len(machine.transfer.bodies), len(machine.transfer.angles)
+        return [say("check.table", language, bodies=bodies, positions=positions)]
+    found = None if machine.linkage is None else structure(machine.linkage)[0]
     if found is None:
         return [say("check.linkage", language)]
     numbered = ", ".join(f"{number} {name}" for number, name in enumerate(found.links, start=1))
@@ -182,7 +182,7 @@ def headline(machine: LinkageMachine | TabulatedMachine, language: Language) -> 
     ]
 
 
-def _grashof_lines(machine: LinkageMachine, language: Language) -> list[str]:
+def _grashof_lines(machine: Machine, language: Language) -> list[str]:
     """Return the type of a four-bar linkage by Grashof."""
     from crankwork.analysis.linkage import four_bar_type  # noqa: PLC0415 - engines do not load it
 

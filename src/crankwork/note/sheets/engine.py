@@ -8,7 +8,6 @@ import numpy as np
 
 from crankwork.analysis import Array, Results
 from crankwork.errors import CrankworkError
-from crankwork.machine import Machine
 from crankwork.note.sheets import engine_forces as loads
 from crankwork.note.sheets import engine_gas as gas
 from crankwork.note.sheets.engine_motion import motion_graph, tolle
@@ -48,7 +47,7 @@ def engine_sheets(
     rays are, from the outer side of the pin with the rotation, evenly around it without it; `oil_hole_angle`, on the
     ray of the least sum without it.
     """
-    if not isinstance(results.machine, Machine):
+    if not results.machine.is_crank_gear:
         raise CrankworkError("sheets of an engine need a slider-crank; take linkage_sheets for this machine")
     drawn, words = drawn_from(results, language, per_area=per_area), Words(language, per_area)
     sheets = [_motion_sheet(drawn, paper, words)]

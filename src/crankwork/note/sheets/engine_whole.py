@@ -6,7 +6,6 @@ import numpy as np
 
 from crankwork.analysis import Array, Results
 from crankwork.analysis.engine_diagrams import EngineDiagrams
-from crankwork.machine import Machine
 
 
 def whole_engine_extra(results: Results) -> dict[str, Array | float]:
@@ -18,7 +17,7 @@ def whole_engine_extra(results: Results) -> dict[str, Array | float]:
     where the forces or the cylinders are not known.
     """
     machine, summary = results.machine, results.summary
-    if not isinstance(machine, Machine) or machine.engine is None or "crank_torque" not in results.columns:
+    if machine.engine is None or "crank_torque" not in results.columns:
         return {}
     engine = EngineDiagrams(results)
     pins = list(engine.loads[1].crankpins)

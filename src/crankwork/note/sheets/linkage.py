@@ -12,7 +12,6 @@ from crankwork.analysis.moving import moving, reached_angles
 from crankwork.analysis.plans import accelerations, velocities
 from crankwork.analysis.skeleton import skeleton
 from crankwork.errors import CrankworkError
-from crankwork.linkage_machine import LinkageMachine
 from crankwork.locale import say
 from crankwork.machine import Machine
 from crankwork.mechanism.structure import structure
@@ -46,10 +45,10 @@ _TORQUES = ("static_torque", "dynamic_torque", "driving_torque")
 def linkage_sheets(results: Results, language: Language = "en", *, paper: Paper = PLAIN) -> tuple[Sheet, ...]:
     """Return the sheets of a linkage, or of a table of transfer functions; what is not known is left out."""
     words = Words(language)
-    if isinstance(results.machine, Machine):
+    if results.machine.is_crank_gear:
         raise CrankworkError("sheets of a linkage need a linkage; take engine_sheets for this machine")
     machine, wanted = results.machine, None
-    if isinstance(machine, LinkageMachine):
+    if machine.linkage is not None:
         degrees, _ = reached_angles(machine, _DENSE_STEP)
         known = results.columns_at(degrees)
         sheets = [_kinematics(results, machine, degrees, known, paper, words)]
@@ -65,11 +64,11 @@ def linkage_sheets(results: Results, language: Language = "en", *, paper: Paper 
 
 
 def _kinematics(
-    results: Results, machine: LinkageMachine, degrees: Array, known: Mapping[str, Array], paper: Paper, words: Words
+    results: Results, machine: Machine, degrees: Array, known: Mapping[str, Array], paper: Paper, words: Words
 ) -> Sheet:
     """Return the sheet of plans, and below them the motion of sliders, or of links where nothing slides."""
     mechanism, speed = machine.mechanism, results.solved.speed
-    found, _ = structure(machine.linkage)
+    found, _ = structure(machine.drawn)
     links = found.links if found is not None else ()
     moved = moving(mechanism, degrees)
     indices = [int(np.argmin(np.abs(degrees - one))) for one in _POSITIONS]
