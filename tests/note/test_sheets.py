@@ -56,7 +56,7 @@ def results(name):
 
 
 def sheets(name, language="en", paper=SIGNED, **options):
-    if hasattr(results(name).machine, "cylinder"):
+    if results(name).machine.is_crank_gear:
         return engine_sheets(results(name), language, paper=paper, **options)
     return linkage_sheets(results(name), language, paper=paper)
 

@@ -229,7 +229,7 @@ class Results:
     @property
     def has_positions(self) -> bool:
         """Whether columns stand at the positions of a document's table, with nothing between them."""
-        return hasattr(self.machine, "angles")
+        return self.machine.transfer is not None
 
     def _within(self, key: str, at: float | None) -> float:
         """Return a crank angle for what varies."""
