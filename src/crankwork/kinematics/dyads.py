@@ -108,7 +108,8 @@ def is_nothing(value: Any) -> bool:  # noqa: ANN401 - a known or a number
 
 
 def _moves(rate: Any) -> bool:  # noqa: ANN401 - a known or an array
-    return not rate.is_absent if isinstance(rate, Known) else rate.ndim > 0
+    # the rate of a crank is not stated either, and is one
+    return not rate.is_absent or rate.value != 0 if isinstance(rate, Known) else rate.ndim > 0
 
 
 class LinkMotion(NamedTuple):
