@@ -102,6 +102,7 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     "mass_rate": [(1 / 3600, "kg/h кг/ч"), (1.0, "kg/s кг/с")],
     "power_density": [(1e6, "kW/l кВт/л"), (1.0, "W/m3 W/m³ Вт/м3 Вт/м³")],
     "per_temperature": [(1.0, "1/K 1/К")],
+    "volume_per_temperature": [(1e-6, "cm3/K cm³/K см3/К см³/К"), (1.0, "m3/K m³/K м3/К м³/К")],
     "speed_per_temperature": [(1.0, "m/(s*K) м/(с*К)")],
     "power": [(1e3, "kW кВт"), (1.0, "W Вт"), (735.49875, "PS л.с. лс mã_lực")],
 }

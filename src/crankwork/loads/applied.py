@@ -13,7 +13,7 @@ from crankwork.kinematics.bodies import everywhere
 from crankwork.kinematics.dyads import LinkMotion, carried
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.transfer import PointMotion
-from crankwork.mechanism.joints import bearers
+from crankwork.mechanism.joints import SlidingJoint, bearers, joints
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Mechanism
 
@@ -82,14 +82,32 @@ def force_at(
     return AppliedLoads((AppliedForce(link, motion.points[point], x, y),))
 
 
-def force_along_guide(motion: Motion, slider: str, force: Value) -> AppliedForce:
+def force_along_guide(motion: Motion, slider: str, force: Value, own: str = "") -> AppliedForce:
     """Return a force on a sliding piece, along its guide and through the origin of its frame.
 
-    `force`: positive in the direction in which the distance of the piece counts [N].
+    `force`: positive in the direction in which the distance of the piece counts [N]; `own`: what follows the name of
+    the piece in that of the force.
     """
     frame = motion.frames[slider]
-    x, y = named(force * frame.cos, f"load_x.{slider}"), named(force * frame.sin, f"load_y.{slider}")
+    x, y = named(force * frame.cos, f"load_x.{slider}{own}"), named(force * frame.sin, f"load_y.{slider}{own}")
     return AppliedForce(slider, frame.origin, x, y)
+
+
+def force_on_slider(
+    mechanism: Mechanism, motion: Motion, slider: str, force: Value, own: str = "", other: str = ""
+) -> AppliedLoads:
+    """Return a force along its guide on a sliding piece, and its reaction on the link that carries the guide.
+
+    On a carrier the force acts at the point of it where the piece is: it moves with the carrier, not with the piece.
+    `own`, `other`: what follows the name of the piece, and that of the carrier, in the names of the forces.
+    """
+    push = force_along_guide(motion, slider, force, own)
+    slides = (one for one in joints(mechanism) if isinstance(one, SlidingJoint))
+    carrier = next(one.other for one in slides if one.link == slider)
+    if carrier == GROUND:
+        return AppliedLoads((push,))
+    x, y = named(-push.x, f"load_x.{carrier}{other or own}"), named(-push.y, f"load_y.{carrier}{other or own}")
+    return AppliedLoads((push, AppliedForce(carrier, carried_point(motion.frames[carrier], push.at), x, y)))
 
 
 def torque_on(motion: Motion, link: str, torque: Value) -> AppliedLoads:

@@ -71,3 +71,45 @@ def indicated_power(W: Value, w: Value, phi_c: Value) -> Value:
 def gauge_pressure(p_abs: Value, p_0: Value) -> Value:
     """Pressure above that on the crankcase side."""
     return p_abs - p_0
+
+
+@formula("piston_area", "kolchin_demidov_2008, ch. 7")
+def face_area(A: Value, A_r: Value) -> Value:
+    """Area of a face that a piston rod passes."""
+    return A - A_r
+
+
+@formula("face_volume", "kolchin_demidov_2008, ch. 5")
+def face_volume(sigma: Value, A: Value, s_x: Value, s_x0: Value) -> Value:
+    """What a sliding piece has added to a chamber on its way from where the chamber is least."""
+    return sigma * A * (s_x - s_x0)
+
+
+@formula("cylinder_volume_1", "kolchin_demidov_2008, ch. 5")
+def face_volume_1(sigma: Value, A: Value, s_1: Value) -> Value:
+    """Part of one sliding piece in the derivative of the volume of a chamber by the crank angle."""
+    return sigma * A * s_1
+
+
+@formula("gas_force", "kolchin_demidov_2008, ch. 7")
+def face_force(sigma: Value, p: Value, A: Value) -> Value:
+    """Force of the gas on a sliding piece, positive along its guide."""
+    return sigma * p * A
+
+
+@formula("reduced_volume", "urieli_berchowitz_1984")
+def reduced_volume(V: Value, T_cyl: Value) -> Value:
+    """Volume of a part of the gas over its absolute temperature."""
+    return V / T_cyl
+
+
+@formula("diagram_pressure", "urieli_berchowitz_1984")
+def isothermal_pressure(m_gas: Value, R_gas: Value, Z: Value) -> Value:
+    """Pressure of a sealed mass of gas, every part of which keeps its temperature."""
+    return m_gas * R_gas / Z
+
+
+@formula("gas_mass", "urieli_berchowitz_1984")
+def charge_mass(p_ref: Value, Z_1: Value, R_gas: Value) -> Value:
+    """Mass of gas that has a pressure, every part at its own temperature."""
+    return p_ref * Z_1 / R_gas

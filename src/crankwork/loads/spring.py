@@ -10,10 +10,8 @@ from crankwork.errors import GeometryError
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import absent, given, is_known, named
 from crankwork.kinematics.motion import Motion
-from crankwork.loads.applied import AppliedForce, AppliedLoads, carried_point, check_name, force_along_guide, force_at
+from crankwork.loads.applied import AppliedLoads, check_name, force_at, force_on_slider
 from crankwork.locale import Refusal
-from crankwork.mechanism.joints import SlidingJoint, joints
-from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Mechanism
 
 
@@ -89,25 +87,9 @@ def point_spring(load: Spring, mechanism: Mechanism, motion: Motion, path: str =
 
 
 def slider_spring(load: SliderSpring, mechanism: Mechanism, motion: Motion, path: str = "") -> AppliedLoads:
-    """Return the forces of a spring on a sliding piece and on the link that carries its guide.
-
-    On a carrier the force acts at the point of it where the piece is: it moves with the carrier, not with the piece.
-    """
+    """Return the forces of a spring on a sliding piece and on the link that carries its guide."""
     check_name("sliding piece", load.slider, motion.sliders)
     position = motion.sliders[load.slider].position
     stiffness, free, preload = _stated(load, load.free_position, load.slider, position, path)
     force = -named(spring_force(stiffness, position, free, preload), f"spring_force.{load.slider}")
-    pull = force_along_guide(motion, load.slider, force)
-    slides = (one for one in joints(mechanism) if isinstance(one, SlidingJoint))
-    carrier = next(one.other for one in slides if one.link == load.slider)
-    if carrier == GROUND:
-        return AppliedLoads((pull,))
-    under = carried_point(motion.frames[carrier], pull.at)
-    return AppliedLoads(
-        (
-            pull,
-            AppliedForce(
-                carrier, under, named(-pull.x, f"load_x.{carrier}_spring"), named(-pull.y, f"load_y.{carrier}_spring")
-            ),
-        )
-    )
+    return force_on_slider(mechanism, motion, load.slider, force, other="_spring")

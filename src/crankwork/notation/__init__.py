@@ -6,7 +6,7 @@ for arguments that are functions of one, the function: `cos_phi` is the cosine o
 
 from __future__ import annotations
 
-from crankwork.notation import balance, bearings, cycle, cylinders, driver, linkage, machine
+from crankwork.notation import balance, bearings, chambers, cycle, cylinders, driver, linkage, machine
 from crankwork.notation.argument import Argument
 from crankwork.quantities import QUANTITIES
 
@@ -16,6 +16,7 @@ ARGUMENTS: dict[str, Argument] = {
     **machine.ARGUMENTS,
     **linkage.ARGUMENTS,
     **driver.ARGUMENTS,
+    **chambers.ARGUMENTS,
     **cycle.ARGUMENTS,
     **cylinders.ARGUMENTS,
     **bearings.ARGUMENTS,

@@ -1,0 +1,70 @@
+"""Chambers of gas between sliding pieces, and gas that is sealed in several of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from crankwork.loads.indicator import DiagramPoint, Piece
+from crankwork.loads.measured import MeasuredPressure
+from crankwork.mechanism.dyads import Branch
+
+
+@dataclass(frozen=True)
+class Face:
+    """A sliding piece as a wall of a chamber, by its bore, less that of a rod, or by its area. [m], [m2]"""
+
+    slider: str
+    bore: float | None = None
+    rod_diameter: float = 0.0
+    area: float | None = None
+    sense: Branch = 1  # 1 if the chamber grows as the piece moves along its guide, -1 if it shrinks
+
+
+@dataclass(frozen=True)
+class Chamber:
+    """A space whose walls move, and the gas in it. [m3], [Pa], [deg], [K]
+
+    Its pressure is constant, a diagram of points and pieces, measured, or that of a charge which is sealed in it.
+    """
+
+    faces: tuple[Face, ...]
+    # One of them where the volume itself matters; without, the volume counts from the least
+    clearance_volume: float | None = None
+    compression_ratio: float | None = None
+    ambient: float = 0.0  # Pressure on the other side of its faces, counted as its own is
+    cycle: float = 360.0  # Crank angle after which its pressure repeats, 360 or 720
+    pressure: float | None = None
+    points: Mapping[str, DiagramPoint] = field(default_factory=dict)
+    pieces: tuple[Piece, ...] = ()
+    measured: MeasuredPressure | None = None
+    # Added to measured angles; step at which they are resampled
+    angle_shift: float = 0.0
+    resample: float | None = None
+    temperature: float | None = None  # Absolute temperature of a charge while it is here
+
+
+@dataclass(frozen=True)
+class DeadVolume:
+    """A volume that is always full of gas: a heat exchanger, a regenerator. [m3], [K]"""
+
+    volume: float
+    temperature: float | None = None
+
+
+@dataclass(frozen=True)
+class Charge:
+    """A mass of gas sealed in chambers that are open to each other, at one pressure. [Pa], [kg], [J/(kg K)]
+
+    Each part is at its own temperature, or all of it follows a polytrope. The mean pressure, the pressure at a crank
+    angle [deg], or the mass says how much gas there is.
+    """
+
+    chambers: tuple[str, ...]
+    dead_volumes: tuple[DeadVolume, ...] = ()
+    exponent: float | None = None  # That of the polytrope
+    mean_pressure: float | None = None
+    pressure: float | None = None
+    angle: float = 0.0
+    mass: float | None = None
+    gas_constant: float | None = None

@@ -1,0 +1,323 @@
+"""What the gas in chambers does: volumes, pressures and forces on sliding pieces, remembered."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from crankwork.formula.expression import Value
+from crankwork.formula.known import Found, Known, absent, given, is_known, total
+from crankwork.formula.over_cycle import OverCycle
+from crankwork.formula.replay import Program
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.motion import Motion
+from crankwork.loads import gas
+from crankwork.loads.applied import AppliedLoads, force_on_slider, together
+from crankwork.loads.chamber import Chamber, Charge, Face
+from crankwork.loads.indicator import DiagramError, IndicatorDiagram, solve_diagram
+from crankwork.loads.measured import measured_diagram, wrap_is_rough
+from crankwork.loads.pressure import at_angle, remembered_pressure
+from crankwork.locale import Refusal
+from crankwork.mechanism.mechanism import Mechanism
+
+_TURN = 360.0
+# share of the largest below which a volume is nothing
+_NOTHING = 1e-12
+# dead centres that are nearer are one [deg]
+_SAME_ANGLE = 1e-6
+Told = tuple[str, Mapping[str, float | str]]
+
+
+class GasForce(NamedTuple):
+    """The force of the gas in a chamber on a sliding piece, along its guide. [N]"""
+
+    chamber: str
+    slider: str
+    force: Known
+
+
+class Filling(NamedTuple):
+    """All gas of a machine: its columns and single values by key, its forces, and what the reader should know."""
+
+    columns: Mapping[str, Known]
+    singles: Mapping[str, Known]
+    forces: tuple[GasForce, ...]
+    notices: tuple[Told, ...]
+
+    def loads(self, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
+        """Return the forces as loads: remembered on a remembered motion, numbers on one in numbers."""
+        force: Mapping[str, Value] = {one.force.key: one.force for one in self.forces}
+        if not is_known(*(one.position for one in motion.sliders.values())):
+            force = Program({one.force.key: one.force for one in self.forces})(motion.grid)
+        return together(
+            force_on_slider(mechanism, motion, one.slider, force[one.force.key], f".{one.chamber}")
+            for one in self.forces
+        )
+
+
+NO_GAS = Filling({}, {}, (), ())
+
+
+class _Wall(NamedTuple):
+    """A face with its area and sense, and how far its piece has come."""
+
+    slider: str
+    sense: Known
+    area: Known
+    position: Known
+    position_1: Known
+
+
+class _Space(NamedTuple):
+    """A chamber as it moves, and the crank angles of a turn where its volume turns back. [deg]"""
+
+    walls: tuple[_Wall, ...]
+    volume: Known
+    volume_1: Known
+    swept: Known
+    clearance: Known
+    ratio: Known
+    dead_centres: tuple[float, ...]
+
+    def volume_at(self, degrees: Array) -> Array:
+        """Return the volume at crank angles. [m3]"""
+        return Program({"": self.volume})(CrankGrid.from_degrees(degrees))[""]
+
+
+def filled(chambers: Mapping[str, Chamber], charges: Mapping[str, Charge], motion: Motion, pi: float) -> Filling:
+    """Return the gas of chambers on the sliding pieces of a remembered motion, whose crank turns fully."""
+    if not chambers:
+        return NO_GAS
+    whole = cycle_of(chambers)
+    spaces = _spaces(chambers, motion, pi)
+    pressures, works, own, told = dict[str, Known](), dict[str, Known](), list[Known](), list[Told]()
+    for name, charge in charges.items():
+        pressure, values = _sealed(name, charge, chambers, spaces)
+        own += values
+        pressures |= {one: pressure.named(f"diagram_pressure.{one}") for one in charge.chambers}
+    works |= _works(pressures, spaces)
+    for name, chamber in chambers.items():
+        if name not in pressures:
+            pressures[name], works[name], notices = _of_its_own(name, chamber, spaces[name], whole)
+            told += notices
+    columns, forces = list[Known](), list[GasForce]()
+    for name, space in spaces.items():
+        ambient, acting = chambers[name].ambient, pressures[name].named(f"gas_pressure.{name}")
+        if ambient:
+            around = given(f"ambient_pressure.{name}", ambient, f"chambers.{name}.ambient")
+            acting = gas.gauge_pressure(pressures[name], around).named(acting.key)
+        columns += [space.volume, space.volume_1, pressures[name], acting]
+        for wall in space.walls:
+            key = f"gas_force.{name}" if len(space.walls) == 1 else f"gas_force.{name}.{wall.slider}"
+            force = gas.face_force(wall.sense, acting, wall.area).named(key)
+            forces.append(GasForce(name, wall.slider, force))
+        mean = gas.indicated_mean_pressure(works[name], space.swept).named(f"indicated_mean_pressure.{name}")
+        own += [*_sizes(space), works[name], mean]
+    columns += [one.force for one in forces]
+    return Filling(_by_key(columns), _by_key(own), tuple(forces), tuple(told))
+
+
+def cycle_of(chambers: Mapping[str, Chamber]) -> float:
+    """Return the crank angle after which every pressure repeats. [deg]"""
+    return max((one.cycle for one in chambers.values()), default=_TURN)
+
+
+def _by_key(knowns: list[Known]) -> dict[str, Known]:
+    return {one.key: one for one in knowns}
+
+
+def _sizes(space: _Space) -> Iterator[Known]:
+    yield space.swept
+    if not space.clearance.is_absent:
+        yield space.clearance
+        yield space.ratio
+
+
+def _spaces(chambers: Mapping[str, Chamber], motion: Motion, pi: float) -> dict[str, _Space]:
+    """Return the chambers as they move."""
+    walls = {name: tuple(_walls(name, one, motion, pi)) for name, one in chambers.items()}
+    followed = {}
+    for name, some in walls.items():
+        travel = [gas.face_volume(one.sense, one.area, one.position, absent("")) for one in some]
+        followed[f"face_volume.{name}"] = total(f"face_volume.{name}", travel)
+        rates = [gas.face_volume_1(one.sense, one.area, one.position_1) for one in some]
+        followed[f"cylinder_volume_1.{name}"] = total(f"cylinder_volume_1.{name}", rates)
+    over = OverCycle(followed, CrankGrid.from_degrees, _TURN)
+    return {name: _space(name, chambers[name], some, over) for name, some in walls.items()}
+
+
+def _walls(name: str, chamber: Chamber, motion: Motion, pi: float) -> Iterator[_Wall]:
+    for number, face in enumerate(chamber.faces, start=1):
+        path = f"chambers.{name}.faces[{number}]"
+        owner = name if len(chamber.faces) == 1 else f"{name}.{face.slider}"
+        sense = absent("face_sense", 1.0) if face.sense == 1 else given(f"face_sense.{owner}", -1.0, f"{path}.sense")
+        slide: Any = motion.sliders[face.slider]
+        yield _Wall(face.slider, sense, _area(face, owner, path, pi), slide.position, slide.position_1)
+
+
+def _area(face: Face, owner: str, path: str, pi: float) -> Known:
+    key = f"piston_area.{owner}"
+    if face.bore is None:
+        return given(key, face.area or 0.0, f"{path}.area")
+    area: Known = gas.piston_area(pi, given(f"bore.{owner}", face.bore, f"{path}.bore"))
+    if not face.rod_diameter:
+        return area.named(key)
+    rod = given(f"piston_rod_diameter.{owner}", face.rod_diameter, f"{path}.rod_diameter")
+    less: Known = gas.face_area(area.named(f"{key}.bore"), gas.piston_area(pi, rod).named(f"{key}.rod"))
+    return less.named(key)
+
+
+def _space(name: str, chamber: Chamber, walls: tuple[_Wall, ...], over: OverCycle) -> _Space:
+    travel, rate = f"face_volume.{name}", f"cylinder_volume_1.{name}"
+    largest, least = over.largest_and_least[travel]
+    found = over.extremes(travel)
+    swept = (found[f"face_volume_max.{name}"] - found[f"face_volume_min.{name}"]).named(f"swept_volume.{name}")
+    ratio = absent("compression_ratio")
+    if chamber.compression_ratio is not None:
+        path = f"chambers.{name}.compression_ratio"
+        ratio = given(f"compression_ratio.{name}", chamber.compression_ratio, path)
+        clearance = gas.clearance_volume(swept, ratio).named(f"clearance_volume.{name}")
+    elif chamber.clearance_volume:
+        path = f"chambers.{name}.clearance_volume"
+        clearance = given(f"clearance_volume.{name}", chamber.clearance_volume, path)
+        ratio = gas.compression_ratio(swept, clearance).named(f"compression_ratio.{name}")
+    else:
+        clearance = absent("clearance_volume")
+    parts = [] if clearance.is_absent else [clearance]
+    for wall in walls:
+        start = at_angle(wall.position, least.at, f"slider_displacement.{wall.slider}.{name}")
+        part = gas.face_volume(wall.sense, wall.area, wall.position, start)
+        parts.append(part.named(f"face_volume.{name}.{wall.slider}"))
+    volume = total(f"cylinder_volume.{name}", parts)
+    centres = [*over.crossings(rate).tolist(), largest.at, least.at, *_at_zero(rate, over)]
+    return _Space(walls, volume, over.knowns[rate], swept, clearance, ratio, _apart(centres))
+
+
+def _at_zero(rate: str, over: OverCycle) -> Iterator[float]:
+    """Yield zero where a volume turns back between one turn and the next."""
+    before, after = over.at(rate, np.array([_TURN - _SAME_ANGLE, _SAME_ANGLE])).tolist()
+    if before * after < 0:
+        yield 0.0
+
+
+def _apart(degrees: list[float]) -> tuple[float, ...]:
+    """Return crank angles within a turn, ascending, those that only rounding has set apart as one."""
+    ordered = sorted(one % _TURN if _TURN - one % _TURN > _SAME_ANGLE else 0.0 for one in degrees)
+    return tuple(two for one, two in itertools.pairwise([-1.0, *ordered]) if two - one > _SAME_ANGLE)
+
+
+def _of_its_own(name: str, chamber: Chamber, space: _Space, whole: float) -> tuple[Known, Known, list[Told]]:
+    """Return the pressure that a chamber has by itself, its work over a cycle, and what the reader should know."""
+    key, path = f"diagram_pressure.{name}", f"chambers.{name}"
+    told: list[Told] = []
+    if chamber.pressure is not None:
+        pressure = given(key, chamber.pressure, f"{path}.pressure")
+        return pressure, Known(Found(0.0, "work", (pressure, space.volume)), f"indicated_work.{name}"), told
+    if chamber.measured is not None:
+        diagram, cycles, wrap = measured_diagram(
+            chamber.measured, chamber.cycle, shift=chamber.angle_shift, step=chamber.resample, path=path
+        )
+        told += [("cycles_averaged", {"cycles": cycles})] * (cycles > 1)
+        told += [("wrap", {"step": wrap})] * wrap_is_rough(diagram, wrap)
+    else:
+        diagram = solve_diagram(
+            chamber.points, chamber.pieces, chamber.cycle, space.volume_at, dead_centres=space.dead_centres, path=path
+        )
+        told += [("jump", {"point": point, "angle": at, "step": step}) for point, at, step in diagram.jumps]
+    pressure = remembered_pressure(_repeated(diagram, whole), space.volume, path)
+    work = Known(Found(diagram.work(space.volume_at), "work", (pressure, space.volume)), f"indicated_work.{name}")
+    return pressure, work, told
+
+
+def _repeated(diagram: IndicatorDiagram, whole: float) -> IndicatorDiagram:
+    """Return a diagram that is passed more than once in a cycle, over all of it."""
+    period = diagram.segments[-1].end
+    later = [
+        replace(one, start=one.start + turn, end=one.end + turn, knots=one.knots + turn)
+        for turn in np.arange(0.0, whole - period / 2, period).tolist()
+        for one in diagram.segments
+    ]
+    return replace(diagram, segments=tuple(later))
+
+
+def _works(pressures: Mapping[str, Known], spaces: Mapping[str, _Space]) -> dict[str, Known]:
+    """Return the work of a sealed charge in each of its chambers over a turn."""
+    if not pressures:
+        return {}
+    over = OverCycle(
+        {name: one * spaces[name].volume_1 for name, one in pressures.items()}, CrankGrid.from_degrees, _TURN
+    )
+    return {
+        name: Known(Found(over.integral(name), "work", (one, spaces[name].volume)), f"indicated_work.{name}")
+        for name, one in pressures.items()
+    }
+
+
+def _sealed(
+    name: str, charge: Charge, chambers: Mapping[str, Chamber], spaces: Mapping[str, _Space]
+) -> tuple[Known, list[Known]]:
+    """Return the pressure of a sealed charge, and its single values."""
+    path = f"charges.{name}"
+    parts = [(one, spaces[one].volume, chambers[one].temperature, f"chambers.{one}") for one in charge.chambers]
+    for number, dead in enumerate(charge.dead_volumes, start=1):
+        place = f"{path}.dead_volumes[{number}]"
+        volume = given(f"dead_volume.{name}.{number}", dead.volume, f"{place}.volume")
+        parts.append((f"{name}.{number}", volume, dead.temperature, place))
+    if charge.exponent is not None:
+        whole = total(f"cylinder_volume.{name}", [volume for _, volume, _, _ in parts])
+        exponent = given(f"polytropic_exponent.{name}", charge.exponent, f"{path}.exponent")
+        return _polytropic(name, charge, whole, exponent), []
+    reduced = []
+    for owner, volume, kelvin, place in parts:
+        temperature = given(f"cylinder_temperature.{owner}", kelvin or math.nan, f"{place}.temperature")
+        reduced.append(gas.reduced_volume(volume, temperature).named(f"reduced_volume.{owner}"))
+    whole = total(f"reduced_volume.{name}", reduced)
+    constant = given(f"specific_gas_constant.{name}", charge.gas_constant or math.nan, f"{path}.gas_constant")
+    mass = _mass(name, charge, whole, constant)
+    return gas.isothermal_pressure(mass, constant, whole), [mass]
+
+
+def _mass(name: str, charge: Charge, whole: Known, constant: Known) -> Known:
+    """Return the mass of a charge whose parts keep their temperatures."""
+    key = f"gas_mass.{name}"
+    if charge.mass is not None:
+        return given(key, charge.mass, f"charges.{name}.mass")
+    over = _course(name, whole)
+    if charge.mean_pressure is None:
+        start = at_angle(whole, charge.angle, f"reduced_volume.{name}.start")
+    else:
+        start = (1 / over.mean("inverse", f"inverse.{name}")).named(f"reduced_volume.{name}.mean")
+    return gas.charge_mass(_stated(name, charge), start, constant).named(key)  # type: ignore[no-any-return]
+
+
+def _polytropic(name: str, charge: Charge, whole: Known, exponent: Known) -> Known:
+    """Return the pressure of a charge that follows a polytrope."""
+    over, stated = _course(name, whole), _stated(name, charge)
+    if charge.mean_pressure is None:
+        start = at_angle(whole, charge.angle, f"cylinder_volume.{name}.start")
+    else:
+        start = at_angle(whole, over.largest_and_least[""][1].at, f"cylinder_volume.{name}.start")
+        trial = gas.polytropic_pressure(stated, start, whole, exponent)
+        mean = OverCycle({"": trial}, CrankGrid.from_degrees, _TURN).mean("", f"diagram_pressure.{name}.trial")
+        stated = (stated * (stated / mean)).named(f"diagram_pressure.{name}.start")
+    return gas.polytropic_pressure(stated, start, whole, exponent)  # type: ignore[no-any-return]
+
+
+def _stated(name: str, charge: Charge) -> Known:
+    if charge.mean_pressure is not None:
+        return given(f"diagram_pressure.{name}.mean", charge.mean_pressure, f"charges.{name}.mean_pressure")
+    return given(f"diagram_pressure.{name}.start", charge.pressure or math.nan, f"charges.{name}.pressure")
+
+
+def _course(name: str, whole: Known) -> OverCycle:
+    """Follow the whole volume of a charge, and its inverse; refuse one that vanishes."""
+    over = OverCycle({"": whole}, CrankGrid.from_degrees, _TURN)
+    largest, least = over.largest_and_least[""]
+    if least.value <= _NOTHING * largest.value:
+        raise DiagramError(f"charges.{name}", Refusal("charge_empty", angle=f"{least.at:g}"))
+    return OverCycle({"": whole, "inverse": 1 / whole}, CrankGrid.from_degrees, _TURN)
