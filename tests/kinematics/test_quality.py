@@ -10,7 +10,6 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.quality import (
     coupler_curve,
-    crank_ranges,
     grashof,
     limits,
     limits_of_all,
@@ -103,14 +102,6 @@ def test_pressure_angle_of_a_slider_crank_is_the_swing_of_the_rod():
 def test_a_yoke_has_no_transmission_angle():
     with pytest.raises(GeometryError, match="defined for"):
         transmission_angle(scotch_yoke(0.05), 0, CrankGrid.from_degrees([0.0]))
-
-
-def test_ranges_of_a_crank_that_does_not_turn_fully():
-    half = math.degrees(math.acos((3**2 + 7**2 - 9**2) / (2 * 3 * 7)))
-    (found,) = crank_ranges(four_bar(3, 4, 5, 7))
-    assert (found.start, found.end) == pytest.approx((360 - half, 360 + half), abs=1e-6)
-    assert found.group == 0
-    assert crank_ranges(four_bar(2.5, 7, 4.5, 8))[0].group is None
 
 
 def test_coupler_curve_closes():

@@ -108,13 +108,13 @@ def singular_between(
     angle = grid.angle
     if angle.size < 3 or closure.value.size != angle.size:
         return
-    for index in _suspects(angle, closure.value):
+    for index in suspects(angle, closure.value):
         found = _narrowed(angle[index], angle[index + 1], closure.scale, closure_at)
         if found is not None:
             yield int(index), found
 
 
-def _suspects(angle: Array, value: Array) -> NDArray[np.intp]:
+def suspects(angle: Array, value: Array) -> NDArray[np.intp]:
     """Return the intervals in which a locally convex function may reach zero, by the secants beside them."""
     least = value.min()
     step, rise = angle[1:] - angle[:-1], value[1:] - value[:-1]
@@ -136,8 +136,8 @@ def _narrowed(low: float, high: float, scale: float, closure_at: Callable[[Crank
         worst = int(np.argmin(value))
         if value[worst] <= _SINGULAR * scale:
             return float(angle[worst])
-        suspects = _suspects(angle, value)
-        if not suspects.size:
+        within = suspects(angle, value)
+        if not within.size:
             return None
-        low, high = angle[suspects[0]], angle[suspects[-1] + 1]
+        low, high = angle[within[0]], angle[within[-1] + 1]
     return None

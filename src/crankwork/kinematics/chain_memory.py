@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from crankwork.formula.known import Component, Known, Root, absent, given
+from crankwork.kinematics.closing import Surroundings
 from crankwork.kinematics.dyads import LinkMotion, guide_on_link, named_link, named_point, point_on_link, seen_from
-from crankwork.kinematics.loops import ChainMotion, Surroundings
+from crankwork.kinematics.loops import ChainMotion
 from crankwork.kinematics.plane_motion import cosine_of_direction, sine_of_direction, sine_of_turned
 from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.mechanism.chain import Chain, ChainLink

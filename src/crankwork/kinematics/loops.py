@@ -8,38 +8,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
-from typing import NamedTuple, Protocol
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from crankwork.errors import GeometryError
+from crankwork.kinematics.closing import ClosingEquations, Positions, Surroundings, line_at
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dyads import Closure, LinkMotion, guide_on_link, point_on_link, seen_from
 from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.locale import Refusal
 from crankwork.mechanism.chain import Chain, ChainLink, Slide
-from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide, Point
-
-Positions = NDArray[np.intp]
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Point
 
 _STEP = np.radians(6.0)
 _SMALLEST_STEP = 1e-4
 _LAST_STEP = 1e-8
 _ITERATIONS = 12
 _FARTHEST = 0.05
-
-
-class Surroundings(Protocol):
-    """What a chain hangs on: points that are placed, and guides on links that are."""
-
-    @property
-    def points(self) -> dict[str, PointMotion]:
-        """Points by name."""
-
-    def guide(self, guide: Guide) -> LinkMotion:
-        """Return the motion of a guide."""
 
 
 class ChainMotion(NamedTuple):
@@ -60,13 +47,6 @@ class _Solution(NamedTuple):
     determinant: Array
 
 
-class _Row(NamedTuple):
-    """An equation: its value and two derivatives, each shape (n,), and its derivative by the coordinates of links."""
-
-    value: Transfer
-    columns: list[tuple[int, Array, Array, Array]]
-
-
 class ChainPath:
     """Positions of a chain along the way of the crank, from the stated start; all others are solved from these.
 
@@ -77,7 +57,7 @@ class ChainPath:
     """
 
     def __init__(self, chain: Chain, grid: CrankGrid, around: Callable[[CrankGrid], Surroundings]) -> None:
-        self._equations, self._around = _Equations(chain), around
+        self._equations, self._around = ClosingEquations(chain), around
         self._reach = float(min(grid.angle.min(), chain.start)), float(max(grid.angle.max(), chain.start))
         behind, ahead = (_knots(chain.start, end) for end in self._reach)
         knots = CrankGrid.from_radians([chain.start, *ahead, *behind])
@@ -138,7 +118,7 @@ def _path(knots: list[tuple[float, _Solution]], start: _Solution) -> _Path:
     return _Path(np.array([angle for angle, _ in knots]), q, q_1, q_2, float(start.determinant[0]))
 
 
-def _start(equations: _Equations, surroundings: Surroundings) -> _Solution:
+def _start(equations: ClosingEquations, surroundings: Surroundings) -> _Solution:
     """Return the position at the stated start, which is the first of the surroundings."""
     chain, here = equations.chain, np.array([0])
     given = np.array([[value for link in chain.links for value in (*link.origin, link.angle)]])
@@ -158,7 +138,7 @@ def _start(equations: _Equations, surroundings: Surroundings) -> _Solution:
 class _Walk(NamedTuple):
     """Follows the crank from knot to knot."""
 
-    equations: _Equations
+    equations: ClosingEquations
     surroundings: Surroundings
     around: Callable[[CrankGrid], Surroundings]
 
@@ -193,7 +173,7 @@ class _Walk(NamedTuple):
 
 
 def _continued(
-    equations: _Equations, at: _Solution, step: float, surroundings: Surroundings, index: int
+    equations: ClosingEquations, at: _Solution, step: float, surroundings: Surroundings, index: int
 ) -> _Solution | None:
     """Return the position one step on, or None if that would be a jump or a passage through a singular one."""
     guess = at.q + step * (at.q_1 + 0.5 * step * at.q_2)
@@ -205,7 +185,9 @@ def _continued(
     return found if found.determinant[0] * at.determinant[0] > 0 else None
 
 
-def _newton(equations: _Equations, guess: Array, surroundings: Surroundings, at: Positions) -> tuple[Array, Array]:
+def _newton(
+    equations: ClosingEquations, guess: Array, surroundings: Surroundings, at: Positions
+) -> tuple[Array, Array]:
     """Return the coordinates that close all loops, NaN where none were found, and by how much the guess misses.
 
     The guesses belong to the positions `at` of the surroundings. Those that have converged drop out: after a
@@ -228,7 +210,7 @@ def _newton(equations: _Equations, guess: Array, surroundings: Surroundings, at:
     return q, miss
 
 
-def _derivatives(equations: _Equations, q: Array, surroundings: Surroundings, at: Positions) -> _Solution:
+def _derivatives(equations: ClosingEquations, q: Array, surroundings: Surroundings, at: Positions) -> _Solution:
     """Return the transfer functions of the coordinates."""
     rows = equations.rows(q, np.zeros_like(q), np.zeros_like(q), surroundings, at)
     jacobian = equations.jacobian(rows, len(q))
@@ -249,126 +231,8 @@ def _solved(matrix: Array, right: Array) -> Array:
         return solution
 
 
-@dataclass
-class _Equations:
-    """The closing equations of a chain."""
-
-    chain: Chain
-
-    def __post_init__(self) -> None:
-        self.names = ", ".join(link.name for link in self.chain.links)
-        self.index = {link.name: 3 * k for k, link in enumerate(self.chain.links)}
-        owners: dict[str, list[str]] = {}
-        for link in self.chain.links:
-            for name in link.points:
-                owners.setdefault(name, []).append(link.name)
-        self.pins = [
-            (name, links[0], other)
-            for name, links in owners.items()
-            for other in (links if name in self.chain.known else links[1:])
-        ]
-        count = 2 * len(self.pins) + 2 * len(self.chain.slides)
-        if count != 3 * len(self.index):
-            raise GeometryError(
-                Refusal("chain_count", links=self.names, equations=count, coordinates=3 * len(self.index))
-            )
-        size = max(np.hypot(*point) for link in self.chain.links for point in link.points.values()) or 1.0
-        self.scale = np.tile([size, size, 1.0], len(self.index))
-
-    def frames(self, q: Array, q_1: Array | None, q_2: Array | None) -> dict[str, LinkMotion]:
-        """Return the frames of the links from their coordinates."""
-        zero = np.zeros(len(q))
-        frames = {}
-        for name, k in self.index.items():
-            x, y, angle = (
-                Transfer(q[:, k + j], zero if q_1 is None else q_1[:, k + j], zero if q_2 is None else q_2[:, k + j])
-                for j in range(3)
-            )
-            cos, sin = np.cos(angle.position), np.sin(angle.position)
-            frames[name] = LinkMotion(PointMotion(x, y), cos, sin, angle.position_1, angle.position_2)
-        return frames
-
-    def rows(self, q: Array, q_1: Array | None, q_2: Array | None, around: Surroundings, at: Positions) -> list[_Row]:
-        """Return all equations at some of the positions."""
-        frames = self.frames(q, q_1, q_2)
-        rows: list[_Row] = []
-        for name, one, other in self.pins:
-            end, column = self._point(other, name, frames)
-            if name in self.chain.known:
-                rows += _pin(end, _at(around.points[name], at), [column], [])
-            else:
-                start, against = self._point(one, name, frames)
-                rows += _pin(end, start, [column], [against])
-        for slide in self.chain.slides:
-            rows += self._slide(slide.link, slide.guide, q, frames, around, at)
-        return rows
-
-    def _point(
-        self, link: str, name: str, frames: dict[str, LinkMotion]
-    ) -> tuple[PointMotion, tuple[int, Array, Array]]:
-        """Return the motion of a point of a link, and its derivative by the angle of the link."""
-        k, frame = self.index[link], frames[link]
-        along, across = self.chain.links[k // 3].points[name]
-        point = point_on_link(frame, along, across)
-        arm_x, arm_y = point.x.position - frame.origin.x.position, point.y.position - frame.origin.y.position
-        return point, (k, -arm_y, arm_x)
-
-    def _slide(
-        self, link: str, guide: Guide, q: Array, frames: dict[str, LinkMotion], around: Surroundings, at: Positions
-    ) -> list[_Row]:
-        """Return the two equations of a link whose x axis lies on a guide."""
-        k, frame = self.index[link], frames[link]
-        carrier = self.index.get(guide.link)
-        line = _line_at(around.guide(guide), at) if carrier is None else guide_on_link(frames[guide.link], guide)
-        across = seen_from(line, frame.origin).y
-        zero, one = np.zeros(len(q)), np.ones(len(q))
-        columns = [(k, -line.sin + zero, line.cos + zero, zero)]
-        # sine of the angle between the two x axes; at the solution its cosine is one
-        sine = frame.sin * line.cos - frame.cos * line.sin
-        turn = Transfer(sine, frame.angle_1 - line.angle_1, frame.angle_2 - line.angle_2)
-        turns = [(k, zero, zero, one)]
-        if carrier is not None:
-            base = frames[guide.link].origin
-            arm_x, arm_y = (mine.position - other.position for mine, other in zip(frame.origin, base, strict=True))
-            columns.append((carrier, line.sin, -line.cos, -(arm_x * line.cos + arm_y * line.sin)))
-            turns.append((carrier, zero, zero, -one))
-        return [_Row(across, columns), _Row(turn, turns)]
-
-    def jacobian(self, rows: list[_Row], count: int) -> Array:
-        """Return the derivative of the equations by the coordinates, shape (n, 3 m, 3 m)."""
-        matrix = np.zeros((count, len(rows), len(rows)))
-        for row, equation in enumerate(rows):
-            for k, x, y, angle in equation.columns:
-                matrix[:, row, k], matrix[:, row, k + 1], matrix[:, row, k + 2] = x, y, angle
-        return matrix
-
-
-def _pin(
-    end: PointMotion,
-    start: PointMotion,
-    ends: list[tuple[int, Array, Array]],
-    starts: list[tuple[int, Array, Array]],
-) -> list[_Row]:
-    """Return the two equations of a pin: that two points are one."""
-    zero = np.zeros(np.shape(end.x.position))
-    x_columns = [(k, zero + sign, zero, sign * x) for sign, side in ((1, ends), (-1, starts)) for k, x, _ in side]
-    y_columns = [(k, zero, zero + sign, sign * y) for sign, side in ((1, ends), (-1, starts)) for k, _, y in side]
-    apart = [Transfer(*(a - b for a, b in zip(one, two, strict=True))) for one, two in zip(end, start, strict=True)]
-    return [_Row(apart[0], x_columns), _Row(apart[1], y_columns)]
-
-
-def _at(point: PointMotion, at: Positions) -> PointMotion:
-    """Return a motion at some of the positions."""
-    return PointMotion(*(Transfer(*(one[at] if one.ndim else one for one in side)) for side in point))
-
-
-def _line_at(line: LinkMotion, at: Positions) -> LinkMotion:
-    cos, sin, angle_1, angle_2 = (one[at] if one.ndim else one for one in line[1:])
-    return LinkMotion(_at(line.origin, at), cos, sin, angle_1, angle_2)
-
-
 def _as_motion(
-    equations: _Equations, solution: _Solution, determinant: float, around: Surroundings, at: Positions
+    equations: ClosingEquations, solution: _Solution, determinant: float, around: Surroundings, at: Positions
 ) -> ChainMotion:
     """Return points, frames and distances from the coordinates of the links."""
     chain, frames = equations.chain, equations.frames(*solution[:3])
@@ -381,7 +245,7 @@ def _as_motion(
     sliders = {}
     for slide in chain.slides:
         carrier = frames.get(slide.guide.link)
-        line = guide_on_link(carrier, slide.guide) if carrier else _line_at(around.guide(slide.guide), at)
+        line = guide_on_link(carrier, slide.guide) if carrier else line_at(around.guide(slide.guide), at)
         sliders[slide.link] = seen_from(line, frames[slide.link].origin).x
     ratio = solution.determinant / determinant
     return ChainMotion(points, frames, sliders, Closure(np.where(ratio > 0, ratio * ratio, np.nan), 1.0, ratio))

@@ -170,9 +170,9 @@ def assembled(mechanism: Mechanism, grid: CrankGrid) -> Placed:
         bad = unassembled(closure)
         if bad is not None:
             raise refusal(group, closure, grid, bad)
-        for _, angle in singular_between(grid, closure, _closure_of(mechanism, index)):
+        for _, angle in singular_between(grid, closure, closure_of(mechanism, index)):
             at = CrankGrid.from_radians(np.array([angle]))
-            there = _closure_of(mechanism, index)(at)._replace(scale=closure.scale)
+            there = closure_of(mechanism, index)(at)._replace(scale=closure.scale)
             raise refusal(group, there, at, np.array([True]))
     return placed
 
@@ -190,7 +190,7 @@ def reached(mechanism: Mechanism, placed: Placed) -> NDArray[np.int8]:
         missing = unassembled(closure)
         if missing is not None:
             bad |= missing
-        for interval, _ in singular_between(grid, closure, _closure_of(mechanism, index)):
+        for interval, _ in singular_between(grid, closure, closure_of(mechanism, index)):
             cut[interval + 1] = True
     if bad.all():
         return np.ones(grid.angle.shape, dtype=np.int8)
@@ -199,7 +199,7 @@ def reached(mechanism: Mechanism, placed: Placed) -> NDArray[np.int8]:
     return np.where(bad, 1, np.where(run == run[first], 0, 2)).astype(np.int8)
 
 
-def _closure_of(mechanism: Mechanism, index: int) -> Callable[[CrankGrid], Closure]:
+def closure_of(mechanism: Mechanism, index: int) -> Callable[[CrankGrid], Closure]:
     """Return how well one group closes, as a function of the crank angles."""
     part = replace(mechanism, dyads=mechanism.dyads[: index + 1])
     return lambda grid: place(part, grid).closures[index]

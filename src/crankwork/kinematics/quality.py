@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from crankwork.errors import GeometryError
-from crankwork.kinematics.assembly import unassembled
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.extremes import closed_in
 from crankwork.kinematics.motion import direction
@@ -198,56 +195,6 @@ def transmission_extremes(mechanism: Mechanism, groups: Sequence[int]) -> list[E
         at, best = (np.take_along_axis(one, closest, axis=-1)[..., 0] for one in (windows, inside))
         width /= 4
     return [Extremes(*map(float, one)) for one in zip(best[0], at[0] % 360.0, best[1], at[1] % 360.0, strict=True)]
-
-
-class CrankRange(NamedTuple):
-    """Crank angles between which a mechanism can be assembled, and the group that ends it; None if it turns fully."""
-
-    start: float
-    end: float
-    group: int | None
-
-
-def crank_ranges(mechanism: Mechanism) -> list[CrankRange]:
-    """Return the ranges of the crank in which a mechanism can be assembled; their ends are singular positions. [deg]
-
-    Ascending; a range over zero ends beyond 360. One from 0 to 360 if the crank turns fully.
-    """
-    degrees = np.linspace(0.0, 360.0, _SCAN + 1)
-    works = _works(mechanism, degrees)
-    if works.all():
-        return [CrankRange(0.0, 360.0, None)]
-    change = np.flatnonzero(works[1:] != works[:-1])
-    low, high, before = degrees[change], degrees[change + 1], works[change]
-    for _ in range(40 if change.size else 0):
-        middle = (low + high) / 2
-        same = _works(mechanism, middle) == before
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
-    starts, ends = high[~before], low[before]
-    if works[0]:
-        ends = np.concatenate([ends[1:], ends[:1] + 360.0])
-    return [
-        CrankRange(float(start), float(end), _failing(mechanism, float(end)))
-        for start, end in zip(starts, ends, strict=True)
-    ]
-
-
-def _works(mechanism: Mechanism, degrees: Array) -> NDArray[np.bool_]:
-    works = np.ones(degrees.shape, dtype=bool)
-    for closure in place(mechanism, CrankGrid.from_degrees(degrees)).closures:
-        bad = unassembled(closure)
-        if bad is not None:
-            works &= ~bad
-    return works
-
-
-def _failing(mechanism: Mechanism, degrees: float) -> int | None:
-    """Return the group that no longer closes just beyond an angle."""
-    for index in range(len(mechanism.dyads)):
-        part = replace(mechanism, dyads=mechanism.dyads[: index + 1])
-        if not _works(part, np.array([degrees + 1e-6]))[0]:
-            return index
-    return None
 
 
 def coupler_curve(mechanism: Mechanism, point: str, grid: CrankGrid) -> tuple[Array, Array]:

@@ -1,0 +1,368 @@
+"""Circuits: the closed curves of positions of a linkage, their branches, and the limits of what moves on them.
+
+A circuit belongs to the linkage, whatever drives it. The dead positions of a driver, where its coordinate turns back,
+cut it into branches.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise, product
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.kinematics.assembly import singular_between, suspects
+from crankwork.kinematics.closing import ClosingEquations
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.curves import Curve, PositionEquations, follow
+from crankwork.kinematics.dyads import LinkMotion, fixed_guide, guide_on_link, point_on_link, seen_from
+from crankwork.kinematics.extremes import closed_in
+from crankwork.kinematics.loops import as_chain
+from crankwork.kinematics.placement import Placed, closure_of, place
+from crankwork.kinematics.transfer import PointMotion, Transfer
+from crankwork.mechanism.chain import Chain, ChainLink, Slide
+from crankwork.mechanism.dyads import RPR, RRP, RRR, Branch, Guide, Point
+from crankwork.mechanism.mechanism import Mechanism
+
+_BRANCHES: tuple[Branch, Branch] = (1, -1)
+_BETWEEN_KNOTS = 4
+_SCAN = 720
+_STILL = 1e-11
+_BISECTIONS = 60
+_SINGULAR = 1e-13
+_SAME = 1e-6
+
+
+class Stretch(NamedTuple):
+    """Some positions of a circuit: directions and frames of all links, derivatives by the arc."""
+
+    angles: dict[str, Transfer]
+    frames: dict[str, LinkMotion]
+
+
+Coordinate = Callable[[Stretch], Transfer]
+
+
+class Extent(NamedTuple):
+    """Least and greatest value of a coordinate on a part of a circuit, and the arcs at which they are reached."""
+
+    least: float
+    least_at: float
+    greatest: float
+    greatest_at: float
+
+    @property
+    def travel(self) -> float:
+        """Stroke or swing."""
+        return self.greatest - self.least
+
+
+class Part(NamedTuple):
+    """A part of a circuit from arc to arc, beyond the length of the circuit where it goes over its start."""
+
+    start: float
+    end: float
+
+
+@dataclass(frozen=True)
+class Circuit:
+    """A curve of positions of a linkage; at an arc of zero the position that was stated."""
+
+    mechanism: Mechanism
+    curve: Curve
+
+    @property
+    def sliders(self) -> dict[str, Coordinate]:
+        """The distance of every sliding piece along its guide. [m]"""
+        return {one.link: slider_place(one.guide, one.link) for one in self.curve.system.equations.chain.slides}
+
+    @property
+    def whole(self) -> Part:
+        """All of it."""
+        return Part(0.0, self.curve.length)
+
+    @cached_property
+    def _sampled(self) -> tuple[Array, Stretch]:
+        """Positions at and between the knots."""
+        knots = self.curve.arc
+        parts = np.linspace(0.0, 1.0, _BETWEEN_KNOTS, endpoint=False)
+        arc = np.append((knots[:-1, None] + parts * np.diff(knots)[:, None]).ravel(), knots[-1])
+        return arc, self.stretch(arc)
+
+    def stretch(self, arc: Array) -> Stretch:
+        """Return where everything is at some arcs."""
+        q, q_1 = self.curve.at(np.asarray(arc, dtype=float))
+        equations, zero = self.curve.system.equations, np.zeros_like(q)
+        angles = {name: Transfer(q[:, k + 2], q_1[:, k + 2], zero[:, 0]) for name, k in equations.index.items()}
+        return Stretch(angles, equations.frames(q, q_1, zero))
+
+    def values(self, coordinate: Coordinate, arc: Array) -> Array:
+        """Return a coordinate at some arcs."""
+        return np.asarray(coordinate(self.stretch(arc)).position)
+
+    def turning_points(self, coordinate: Coordinate) -> Array:
+        """Return the arcs at which a coordinate turns back, ascending: the dead positions of a driver."""
+
+        def rate(arc: Array) -> Array:
+            return np.asarray(coordinate(self.stretch(arc)).position_1)
+
+        arc, there = self._sampled
+        arc, rates = _looked_at_closely(rate, arc, np.asarray(coordinate(there).position_1))
+        moving = np.flatnonzero(np.abs(rates) > _STILL)
+        if not moving.size:
+            return np.empty(0)
+        arc, rates = arc[moving], rates[moving]
+        if self.curve.is_closed and rates[0] * rates[-1] < 0 and moving[-1] - moving[0] < len(arc) - 1:
+            arc, rates = np.append(arc, arc[0] + self.curve.length), np.append(rates, rates[0])
+        turned = np.flatnonzero(rates[1:] * rates[:-1] < 0)
+        if not turned.size:
+            return np.empty(0)
+        found = closed_in(rate, arc[turned], arc[turned + 1], rates[turned], rates[turned + 1])
+        return np.sort(found % self.curve.length)
+
+    def branches(self, driver: Coordinate) -> list[Part]:
+        """Return the parts between dead positions of a driver; the whole where it has none."""
+        dead = self.turning_points(driver)
+        if not dead.size:
+            return [self.whole]
+        if self.curve.is_closed:
+            return [
+                Part(*map(float, ends)) for ends in zip(dead, [*dead[1:], dead[0] + self.curve.length], strict=True)
+            ]
+        ends = [0.0, *map(float, dead), self.curve.length]
+        return [Part(*pair) for pair in pairwise(ends)]
+
+    def branch_at(self, driver: Coordinate, arc: float = 0.0) -> Part:
+        """Return the branch that a position is on, that of the stated position where none is named."""
+        for part in self.branches(driver):
+            for shift in (0.0, -self.curve.length):
+                moved = Part(part.start + shift, part.end + shift)
+                if moved.start <= arc <= moved.end:
+                    return moved
+        return self.whole
+
+    def extent(self, coordinate: Coordinate, part: Part | None = None) -> Extent:
+        """Return the least and greatest value of a coordinate on a part, by default on the whole circuit."""
+        part = part or self.whole
+        turns = self.turning_points(coordinate)
+        every = np.concatenate([turns + k * self.curve.length for k in (-1, 0, 1)])
+        arc = np.concatenate([[part.start], every[(every > part.start) & (every < part.end)], [part.end]])
+        values = self.values(coordinate, arc)
+        low, high = int(np.argmin(values)), int(np.argmax(values))
+        return Extent(float(values[low]), float(arc[low]), float(values[high]), float(arc[high]))
+
+    def turns(self, link: str) -> int:
+        """Return how many turns a link makes on the way round the circuit."""
+        k = self.curve.system.equations.index[link] + 2
+        return round(float(self.curve.knots[-1, k] - self.curve.knots[0, k]) / math.tau) if self.curve.is_closed else 0
+
+
+def _looked_at_closely(rate: Callable[[Array], Array], arc: Array, rates: Array) -> tuple[Array, Array]:
+    """Return arcs and rates, with more of them where a rate of one sign may touch zero between two."""
+    for _ in range(4):
+        same = rates[1:] * rates[:-1] > 0
+        near = [one for one in suspects(arc, np.abs(rates)) if same[one]]
+        near = [one for one in near if arc[one + 1] - arc[one] > 1e-6]
+        if not near:
+            break
+        more = np.concatenate([np.linspace(arc[one], arc[one + 1], 9)[1:-1] for one in near])
+        arc, order = np.unique(np.concatenate([arc, more]), return_index=True)
+        rates = np.concatenate([rates, rate(more)])[order]
+    return arc, rates
+
+
+def link_angle(name: str) -> Coordinate:
+    """Return the direction of a link from the x axis. [rad]"""
+    return lambda there: there.angles[name]
+
+
+def crank_angle(mechanism: Mechanism) -> Coordinate:
+    """Return the crank angle, from the start in the direction of rotation. [rad]"""
+    crank = mechanism.crank
+
+    def coordinate(there: Stretch) -> Transfer:
+        angle = there.angles[crank.link]
+        return Transfer(
+            crank.direction * (angle.position - crank.start), crank.direction * angle.position_1, angle.position_2
+        )
+
+    return coordinate
+
+
+def relative_angle(link: str, other: str) -> Coordinate:
+    """Return the angle from one link to another. [rad]"""
+    return lambda there: Transfer(*(b - a for a, b in zip(there.angles[link], there.angles[other], strict=True)))
+
+
+def slider_place(guide: Guide, piece: str) -> Coordinate:
+    """Return the distance of a sliding piece along its guide. [m]"""
+
+    def coordinate(there: Stretch) -> Transfer:
+        line = guide_on_link(there.frames[guide.link], guide) if guide.link else fixed_guide(guide)
+        return seen_from(line, there.frames[piece].origin).x
+
+    return coordinate
+
+
+class At(NamedTuple):
+    """A point in the frame of a link."""
+
+    link: str
+    along: float = 0.0
+    across: float = 0.0
+
+    def on(self, there: Stretch) -> PointMotion:
+        """Return its motion."""
+        return point_on_link(there.frames[self.link], self.along, self.across)
+
+
+def point_coordinate(point: At, axis: int) -> Coordinate:
+    """Return a coordinate of a point, x or y. [m]"""
+    return lambda there: point.on(there)[axis]
+
+
+def distance(point: At, other: At) -> Coordinate:
+    """Return the distance of two points. [m]"""
+
+    def coordinate(there: Stretch) -> Transfer:
+        (x, x_1, _), (y, y_1, _) = (
+            tuple(b - a for a, b in zip(mine, its, strict=True))
+            for mine, its in zip(point.on(there), other.on(there), strict=True)
+        )
+        far = np.hypot(x, y)
+        return Transfer(far, (x * x_1 + y * y_1) / far, np.zeros_like(far))
+
+    return coordinate
+
+
+def circuit_through(mechanism: Mechanism, crank_degrees: float = 0.0) -> Circuit:
+    """Return the circuit of a linkage that its position at a crank angle is on, which is no change point. [deg]"""
+    system, start = _system(mechanism, place(mechanism, CrankGrid.from_degrees([crank_degrees])))
+    return _circuit(mechanism, system, start)
+
+
+def _circuit(mechanism: Mechanism, system: PositionEquations, start: Array) -> Circuit:
+    """Return the circuit through a position, followed as the crank turns."""
+    forward = np.zeros_like(start)
+    forward[system.equations.index[mechanism.crank.link] + 2] = mechanism.crank.direction
+    return Circuit(mechanism, follow(system, start, forward))
+
+
+def _system(mechanism: Mechanism, placed: Placed) -> tuple[PositionEquations, Array]:
+    """Return the equations of all links of a linkage, the crank one of them, and their coordinates where it is."""
+    crank = mechanism.crank
+    pivot = f"{crank.link}.pivot"
+    points: dict[str, dict[str, Point]] = {crank.link: {pivot: (0.0, 0.0), crank.pin: (crank.radius, 0.0)}}
+    angle = crank.start + crank.direction * float(placed.grid.angle[0])
+    links = [ChainLink(crank.link, crank.pivot, angle, {})]
+    slides: list[Slide] = []
+    for group in mechanism.dyads:
+        chain = group if isinstance(group, Chain) else as_chain(group, placed.links, 0.0)
+        links += chain.links
+        slides += chain.slides
+        points |= {link.name: dict(link.points) for link in chain.links}
+    for one in mechanism.points:
+        points[one.link].setdefault(one.name, (one.along, one.across))
+    ground = {**mechanism.ground, pivot: crank.pivot}
+    start = []
+    for link in links:
+        frame = placed.links[link.name]
+        x, y = (float(np.ravel(side.position)[0]) for side in frame.origin)
+        turned = math.atan2(float(np.ravel(frame.sin)[0]), float(np.ravel(frame.cos)[0]))
+        start += [x, y, angle if link.name == crank.link else turned]
+    named = {name for own in points.values() for name in own}
+    whole = Chain(
+        tuple(replace(link, points=points[link.name]) for link in links),
+        tuple(slides),
+        frozenset(named & ground.keys()),
+    )
+    around = place(Mechanism(crank, (), ground=ground), placed.grid[:1])
+    return PositionEquations(ClosingEquations(whole, 1), around), np.array(start)
+
+
+def all_circuits(mechanism: Mechanism) -> list[Circuit]:
+    """Return every circuit of a linkage of dyads; of one with a chain only that of the stated position.
+
+    Every way to put the dyads together gives stretches of crank angles; each circuit covers some of them.
+    """
+    if any(isinstance(group, Chain) for group in mechanism.dyads):
+        return [circuit_through(mechanism)]
+    signed = sum(isinstance(group, RRR | RRP | RPR) for group in mechanism.dyads)
+    pieces: list[tuple[tuple[Branch, ...], float, float]] = []
+    circuits: list[Circuit] = []
+    for signs in product(_BRANCHES, repeat=signed):
+        pieces += [(signs, *ends) for ends in _assembled_stretches(with_branches(mechanism, signs))]
+    for signs, start, end in pieces:
+        one = with_branches(mechanism, signs)
+        system, position = _system(one, place(one, CrankGrid.from_degrees([(start + end) / 2])))
+        if all(circuit.curve.nearest(position)[1] > _SAME for circuit in circuits):
+            circuits.append(_circuit(one, system, position))
+    return circuits
+
+
+def with_branches(mechanism: Mechanism, signs: Sequence[Branch]) -> Mechanism:
+    """Return a linkage whose dyads that can be put together in two ways have given branches, in their order."""
+    given = iter(signs)
+    dyads = [replace(one, branch=next(given)) if isinstance(one, RRR | RRP | RPR) else one for one in mechanism.dyads]
+    return replace(mechanism, dyads=tuple(dyads))
+
+
+def _assembled_stretches(mechanism: Mechanism) -> list[tuple[float, float]]:
+    """Return the crank angles between which dyads of given signs can be assembled, over 360 where they go on. [deg]"""
+    degrees = np.linspace(0.0, 360.0, _SCAN + 1)
+    degrees = np.unique(np.concatenate([degrees, *_narrow(mechanism, degrees)]))
+    works = np.all(_margins(mechanism, degrees) > _SINGULAR, axis=0)
+    cut = np.zeros(len(degrees) - 1, dtype=bool)
+    grid = CrankGrid.from_degrees(degrees)
+    for index, closure in enumerate(place(mechanism, grid).closures):
+        for interval, _ in singular_between(grid, closure, closure_of(mechanism, index)):
+            cut[interval] = True
+    stretches = []
+    start = None
+    for k, one in enumerate(works):
+        if one and start is None:
+            start = k
+        if start is not None and (not one or k == len(works) - 1 or cut[k]):
+            last = k if one else k - 1
+            stretches.append((degrees[start], degrees[last]))
+            start = None
+    if len(stretches) > 1 and stretches[0][0] == 0.0 and stretches[-1][1] == 360.0:
+        stretches[0] = (stretches[-1][0] - 360.0, stretches[0][1])
+        stretches.pop()
+    return [(float(a), float(b)) for a, b in stretches]
+
+
+def _margins(mechanism: Mechanism, degrees: Array) -> Array:
+    """Return how well each group closes at crank angles, below zero where it does not, shape (groups, n)."""
+    closures = place(mechanism, CrankGrid.from_degrees(degrees)).closures
+    rows = [np.nan_to_num(one.value / one.scale, nan=-1.0) + np.zeros(len(degrees)) for one in closures]
+    return np.stack(rows)
+
+
+def _narrow(mechanism: Mechanism, degrees: Array) -> Iterator[Array]:
+    """Yield the ends of what can be assembled, and crank angles in what lies between two of a scan. [deg]"""
+    for count in range(1, len(mechanism.dyads) + 1):
+        part = replace(mechanism, dyads=mechanism.dyads[:count])
+
+        def margin(at: Array, part: Mechanism = part) -> Array:
+            return np.asarray(_margins(part, at).min(axis=0))
+
+        values = margin(degrees)
+        works = values > _SINGULAR
+        change = np.flatnonzero(works[1:] != works[:-1])
+        low, high, before = degrees[change], degrees[change + 1], works[change]
+        for _ in range(_BISECTIONS if change.size else 0):
+            middle = (low + high) / 2
+            same = (margin(middle) > _SINGULAR) == before
+            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        yield np.where(before, low, high)
+        for one in suspects(degrees, np.where(works, -1.0, -values)):
+            within = np.linspace(degrees[one], degrees[one + 1], 33)
+            for _ in range(6):
+                best = int(np.argmax(margin(within)))
+                within = np.linspace(within[max(best - 1, 0)], within[min(best + 1, 32)], 33)
+            yield within

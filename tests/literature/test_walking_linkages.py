@@ -1,0 +1,258 @@
+"""Walking linkages from stated positions, on the stated branch.
+
+Jansen's leg with his lengths (strandbeest.com/explains; University of Texas, wiki page 51061060): all joints at twelve
+crank angles and the extent of the foot, from intersections of circles at 40 digits. Chebyshev's lambda linkage with the
+proportions 1, 2, 2.5, 2.5 and its tracer at 5. Klann's six-bar (US patent 6,260,862) and Wagle's Strider
+(diywalkers.com) in proportions of our own against intersections of circles.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from crankwork.kinematics.circuits import At, circuit_through, crank_angle, point_coordinate
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.motion import linkage_motion
+from crankwork.mechanism.catalog import four_bar
+from crankwork.mechanism.description import mechanism_from
+
+PLACES = {
+    0: {
+        "C": (-24.01353509713, 31.27209745484),
+        "K": (-26.95210703157, -45.51517017008),
+        "D": (-74.79436538094, 8.143170205896),
+        "F": (-59.23151496142, -28.05293023075),
+        "foot": (-43.1601105241, -91.75693292612),
+    },
+    30: {
+        "C": (-30.05801099709, 32.93296957843),
+        "K": (-21.88156752979, -43.64251853181),
+        "D": (-76.77593445744, 2.419437702352),
+        "F": (-56.4570933855, -31.33711273594),
+        "foot": (-30.80634954707, -91.82289073818),
+    },
+    60: {
+        "C": (-38.00946855288, 33.69999891984),
+        "K": (-19.73349556207, -42.59690813304),
+        "D": (-78.01557322983, -5.19925028342),
+        "F": (-56.14050494921, -37.96876946998),
+        "foot": (-18.15029468117, -91.57132466831),
+    },
+    90: {
+        "C": (-46.73565230244, 32.77016611811),
+        "K": (-20.99530064271, -43.2306392797),
+        "D": (-77.66779126317, -13.67165532888),
+        "F": (-57.44759936753, -47.48738894067),
+        "foot": (-7.689066230642, -90.3893513674),
+    },
+    120: {
+        "C": (-54.40004523074, 30.32202141059),
+        "K": (-27.36791827383, -45.63449270399),
+        "D": (-75.78925351703, -21.2157489029),
+        "F": (-61.89202032566, -58.083443564),
+        "foot": (-3.668421915931, -88.52194859008),
+    },
+    150: {
+        "C": (-58.4544608426, 28.30907132063),
+        "K": (-42.6678384094, -46.82180524506),
+        "D": (-74.10331089232, -25.25167449309),
+        "F": (-74.74858297603, -64.64639017854),
+        "foot": (-12.39706673083, -85.35335571976),
+    },
+    180: {
+        "C": (-54.93393498528, 30.08788521301),
+        "K": (-65.31506892334, -36.05556599527),
+        "D": (-75.59707117851, -21.74525864939),
+        "F": (-96.76012629755, -54.97905316684),
+        "foot": (-33.72972953817, -73.51709740982),
+    },
+    210: {
+        "C": (-41.53840431142, 33.54887779528),
+        "K": (-70.96147710993, -29.20165943873),
+        "D": (-78.09178982164, -8.611411669346),
+        "F": (-107.1680320982, -35.19960707772),
+        "foot": (-55.41158970049, -75.6688629435),
+    },
+    240: {
+        "C": (-28.19594287167, 32.52530798177),
+        "K": (-64.70828331554, -36.62980406345),
+        "D": (-76.26575750292, 4.189236953529),
+        "F": (-100.1597698262, -27.13864479891),
+        "foot": (-69.73798086639, -85.37097908567),
+    },
+    270: {
+        "C": (-21.34897154416, 30.21306685027),
+        "K": (-55.11470893246, -43.17763047686),
+        "D": (-73.60565991011, 10.64578494848),
+        "F": (-87.63658723792, -26.17123663559),
+        "foot": (-70.67056317652, -89.64283680092),
+    },
+    300: {
+        "C": (-19.27581844255, 29.23586133741),
+        "K": (-44.50835882025, -46.55733821442),
+        "D": (-72.53304454374, 12.58329793091),
+        "F": (-75.38096249465, -26.71364041477),
+        "foot": (-64.15292573011, -91.44710309378),
+    },
+    330: {
+        "C": (-20.35134989292, 29.76028686522),
+        "K": (-34.70049819492, -46.96124727123),
+        "D": (-73.10634295059, 11.57923333456),
+        "F": (-65.55569397894, -27.09049255155),
+        "foot": (-54.38441028073, -91.83377344257),
+    },
+}
+LENGTHS = {"b": 41.5, "c": 39.3, "d": 40.1, "e": 55.8, "f": 39.4, "g": 36.7, "h": 65.7, "i": 49.0, "j": 50.0, "k": 61.9}
+EXTREMES = (-71.52155224005665, -3.613130548548408, -91.83388674233223, -69.37671315801602)
+
+
+def _third(one, other, far):
+    """The place of a third point of a triangle on its left, along and across its first side."""
+    along = (one**2 + other**2 - far**2) / (2 * one)
+    return along, math.sqrt(other**2 - along**2)
+
+
+def _jansen(positions):
+    b, c, d, e, f, g, h, i, j, k = LENGTHS.values()
+    # seen from B the triangle b, d, e turns left to D; seen from F the foot lies on the left of K
+    return mechanism_from({
+        "fixed_points": {"O": (0.0, 0.0), "B": (-38.0, -7.8)},
+        "crank": {"pivot": "O", "pin": "A", "radius": 15.0},
+        "positions": positions,
+        "links": {
+            "upper": {"joins": ["A", "C"], "length": j},
+            "lower": {"joins": ["A", "K"], "length": k},
+            "knee": {"joins": ["B", "C"], "length": b, "points": {"D": _third(b, d, e)}},
+            "hip": {"joins": ["B", "K"], "length": c},
+            "hanger": {"joins": ["D", "F"], "length": f},
+            "leg": {"joins": ["F", "K"], "length": g, "points": {"foot": _foot(g, h, i)}},
+        },
+    })  # fmt: skip
+
+
+def _foot(g, h, i):
+    along, across = _third(g, h, i)
+    return along, -across
+
+
+@pytest.fixture(scope="module")
+def jansen():
+    rough = {name: (round(x / 5) * 5.0, round(y / 5) * 5.0) for name, (x, y) in PLACES[0].items() if name in "CKF"}
+    mechanism, problems = _jansen({**rough, "D": PLACES[0]["D"]})
+    assert problems == []
+    return mechanism
+
+
+def test_every_joint_of_jansens_leg(jansen):
+    points = linkage_motion(jansen, CrankGrid.from_degrees(list(PLACES))).points
+    for name in ("C", "K", "D", "F", "foot"):
+        found = np.column_stack([points[name].x.position, points[name].y.position])
+        assert found == pytest.approx(np.array([place[name] for place in PLACES.values()]), abs=1e-10), name
+
+
+def test_stride_and_lift_of_jansens_leg(jansen):
+    circuit = circuit_through(jansen)
+    foot = next(one for one in jansen.points if one.name == "foot")
+    ends = [circuit.extent(point_coordinate(At("leg", foot.along, foot.across), axis)) for axis in (0, 1)]
+    found = [value for end in ends for value in (end.least, end.greatest)]
+    assert found == pytest.approx(list(EXTREMES), abs=1e-10)
+    at = np.degrees(circuit.values(crank_angle(jansen), np.array([ends[1].least_at]))) % 360
+    assert at == pytest.approx([329.3341944780148], abs=1e-6)
+
+
+def test_the_tracer_of_the_lambda_linkage():
+    circuit = circuit_through(four_bar(1.0, 2.5, 2.5, 2.0))
+    tracer = At("coupler", 5.0)
+    ends = [circuit.extent(point_coordinate(tracer, axis)) for axis in (0, 1)]
+    found = [value for end in ends for value in (end.least, end.greatest)]
+    assert found == pytest.approx([-0.3518070749468599, 4.35180707494686, 4.0, 4.898979485566356], abs=1e-11)
+    at = circuit.values(crank_angle(circuit.mechanism), np.array([ends[0].greatest_at]))
+    assert np.degrees(at) == pytest.approx([55.99494215380475], abs=1e-8)
+
+
+def _met(centre, radius, other, far, near):
+    """The crossing of two circles that lies nearer to a point."""
+    gap = abs(other - centre)
+    along = (radius**2 - far**2 + gap**2) / (2 * gap)
+    across = math.sqrt(radius**2 - along**2)
+    both = [centre + (other - centre) / gap * complex(along, sign * across) for sign in (1, -1)]
+    return min(both, key=lambda one: abs(one - near))
+
+
+def _pair(z):
+    return z.real, z.imag
+
+
+def _rounded(z):
+    return round(z.real, 1), round(z.imag, 1)
+
+
+def _as_walked(tables, places, start, names):
+    """Follow the places round a turn in small steps and compare joints with the linkage of the tables."""
+    mechanism, problems = mechanism_from(tables)
+    assert problems == []
+    circuit = circuit_through(mechanism)
+    assert circuit.turns("crank") == 1
+    points = linkage_motion(mechanism, CrankGrid.from_degrees(np.arange(361.0))).points
+    last = start
+    for degrees in range(361):
+        last = places(degrees, last)
+        found = [complex(points[name].x.position[degrees], points[name].y.position[degrees]) for name in names]
+        assert found == pytest.approx(list(last), abs=1e-10)
+    assert last == pytest.approx(start, abs=1e-12)
+
+
+@pytest.mark.parametrize("hip", [1, -1])
+def test_klanns_leg_stays_on_the_stated_branch(hip):
+    crank, rod, lower, upper, thigh = 1.1, 2.9, 1.8, 2.2, 2.6
+    pivot, hinge = complex(-2.9, -0.75), complex(-3.1, 2.6)
+    knee, foot = complex(5.0, 0.6), complex(4.9, -1.7)
+
+    def places(degrees, last):
+        pin = crank * np.exp(1j * np.radians(degrees))
+        elbow = _met(pin, rod, pivot, lower, last[0])
+        bend = pin + knee * (elbow - pin) / rod
+        top = _met(bend, thigh, hinge, upper, last[1])
+        return elbow, top, bend, bend + foot * (top - bend) / thigh
+
+    start = places(0, (complex(0, 9), complex(0, 9 * hip)))
+    tables = {
+        "fixed_points": {"O": (0.0, 0.0), "P": _pair(pivot), "Q": _pair(hinge)},
+        "crank": {"pivot": "O", "pin": "A", "radius": crank},
+        "positions": {"E": _rounded(start[0]), "H": _rounded(start[1]), "K": _rounded(start[2])},
+        "links": {
+            "rod": {"joins": ["A", "E"], "length": rod, "points": {"K": _pair(knee)}},
+            "lower": {"joins": ["P", "E"], "length": lower},
+            "leg": {"joins": ["K", "H"], "length": thigh, "points": {"foot": _pair(foot)}},
+            "upper": {"joins": ["Q", "H"], "length": upper},
+        },
+    }
+    _as_walked(tables, places, start, ("E", "H", "K", "foot"))
+
+
+def test_the_strider_stays_on_the_stated_branch():
+    left, right = 2 * np.exp(0.75j * math.pi), 2 * np.exp(0.25j * math.pi)
+    back = 1.8 * np.exp(1j * (math.pi + 0.2))
+
+    def places(degrees, last):
+        pin = np.exp(1j * np.radians(degrees))
+        behind, ahead = _met(pin, 2.6, left, 1.8, last[0]), _met(pin, 2.6, right, 1.8, last[1])
+        tail = pin + back * (ahead - pin) / 2.6
+        return behind, ahead, tail, _met(behind, 2.5, tail, 1.8, last[3])
+
+    start = places(0, (complex(-2.25, 0), complex(2.25, 0), 0, complex(-2.7, -2.7)))
+    tables = {
+        "fixed_points": {"O": (0.0, 0.0), "P": _pair(left), "Q": _pair(right)},
+        "crank": {"pivot": "O", "pin": "A", "radius": 1.0},
+        "positions": {name: _rounded(place) for name, place in zip("DEGH", start, strict=True)},
+        "links": {
+            "one": {"joins": ["A", "D"], "length": 2.6},
+            "rocker": {"joins": ["P", "D"], "length": 1.8},
+            "two": {"joins": ["A", "E"], "length": 2.6, "points": {"G": _pair(back)}},
+            "other": {"joins": ["Q", "E"], "length": 1.8},
+            "shank": {"joins": ["D", "H"], "length": 2.5},
+            "thigh": {"joins": ["G", "H"], "length": 1.8},
+        },
+    }
+    _as_walked(tables, places, start, ("D", "E", "G", "H"))
