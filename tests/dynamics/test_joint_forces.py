@@ -66,7 +66,7 @@ def test_a_torque_on_the_rocker_loads_the_coupler_along_its_length():
 
 def test_clockwise_and_anticlockwise_are_mirror_images():
     bar, mirrored = four_bar(0.05, 0.2, 0.12, 0.18), four_bar(0.05, 0.2, 0.12, 0.18, branch=-1)
-    mirrored = replace(mirrored, crank=replace(mirrored.crank, direction=-1))
+    mirrored = replace(mirrored, driver=replace(mirrored.crank, direction=-1))
     one = joint_forces(at_rest(bar, ForceOnPoint("coupler_pin", 100.0, 30.0)))
     other = joint_forces(at_rest(mirrored, ForceOnPoint("coupler_pin", 100.0, -30.0)))
     assert other.balancing_torque == pytest.approx(one.balancing_torque)

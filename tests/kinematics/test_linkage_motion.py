@@ -69,7 +69,7 @@ def test_a_mirrored_linkage_moves_as_in_a_mirror(coupler, rocker, ground):
     lengths = (0.15, coupler, rocker, ground)
     assume(sum(lengths) - 2 * min(lengths) - 2 * max(lengths) > 1e-3)
     one = four_bar(*lengths)
-    other = replace(four_bar(*lengths, branch=-1), crank=replace(one.crank, direction=-1))
+    other = replace(four_bar(*lengths, branch=-1), driver=replace(one.crank, direction=-1))
     first, second = (linkage_motion(each, TURN) for each in (one, other))
     for name in first.points:
         for order in range(3):

@@ -179,7 +179,7 @@ def six_bars(draw):
     coupler, rocker = _two_lengths(draw, ground - crank, ground + crank)
     first = four_bar(crank, coupler, rocker, ground, branch=draw(st.sampled_from([1, -1])))
     start, turning = 6 * draw(share), draw(st.sampled_from([1, -1]))
-    first = replace(first, crank=replace(first.crank, start=start, direction=turning))
+    first = replace(first, driver=replace(first.crank, start=start, direction=turning))
     carrier = draw(st.sampled_from(["coupler", "rocker"]))
     pin = LinkPoint("P", carrier, 0.3 * draw(share) - 0.1, 0.2 * draw(share) - 0.1)
     first = replace(first, points=(pin,))

@@ -8,18 +8,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from crankwork.dynamics.dyad_forces import force_along
 from crankwork.dynamics.link_loads import Wrench, Wrenches, arm, cross
 from crankwork.dynamics.reaction import GuideForce, JointForces, PinForce, Reaction, gathered, joint_place
 from crankwork.dynamics.running import Running
 from crankwork.formula.expression import Value
-from crankwork.formula.known import Component, Known, Root, is_known, total
+from crankwork.formula.known import Component, Known, Root, added, is_known, total
 from crankwork.kinematics.bodies import body_motions
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.dyads import LinkMotion
 from crankwork.kinematics.motion import Motion
 from crankwork.loads.applied import AppliedForce, AppliedLoads, AppliedTorque
-from crankwork.mechanism.joints import Joint, Pin, group_links, joints
-from crankwork.mechanism.mechanism import Crank
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
+from crankwork.mechanism.joints import Joint, Pin, group_links, joints, origin_of
+from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
 
 Vector = tuple[Array, Array]
 Acting = Wrenches | Mapping[str, Wrench]
@@ -52,14 +54,15 @@ class Equilibrium:
 
 
 def equilibrium(
-    motion: Motion, links: Sequence[str], held: Sequence[Joint], *, crank: Crank | None = None
+    motion: Motion, links: Sequence[str], held: Sequence[Joint], *, driver: Driver | None = None
 ) -> Equilibrium:
     """Return the equations of equilibrium of some links.
 
-    `crank`: the link on which a torque is the last unknown, positive with the rotation.
+    `driver`: what gives the last unknown, its torque or force; that of a cylinder is in the forces at its ends.
     """
     row = {link: 3 * k for k, link in enumerate(links)}
-    matrix = np.zeros((len(motion.grid), 3 * len(row), 2 * len(held) + (crank is not None)))
+    pushed = _pushed(driver, motion)
+    matrix = np.zeros((len(motion.grid), 3 * len(row), 2 * len(held) + bool(pushed)))
     for k, joint in enumerate(held):
         place, frame = joint_place(joint, motion), motion.frames[joint.link]
         for link, sign in ((joint.link, 1.0), (joint.other, -1.0)):
@@ -71,9 +74,21 @@ def equilibrium(
                 matrix[:, i + 2, j] = sign * cross(way, unit)
             if not isinstance(joint, Pin):
                 matrix[:, i + 2, 2 * k + 1] = sign
-    if crank is not None:
-        matrix[:, row[crank.link] + 2, -1] = crank.direction
+    for link, which, value in pushed:
+        matrix[:, row[link] + which, -1] = value
     return Equilibrium(tuple(links), tuple(held), matrix)
+
+
+def _pushed(driver: Driver | None, motion: Motion) -> list[tuple[str, int, Value]]:
+    """Return what one unit of the torque or force of a driver is on its links: along x, y, and turning."""
+    match driver:
+        case Crank(link=link, direction=direction):
+            return [(link, 2, float(direction))]
+        case DrivingSlider(link=link):
+            return [(link, 0, motion.frames[link].cos), (link, 1, motion.frames[link].sin)]
+        case LinkMotor(links=(first, second)):
+            return [(first, 2, -1.0), (second, 2, 1.0)]
+    return []
 
 
 def _normal(guide: LinkMotion) -> list[Vector]:
@@ -88,6 +103,17 @@ def solved_group(
         return _remembered(motion, links, held, wrenches)
     system = equilibrium(motion, links, held)
     return system.reactions(solve_positions(system.matrix, system.right_side(wrenches)))
+
+
+def opened_group(
+    motion: Motion, links: Sequence[str], held: Sequence[Joint], wrenches: Acting, motor: LinkMotor
+) -> tuple[dict[Joint, Reaction], Value]:
+    """Return the reactions in the joints of links that a motor opens, and its torque."""
+    if is_known(motion.grid.angle):
+        return _remembered_with(motion, links, held, wrenches, motor)
+    system = equilibrium(motion, links, held, driver=motor)
+    unknowns = solve_positions(system.matrix, system.right_side(wrenches))
+    return system.reactions(unknowns), unknowns[..., -1]
 
 
 class GroupSolver:
@@ -109,7 +135,13 @@ class GroupSolver:
 
 
 def _remembered(motion: Motion, links: Sequence[str], held: Sequence[Joint], wrenches: Acting) -> dict[Joint, Reaction]:
-    """Return the reactions as the root of the equations of equilibrium."""
+    return _remembered_with(motion, links, held, wrenches, None)[0]
+
+
+def _remembered_with(
+    motion: Motion, links: Sequence[str], held: Sequence[Joint], wrenches: Acting, driver: Driver | None
+) -> tuple[dict[Joint, Reaction], Known]:
+    """Return the reactions as the root of the equations of equilibrium, and the last unknown."""
     row = {link: 3 * k for k, link in enumerate(links)}
     entries: list[tuple[int, int, Value]] = []
     for k, joint in enumerate(held):
@@ -125,17 +157,38 @@ def _remembered(motion: Motion, links: Sequence[str], held: Sequence[Joint], wre
             if not isinstance(joint, Pin):
                 entries.append((i + 2, 2 * k + 1, float(sign)))
     size = 3 * len(row)
+    entries += [(row[link] + which, size - 1, value) for link, which, value in _pushed(driver, motion)]
     entries += [(i + at, size, -one) for link, i in row.items() for at, one in enumerate(wrenches[link])]
     known = tuple(one for _, _, one in entries if is_known(one))
     solver = GroupSolver(size, tuple((i, j, None if is_known(one) else one) for i, j, one in entries))
     root = Root(solver, known)
     unknowns = [Known(Component(root, at)) for at in range(size)]
     root.residuals = tuple(_left_over(entries, unknowns, i) for i in range(size))
-    return {
+    reactions: dict[Joint, Reaction] = {
         joint: (PinForce(joint, *pair) if isinstance(joint, Pin) else GuideForce(joint, *pair))
         for k, joint in enumerate(held)
         for pair in [_named_pair(joint, unknowns[2 * k], unknowns[2 * k + 1])]
     }
+    return reactions, unknowns[-1]
+
+
+def cylinder_force(mechanism: Mechanism, motion: Motion, reactions: Mapping[Joint, Reaction]) -> Value:
+    """Return the force with which a cylinder pushes its ends apart, from that on its barrel. [N]"""
+    driver = mechanism.driver
+    if not isinstance(driver, Cylinder):
+        raise TypeError(f"{driver.link} is no cylinder")
+    on_barrel = [
+        (one.x, one.y) if joint.link == driver.link else (-one.x, -one.y)
+        for joint, one in reactions.items()
+        if isinstance(one, PinForce) and one.joint.point == driver.barrel and driver.link in (joint.link, joint.other)
+    ]
+    x, y = (
+        added(f"link_force_{axis}.{driver.link}", side)
+        for axis, side in zip("xy", zip(*on_barrel, strict=True), strict=True)
+    )
+    frame = motion.frames[driver.link]
+    force = force_along(x, frame.cos, y, frame.sin)
+    return force if origin_of(mechanism, driver.link) == driver.barrel else -force
 
 
 def _left_over(entries: list[tuple[int, int, Value]], unknowns: Sequence[Known], row: int) -> Known:
@@ -155,20 +208,25 @@ def _named_pair(joint: Joint, one: Known, other: Known) -> tuple[Known, Known]:
 
 def system_joint_forces(running: Running) -> JointForces:
     """Return what `joint_forces` gives group after group, from one linear system (norton_2012, ch. 11). [N], [N m]"""
-    system = whole_system(running)
+    system, mechanism = whole_system(running), running.mechanism
     wrenches = {link: Wrench(*one) for link, one in plain_wrenches(running).items()}
     unknowns = solve_positions(system.matrix, system.right_side(wrenches))
-    return gathered(system.reactions(unknowns), system.joints, unknowns[..., -1])
+    reactions = system.reactions(unknowns)
+    is_inside = isinstance(mechanism.driver, Cylinder)
+    driven = cylinder_force(mechanism, running.motion, reactions) if is_inside else unknowns[..., -1]
+    return gathered(reactions, system.joints, driven)
 
 
 def whole_system(running: Running) -> Equilibrium:
-    """Return the equations of equilibrium of all links, the last unknown the balancing torque."""
+    """Return the equations of equilibrium of all links, the last unknown the torque or force of the driver."""
     mechanism = running.mechanism
     held = joints(mechanism)
     # a link of a chain may only hold others
     holding = (name for group in mechanism.dyads for name in group_links(group))
-    links = tuple(dict.fromkeys([*(joint.link for joint in held), *holding]))
-    return equilibrium(running.motion, links, held, crank=mechanism.crank)
+    links = dict.fromkeys([*(joint.link for joint in held), *holding])
+    if isinstance(mechanism.driver, LinkMotor):
+        links.pop(mechanism.driver.link)
+    return equilibrium(running.motion, tuple(links), held, driver=mechanism.driver)
 
 
 def solve_positions(matrix: Array, right: Array) -> Array:

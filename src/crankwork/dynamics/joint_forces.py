@@ -1,45 +1,90 @@
-"""Forces in the joints of a mechanism, group after group from the last to the crank (Bruyevich)."""
+"""Forces in the joints of a mechanism, group after group from the last to the driver (Bruyevich)."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
-from crankwork.dynamics.dyad_forces import OnGuide, Vector, prp_forces, rpp_forces, rpr_forces, rrp_forces, rrr_forces
-from crankwork.dynamics.force_system import solved_group
+from crankwork.dynamics.dyad_forces import (
+    OnGuide,
+    Vector,
+    force_across,
+    force_along,
+    prp_forces,
+    rpp_forces,
+    rpr_forces,
+    rrp_forces,
+    rrr_forces,
+)
+from crankwork.dynamics.force_system import cylinder_force, opened_group, solved_group
 from crankwork.dynamics.link_loads import Wrenches, arm, link_wrenches
 from crankwork.dynamics.reaction import GuideForce, JointForces, PinForce, Reaction, gathered, reaction_wrench
 from crankwork.dynamics.running import Running
+from crankwork.formula.expression import Value
 from crankwork.formula.known import named
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.transfer import PointMotion
 from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint, group_links, joints
 from crankwork.mechanism.linkage import GROUND
+from crankwork.mechanism.mechanism import Crank, Mechanism
 
 
 def joint_forces(running: Running) -> JointForces:
-    """Return the forces in all joints and the balancing torque on the crank.
+    """Return the forces in all joints and the balancing torque or force at the driver.
 
     On each pin the force on the link it holds [N]; on each sliding piece the normal force [N] and its moment [N m];
-    the torque that the crank needs [N m]. Source: artobolevsky_1988, ch. 13; the method of Bruyevich.
+    the torque [N m] or force [N] that the driver needs. Source: artobolevsky_1988, ch. 13; the method of Bruyevich.
     """
-    mechanism, motion = running.mechanism, running.motion
+    mechanism, motion, driver = running.mechanism, running.motion, running.mechanism.driver
     every, wrenches = joints(mechanism), link_wrenches(running)
     found: dict[Joint, Reaction] = {}
-    for group in reversed(mechanism.dyads):
-        links = group_links(group)
+    torque: Value = 0.0
+    for group, links in _held_together(mechanism):
         held = [joint for joint in every if joint.link in links]
-        reactions = _group_reactions(group, motion, held, wrenches)
+        if group is not None:
+            reactions = _group_reactions(group, motion, held, wrenches)
+        elif isinstance(driver, LinkMotor):
+            reactions, torque = opened_group(motion, links, held, wrenches, driver)
         found |= reactions
         for reaction in reactions.values():
             carrier = reaction.joint.other
             if carrier != GROUND and carrier not in links:
                 wrenches.add(carrier, reaction_wrench(reaction, motion, carrier))
-    pivot, crank = every[0], wrenches[mechanism.crank.link]
-    if isinstance(pivot, Pin):
-        found[pivot] = PinForce(pivot, -crank.x, -crank.y)
-    return gathered(found, every, -crank.moment if mechanism.crank.direction == 1 else crank.moment)
+    match driver, every[0]:
+        case Crank(link=link, direction=direction), Pin() as pivot:
+            crank = wrenches[link]
+            found[pivot] = PinForce(pivot, -crank.x, -crank.y)
+            torque = -crank.moment if direction == 1 else crank.moment
+        case DrivingSlider(link=link), SlidingJoint() as joint:
+            piece, (cos, sin) = wrenches[link], motion.frames[link][1:3]
+            across = -force_across(piece.y, cos, piece.x, sin)
+            found[joint] = GuideForce(
+                joint, named(across, f"normal_force.{link}"), named(-piece.moment, f"normal_moment.{link}")
+            )
+            torque = -force_along(piece.x, cos, piece.y, sin)
+        case Cylinder(), _:
+            torque = cylinder_force(mechanism, motion, found)
+    return gathered(found, every, torque)
+
+
+def _held_together(mechanism: Mechanism) -> Iterator[tuple[Dyad | Chain | None, tuple[str, ...]]]:
+    """Yield groups and their links from the last to the first; without a group those that a motor holds together.
+
+    The third side of its triangle is no link: the group that it is in and that of the links that it is between are one.
+    """
+    groups = [(group, group_links(group)) for group in mechanism.dyads]
+    if not isinstance(mechanism.driver, LinkMotor):
+        yield from reversed(groups)
+        return
+    third_side, between = mechanism.driver.link, mechanism.driver.links
+    opened = [links for _, links in groups if third_side in links or between[0] in links]
+    for group, links in reversed(groups):
+        if third_side in links:
+            yield None, tuple(one for some in opened for one in some if one != third_side)
+        elif between[0] not in links:
+            yield group, links
 
 
 def _group_reactions(

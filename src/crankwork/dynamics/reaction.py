@@ -86,12 +86,12 @@ def reaction_wrench(reaction: Reaction, motion: Motion, link: str) -> Wrench:
 
 @dataclass(frozen=True)
 class JointForces:
-    """Reactions in all joints, and the torque that the crank needs."""
+    """Reactions in all joints, and the torque or force that the driver needs."""
 
     pins: Mapping[str, PinForce]  # Forces in the revolute joints by name, arrays of shape (n,) [N]
     # Normal forces and moments of the guides by sliding piece, arrays of shape (n,) [N], [N m]
     guides: Mapping[str, GuideForce]
-    balancing_torque: Value  # Torque on the crank, positive with the rotation, shape (n,) [N m]
+    balancing_torque: Value  # Torque or force of the driver, positive with its motion, shape (n,) [N m] or [N]
 
 
 def gathered(reactions: Mapping[Joint, Reaction], order: tuple[Joint, ...], balancing_torque: Array) -> JointForces:

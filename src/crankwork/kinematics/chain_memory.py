@@ -5,8 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from crankwork.formula.known import Component, Known, Root, absent, given
-from crankwork.kinematics.closing import Surroundings
-from crankwork.kinematics.dyads import LinkMotion, guide_on_link, named_link, named_point, point_on_link, seen_from
+from crankwork.kinematics.closing import Surroundings, is_stretched
+from crankwork.kinematics.dyads import (
+    LinkMotion,
+    guide_on_link,
+    named_link,
+    named_point,
+    point_on_guide,
+    point_on_link,
+    seen_from,
+)
 from crankwork.kinematics.loops import ChainMotion
 from crankwork.kinematics.plane_motion import cosine_of_direction, sine_of_direction, sine_of_turned
 from crankwork.kinematics.transfer import PointMotion, Transfer
@@ -34,7 +42,12 @@ def remembered_chain(chain: Chain, around: Surroundings, root: Root) -> ChainMot
         frame = LinkMotion(PointMotion(coordinate(k, 0), coordinate(k, 1)), cos, sin, *angle[1:])
         frames[link.name] = named_link(frame, link.name)
     places = {
-        (link.name, name): named_point(_point(frames[link.name], name, place, _path(chain, link, name)), name)
+        (link.name, name): named_point(
+            point_on_guide(frames[link.name], around.lengths[link.name])
+            if is_stretched(link, name, around)
+            else _point(frames[link.name], name, place, _path(chain, link, name)),
+            name,
+        )
         for link in chain.links
         for name, place in link.points.items()
     }

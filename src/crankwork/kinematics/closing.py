@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from crankwork.errors import GeometryError
 from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.dyads import LinkMotion, guide_on_link, point_on_link, seen_from
+from crankwork.kinematics.dyads import LinkMotion, guide_on_link, point_on_guide, point_on_link, seen_from
 from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.locale import Refusal
-from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.chain import Chain, ChainLink
 from crankwork.mechanism.dyads import Guide
 
 Positions = NDArray[np.intp]
@@ -22,7 +22,11 @@ _STILL = np.array(0.0)
 
 
 class Surroundings(Protocol):
-    """What a chain hangs on: points that are placed, and guides on links that are."""
+    """What a chain hangs on: points that are placed, guides on links that are, and lengths that change."""
+
+    @property
+    def lengths(self) -> dict[str, Transfer]:
+        """Lengths of links from their first joint to their second, where they change."""
 
     @property
     def points(self) -> dict[str, PointMotion]:
@@ -86,23 +90,22 @@ class ClosingEquations:
         frames = self.frames(q, q_1, q_2)
         rows: list[Row] = []
         for name, one, other in self.pins:
-            end, column = self._point(other, name, frames)
+            end, column = self._point(other, name, frames, around, at)
             if name in self.chain.known:
                 rows += _pin(end, point_at(around.points[name], at), [column], [])
             else:
-                start, against = self._point(one, name, frames)
+                start, against = self._point(one, name, frames, around, at)
                 rows += _pin(end, start, [column], [against])
         for slide in self.chain.slides:
             rows += self._slide(slide.link, slide.guide, q, frames, around, at)
         return rows
 
     def _point(
-        self, link: str, name: str, frames: dict[str, LinkMotion]
+        self, link: str, name: str, frames: dict[str, LinkMotion], around: Surroundings, at: Positions
     ) -> tuple[PointMotion, tuple[int, Array, Array]]:
         """Return the motion of a point of a link, and its derivative by the angle of the link."""
         k, frame = self.index[link], frames[link]
-        along, across = self.chain.links[k // 3].points[name]
-        point = point_on_link(frame, along, across)
+        point = point_of(self.chain.links[k // 3], name, frame, around, at)
         arm_x, arm_y = point.x.position - frame.origin.x.position, point.y.position - frame.origin.y.position
         return point, (k, -arm_y, arm_x)
 
@@ -148,6 +151,18 @@ def _pin(
     y_columns = [(k, zero, zero + sign, sign * y) for sign, side in ((1, ends), (-1, starts)) for k, _, y in side]
     apart = [Transfer(*(a - b for a, b in zip(one, two, strict=True))) for one, two in zip(end, start, strict=True)]
     return [Row(apart[0], x_columns), Row(apart[1], y_columns)]
+
+
+def is_stretched(link: ChainLink, name: str, around: Surroundings) -> bool:
+    """Return whether a point is the far end of a link whose length changes."""
+    return link.name in around.lengths and link.points[name] != (0.0, 0.0)
+
+
+def point_of(link: ChainLink, name: str, frame: LinkMotion, around: Surroundings, at: Positions) -> PointMotion:
+    """Return the motion of a point of a link, whose length may change."""
+    if is_stretched(link, name, around):
+        return point_on_guide(frame, Transfer(*(one[at] for one in around.lengths[link.name])))
+    return point_on_link(frame, *link.points[name])
 
 
 def point_at(point: PointMotion, at: Positions) -> PointMotion:

@@ -8,6 +8,8 @@ complex steps alike; whether a group closes is told by `closure`, which is posit
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,6 +19,7 @@ from crankwork.formula.known import Known, absent, given, is_known, named
 from crankwork.kinematics import plane_motion as plane
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.transfer import PointMotion, Transfer
+from crankwork.mechanism.driver import LinkMotor
 from crankwork.mechanism.dyads import RRP, RRR, Guide, Point
 from crankwork.mechanism.mechanism import Crank
 
@@ -297,7 +300,10 @@ class RRRMotion(NamedTuple):
     closure: Closure | None
 
 
-def rrr_motion(dyad: RRR, a: PointMotion, b: PointMotion) -> RRRMotion:
+_CONSTANT: Mapping[str, Transfer] = MappingProxyType({})
+
+
+def rrr_motion(dyad: RRR, a: PointMotion, b: PointMotion, lengths: Mapping[str, Transfer] = _CONSTANT) -> RRRMotion:
     """Return the motion of the joint and the links of an RRR dyad (artobolevsky_1988, ch. 4).
 
     Joint [m], frames of the links, closure; NaN where the links do not meet.
@@ -305,9 +311,14 @@ def rrr_motion(dyad: RRR, a: PointMotion, b: PointMotion) -> RRRMotion:
     With d from a to b, u and v from a and b to the joint, and c = (p^2 - q^2 + d^2) / 2:
     h = u x v = branch sqrt(((p + q)^2 - d^2)(d^2 - (p - q)^2)) / 2, twice the area of the triangle, and
     u = (c d + h J d) / d^2. The loop a' + theta_a' J u = b' + theta_b' J v gives theta_a' = (b' - a') v / h and
-    theta_b' = (b' - a') u / h, its derivative the same with b'' - a'' + theta_a'^2 u - theta_b'^2 v.
+    theta_b' = (b' - a') u / h, its derivative the same with b'' - a'' + theta_a'^2 u - theta_b'^2 v. `lengths`: of
+    links whose length changes; what it adds to their ends is taken off b' - a' and b'' - a''.
     """
-    p, q, name = dyad.length_a, dyad.length_b, dyad.point
+    name, changing = dyad.point, [lengths.get(link) for link in (dyad.link_a, dyad.link_b)]
+    p, q = (
+        length if one is None else one.position
+        for one, length in zip(changing, (dyad.length_a, dyad.length_b), strict=True)
+    )
     (ax, ax_1, ax_2), (ay, ay_1, ay_2) = a
     (bx, bx_1, bx_2), (by, by_1, by_2) = b
     dx, dy = named(bx - ax, f"distance_x.{name}"), named(by - ay, f"distance_y.{name}")
@@ -318,23 +329,75 @@ def rrr_motion(dyad: RRR, a: PointMotion, b: PointMotion) -> RRRMotion:
     ux, uy = named(ux, f"arm_x.{dyad.link_a}"), named(uy, f"arm_y.{dyad.link_a}")
     vx, vy = named(ux - dx, f"arm_x.{dyad.link_b}"), named(uy - dy, f"arm_y.{dyad.link_b}")
 
-    ex, ey = named(bx_1 - ax_1, f"distance_x_1.{name}"), named(by_1 - ay_1, f"distance_y_1.{name}")
+    cos_a, sin_a, cos_b, sin_b = ux / p, uy / p, vx / q, vy / q
+    ex, ey = bx_1 - ax_1, by_1 - ay_1
+    for one, cos, sin, sign in zip(changing, (cos_a, cos_b), (sin_a, sin_b), (-1.0, 1.0), strict=True):
+        if one is not None:
+            ex, ey = ex + sign * (one.position_1 * cos), ey + sign * (one.position_1 * sin)
+    ex, ey = named(ex, f"distance_x_1.{name}"), named(ey, f"distance_y_1.{name}")
     rate_a, rate_b = rrr_rate(ex, vx, ey, vy, h), rrr_rate(ex, ux, ey, uy, h)
     rate_a, rate_b = named(rate_a, f"link_angle_1.{dyad.link_a}"), named(rate_b, f"link_angle_1.{dyad.link_b}")
-    ex = named(closing_x(bx_2 - ax_2, rate_a, ux, rate_b, vx), f"closing_x.{name}")
-    ey = named(closing_x(by_2 - ay_2, rate_a, uy, rate_b, vy), f"closing_y.{name}")
+    ex, ey = bx_2 - ax_2, by_2 - ay_2
+    turning = ((rate_a, cos_a, sin_a, -1.0), (rate_b, cos_b, sin_b, 1.0))
+    for one, (rate, cos, sin, sign) in zip(changing, turning, strict=True):
+        if one is not None:
+            stretch = stretch_of(one, rate, cos, sin, name)
+            ex, ey = ex + sign * stretch[0], ey + sign * stretch[1]
+    ex = named(closing_x(ex, rate_a, ux, rate_b, vx), f"closing_x.{name}")
+    ey = named(closing_x(ey, rate_a, uy, rate_b, vy), f"closing_y.{name}")
     rate_a_1, rate_b_1 = rrr_rate(ex, vx, ey, vy, h), rrr_rate(ex, ux, ey, uy, h)
     rate_a_1, rate_b_1 = named(rate_a_1, f"link_angle_2.{dyad.link_a}"), named(rate_b_1, f"link_angle_2.{dyad.link_b}")
 
-    link_a = LinkMotion(a, ux / p, uy / p, rate_a, rate_a_1)
-    link_b = LinkMotion(b, vx / q, vy / q, rate_b, rate_b_1)
-    return RRRMotion(carried(link_a, ux, uy), link_a, link_b, _rrr_closure(p, q, square))
+    link_a = LinkMotion(a, cos_a, sin_a, rate_a, rate_a_1)
+    link_b = LinkMotion(b, cos_b, sin_b, rate_b, rate_b_1)
+    point = carried(link_a, ux, uy) if changing[0] is None else carried(link_b, vx, vy)
+    return RRRMotion(point, link_a, link_b, _rrr_closure(p, q, square))
 
 
-def _rrr_closure(p: float, q: float, square: Value) -> Closure | None:
+def stretch_of(length: Transfer, rate: Value, cos: Value, sin: Value, name: str) -> tuple[Value, Value]:
+    """Return what a link of changing length adds to the second derivative of its end. [m]"""
+    _, length_1, length_2 = length
+    x = plane.stretched_x(length_2, cos, length_1, rate, sin)
+    y = plane.stretched_y(length_2, sin, length_1, rate, cos)
+    return named(x, f"stretch_x.{name}"), named(y, f"stretch_y.{name}")
+
+
+def _largest(value: Any) -> float:  # noqa: ANN401 - a float, a column or a complex step
+    return value if np.ndim(value) == 0 else float(np.max(value))
+
+
+def _rrr_closure(p: Value, q: Value, square: Value) -> Closure | None:
     if is_known(square):
         return None
-    return Closure(((p + q) ** 2 - square) * (square - (p - q) ** 2), (2 * p * q) ** 2, square)
+    return Closure(((p + q) ** 2 - square) * (square - (p - q) ** 2), _largest((2 * p * q) ** 2), square)
+
+
+@formula("link_length", _DYADS)
+def third_side(l_i: Value, l_k: Value, cos_g: Value) -> Value:
+    """Third side of a triangle, from two sides and the angle between them."""
+    return np.sqrt(l_i**2 + l_k**2 - 2 * l_i * l_k * cos_g)
+
+
+@formula("link_length_1", _DYADS)
+def third_side_1(l_i: Value, l_k: Value, sin_g: Value, l_s: Value) -> Value:
+    """First derivative of the third side of a triangle by the angle between the other two."""
+    return l_i * l_k * sin_g / l_s
+
+
+@formula("link_length_2", _DYADS)
+def third_side_2(l_i: Value, l_k: Value, cos_g: Value, l_1: Value, l_s: Value) -> Value:
+    """Second derivative of the third side of a triangle by the angle between the other two."""
+    return (l_i * l_k * cos_g - l_1**2) / l_s
+
+
+def third_side_motion(motor: LinkMotor, grid: CrankGrid) -> Transfer:
+    """Return the length of the third side of the triangle that a motor between two links opens. [m]"""
+    (a, b), name = motor.sides, motor.link
+    cos, sin = plane.cosine_of_direction(grid.angle + motor.angle), plane.sine_of_direction(grid.angle + motor.angle)
+    cos, sin = named(cos, f"line_cos.{name}"), named(sin, f"line_sin.{name}")
+    length = named(third_side(a, b, cos), f"link_length.{name}")
+    length_1 = named(third_side_1(a, b, sin, length), f"link_length_1.{name}")
+    return Transfer(length, length_1, named(third_side_2(a, b, cos, length_1, length), f"link_length_2.{name}"))
 
 
 class RRPMotion(NamedTuple):
@@ -347,20 +410,29 @@ class RRPMotion(NamedTuple):
     closure: Closure | None
 
 
-def rrp_motion(dyad: RRP, joint: PointMotion, guide: LinkMotion) -> RRPMotion:
+def rrp_motion(
+    dyad: RRP, joint: PointMotion, guide: LinkMotion, lengths: Mapping[str, Transfer] = _CONSTANT
+) -> RRPMotion:
     """Return the motion of the slider and the link of an RRP dyad (artobolevsky_1988, ch. 4).
 
     Slider point, distance along the guide [m], frames, closure; NaN where the link does not reach the guide.
 
     Seen from the guide the joint has the coordinates s_joint and u; the link gives u^2 + h^2 = l^2 and
     s = s_joint + h with the sign of h the branch. Its angle to the guide has the derivative g' = -u' / h, so that
-    h' = g' u. Coriolis enters through u' and u'', which are those seen from the guide.
+    h' = g' u. Coriolis enters through u' and u'', which are those seen from the guide. `lengths`: of links whose
+    length changes; what it adds along and across the guide is added there.
     """
-    length, link_, piece = dyad.length, dyad.link, dyad.piece
+    link_, piece, changing = dyad.link, dyad.piece, lengths.get(dyad.link)
+    length = dyad.length if changing is None else changing.position
     (along, along_1, along_2), (u, u_1, u_2) = named_coordinates(seen_from(guide, joint), dyad.joint)
     h = named(rrp_reach(dyad.branch, length, u), f"guide_reach.{piece}")
+    if changing is not None:
+        along_1, u_1 = along_1 + changing.position_1 * (h / length), u_1 - changing.position_1 * (u / length)
     rate = named(rrp_rate(u_1, h), f"guide_rate.{link_}")
     h_1 = named(rate * u, f"guide_reach_1.{piece}")
+    if changing is not None:
+        stretch = stretch_of(changing, rate, h / length, -u / length, link_)
+        along_2, u_2 = along_2 + stretch[0], u_2 + stretch[1]
     rate_1 = named(rrp_rate_1(u_2, rate, h_1, h), f"guide_rate_1.{link_}")
     slide = named_slide(Transfer(along + h, along_1 + h_1, rrp_slide_2(along_2, rate_1, u, rate, u_1)), piece)
     cos, sin = guide.cos, guide.sin
@@ -369,7 +441,7 @@ def rrp_motion(dyad: RRP, joint: PointMotion, guide: LinkMotion) -> RRPMotion:
         rate, rate_1 = rate + guide.angle_1, rate_1 + guide.angle_2
     point = point_on_guide(guide, slide)
     link = LinkMotion(joint, cos, sin, rate, rate_1)
-    closure = None if is_known(u) else Closure((length - u) * (length + u), length**2, u)
+    closure = None if is_known(u) else Closure((length - u) * (length + u), _largest(length**2), u)
     return RRPMotion(point, slide, link, guide._replace(origin=point), closure)
 
 

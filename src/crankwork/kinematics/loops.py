@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.errors import GeometryError
-from crankwork.kinematics.closing import ClosingEquations, Positions, Surroundings, line_at
+from crankwork.kinematics.closing import ClosingEquations, Positions, Surroundings, line_at, point_of
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.dyads import Closure, LinkMotion, guide_on_link, point_on_link, seen_from
+from crankwork.kinematics.dyads import Closure, LinkMotion, guide_on_link, seen_from
 from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.locale import Refusal
 from crankwork.mechanism.chain import Chain, ChainLink, Slide
@@ -59,7 +59,7 @@ class ChainPath:
     def __init__(self, chain: Chain, grid: CrankGrid, around: Callable[[CrankGrid], Surroundings]) -> None:
         self._equations, self._around = ClosingEquations(chain), around
         self._reach = float(min(grid.angle.min(), chain.start)), float(max(grid.angle.max(), chain.start))
-        behind, ahead = (_knots(chain.start, end) for end in self._reach)
+        behind, ahead = (_knots(chain, end) for end in self._reach)
         knots = CrankGrid.from_radians([chain.start, *ahead, *behind])
         surroundings, size = around(knots), len(knots)
         start = _start(self._equations, surroundings)
@@ -78,7 +78,7 @@ class ChainPath:
         nearest -= grid.angle - path.angle[nearest - 1] < path.angle[nearest] - grid.angle
         step = (grid.angle - path.angle[nearest])[:, None]
         guess = path.q[nearest] + step * (path.q_1[nearest] + 0.5 * step * path.q_2[nearest])
-        guess[np.abs(step[:, 0]) > 1.001 * _STEP] = np.nan
+        guess[np.abs(step[:, 0]) > 1.001 * _STEP * self._equations.chain.radian] = np.nan
         at = np.arange(len(grid))
         q, _ = _newton(self._equations, guess, surroundings, at)
         return _derivatives(self._equations, q, surroundings, at)
@@ -95,9 +95,9 @@ class ChainPath:
         return _as_motion(self._equations, solution, self._path.determinant, surroundings, at)
 
 
-def _knots(start: float, end: float) -> Array:
-    """Return equal steps from the start to an end, without the start. [rad]"""
-    return np.linspace(start, end, math.ceil(abs(end - start) / _STEP) + 1)[1:]
+def _knots(chain: Chain, end: float) -> Array:
+    """Return equal steps of the coordinate from the start to an end, without the start."""
+    return np.linspace(chain.start, end, math.ceil(abs(end - chain.start) / (_STEP * chain.radian)) + 1)[1:]
 
 
 class _Path(NamedTuple):
@@ -161,7 +161,7 @@ class _Walk(NamedTuple):
     def _creep(self, at: _Solution, angle: float, end: float) -> Iterator[tuple[float, _Solution]]:
         """Yield positions on the way to the end in steps as small as it takes."""
         step = (end - angle) / 2
-        while angle != end and abs(step) > _SMALLEST_STEP:
+        while angle != end and abs(step) > _SMALLEST_STEP * self.equations.chain.radian:
             target = end if abs(step) >= abs(end - angle) else angle + step
             here = self.around(CrankGrid.from_radians([target]))
             found = _continued(self.equations, at, target - angle, here, 0)
@@ -237,9 +237,9 @@ def _as_motion(
     """Return points, frames and distances from the coordinates of the links."""
     chain, frames = equations.chain, equations.frames(*solution[:3])
     points = {
-        name: point_on_link(frames[link.name], *place)
+        name: point_of(link, name, frames[link.name], around, at)
         for link in chain.links
-        for name, place in link.points.items()
+        for name in link.points
         if name not in chain.known
     }
     sliders = {}

@@ -8,17 +8,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from crankwork.formula.known import HalfTurns, Known, OfAngle, absent, given
+from crankwork.formula.known import HalfTurns, Known, OfAngle, absent, given, named
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import Motion
-from crankwork.kinematics.placement import place
-from crankwork.kinematics.plane_motion import direction_of_slope
+from crankwork.kinematics.motion_laws import remembered_law
+from crankwork.kinematics.placement import place_at
+from crankwork.kinematics.plane_motion import cosine_of_direction, direction_of_slope, sine_of_direction
 from crankwork.kinematics.transfer import Transfer
 from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.driver import DrivingSlider, LinkMotor
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide
 from crankwork.mechanism.linkage import Linkage
-from crankwork.mechanism.mechanism import Body, LinkPoint, Mechanism
+from crankwork.mechanism.mechanism import Body, Crank, Driver, LinkPoint, Mechanism
 
 
 class CrankAngle(NamedTuple):
@@ -53,19 +55,37 @@ def remembered_motion(mechanism: Mechanism, moved: Motion, linkage: Linkage | No
     The same, each value a known that remembers how it follows from lengths and crank angle. `moved`: its motion in
     numbers, which says how many turns its links make; `linkage`: the same as it was described.
     """
-    crank, reached = mechanism.crank, (float(moved.grid.degrees[0]), float(moved.grid.degrees[-1]))
+    driver, reached = mechanism.driver, (float(moved.grid.degrees[0]), float(moved.grid.degrees[-1]))
     grid = _untyped(CrankAngle(start=reached[0], end=reached[1]))
-    placed = place(given_mechanism(mechanism, linkage), grid, plain=mechanism)
+    at = grid if driver.law is None else _untyped(_coordinate(driver))
+    placed = place_at(given_mechanism(mechanism, linkage), at, plain=mechanism)
     links = {}
     for name, frame in placed.links.items():
-        if name == crank.link:
-            links[name] = Transfer(crank.start + crank.direction * grid.angle, frame.angle_1, frame.angle_2)
+        if name == driver.link and isinstance(driver, Crank):
+            links[name] = Transfer(driver.start + driver.direction * at.angle, frame.angle_1, frame.angle_2)
         elif name not in placed.sliders:
             near = Near(moved.grid.degrees, moved.links[name].position)
             turns = Known(HalfTurns(frame.sin, frame.cos, near), f"half_turns.{name}")
             angle = direction_of_slope(frame.sin, frame.cos, turns).named(f"link_angle.{name}")
             links[name] = Transfer(angle, frame.angle_1, frame.angle_2)
     return Motion(grid, placed.points, links, placed.sliders, placed.links)
+
+
+def _coordinate(driver: Driver) -> CrankAngle:
+    """Return the coordinate of a driver by its law, with the functions that an angle has."""
+    angle = rates_of(driver).position
+    if not driver.turns:
+        return CrankAngle(angle, angle, angle)
+    return CrankAngle(
+        angle, named(sine_of_direction(angle), "crank_sin"), named(cosine_of_direction(angle), "crank_cos")
+    )
+
+
+def rates_of(driver: Driver) -> Transfer:
+    """Return coordinate, rate and second rate of a driver as knowns over the angle of its period."""
+    if driver.law is None:
+        raise TypeError(f"{driver.link} follows no law")
+    return remembered_law(driver.law, turns=driver.turns)
 
 
 def course_of(grid: Any) -> Callable[[Mapping[str, Known]], OverCycle]:  # noqa: ANN401 - typed as a grid
@@ -95,23 +115,35 @@ class _Places:
 
 def given_mechanism(mechanism: Mechanism, linkage: Linkage | None = None) -> Mechanism:
     """Return a mechanism whose lengths, angles and masses are given values; what is zero is absent."""
-    crank: Any = mechanism.crank
     places = _Places(linkage)
     ground: dict[str, Any] = {name: _point(name, at, f"fixed_points.{name}") for name, at in mechanism.ground.items()}
-    pivot = next((name for name, at in mechanism.ground.items() if at == crank.pivot), "")
     return replace(
         mechanism,
-        crank=replace(
-            crank,
-            radius=given("crank_radius", crank.radius, "crank.radius"),
-            pivot=ground[pivot] if pivot else _point(f"{crank.link}_pivot", crank.pivot, "crank.pivot"),
-            start=_stated("line_angle.crank", crank.start, "crank.start"),
-        ),
+        driver=_given_driver(mechanism, ground),
         dyads=tuple(one if isinstance(one, Chain) else _dyad(one, places) for one in mechanism.dyads),
         bodies=tuple(_body(one, places) for one in mechanism.bodies),
         ground=ground,
         points=tuple(_link_point(one, places) for one in mechanism.points),
     )
+
+
+def _given_driver(mechanism: Mechanism, ground: Mapping[str, Any]) -> Any:  # noqa: ANN401 - knowns where numbers are typed
+    driver: Any = mechanism.driver
+    match mechanism.driver:
+        case Crank():
+            pivot = next((name for name, at in mechanism.ground.items() if at == driver.pivot), "")
+            return replace(
+                driver,
+                radius=given("crank_radius", driver.radius, "crank.radius"),
+                pivot=ground[pivot] if pivot else _point(f"{driver.link}_pivot", driver.pivot, "crank.pivot"),
+                start=_stated("line_angle.crank", driver.start, "crank.start"),
+            )
+        case DrivingSlider(link=piece, guide=guide):
+            return replace(driver, guide=_guide(piece, guide, f"guides.{piece}"))
+        case LinkMotor(links=links, sides=sides):
+            given_sides = tuple(given(f"link_length.{link}", side) for link, side in zip(links, sides, strict=True))
+            return replace(driver, sides=given_sides, angle=_stated(f"line_angle.{driver.link}", driver.angle, ""))
+    return driver
 
 
 def _stated(key: str, value: float, path: str) -> Any:  # noqa: ANN401 - a known where a number is typed

@@ -77,13 +77,12 @@ def linkage_motion(mechanism: Mechanism, grid: CrankGrid, *, partial: bool = Fal
     a status at the others, instead of refusing.
     """
     if not partial:
-        return _as_motion(assembled(mechanism, grid), np.zeros(len(grid), dtype=np.int8))
+        return _as_motion(assembled(mechanism, grid), grid, np.zeros(len(grid), dtype=np.int8))
     placed = place(mechanism, grid)
-    status = reached(mechanism, placed)
-    return _as_motion(placed, status)
+    return _as_motion(placed, grid, reached(mechanism, placed))
 
 
-def _as_motion(placed: Placed, status: Status) -> Motion:
+def _as_motion(placed: Placed, grid: CrankGrid, status: Status) -> Motion:
     """Return the motion of what has been placed, NaN where the crank does not get."""
     lost = status != 0 if status.any() else None
 
@@ -101,7 +100,7 @@ def _as_motion(placed: Placed, status: Status) -> Motion:
         frames = {name: _masked(link, full) for name, link in frames.items()}
     sliders = {name: transfer(one) for name, one in placed.sliders.items()}
     links = {name: frame for name, frame in frames.items() if name not in sliders}
-    return Motion(placed.grid, points, Directions(placed.grid, links), sliders, frames, status)
+    return Motion(grid, points, Directions(placed.grid, links), sliders, frames, status)
 
 
 def _masked(link: LinkMotion, full: Callable[[Array], Array]) -> LinkMotion:

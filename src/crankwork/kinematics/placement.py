@@ -1,15 +1,16 @@
-"""The crank and one group after another: where every point and link of a mechanism is."""
+"""The driver and one group after another: where every point and link of a mechanism is."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.errors import GeometryError
-from crankwork.formula.known import Root
+from crankwork.formula.known import Root, absent, is_known
 from crankwork.kinematics.assembly import refusal, singular_between, unassembled
 from crankwork.kinematics.chain_memory import remembered_chain
 from crankwork.kinematics.crank_grid import Array, CrankGrid
@@ -24,30 +25,38 @@ from crankwork.kinematics.dyads import (
     named_link,
     named_point,
     pin_on_crank,
+    point_on_guide,
     point_on_link,
     rrp_motion,
     rrr_motion,
+    third_side_motion,
 )
 from crankwork.kinematics.loops import ChainPath
+from crankwork.kinematics.motion_laws import law_at
 from crankwork.kinematics.sliding_dyads import prp_motion, rpp_motion, rpr_motion
 from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.locale import Refusal
 from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide
-from crankwork.mechanism.mechanism import Mechanism
+from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
+
+_STANDS = 1e-12
 
 
 @dataclass
 class Placed:
     """What has been placed so far: points, frames of links, distances of sliders, and how well groups closed.
 
-    Where all these are remembered, `plain` is the same mechanism in numbers.
+    `grid` has the coordinate of the driver, a length or an angle. Where all these are remembered, `plain` is the same
+    mechanism in numbers.
     """
 
     grid: CrankGrid
     points: dict[str, PointMotion] = field(default_factory=dict)
     links: dict[str, LinkMotion] = field(default_factory=dict)
     sliders: dict[str, Transfer] = field(default_factory=dict)
+    lengths: dict[str, Transfer] = field(default_factory=dict)
     closures: list[Closure] = field(default_factory=list)
     plain: Mechanism | None = None
 
@@ -58,19 +67,28 @@ class Placed:
         return line._replace(origin=named_point(line.origin, f"{piece}.guide"))
 
 
-def place(mechanism: Mechanism, grid: CrankGrid, *, plain: Mechanism | None = None) -> Placed:
-    """Return where everything is, without asking whether it can be assembled.
+def place(mechanism: Mechanism, grid: CrankGrid) -> Placed:
+    """Return where everything is at the angles of the tables, without asking whether it can be assembled.
 
-    Points, links and sliders; NaN or infinite where a group does not close. `plain`: the same in numbers, where
-    lengths and crank angle are knowns.
+    Points, links and sliders; NaN or infinite where a group does not close.
     """
-    crank = mechanism.crank
-    arm = crank_motion(crank, grid)
+    return place_at(mechanism, coordinates(mechanism.driver, grid))
+
+
+def coordinates(driver: Driver, grid: CrankGrid) -> CrankGrid:
+    """Return the coordinate of the driver at the angles of the tables, in place of an angle. [rad] or [m]"""
+    return grid if driver.law is None else CrankGrid.from_radians(law_at(driver.law, grid).position)
+
+
+def place_at(mechanism: Mechanism, grid: CrankGrid, *, plain: Mechanism | None = None) -> Placed:
+    """Return what `place` does at values of the driver's coordinate.
+
+    `plain`: the same in numbers, where lengths and coordinate are knowns.
+    """
     placed = Placed(grid, plain=plain)
     placed.points.update({name: fixed_point(point) for name, point in mechanism.ground.items()})
-    placed.points[crank.pin] = named_point(pin_on_crank(crank, arm), crank.pin)
-    placed.links[crank.link] = arm if is_nothing(crank.start) else named_link(arm, crank.link)
-    _place_link_points(mechanism, placed, {crank.link})
+    _place_driver(mechanism.driver, placed)
+    _place_link_points(mechanism, placed, set(placed.links))
     with np.errstate(invalid="ignore", divide="ignore"):
         for index, group in enumerate(mechanism.dyads):
             before, standing = set(placed.links), set(placed.points)
@@ -83,6 +101,29 @@ def place(mechanism: Mechanism, grid: CrankGrid, *, plain: Mechanism | None = No
             _name(placed, placed.links.keys() - before, placed.points.keys() - standing)
             _place_link_points(mechanism, placed, placed.links.keys() - before)
     return placed
+
+
+def _place_driver(driver: Driver, placed: Placed) -> None:
+    """Add what the driver places by itself, or the length that is its coordinate."""
+    grid = placed.grid
+    if isinstance(driver, Crank):
+        arm = crank_motion(driver, grid)
+        placed.points[driver.pin] = named_point(pin_on_crank(driver, arm), driver.pin)
+        placed.links[driver.link] = arm if is_nothing(driver.start) else named_link(arm, driver.link)
+        return
+    if is_known(grid.angle):
+        way = Transfer(grid.angle, absent("driver_rate", 1.0), absent("driver_rate_1"))
+    else:
+        way = Transfer(grid.angle, np.ones_like(grid.angle), np.zeros_like(grid.angle))
+    match driver:
+        case DrivingSlider(link=piece, guide=guide):
+            line = fixed_guide(guide)
+            placed.sliders[piece] = way
+            placed.links[piece] = line._replace(origin=named_point(point_on_guide(line, way), piece))
+        case Cylinder(link=link):
+            placed.lengths[link] = way
+        case LinkMotor(link=link):
+            placed.lengths[link] = third_side_motion(driver, grid)
 
 
 def _name(placed: Placed, links: set[str], points: set[str]) -> None:
@@ -104,11 +145,11 @@ def _place_group(mechanism: Mechanism, index: int, placed: Placed) -> Closure | 
     points, links, sliders = placed.points, placed.links, placed.sliders
     match mechanism.dyads[index]:
         case RRR() as dyad:
-            rrr = rrr_motion(dyad, points[dyad.joint_a], points[dyad.joint_b])
+            rrr = rrr_motion(dyad, points[dyad.joint_a], points[dyad.joint_b], placed.lengths)
             points[dyad.point], links[dyad.link_a], links[dyad.link_b] = rrr.point, rrr.link_a, rrr.link_b
             return rrr.closure
         case RRP() as dyad:
-            rrp = rrp_motion(dyad, points[dyad.joint], placed.guide(dyad.guide, dyad.piece))
+            rrp = rrp_motion(dyad, points[dyad.joint], placed.guide(dyad.guide, dyad.piece), placed.lengths)
             points[dyad.slider], sliders[dyad.piece] = rrp.point, rrp.slide
             links[dyad.link], links[dyad.piece] = rrp.link, rrp.piece
             return rrp.closure
@@ -131,7 +172,8 @@ def _place_group(mechanism: Mechanism, index: int, placed: Placed) -> Closure | 
                 root = ChainRoot(mechanism, index)
                 solved = ChainPath(chain, placed.grid, root.around).motion(placed.grid)
             else:
-                solved = remembered_chain(chain, placed, Root(ChainRoot(placed.plain, index)))
+                follows: Any = () if placed.plain.driver.law is None else (placed.grid.angle,)
+                solved = remembered_chain(chain, placed, Root(ChainRoot(placed.plain, index), follows))
             points.update(solved.points)
             links.update(solved.links)
             sliders.update(solved.sliders)
@@ -139,7 +181,7 @@ def _place_group(mechanism: Mechanism, index: int, placed: Placed) -> Closure | 
 
 
 class ChainRoot:
-    """The coordinates of the links of one chain of a mechanism, its way along the crank solved once."""
+    """The coordinates of the links of one chain of a mechanism, its way along the driver's coordinate solved once."""
 
     def __init__(self, mechanism: Mechanism, index: int) -> None:
         self._earlier = replace(mechanism, dyads=mechanism.dyads[:index])
@@ -151,10 +193,11 @@ class ChainRoot:
 
     def around(self, grid: CrankGrid) -> Placed:
         """Return what the chain hangs on."""
-        return place(self._earlier, grid)
+        return place_at(self._earlier, grid)
 
-    def __call__(self, grid: CrankGrid) -> Array:
+    def __call__(self, at: CrankGrid | Sequence[Array]) -> Array:
         """Return coordinates, first and second transfer functions, shape (9 links, n). [m], [rad]"""
+        grid = at if isinstance(at, CrankGrid) else CrankGrid.from_radians(at[0])
         if self._path is None or not self._path.covers(grid):
             self._path = ChainPath(self._chain, grid, self.around)
         return self._path.coordinates(grid)
@@ -163,9 +206,21 @@ class ChainRoot:
 def assembled(mechanism: Mechanism, grid: CrankGrid) -> Placed:
     """Return where everything is, of a mechanism that can be assembled at and between all angles.
 
-    `grid`: crank angles; what lies between them is looked at where they ascend [rad].
+    `grid`: crank angles; what lies between them is looked at where they ascend [rad]. Where a law drives, everything
+    that the driver passes in its period is looked at.
     """
-    placed = place(mechanism, grid)
+    law = mechanism.driver.law
+    if law is None:
+        return _assembled_at(mechanism, grid)
+    passed = law_at(law, CrankGrid.steps(1.0, 360.0)).position
+    # a coordinate that only rounding changes stands
+    if np.ptp(passed) > _STANDS * max(1.0, float(np.max(np.abs(passed)))):
+        _assembled_at(mechanism, CrankGrid.from_radians(np.linspace(passed.min(), passed.max(), passed.size)))
+    return place(mechanism, grid)
+
+
+def _assembled_at(mechanism: Mechanism, grid: CrankGrid) -> Placed:
+    placed = place_at(mechanism, grid)
     for index, (group, closure) in enumerate(zip(mechanism.dyads, placed.closures, strict=True)):
         bad = unassembled(closure)
         if bad is not None:
@@ -202,7 +257,7 @@ def reached(mechanism: Mechanism, placed: Placed) -> NDArray[np.int8]:
 def closure_of(mechanism: Mechanism, index: int) -> Callable[[CrankGrid], Closure]:
     """Return how well one group closes, as a function of the crank angles."""
     part = replace(mechanism, dyads=mechanism.dyads[: index + 1])
-    return lambda grid: place(part, grid).closures[index]
+    return lambda grid: place_at(part, grid).closures[index]
 
 
 def _title(group: Dyad | Chain) -> Refusal:

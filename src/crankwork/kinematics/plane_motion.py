@@ -79,6 +79,18 @@ def carried_y_2(y_P2: Value, theta_2: Value, r_x: Value, theta_1: Value, r_y: Va
     return y_P2 + theta_2 * r_x - theta_1**2 * r_y
 
 
+@formula("stretch_x", _MOTION)
+def stretched_x(l_2: Value, cos_th: Value, l_1: Value, theta_1: Value, sin_th: Value) -> Value:
+    """Along x, what a link of changing length adds to the second derivative of its end, with its Coriolis part."""
+    return l_2 * cos_th - 2 * l_1 * theta_1 * sin_th
+
+
+@formula("stretch_y", _MOTION)
+def stretched_y(l_2: Value, sin_th: Value, l_1: Value, theta_1: Value, cos_th: Value) -> Value:
+    """Along y, what a link of changing length adds to the second derivative of its end, with its Coriolis part."""
+    return l_2 * sin_th + 2 * l_1 * theta_1 * cos_th
+
+
 @formula("guide_along", _MOTION)
 def along_guide(dx: Value, cos_th: Value, dy: Value, sin_th: Value) -> Value:
     """Coordinate of a point along a guide."""

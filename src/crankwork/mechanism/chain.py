@@ -38,4 +38,6 @@ class Chain:
     # Which of them slide, and on what: a guide that is fixed, on a known link or on a link of the chain
     slides: tuple[Slide, ...] = ()
     known: frozenset[str] = field(default_factory=frozenset)  # Points that are placed before
-    start: float = 0.0  # Crank angle of the stated start [rad]
+    start: float = 0.0  # Coordinate of the driver at the stated start [rad] or [m]
+    # What of the driver's coordinate moves links about as far as a radian does: of one that is a length, a length
+    radian: float = 1.0

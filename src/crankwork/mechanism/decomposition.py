@@ -30,9 +30,10 @@ def mechanism_of(linkage: Linkage, solved: Mapping[str, Point] | None = None) ->
     order.check_branches()
     if order.problems:
         return None, order.problems
-    order.points += [LinkPoint(name, linkage.crank.link, *place) for name, place in linkage.crank_points.items()]
-    bodies = tuple(body_at(m.name, m.mass, m.inertia, m.centre) for m in linkage.members if m.centre)
-    return Mechanism(linkage.crank, tuple(groups), bodies, dict(linkage.ground), tuple(order.points)), []
+    order.points += [LinkPoint(name, linkage.driver.link, *place) for name, place in linkage.driving.points.items()]
+    massive = (one for one in (linkage.driving, *linkage.members) if one.centre)
+    bodies = tuple(body_at(one.name, one.mass, one.inertia, one.centre) for one in massive)
+    return Mechanism(linkage.driver, tuple(groups), bodies, dict(linkage.ground), tuple(order.points)), []
 
 
 @dataclass
@@ -159,8 +160,8 @@ class _Order:
 
     def _drawn_angle(self, link: str, *, stated: bool = False) -> float:
         """Return the direction of the drawn frame of a member at a crank angle of zero, stated or solved. [rad]"""
-        if not link or link == self.linkage.crank.link:
-            return self.linkage.crank.start if link else 0.0
+        if not link or link in self.linkage.base:
+            return self.linkage.driving_frame[1] if link else 0.0
         member, at = self.linkage.member(link), self.linkage.at_zero() if stated else self.at
         if member.guide:
             guide = self.linkage.guides[member.guide]
@@ -191,7 +192,16 @@ class _Order:
             if one.guide:
                 slides.append(Slide(one.name, self._guide(self.linkage.guides[one.guide])))
         joints = {name for one in members for name in one.points}
-        return Chain(tuple(links), tuple(slides), frozenset(joints & known))
+        law = self.linkage.driver.law
+        start, radian = (law.start if law else 0.0), 1.0
+        if not self.linkage.driver.turns:
+            radian = max(
+                math.dist(one, other)
+                for part in links
+                for one in part.points.values()
+                for other in part.points.values()
+            )
+        return Chain(tuple(links), tuple(slides), frozenset(joints & known), start, radian)
 
 
 def _moved(guide: Guide, by: Point) -> Guide:

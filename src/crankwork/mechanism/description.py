@@ -11,7 +11,7 @@ from crankwork.errors import Problem
 from crankwork.locale import Refusal
 from crankwork.mechanism.decomposition import mechanism_of
 from crankwork.mechanism.dyads import Branch, Guide, Point
-from crankwork.mechanism.linkage import Linkage, Member
+from crankwork.mechanism.linkage import GROUND, Linkage, Member
 from crankwork.mechanism.mechanism import Crank, Mechanism
 
 Table = Mapping[str, Any]
@@ -74,10 +74,11 @@ class _Reader:
         ground = {name: self._point(f"fixed_points.{name}", at) for name, at in self._table("fixed_points").items()}
         crank, throws = self._crank(ground)
         positions = {name: self._point(f"positions.{name}", at) for name, at in self._table("positions").items()}
-        drawn = Linkage(crank, ground, (), positions=positions, crank_points=throws).at_zero()
+        driving = Member(crank.link, throws)
+        drawn = Linkage(crank, ground, (), positions=positions, driving=driving).at_zero()
         members = (*self._links(drawn), *self._sliders())
         guides = {name: self._guide(name, guide, ground) for name, guide in self._named("guides", _GUIDE)}
-        linkage = Linkage(crank, ground, members, guides, self._branches(), positions, throws)
+        linkage = Linkage(crank, ground, members, guides, self._branches(), positions, driving)
         self._names(linkage)
         return linkage
 
@@ -243,7 +244,7 @@ class _Reader:
 
     def _names(self, linkage: Linkage) -> None:
         """Note names that stand for two things or for nothing."""
-        names = {linkage.crank.link}
+        names = {*linkage.base} - {GROUND}
         for one in linkage.members:
             table = "sliders" if one.guide else "links"
             if one.name in names:
@@ -257,8 +258,9 @@ class _Reader:
                     f"guides.{name}.link",
                     Refusal("carrier_unknown", name=guide.link, known=", ".join(sorted(names))),
                 )
+        placed = {linkage.driver.pin} if isinstance(linkage.driver, Crank) else set(linkage.driving.points)
         for name in linkage.positions:
-            if name in linkage.ground or name == linkage.crank.pin:
+            if name in linkage.ground or name in placed:
                 self._problem(f"positions.{name}", Refusal("position_known", name=name))
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from crankwork.mechanism.dyads import Guide
+
 LawKind = Literal[
     "constant", "parabolic", "trapezoidal", "modified-trapezoidal", "cubic", "3-4-5", "4-5-6-7", "harmonic",
     "cycloidal", "modified-sine", "dwell", "table",
@@ -35,3 +37,46 @@ class Law:
     def returns(self) -> bool:
         """Whether the coordinate ends where it began."""
         return self.segments[-1].to == self.start
+
+
+@dataclass(frozen=True)
+class DrivingSlider:
+    """A piece that slides on a fixed guide and drives: its distance along the guide is the coordinate."""
+
+    link: str  # Name of the piece; its origin is on the line
+    guide: Guide
+    law: Law
+
+    turns = False
+
+
+@dataclass(frozen=True)
+class Cylinder:
+    """A link of changing length between two points: that length is the coordinate."""
+
+    # The points that it joins: of the barrel and of the rod
+    barrel: str
+    rod: str
+    law: Law
+    link: str = "cylinder"  # Name of the link
+
+    turns = False
+
+
+@dataclass(frozen=True)
+class LinkMotor:
+    """A motor in the pin of two moving links: the angle from the first to the second is the coordinate.
+
+    One point of each link and the pin are a triangle, whose third side is a link of changing length without mass.
+    """
+
+    # The links, the first and the second
+    links: tuple[str, str]
+    pin: str
+    # Distances of the pin from the points between which the third side lies [m]
+    sides: tuple[float, float]
+    angle: float  # Angle of the triangle at the pin where the coordinate is zero, anticlockwise from the first [rad]
+    law: Law
+    link: str = "third_side"  # Name of the third side
+
+    turns = True

@@ -7,9 +7,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.driver import DrivingSlider, LinkMotor
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad
 from crankwork.mechanism.linkage import GROUND
-from crankwork.mechanism.mechanism import Mechanism
+from crankwork.mechanism.mechanism import Crank, Mechanism
 
 
 @dataclass(frozen=True)
@@ -37,15 +38,21 @@ Joint = Pin | SlidingJoint
 
 
 def joints(mechanism: Mechanism) -> tuple[Joint, ...]:
-    """Return the joints of a mechanism, the pivot of the crank first, then group after group.
+    """Return the joints of a mechanism, that of a driving link first, then group after group.
 
     Of three and more links on one pin the first that is placed carries the pin, and the others hang on it.
     """
     bearer = bearers(mechanism)
-    crank = mechanism.crank.link
-    found: list[Joint] = [Pin(f"{crank}_pivot", crank, GROUND, "")]
+    found: list[Joint] = []
+    match mechanism.driver:
+        case Crank(link=crank):
+            found.append(Pin(f"{crank}_pivot", crank, GROUND, ""))
+        case DrivingSlider(link=piece):
+            found.append(_on_guide(piece, ""))
     for group in mechanism.dyads:
         found += _chain_joints(group, bearer) if isinstance(group, Chain) else _dyad_joints(group, bearer)
+    if isinstance(mechanism.driver, LinkMotor):
+        found = [one for one in found if mechanism.driver.link not in (one.link, one.other)]
     count = Counter(one.point for one in found if isinstance(one, Pin))
     return tuple(
         replace(one, name=f"{one.name}_{one.link}") if isinstance(one, Pin) and count[one.point] > 1 else one
@@ -55,19 +62,23 @@ def joints(mechanism: Mechanism) -> tuple[Joint, ...]:
 
 def bearers(mechanism: Mechanism) -> dict[str, str]:
     """Return the link, or `ground`, that each named point belongs to; the first one of those that meet there."""
-    bearer = {**dict.fromkeys(mechanism.ground, GROUND), mechanism.crank.pin: mechanism.crank.link}
+    bearer = dict.fromkeys(mechanism.ground, GROUND)
+    if isinstance(mechanism.driver, Crank):
+        bearer[mechanism.driver.pin] = mechanism.driver.link
     bearer |= {one.name: one.link for one in mechanism.points}
+    # the third side of a triangle bears nothing
+    third_side = mechanism.driver.link if isinstance(mechanism.driver, LinkMotor) else ""
     for group in mechanism.dyads:
         match group:
             case RRR():
-                bearer[group.point] = group.link_a
+                bearer[group.point] = group.link_b if group.link_a == third_side else group.link_a
             case RRP():
                 bearer[group.slider] = group.piece
             case PRP():
                 bearer[group.point] = group.block_a
             case Chain():
                 for link in group.links:
-                    for name in link.points:
+                    for name in link.points if link.name != third_side else ():
                         bearer.setdefault(name, link.name)
     return bearer
 
@@ -85,6 +96,20 @@ def group_links(group: Dyad | Chain) -> tuple[str, ...]:
             return group.block_a, group.block_b
         case Chain():
             return tuple(link.name for link in group.links)
+
+
+def origin_of(mechanism: Mechanism, link: str) -> str:
+    """Return the point from which the frame of a link of a group counts."""
+    group = next(one for one in mechanism.dyads if link in group_links(one))
+    match group:
+        case RRR():
+            return group.joint_a if link == group.link_a else group.joint_b
+        case RRP():
+            return group.joint
+        case Chain():
+            points = next(one.points for one in group.links if one.name == link)
+            return next(name for name, place in points.items() if place == (0.0, 0.0))
+    raise ValueError(f"{link} has no origin at a pin")
 
 
 def _dyad_joints(dyad: Dyad, bearer: dict[str, str]) -> list[Joint]:

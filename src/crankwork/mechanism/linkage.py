@@ -1,4 +1,4 @@
-"""A linkage as it is drawn: fixed points, a crank, links and sliding pieces in any order."""
+"""A linkage as it is drawn: fixed points, a driver, links and sliding pieces in any order."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
+from crankwork.mechanism.driver import DrivingSlider
 from crankwork.mechanism.dyads import Branch, Guide, Point
-from crankwork.mechanism.mechanism import Crank
+from crankwork.mechanism.mechanism import Crank, Driver, crank_of
 
 GROUND = "ground"
 
@@ -30,17 +31,28 @@ class Member:
 class Linkage:
     """A planar linkage before it is taken apart."""
 
-    crank: Crank  # The driving link
+    driver: Driver
     ground: Mapping[str, Point]  # Fixed points by name [m]
     members: tuple[Member, ...]  # Links and sliding pieces, in any order
     # Straight guides by name, fixed or carried by a member, in its frame
     guides: Mapping[str, Guide] = field(default_factory=dict)
     # Branch by the name of the joint that it places, or of the slotted lever
     branches: Mapping[str, Branch] = field(default_factory=dict)
-    # Roughly where joints are at a crank angle of zero; they settle the branches that are not given [m]
+    # Roughly where joints are at the beginning; they settle the branches that are not given [m]
     positions: Mapping[str, Point] = field(default_factory=dict)
-    # Further points of the crank: from the pivot towards the pin, and to the left of that [m]
-    crank_points: Mapping[str, Point] = field(default_factory=dict)
+    # Points and mass of a driving link; points of a crank are further ones, from the pivot towards the pin, and left
+    driving: Member = Member("", {})
+
+    @property
+    def crank(self) -> Crank:
+        """The crank, of a linkage that one drives."""
+        return crank_of(self.driver)
+
+    @property
+    def base(self) -> frozenset[str]:
+        """What is placed before any group: the ground, and the link that drives."""
+        is_link = isinstance(self.driver, Crank | DrivingSlider)
+        return frozenset({GROUND, self.driver.link} if is_link else {GROUND})
 
     def member(self, name: str) -> Member:
         """Return the member of a name."""
@@ -48,19 +60,34 @@ class Linkage:
 
     @cached_property
     def owners(self) -> dict[str, list[str]]:
-        """For every point what it belongs to: members, the crank, the ground."""
+        """For every point what it belongs to: members, the driving link, the ground."""
         owners: dict[str, list[str]] = {name: [GROUND] for name in self.ground}
-        for name in (self.crank.pin, *self.crank_points):
-            owners.setdefault(name, []).append(self.crank.link)
+        pin = (self.driver.pin,) if isinstance(self.driver, Crank) else ()
+        for name in (*pin, *self.driving.points):
+            owners.setdefault(name, []).append(self.driver.link)
         for one in self.members:
             for name in one.points:
                 owners.setdefault(name, []).append(one.name)
         return owners
 
+    @property
+    def driving_frame(self) -> tuple[Point, float]:
+        """Where the frame of a driving link is at the beginning, and its direction. [m], [rad]"""
+        match self.driver:
+            case Crank(pivot=pivot, start=start, direction=direction, law=law):
+                return pivot, start + (direction * law.start if law else 0.0)
+            case DrivingSlider(guide=guide, law=law):
+                (x, y), angle = guide.point, guide.angle
+                return (x + law.start * math.cos(angle), y + law.start * math.sin(angle)), angle
+        raise TypeError(f"{self.driver.link} has no place of its own")
+
     def at_zero(self) -> dict[str, Point]:
-        """Return where points are at a crank angle of zero, as far as it is given. [m]"""
-        (x, y), r, start = self.crank.pivot, self.crank.radius, self.crank.start
-        pin = (x + r * math.cos(start), y + r * math.sin(start))
-        cos, sin = math.cos(start), math.sin(start)
-        throws = {name: (x + u * cos - v * sin, y + u * sin + v * cos) for name, (u, v) in self.crank_points.items()}
-        return {**self.positions, **self.ground, **throws, self.crank.pin: pin}
+        """Return where points are at the beginning, as far as it is given. [m]"""
+        if self.base == {GROUND}:
+            return {**self.positions, **self.ground}
+        ((x, y), angle), points = self.driving_frame, dict(self.driving.points)
+        if isinstance(self.driver, Crank):
+            points[self.driver.pin] = (self.driver.radius, 0.0)
+        cos, sin = math.cos(angle), math.sin(angle)
+        placed = {name: (x + u * cos - v * sin, y + u * sin + v * cos) for name, (u, v) in points.items()}
+        return {**self.positions, **self.ground, **placed}

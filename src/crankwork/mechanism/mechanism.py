@@ -1,4 +1,4 @@
-"""What a mechanism is: a crank and an ordered list of dyads, with bodies and named points."""
+"""What a mechanism is: a driver and an ordered list of dyads, with bodies and named points."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor
 from crankwork.mechanism.dyads import RRP
 
 if TYPE_CHECKING:
@@ -25,6 +26,12 @@ class Crank:
     # Names of the moving end and of the link
     pin: str = "crank_pin"
     link: str = "crank"
+    law: Law | None = None  # How it turns; at the angle of the tables without
+
+    turns = True
+
+
+Driver = Crank | DrivingSlider | Cylinder | LinkMotor
 
 
 @dataclass(frozen=True)
@@ -64,13 +71,25 @@ def body_at(link: str, mass: float, inertia: float, point: str) -> Body:
 
 @dataclass(frozen=True)
 class Mechanism:
-    """A crank, the dyads in the order in which they are solved, and the bodies."""
+    """A driver, the dyads in the order in which they are solved, and the bodies."""
 
-    crank: Crank  # The driving link
-    dyads: tuple[Dyad | Chain, ...]  # Each rests on points and links that the crank or an earlier one has placed
+    driver: Driver
+    dyads: tuple[Dyad | Chain, ...]  # Each rests on points and links that the driver or an earlier one has placed
     bodies: tuple[Body, ...] = ()  # Moving masses; may be empty where only the motion is wanted
     ground: Mapping[str, Point] = field(default_factory=dict)  # Fixed points by name [m]
     points: tuple[LinkPoint, ...] = ()  # Further points of the links; a dyad may rest on them
+
+    @property
+    def crank(self) -> Crank:
+        """The crank, of a mechanism that one drives."""
+        return crank_of(self.driver)
+
+
+def crank_of(driver: Driver) -> Crank:
+    """Return the crank that drives, of what one drives."""
+    if isinstance(driver, Crank):
+        return driver
+    raise TypeError(f"{driver.link} drives, and that is no crank")
 
 
 def slider_crank(crank_radius: float, rod_length: float, offset: float = 0.0) -> Mechanism:

@@ -82,7 +82,7 @@ def structure(linkage: Linkage) -> tuple[Structure | None, list[Problem]]:
     names = [one.name for one in linkage.members]
     solved: set[str] = set()
     groups: list[AssurGroup] = []
-    bodies = {GROUND: GROUND, linkage.crank.link: linkage.crank.link}
+    bodies = {name: name for name in linkage.base}
     while len(solved) < len(names):
         rest = [name for name in names if name not in solved]
         found = _smallest_group(linkage, rest, solved)
@@ -97,7 +97,8 @@ def structure(linkage: Linkage) -> tuple[Structure | None, list[Problem]]:
         bodies |= {name: bearer or name for name in found}
         groups.append(AssurGroup(found, _class(linkage, found, solved)))
         solved |= set(found)
-    return Structure((linkage.crank.link, *names), _joints(linkage), tuple(groups)), []
+    links = tuple(dict.fromkeys([linkage.driver.link, *names]))
+    return Structure(links, _joints(linkage), tuple(groups)), []
 
 
 def _only_bearer(linkage: Linkage, some: tuple[str, ...], bodies: dict[str, str]) -> str:
@@ -133,7 +134,7 @@ def _smallest_group(linkage: Linkage, rest: list[str], solved: set[str]) -> tupl
 
 def known_points(linkage: Linkage, solved: Iterable[str]) -> set[str]:
     """Return the points that are placed once some members are solved."""
-    members = {GROUND, linkage.crank.link, *solved}
+    members = {*linkage.base, *solved}
     return {name for name, owners in linkage.owners.items() if members.intersection(owners)}
 
 
@@ -144,7 +145,7 @@ class _Equations:
         self.members = {one.name: one for one in linkage.members}
         self.guides = linkage.guides
         self.known = known_points(linkage, solved)
-        self.carriers = {"", linkage.crank.link, *solved}
+        self.carriers = {"", *linkage.base, *solved}
 
     def excess(self, some: tuple[str, ...]) -> int:
         """Return the equations less the coordinates of members: 0 for a group, more if it is over-constrained."""

@@ -26,4 +26,8 @@ ROWS = (
     Quantity("driver_angle", "deg", "Coordinate of a driver that turns."),
     Quantity("driver_speed", "rad/s", "Time derivative of the angle of the driver."),
     Quantity("driver_angular_acceleration", "rad/s2", "Second time derivative of the angle of the driver."),
+    Quantity("link_length_1", "mm", "First derivative of the length of a link by the coordinate of the driver."),
+    Quantity("link_length_2", "mm", "Second derivative of the length of a link by the coordinate of the driver."),
+    Quantity("stretch_x", "mm", "What a link of changing length adds to the second derivative of its end, along x."),
+    Quantity("stretch_y", "mm", "What a link of changing length adds to the second derivative of its end, along y."),
 )  # fmt: skip

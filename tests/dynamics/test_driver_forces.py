@@ -1,0 +1,143 @@
+"""Force, torque and power of drivers that are no crank: by closed forms and by every route."""
+
+import math
+
+import numpy as np
+import pytest
+
+from crankwork.dynamics.joint_forces import joint_forces
+from crankwork.dynamics.link_loads import link_wrenches
+from crankwork.dynamics.routes import ROUTES, by_groups
+from crankwork.dynamics.running import Running
+from crankwork.formula.replay import Program
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.memory import given_mechanism, rates_of, remembered_motion
+from crankwork.kinematics.motion import linkage_motion
+from crankwork.kinematics.motion_laws import law_at
+from crankwork.loads.load import applied_loads
+from crankwork.loads.process import ForceOnPoint, TorqueOnLink
+from crankwork.loads.weight import Weight
+from crankwork.mechanism.chain import Chain, ChainLink
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor, Segment
+from crankwork.mechanism.dyads import RRP, RRR, Guide
+from crankwork.mechanism.mechanism import LinkPoint, Mechanism, body_at
+
+pytestmark = pytest.mark.elsewhere
+GRID = CrankGrid.from_degrees(np.linspace(3.0, 350.0, 41))
+DENSE = CrankGrid.steps(1.0, 360.0)
+
+
+def there_and_back(low, high):
+    """Return a law from one value to another and back in 5 s."""
+    return Law((Segment("3-4-5", high, 0.45), Segment("dwell", high, 0.15), Segment("cycloidal", low, 0.4)), 5.0, low)
+
+
+BOOM = Mechanism(
+    Cylinder("A", "B", there_and_back(0.8, 1.2)),
+    (RRR("A", "O", "B", "cylinder", "boom", 0.8, 0.9, branch=-1),),
+    (body_at("boom", 120.0, 30.0, "T"),),
+    ground={"O": (0.1, 0.5), "A": (0.4, -0.2)},
+    points=(LinkPoint("T", "boom", 2.0, 0.1),),
+)
+TURNED_ROUND = Mechanism(Cylinder("B", "A", BOOM.driver.law), BOOM.dyads, BOOM.bodies, BOOM.ground, BOOM.points)
+CHAIN = Mechanism(
+    BOOM.driver,
+    (
+        Chain(
+            (
+                ChainLink("cylinder", (0.4, -0.2), 2.0, {"A": (0.0, 0.0), "B": (0.8, 0.0)}),
+                ChainLink("boom", (0.1, 0.5), -0.3, {"O": (0.0, 0.0), "B": (0.9, 0.0)}),
+            ),
+            (), frozenset({"A", "O"}), 0.8, 0.9,
+        ),
+    ),
+    BOOM.bodies, BOOM.ground, BOOM.points,
+)  # fmt: skip
+DRIVEN = Mechanism(
+    DrivingSlider("piston", Guide((0.0, 0.01), 0.2), there_and_back(0.18, 0.22)),
+    (RRR("B", "O", "A", "rod", "arm", 0.2, 0.05),),
+    (body_at("piston", 0.5, 0.0, "B"), body_at("rod", 0.7, 0.002, "S"), body_at("arm", 0.3, 0.001, "A")),
+    ground={"O": (0.0, 0.0)},
+    points=(LinkPoint("B", "piston", 0.0), LinkPoint("S", "rod", 0.1, -0.02)),
+)
+PUSHED = Mechanism(
+    Cylinder("A", "C", there_and_back(0.35, 0.5)),
+    (RRP("A", "C", "cylinder", 0.35, (0.0, 0.3), 0.1, block="ram"), RRR("C", "D", "E", "link", "arm", 0.4, 0.3)),
+    (body_at("ram", 3.0, 0.0, "C"), body_at("link", 2.0, 0.1, "E")),
+    ground={"A": (0.0, 0.0), "D": (0.6, 0.5)},
+)
+ELBOW = Mechanism(
+    LinkMotor(("upper", "lower"), "C", (0.5, 0.4), 2.0, there_and_back(0.0, 0.5)),
+    (
+        RRR("O", "E", "D", "third_side", "rocker", 0.7, 0.6),
+        RRR("O", "D", "C", "upper", "lower", 0.5, 0.4),
+    ),
+    (body_at("upper", 4.0, 0.2, "P"), body_at("rocker", 3.0, 0.1, "D"), body_at("lower", 2.0, 0.05, "D")),
+    ground={"O": (0.0, 0.0), "E": (0.6, 0.1)},
+    points=(LinkPoint("P", "upper", 0.3, 0.05),),
+)
+EVERY = {
+    "boom": (BOOM, "boom"), "turned round": (TURNED_ROUND, "boom"), "chain": (CHAIN, "boom"), "driven": (DRIVEN, "arm"),
+    "pushed": (PUSHED, "arm"), "elbow": (ELBOW, "rocker"),
+}  # fmt: skip
+
+
+def running(mechanism, link, grid=GRID):
+    """Return a mechanism at work, with its weights and a torque."""
+    motion = linkage_motion(mechanism, grid)
+    _, rate, second = law_at(mechanism.driver.law, grid)
+    loads = applied_loads(mechanism, motion, (Weight(9.81), TorqueOnLink(link, 3.0)))
+    return Running(mechanism, motion, rate, loads, second)
+
+
+@pytest.mark.parametrize(("mechanism", "link"), EVERY.values(), ids=EVERY)
+def test_every_route_gives_the_same(mechanism, link):
+    at_work = running(mechanism, link)
+    found = by_groups(at_work)
+    for name, route in ROUTES.items():
+        assert route(at_work) == pytest.approx(found, rel=1e-10, abs=1e-9), name
+
+
+@pytest.mark.parametrize(("mechanism", "link"), EVERY.values(), ids=EVERY)
+def test_the_memory_replayed_is_the_number(mechanism, link):
+    motion = remembered_motion(mechanism, linkage_motion(mechanism, DENSE))
+    own = given_mechanism(mechanism)
+    _, rate, second = rates_of(mechanism.driver)
+    loads = applied_loads(own, motion, (Weight(9.81), TorqueOnLink(link, 3.0)))
+    remembered = joint_forces(Running(own, motion, rate, loads, second))
+    expected = joint_forces(running(mechanism, link))
+    columns = {"driven": remembered.balancing_torque} | {name: pin.x for name, pin in remembered.pins.items()}
+    columns |= {name: guide.normal for name, guide in remembered.guides.items()}
+    numbers = {"driven": expected.balancing_torque} | {name: pin.x for name, pin in expected.pins.items()}
+    numbers |= {name: guide.normal for name, guide in expected.guides.items()}
+    assert columns.keys() == numbers.keys()
+    for name, column in Program(columns)(GRID).items():
+        assert column == pytest.approx(numbers[name] + 0.0 * GRID.angle, rel=1e-9, abs=1e-9), name
+
+
+def test_a_cylinder_under_a_boom_by_hand():
+    # weight of the boom times its lever, over the lever of the cylinder, moving slowly
+    motion = linkage_motion(BOOM, GRID)
+    loads = applied_loads(BOOM, motion, (ForceOnPoint("T", 0.0, -1000.0),))
+    found = joint_forces(Running(BOOM, motion, 0.0, loads)).balancing_torque
+    (ox, oy), (ax, ay) = BOOM.ground["O"], BOOM.ground["A"]
+    q = law_at(BOOM.driver.law, GRID).position
+    base, arm = math.hypot(ax - ox, ay - oy), 0.9
+    gamma = np.arccos((base**2 + arm**2 - q**2) / (2 * base * arm))
+    direction = math.atan2(ay - oy, ax - ox) + gamma
+    lever = base * arm * np.sin(gamma) / q
+    reach = 2.0 * np.cos(direction) - 0.1 * np.sin(direction)
+    assert found * lever == pytest.approx(1000.0 * reach, rel=1e-12)
+
+
+def test_forces_of_the_motor_of_an_elbow_are_those_of_its_links_alone():
+    # nothing but a couple holds a weightless link that is free at its end
+    at_work = running(ELBOW, "rocker")
+    found = joint_forces(at_work)
+    torque, lower = found.balancing_torque, at_work.motion.frames["lower"]
+    wrench = link_wrenches(at_work)["lower"]
+    pin = found.pins["C"]
+    way = at_work.motion.points["C"]
+    x, y = way.x.position - lower.origin.x.position, way.y.position - lower.origin.y.position
+    sign = 1.0 if pin.joint.link == "lower" else -1.0
+    assert wrench.moment + torque + sign * (x * pin.y - y * pin.x) == pytest.approx(0.0, abs=1e-9)

@@ -1,0 +1,222 @@
+"""Drivers that are no crank: each against closed forms, and against the same linkage driven by its crank."""
+
+import math
+
+import numpy as np
+import pytest
+
+from crankwork.formula.replay import Program
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.memory import remembered_motion
+from crankwork.kinematics.motion import linkage_motion
+from crankwork.kinematics.motion_laws import law_at
+from crankwork.mechanism.chain import Chain, ChainLink
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor, Segment
+from crankwork.mechanism.dyads import RRP, RRR, Guide
+from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism
+
+pytestmark = pytest.mark.elsewhere
+GRID = CrankGrid.from_degrees(np.linspace(3.0, 350.0, 41))
+DENSE = CrankGrid.steps(1.0, 360.0)
+
+
+def there_and_back(low, high, kind="3-4-5"):
+    """Return a law from one value to another and back in 5 s."""
+    return Law((Segment(kind, high, 0.45), Segment("dwell", high, 0.15), Segment(kind, low, 0.4)), 5.0, low)
+
+
+BOOM = Mechanism(
+    Cylinder("A", "B", there_and_back(0.8, 1.2)),
+    (RRR("A", "O", "B", "cylinder", "boom", 0.8, 0.9, branch=-1),),
+    ground={"O": (0.1, 0.5), "A": (0.4, -0.2)},
+    points=(LinkPoint("T", "boom", 2.0, 0.1),),
+)
+
+
+def columns(motion):
+    """Return every coordinate of a motion with its derivatives."""
+    found = {}
+    for name, point in motion.points.items():
+        for axis, side in zip("xy", point, strict=True):
+            found |= {("point", name, axis, order): one for order, one in enumerate(side)}
+    for kind, coordinates in (("link", motion.links), ("slider", motion.sliders)):
+        for name, one in coordinates.items():
+            found |= {(kind, name, order): value for order, value in enumerate(one)}
+    return found
+
+
+class TestCylinderOnABoom:
+    def test_the_angle_is_that_of_the_law_of_cosines(self):
+        q = law_at(BOOM.driver.law, GRID).position
+        (ox, oy), (ax, ay) = BOOM.ground["O"], BOOM.ground["A"]
+        base, arm = math.hypot(ax - ox, ay - oy), 0.9
+        cosine = (base**2 + arm**2 - q**2) / (2 * base * arm)
+        gamma = np.arccos(cosine)
+        gamma_1 = q / (base * arm * np.sin(gamma))
+        gamma_2 = (1 / (base * arm) - cosine * gamma_1**2) / np.sin(gamma)
+        angle, angle_1, angle_2 = linkage_motion(BOOM, GRID).links["boom"]
+        assert angle == pytest.approx(math.atan2(ay - oy, ax - ox) + gamma, abs=1e-12)
+        assert angle_1 == pytest.approx(gamma_1, rel=1e-12)
+        assert angle_2 == pytest.approx(gamma_2, rel=1e-11)
+
+    def test_the_tip_moves_with_the_boom(self):
+        motion = linkage_motion(BOOM, GRID)
+        angle, angle_1, angle_2 = motion.links["boom"]
+        arm = 2.0 + 0.1j
+        place = (0.1 + 0.5j) + arm * np.exp(1j * angle)
+        turned = arm * np.exp(1j * angle)
+        for order, expected in enumerate((place, 1j * angle_1 * turned, (1j * angle_2 - angle_1**2) * turned)):
+            found = motion.points["T"].x[order] + 1j * motion.points["T"].y[order]
+            assert found == pytest.approx(expected, rel=1e-12)
+
+
+def inverse(driven, position, position_1, position_2):
+    """Return first and second derivative by another coordinate, whose derivatives by the present one are known."""
+    first = position_1 / driven.position_1
+    return position, first, (position_2 - first * driven.position_2) / driven.position_1**2
+
+
+class TestDrivenSliderCrank:
+    """The slider drives the crank, which is then a rocker: the inverse of the crank-driven slider-crank."""
+
+    radius, rod, offset = 0.05, 0.2, 0.01
+
+    def both(self):
+        degrees = np.linspace(20.0, 160.0, 29)
+        forward = Mechanism(
+            Crank(self.radius, pin="A"),
+            (RRP("A", "B", "rod", self.rod, (0.0, self.offset)),),
+            points=(LinkPoint("S", "rod", 0.07, 0.02),),
+        )
+        cranked = linkage_motion(forward, CrankGrid.from_degrees(degrees))
+        way = cranked.sliders["B"]
+        shares = (way.position - way.position[0]) / (way.position[-1] - way.position[0])
+        law = Law((Segment("constant", float(way.position[-1]), 1.0),), 2.0, float(way.position[0]))
+        backward = Mechanism(
+            DrivingSlider("piston", Guide((0.0, self.offset)), law),
+            (RRR("B", "O", "A", "rod", "arm", self.rod, self.radius, branch=-1),),
+            ground={"O": (0.0, 0.0)},
+            points=(LinkPoint("B", "piston", 0.0), LinkPoint("S", "rod", self.rod - 0.07, -0.02)),
+        )
+        return degrees, cranked, linkage_motion(backward, CrankGrid.from_degrees(360.0 * shares))
+
+    def test_it_is_the_inverse(self):
+        degrees, cranked, driven = self.both()
+        way = cranked.sliders["B"]
+        angle = driven.links["arm"]
+        assert angle.position == pytest.approx(np.radians(degrees), abs=1e-12)
+        assert angle.position_1 == pytest.approx(1 / way.position_1, rel=1e-11)
+        assert angle.position_2 == pytest.approx(-way.position_2 / way.position_1**3, rel=1e-10)
+        assert driven.sliders["piston"].position == pytest.approx(way.position, rel=1e-14)
+        for axis in (0, 1):
+            expected = inverse(way, *cranked.points["S"][axis])
+            for found, one in zip(driven.points["S"][axis], expected, strict=True):
+                assert found == pytest.approx(one, rel=1e-9, abs=1e-10)
+
+
+SLIDING_CYLINDER = Mechanism(
+    # a cylinder that pushes a slider along its guide
+    Cylinder("A", "C", there_and_back(0.35, 0.5)),
+    (RRP("A", "C", "cylinder", 0.35, (0.0, 0.3), 0.1, block="ram"),),
+    ground={"A": (0.0, 0.0)},
+)
+
+
+def test_a_cylinder_that_pushes_a_slider():
+    q = law_at(SLIDING_CYLINDER.driver.law, GRID).position
+    motion = linkage_motion(SLIDING_CYLINDER, GRID)
+    # distance of A from the line, and where its foot is along it
+    along, across = 0.3 * math.sin(0.1), 0.3 * math.cos(0.1)
+    reach = np.sqrt(q**2 - across**2)
+    slide = motion.sliders["ram"]
+    assert slide.position == pytest.approx(reach - along, rel=1e-13)
+    assert slide.position_1 == pytest.approx(q / reach, rel=1e-12)
+    assert slide.position_2 == pytest.approx(-(across**2) / reach**3, rel=1e-11)
+    angle = motion.links["cylinder"]
+    gamma = np.arcsin(across / q)
+    assert angle.position == pytest.approx(0.1 + gamma, rel=1e-13)
+    gamma_1 = -across / q / reach
+    assert angle.position_1 == pytest.approx(gamma_1, rel=1e-12)
+    assert angle.position_2 == pytest.approx(across / q**2 / reach + across / reach**3, rel=1e-11)
+
+
+ELBOW = Mechanism(
+    # a motor in the pin C of two links; the second drives a rocker
+    LinkMotor(("upper", "lower"), "C", (0.5, 0.4), 2.0, there_and_back(0.0, 0.5)),
+    (
+        RRR("O", "E", "D", "third_side", "rocker", 0.7, 0.6),
+        RRR("O", "D", "C", "upper", "lower", 0.5, 0.4),
+    ),
+    ground={"O": (0.0, 0.0), "E": (0.6, 0.1)},
+    points=(LinkPoint("P", "upper", 0.3, 0.05),),
+)
+
+
+def test_a_motor_between_two_links_opens_their_angle():
+    q = law_at(ELBOW.driver.law, GRID).position
+    motion = linkage_motion(ELBOW, GRID)
+    upper, lower, rocker = (motion.links[one] for one in ("upper", "lower", "rocker"))
+    # directions run from O and D to C, so that they close at C
+    assert np.mod(lower.position - upper.position, 2 * math.pi) == pytest.approx(2.0 + q, abs=1e-12)
+    assert lower.position_1 - upper.position_1 == pytest.approx(1.0, abs=1e-11)
+    assert lower.position_2 - upper.position_2 == pytest.approx(0.0, abs=1e-9)
+    step = 1e-5
+    before, after = (linkage_motion(ELBOW, CrankGrid.from_degrees(GRID.degrees + d)) for d in (-step, step))
+    grown = law_at(ELBOW.driver.law, CrankGrid.from_degrees(GRID.degrees + step)).position
+    grown = grown - law_at(ELBOW.driver.law, CrankGrid.from_degrees(GRID.degrees - step)).position
+    moving = np.abs(grown) > 1e-9
+    found = (after.links["rocker"].position - before.links["rocker"].position)[moving] / grown[moving]
+    assert found == pytest.approx(rocker.position_1[moving], rel=1e-4)
+
+
+def as_chain(mechanism):
+    """Return the boom as a chain that is solved numerically."""
+    motion = linkage_motion(mechanism, CrankGrid.from_degrees([0.0]))
+    dyad = mechanism.dyads[0]
+    law = mechanism.driver.law
+    links = (
+        ChainLink(
+            "cylinder",
+            mechanism.ground["A"],
+            float(motion.links["cylinder"].position[0]),
+            {"A": (0.0, 0.0), "B": (law.start, 0.0)},
+        ),
+        ChainLink(
+            "boom",
+            mechanism.ground["O"],
+            float(motion.links["boom"].position[0]),
+            {"O": (0.0, 0.0), "B": (dyad.length_b, 0.0)},
+        ),
+    )
+    chain = Chain(links, (), frozenset({"A", "O"}), law.start, 0.9)
+    return Mechanism(mechanism.driver, (chain,), ground=mechanism.ground, points=mechanism.points)
+
+
+def test_a_cylinder_in_a_chain_is_the_one_in_a_dyad():
+    found, expected = (columns(linkage_motion(one, GRID)) for one in (as_chain(BOOM), BOOM))
+    for key, value in expected.items():
+        assert found[key] == pytest.approx(value, rel=1e-10, abs=1e-11), key
+
+
+@pytest.mark.parametrize(
+    "mechanism", [BOOM, as_chain(BOOM), SLIDING_CYLINDER, ELBOW], ids=["boom", "chain", "slider", "elbow"]
+)
+def test_the_memory_replayed_is_the_motion(mechanism):
+    remembered = columns(remembered_motion(mechanism, linkage_motion(mechanism, DENSE)))
+    found, expected = Program(remembered)(GRID), columns(linkage_motion(mechanism, GRID))
+    for key, value in expected.items():
+        assert found[key] == pytest.approx(value + 0.0 * GRID.angle, rel=1e-13, abs=1e-13), key
+
+
+def test_a_crank_that_follows_a_law_is_the_crank_at_that_angle():
+    law = there_and_back(0.2, 2.5)
+    dyads = (RRR("A", "B", "C", "rod", "rocker", 0.2, 0.12),)
+    still, swung = (Mechanism(Crank(0.05, start=0.3, direction=-1, pin="A", law=one), dyads, ground={"B": (0.18, 0.0)})
+                    for one in (None, law))  # fmt: skip
+    q = law_at(law, GRID).position
+    found, expected = columns(linkage_motion(swung, GRID)), columns(linkage_motion(still, CrankGrid.from_radians(q)))
+    for key, value in expected.items():
+        assert found[key] == pytest.approx(value, rel=1e-14, abs=1e-15), key
+    remembered = Program(columns(remembered_motion(swung, linkage_motion(swung, DENSE))))(GRID)
+    for key, value in expected.items():
+        assert remembered[key] == pytest.approx(value, rel=1e-13, abs=1e-14), key
