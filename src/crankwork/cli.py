@@ -221,7 +221,7 @@ def run(  # noqa: PLR0913 - one argument per option of the command
         files.write_folder(output, contents, overwrite=overwrite)
         click.echo(f"\n{say('report.written', language)} {output}", err=as_json)
         if (missing := left_out(with_figures=not no_figures)) is not None:
-            _tell(f"note: {missing}")
+            _tell(say("check.note", language, notice=_told(missing.args[0])))
     _doubt(file, results, language)
 
 

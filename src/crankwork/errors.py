@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib.util import find_spec
 
+from crankwork.locale import Refusal
+
 
 class CrankworkError(Exception):
     """Anything crankwork refuses to do; the text is meant for the user as it stands."""
@@ -33,10 +35,9 @@ class UnknownKeyError(CrankworkError, KeyError):
 class MissingExtraError(CrankworkError):
     """A capability whose optional dependencies are not installed, all of them at once."""
 
-    def __init__(self, capability: str, *extras: str) -> None:
-        part, them = ("an optional part", "it") if len(extras) == 1 else ("optional parts", "them")
-        wanted = ",".join(extras)
-        super().__init__(f"{capability} needs {part}; install {them} with: pip install 'crankwork[{wanted}]'")
+    def __init__(self, capability: Refusal, *extras: str) -> None:
+        name = "extra_missing" if len(extras) == 1 else "extras_missing"
+        super().__init__(Refusal(name, capability=capability, extras=",".join(extras)))
 
 
 def missing_extras(modules: Mapping[str, str]) -> tuple[str, ...]:

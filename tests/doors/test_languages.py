@@ -132,6 +132,27 @@ def test_a_number_has_the_decimal_mark_of_the_language_unless_it_is_typed_into_a
     assert re.search(r"0\.5 .* 1\.001 .* 100$", told("cylinder.compression_ratio=0.5"), re.MULTILINE)
 
 
+def test_what_is_not_installed_is_told_in_the_language(crankwork, monkeypatch):
+    monkeypatch.setattr("crankwork.errors.find_spec", lambda _: None)
+    Path("my.toml").write_text(template("four-bar"), "utf-8")
+    for language, said in (
+        ("ru", "эта записка: нужны дополнительные части; установите их: pip install 'crankwork[report,figures]'"),
+        ("vi", "bản thuyết minh này cần các phần bổ sung"),
+    ):
+        assert said in crankwork("report", "my.toml", "-o", "note.pdf", "--lang", language).err
+    assert (
+        "примечание: запись tables.xlsx и figures: нужны"
+        in crankwork("run", "my.toml", "-o", "out", "--lang", "ru").err
+    )
+
+
+def test_why_there_is_no_steady_speed_is_told_in_the_language(crankwork):
+    text = (EXAMPLES / "petrol-four.toml").read_text("utf-8")
+    Path("my.toml").write_text(text.replace("fluctuation = 0.01", 'inertia = "1e-9 kg*m2"'), "utf-8")
+    said = crankwork("check", "my.toml", "--lang", "ru").out
+    assert re.search(r"средней скорости 586,431 рад/с машина останавливается при угле .* \d+,\d град", said), said
+
+
 def test_why_a_linkage_stops_short_of_a_turn_is_told_in_the_language(crankwork):
     Path("my.toml").write_text(template("four-bar").replace("112.5 mm", "75 mm"), "utf-8")
     for language, said in (("ru", "звенья coupler и rocker не сходятся"), ("vi", "các khâu coupler và rocker không")):

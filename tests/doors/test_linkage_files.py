@@ -117,6 +117,13 @@ def test_a_massless_loop_with_a_torque_gives_the_torque_of_the_crank() -> None:
     assert noted.notices[-1].values["message"].startswith("nothing has a mass")
 
 
+def test_a_crank_alone_turns() -> None:
+    crank = template("four-bar").partition("[links]")[0] + "[links]"
+    results = package.analyse(read_machine(crank))
+    assert not results.unmet
+    assert results.summary["speed"] > 0
+
+
 def test_motor_and_flywheel_of_a_file() -> None:
     """Four flywheels; the exact one gives the wanted fluctuation, and the motor runs below its synchronous speed."""
     text = template("toggle-press").replace("[table]", f"[flywheel]\nfluctuation = 0.04\n{MOTOR}")

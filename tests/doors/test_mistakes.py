@@ -37,6 +37,8 @@ MISTAKES = {
     "no clearance": ("compression_ratio = 9.0", 'clearance_volume = "0 cm3"', "cylinder.clearance_volume", "at least"),
     "compression ratio 1": ("= 9.0", "= 1", "cylinder.compression_ratio", "write a number from 1.001 to 100"),
     "ratio and length": ('length = "160 mm"', 'length = "160 mm"\nratio = 0.28', "rod.ratio", "same as length; keep"),
+    "inertia of a rod like the crank": ('"exact" ', '"series:3"\ninertia_rod_ratio = 1.0', "method.inertia_rod_ratio",
+                                        "write a smaller ratio, like 0.25"),
     "no speed": ('speed = "3000 rpm"', "", "crank.speed", 'is missing; write speed = "2300 rpm"'),
     "no radius": ('radius = "45 mm"', "", "crank.radius", 'write radius = "30 mm" or stroke = "30 mm"'),
     "no rod length": ('length = "160 mm"', "", "rod.ratio", 'write ratio = 0.25 or length = "30 mm"'),

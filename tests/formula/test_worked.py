@@ -11,6 +11,7 @@ from crankwork.formula.known import given
 from crankwork.formula.worked import Worked
 from crankwork.kinematics.slider_crank import mean_piston_speed
 from crankwork.loads.gas import clearance_volume, polytropic_pressure
+from crankwork.locale import told
 
 
 def _speeds() -> Worked:
@@ -52,9 +53,12 @@ def test_where_no_number_follows_the_operands_are_told(ratio):
     worked.given("swept_volume", 0.0005)
     worked.given("compression_ratio", ratio)
     with pytest.raises(
-        CrankworkError, match=f"no clearance volume follows from swept volume 0.0005, .* ratio {ratio:g}"
-    ):
+        CrankworkError, match=f"no clearance volume follows from swept volume 0.0005 and compression ratio {ratio:g}"
+    ) as caught:
         worked(clearance_volume)
+    russian = told(caught.value.args[0], "ru")
+    assert russian.startswith("объём камеры сжатия: величина не определяется, если рабочий объём")
+    assert f" 0,0005 и степень сжатия {ratio:g};" in russian
 
 
 def test_what_is_not_known_is_named():

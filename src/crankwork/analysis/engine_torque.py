@@ -111,7 +111,7 @@ def engine_torque(
             if wheel.value:
                 whole_inertia = between[needed.key] = needed
         except MethodError as error:
-            notices.append(Notice("no_flywheel", {"message": str(error)}))
+            notices.append(Notice("no_flywheel", {"message": error.args[0]}))
     speed, columns = None, dict[str, Known]()
     change = Table(AtDegrees(found.curve), "integral", np.degrees(found.curve.angle), of)
     columns["kinetic_energy_change"] = Known(change, "kinetic_energy_change")
@@ -119,7 +119,7 @@ def engine_torque(
         try:
             speed = true_speed(Curve.constant(whole_inertia.value, all_.cycle), all_, w.value)
         except MethodError as error:
-            notices.append(Notice("no_steady_speed", {"message": str(error)}))
+            notices.append(Notice("no_steady_speed", {"message": error.args[0]}))
     if speed is not None:
         energy = Known(Found(speed.energy, "energy", of), "kinetic_energy.start")
         turning = speed_of_energy(energy + columns["kinetic_energy_change"], whole_inertia).named("crank_speed")

@@ -16,6 +16,7 @@ from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.loads.spring import Spring
+from crankwork.locale import Refusal
 from crankwork.machine import Machine
 from crankwork.shaft.curve import AtDegrees, Curve
 from crankwork.shaft.energy_machine import energy_machine
@@ -65,9 +66,9 @@ def turn_of(machine: Machine, over: OverCycle, memory: Mapping[str, Known]) -> T
         try:
             turn, added = _even(memory, inertia, load, w, drive.fluctuation)
         except MethodError as error:
-            return turn._replace(notices=(Notice("no_flywheel", {"message": str(error)}),))
+            return turn._replace(notices=(Notice("no_flywheel", {"message": error.args[0]}),))
     if drive.motor is not None and over.is_nothing("reduced_inertia") and not added + drive.motor.reduced_inertia:
-        told = Notice("no_steady_speed", {"message": "nothing has a mass; give masses, or motor.inertia"})
+        told = Notice("no_steady_speed", {"message": Refusal("masses_missing")})
         return turn._replace(notices=(*turn.notices, told))
     if drive.motor is not None:
         summary, told_too = _driven(machine, memory, drive.motor, (inertia, load), added)

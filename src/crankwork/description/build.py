@@ -40,6 +40,7 @@ def build_machine(values: Mapping[str, Any], reader: Reader, read_measured: Read
     lengths = _lengths(crank, rod, values.get("cylinder", {}), reader)
     cylinder = _cylinder(values.get("cylinder"))
     _check_clearance(cylinder, lengths, reader)
+    _check_inertia_ratio(method, lengths, reader)
     masses = _masses(values, lengths, cylinder, method, reader)
     gas = calculated.gas if calculated else _gas(values.get("gas"), cylinder, reader, read_measured)
     table, flywheel = values.get("table", {}), values.get("flywheel", {})
@@ -134,6 +135,15 @@ def _lengths(
         reader.complain(key, Refusal("rod_short", **shown))
         return None
     return radius, length, offset
+
+
+def _check_inertia_ratio(method: Method, lengths: tuple[float, float, float] | None, reader: Reader) -> None:
+    ratio = method.inertia_rod_ratio
+    if ratio is None or method.is_exact or lengths is None:
+        return
+    radius, _, offset = lengths
+    if not turns_fully(SliderCrank(radius, radius / ratio, offset)):
+        reader.complain("method.inertia_rod_ratio", Refusal("inertia_ratio_large", ratio=f"{ratio:g}"))
 
 
 def _cylinder(values: Mapping[str, Any] | None) -> Cylinder | None:

@@ -118,7 +118,9 @@ class OverCycle:
         degrees = (low + high)[:, None] / 2 + (high - low)[:, None] / 2 * _NODES
         columns = self._program(self._angles_at(degrees.ravel()))
         values = (
-            np.stack([columns[key].reshape(degrees.shape) for key in self._row]) if columns else np.empty((0, 0, 0))
+            np.stack([columns[key].reshape(degrees.shape) for key in self._row])
+            if columns
+            else np.empty((0, *degrees.shape))
         )
         return np.asarray(values @ _FROM_VALUES.T)
 

@@ -11,7 +11,9 @@ import numpy as np
 from crankwork.errors import CrankworkError
 from crankwork.formula.expression import FORMULAS, Formula
 from crankwork.formula.known import Known, absent, given
+from crankwork.locale import Refusal, has_text
 from crankwork.notation import ARGUMENTS
+from crankwork.quantities import base_key
 
 
 class Worked:
@@ -86,6 +88,13 @@ class Worked:
 def _no_number(formula: Formula, taken: Mapping[str, Known | float]) -> CrankworkError:
     """Return the refusal of operands from which no number follows, by the names that they have."""
     named = {name: one for name, one in taken.items() if isinstance(one, Known) and not one.is_absent}
-    made_of = ", ".join(f"{(one.key or name).replace('_', ' ')} {one.value:g}" for name, one in named.items())
-    quantity = formula.quantity.replace("_", " ")
-    return CrankworkError(f"no {quantity} follows from {made_of}; correct what these are calculated from")
+    made_of = [
+        Refusal("operand", quantity=_quantity(one.key or ARGUMENTS[name].quantity), value=one.value)
+        for name, one in named.items()
+    ]
+    return CrankworkError(Refusal("no_number", quantity=_quantity(formula.quantity), operands=made_of))
+
+
+def _quantity(key: str) -> str:
+    name = f"quantities.{base_key(key)}"
+    return Refusal(name) if has_text(name) else key

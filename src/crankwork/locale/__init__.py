@@ -73,9 +73,9 @@ def capital(words: str) -> str:
 class Refusal(str):
     """What is refused, in English; it keeps its key and values, so that `told` can say it in another language.
 
-    The name is that of a text in the room `refusals`. Of the values entries of a tuple are joined by "or", those of a
-    list by "and". A number is printed as the text says, `{heat:.4g}`, or else with up to six digits, with the decimal
-    mark of the language; what somebody typed, or is to type, is text.
+    The name is that of a text in the room `refusals`, or `room.name`. Of the values entries of a tuple are joined by
+    "or", those of a list by "and". A number is printed as the text says, `{heat:.4g}`, or else with up to six digits,
+    with the decimal mark of the language; what somebody typed, or is to type, is text.
 
     Examples
     --------
@@ -127,7 +127,9 @@ def _filled(name: str, values: Mapping[str, object], language: Language) -> str:
             case _:
                 return str(value)
 
-    return known[name].format(**{key: joined(value) for key, value in values.items()})
+    room, _, own = name.rpartition(".")
+    words = texts(room, language)[own] if room else known[name]
+    return words.format(**{key: joined(value) for key, value in values.items()})
 
 
 class _Printed(NamedTuple):

@@ -70,7 +70,7 @@ def check_format(name: str, *, with_figures: bool = False, with_sheets: bool = F
     if with_sheets:
         modules = modules | {"typst": "report", "ezdxf": "report"}
     if extras := missing_extras(modules):
-        raise MissingExtraError("this note", *extras)
+        raise MissingExtraError(Refusal("extra_note"), *extras)
 
 
 def written_note(note: Note, name: str) -> bytes:

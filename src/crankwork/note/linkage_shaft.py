@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator, Mapping
 import numpy as np
 
 from crankwork.analysis.results import Results
-from crankwork.analysis.solved import Notice
 from crankwork.locale import capital, say
 from crankwork.note.document import Bibliography, Block, Bold, ItemList, Math, Paragraph, Reference, Runs, Table
 from crankwork.note.linkage_material import Material
@@ -95,15 +94,7 @@ def checks(material: Material) -> Iterator[Block]:
         yield words.paragraph("no_checks")
     if results.notices:
         yield words.paragraph("notices")
-        yield ItemList(tuple((_notice(one, words),) for one in results.notices))
-
-
-def _notice(notice: Notice, words: Words) -> str:
-    """Return a notice; what a refusal says is left out where its decimal points would stand beside commas."""
-    values = dict(notice.values)
-    if words.language != "en" and "message" in values:
-        values["message"] = ""
-    return notice_text(notice.code, values, words.language).removesuffix(": ")
+        yield ItemList(tuple((notice_text(one.code, one.values, words.language),) for one in results.notices))
 
 
 def conclusion(material: Material) -> Iterator[Block]:

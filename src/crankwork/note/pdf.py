@@ -18,7 +18,7 @@ def pdf(note: Note) -> bytes:
     try:
         import typst  # noqa: PLC0415 - an optional part
     except ImportError:
-        raise MissingExtraError("writing a PDF note", "report") from None
+        raise MissingExtraError(Refusal("extra_writing", names="PDF"), "report") from None
     source = typst_source(note, numbering(note)).encode("utf-8")
     try:
         return typst.compile(source, format="pdf", ignore_system_fonts=True, pdf_standards="a-2a")
@@ -41,7 +41,7 @@ def png(svg: bytes, pixels_per_inch: float = 110.0) -> bytes:
     try:
         import typst  # noqa: PLC0415 - an optional part
     except ImportError:
-        raise MissingExtraError("drawing pictures for a Word note", "report") from None
+        raise MissingExtraError(Refusal("extra_writing", names="DOCX"), "report") from None
     data = svg.decode("utf-8").replace("\\", "\\\\").replace('"', '\\"')
     source = (
         "#set page(width: auto, height: auto, margin: 0pt)\n"

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from crankwork.errors import MissingExtraError
+from crankwork.locale import Refusal
 from crankwork.note.captions import LANGUAGE_TAGS, caption, printed_date
 from crankwork.note.characters import plain_text
 from crankwork.note.document import (
@@ -61,7 +62,7 @@ def word(note: Note) -> bytes:
     try:
         import docx  # noqa: PLC0415 - an optional part
     except ImportError:
-        raise MissingExtraError("writing a Word note", "report") from None
+        raise MissingExtraError(Refusal("extra_writing", names="DOCX"), "report") from None
     numbers = numbering(note)
     document = docx.Document()
     _set_properties(document, note)

@@ -14,6 +14,7 @@ import numpy as np
 
 from crankwork.analysis import Array
 from crankwork.errors import MissingExtraError
+from crankwork.locale import Refusal
 from crankwork.quantities import QUANTITIES, Language
 from crankwork.report.language import key_unit, number, unit_name
 
@@ -69,7 +70,7 @@ def drawing_library() -> ModuleType:
     try:
         import matplotlib as mpl  # noqa: PLC0415 - an optional part
     except ImportError:
-        raise MissingExtraError("drawing figures", "figures") from None
+        raise MissingExtraError(Refusal("extra_figures"), "figures") from None
     finally:
         if shown_by is not None:
             os.environ["MPLBACKEND"] = shown_by

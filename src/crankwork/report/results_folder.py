@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from crankwork.analysis import Results
 from crankwork.errors import GeometryError, MissingExtraError, missing_extras
+from crankwork.locale import Refusal
 from crankwork.quantities import Language
 from crankwork.report.drawing import moving_drawing
 from crankwork.report.figures import figures
@@ -23,7 +24,7 @@ def left_out(*, with_figures: bool = True) -> MissingExtraError | None:
     if not missing:
         return None
     return MissingExtraError(
-        f"writing {' and '.join(missing)}", *(extra for extras in missing.values() for extra in extras)
+        Refusal("extra_writing", names=list(missing)), *(extra for extras in missing.values() for extra in extras)
     )
 
 

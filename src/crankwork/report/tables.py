@@ -10,7 +10,7 @@ import numpy as np
 
 from crankwork.analysis import Array, Results
 from crankwork.errors import MissingExtraError
-from crankwork.locale import say
+from crankwork.locale import Refusal, say
 from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.report.language import key_unit, label, unit_name
 from crankwork.units import from_si
@@ -96,7 +96,7 @@ def workbook(results: Results, *, language: Language = "en", per_area: bool = Fa
     try:
         import xlsxwriter  # noqa: PLC0415 - an optional part
     except ImportError:
-        raise MissingExtraError("writing a workbook", "tables") from None
+        raise MissingExtraError(Refusal("extra_writing", names="XLSX"), "tables") from None
     stream = io.BytesIO()
     with xlsxwriter.Workbook(stream, {"in_memory": True, "strings_to_formulas": False}) as book:
         heading = book.add_format({"bold": True, "text_wrap": True, "valign": "top", "bottom": 1})

@@ -133,7 +133,7 @@ def _compiler() -> Callable[..., Any]:
     try:
         import numba  # noqa: PLC0415 - the extra `fast`
     except ImportError:
-        raise MissingExtraError("Compiled motion by energy quadrature", "fast") from None
+        raise MissingExtraError(Refusal("extra_fast"), "fast") from None
     return numba.njit(cache=True)(_rows)
 
 

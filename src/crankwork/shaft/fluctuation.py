@@ -11,6 +11,7 @@ from crankwork.dynamics.reduction import kinetic_energy
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
 from crankwork.kinematics.crank_grid import Array
+from crankwork.locale import Refusal
 from crankwork.shaft.curve import Curve, Extremes
 
 # of the mean speed, where rounding begins
@@ -155,10 +156,7 @@ def true_speed(inertia: Curve, torque: Curve, mean_speed: float) -> TrueSpeed:
         energy = following
     if abs(miss) <= 1e-12 * mean_speed:
         return TrueSpeed(inertia, inertia_1, excess, balanced, energy, extremes)
-    raise MethodError(
-        f"at a mean speed of {mean_speed:g} rad/s the machine stops at a crank angle of "
-        f"{np.degrees(extremes.at_least):.1f} deg; it needs a larger flywheel or a higher speed"
-    )
+    raise MethodError(Refusal("machine_stops", speed=mean_speed, angle=float(np.degrees(extremes.at_least))))
 
 
 def _speed_extremes(inertia: Curve, inertia_1: Curve, excess: Curve, torque: Curve, energy: float) -> Extremes:

@@ -7,6 +7,7 @@ from typing import Literal
 
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
+from crankwork.locale import Refusal
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import TrueSpeed, excess_work, true_speed
 
@@ -154,10 +155,7 @@ def check_fluctuation(fluctuation: float, mean_speed: float) -> None:
     `fluctuation` and `mean_speed`: greatest less least speed over the mean; the mean [rad/s].
     """
     if not 0 < fluctuation < 2 or mean_speed <= 0:
-        raise MethodError(
-            f"no flywheel gives a speed fluctuation of {fluctuation:g} at {mean_speed:g} rad/s; "
-            "take a fluctuation between 0 and 2, usually 0.002 to 0.2, and a speed above zero"
-        )
+        raise MethodError(Refusal("fluctuation_wild", fluctuation=fluctuation, speed=mean_speed))
 
 
 def _slopes(way: Way, w: float, delta: float) -> tuple[float, float]:
@@ -180,7 +178,7 @@ def _fluctuation_with(inertia: Curve, torque: Curve, mean_speed: float) -> float
 
 def _turning(inertia: Curve, torque: Curve, mean_speed: float) -> TrueSpeed:
     if inertia.extremes().least <= 0:
-        raise MethodError("with a negative moment of inertia there is no motion")
+        raise MethodError(Refusal("inertia_negative"))
     return true_speed(inertia, torque, mean_speed)
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from crankwork.dynamics.reduction import kinetic_energy
 from crankwork.kinematics.crank_grid import Array
+from crankwork.locale import Refusal
 from crankwork.shaft.collocation import WEIGHTS, Panels, integrate_periodic, panel_points
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import acceleration_of_crank, speed_of_energy
@@ -131,11 +132,7 @@ def steady_speed(machine: ReducedMachine, speed: float) -> SpeedRun:
     solved = integrate_periodic(machine.power(), edges, guess, positive=True)
     if not solved.converged or not abs(solved.multiplier - 1) > 1e-13:
         angle = np.empty(0)
-        message = (
-            f"no steady motion was found near {speed:g} rad/s: the motor may be weaker than the load, or no torque "
-            "depends on the speed; simulate the start to see what the machine does"
-        )
-        return SpeedRun(angle, angle, angle, angle, "not solved", message)
+        return SpeedRun(angle, angle, angle, angle, "not solved", Refusal("steady_unfound", speed=speed))
     return described(machine, solved, "steady")
 
 

@@ -126,7 +126,7 @@ class ClosedGas:
         try:
             from scipy.integrate import solve_ivp  # noqa: PLC0415 - loaded where it is needed
         except ModuleNotFoundError:
-            raise MissingExtraError("a cycle from the heat released", "dynamics") from None
+            raise MissingExtraError(Refusal("extra_heat"), "dynamics") from None
         sizes = np.array([self.data.shut_pressure, 1.0, 1.0])
         sizes[1:] = self.data.shut_pressure * self.shut_volume + self.heat
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from crankwork.errors import MissingExtraError
+from crankwork.locale import Refusal
 from crankwork.note.sheets.scene import (
     PENS,
     Arc,
@@ -40,7 +41,7 @@ def sheet_dxf(sheet: Sheet) -> bytes:
     try:
         import ezdxf  # noqa: PLC0415 - an optional part
     except ImportError:
-        raise MissingExtraError("writing DXF", "report") from None
+        raise MissingExtraError(Refusal("extra_writing", names="DXF"), "report") from None
     # it gives away more than it declares
     library: Any = ezdxf
     was_fixed = library.options.write_fixed_meta_data_for_testing

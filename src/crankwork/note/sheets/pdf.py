@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from crankwork.errors import MissingExtraError
+from crankwork.locale import Refusal
 from crankwork.note.sheets.sheet import Sheet
 from crankwork.note.sheets.svg import sheet_svg
 
@@ -19,7 +20,7 @@ def sheet_pdf(sheet: Sheet) -> bytes:
     try:
         import typst  # noqa: PLC0415 - an optional part
     except ImportError:
-        raise MissingExtraError("writing PDF", "report") from None
+        raise MissingExtraError(Refusal("extra_writing", names="PDF"), "report") from None
     box = sheet.paper.box
     inputs = {
         "title": sheet.title,
