@@ -21,7 +21,7 @@ MISTAKES = {
     "order as text": ("petrol-four", ORDER, 'firing_order = "1-3-4-2"', "engine.firing_order", "must be a list"),
     "half a cylinder": ("petrol-four", "cylinders = 4", "cylinders = 4.5", "engine.cylinders", "write a whole number"),
     "no cylinders": ("petrol-four", "cylinders = 4\n", "", "engine.cylinders", "is missing"),
-    "other layout": ("petrol-four", '"inline"', '"star"', "engine.layout", 'write "inline" or "V"'),
+    "other layout": ("petrol-four", '"inline"', '"star"', "engine.layout", 'write "inline", "V"'),
     "key of another layout": ("petrol-four", ORDER, f'{ORDER}\nbank_angle = "60 deg"', "engine.bank_angle",
                               'belongs to layout = "V"'),
     "too few throws": ("petrol-four", ORDER, f'{ORDER}\nthrows = ["0 deg", "180 deg"]', "engine.throws",

@@ -75,7 +75,7 @@ def test_every_mistake_of_a_file_is_told_in_the_language(crankwork, language, li
     [
         (("run", "x.toml", "--lang=ru", "--foo"), "--foo: такого параметра нет; см. --help"),
         (("report", "--lang", "vi", "x.toml"), "-o: còn thiếu; hãy ghi -o NOTE, xem --help"),
-        (("run", "x.toml", "--lang", "de"), "--lang: de is not possible; write en or ru or vi"),
+        (("run", "x.toml", "--lang", "de"), "--lang: de is not possible; write en, ru or vi"),
     ],
 )
 def test_the_command_line_is_explained_in_the_language(crankwork, command, said):

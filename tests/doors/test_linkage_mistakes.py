@@ -50,7 +50,7 @@ MISTAKES = {
     "unknown guide": ("toggle-press", 'guide = "bed"', 'guide = "bad"', "sliders.ram.guide", "give it in [guides.bad]"),
     "unknown carrier": ("toggle-press", 'through = "E"', 'link = "zz"', "guides.bed.link", "neither a link nor"),
     "unknown slider": ("toggle-press", 'slider = "ram"', 'slider = "rm"', "loads[1].slider", "there is ram"),
-    "unknown load": ("toggle-press", '"process"', '"proces"', "loads[1].kind", 'write "process" or "force"'),
+    "unknown load": ("toggle-press", '"process"', '"proces"', "loads[1].kind", 'write "process", "force"'),
     "key of another kind": ("toggle-press", '"process"', '"process"\npoint = "D"', "loads[1].point", "it takes slider"),
     "no kind": ("toggle-press", 'kind = "process"', "", "loads[1].kind", 'write kind = "process"'),
     "not rising": ("toggle-press", AT, AT.replace("31", "15"), "loads[1].at", "must rise from value to value"),

@@ -47,7 +47,7 @@ WRONG = {
     "series of none": (("--method", "series:0"), "--method: "),
     "series of many": (("--method", "series:99999999"), "--method: "),
     "series of letters": (("--method", "series:x"), "N from 1 to 200"),
-    "language": (("--lang", "xx"), "--lang: xx is not possible; write en or ru or vi"),
+    "language": (("--lang", "xx"), "--lang: xx is not possible; write en, ru or vi"),
     "unknown option": (("--overwirte",), "--overwirte: there is no such option; did you mean --overwrite?"),
     "no value": (("--set",), "--set: needs a value; see --help"),
     "two files": (("other.toml",), "Got unexpected extra argument (other.toml); see crankwork --help"),

@@ -362,7 +362,7 @@ class _Solver:
                     "polytrope_far",
                     name=last,
                     angle=high,
-                    centres=", ".join(f"{one:g}" for one in self.dead_centres),
+                    centres=tuple(self.dead_centres),
                 ),
             )
         return reached(pressure, wanted, low, high)

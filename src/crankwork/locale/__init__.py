@@ -119,7 +119,8 @@ def _filled(name: str, values: Mapping[str, object], language: Language) -> str:
         match value:
             case tuple() | list():
                 word = known["or" if isinstance(value, tuple) else "and"]
-                return f" {word} ".join(format(joined(one)) for one in value)
+                *others, last = [format(joined(one)) for one in value] or [""]
+                return f"{', '.join(others)} {word} {last}" if others else last
             case float():
                 return _Printed(value, language)
             case str():

@@ -124,9 +124,7 @@ def compression_parts(corners: RoundedCorners) -> list[Part]:
         events.append(("c", corners.top))
     names, angles = zip(*events, strict=True)
     if any(after <= before for before, after in pairwise(angles)):
-        raise CrankworkError(
-            Refusal("events_crossed", names=", ".join(names), angles=", ".join(f"{one:g}" for one in angles))
-        )
+        raise CrankworkError(Refusal("events_crossed", names=list(names), angles=list(angles)))
     points = [Named(name, angle, corners.compression(angle)) for name, angle in zip(names, angles, strict=True)]
     return [Part("polytropic", pair, exponent=corners.theory["n1"], reference="~start") for pair in pairwise(points)]
 
@@ -225,8 +223,7 @@ def _blow_down(corners: RoundedCorners, points: tuple[Named, ...]) -> list[Part]
     if points[-1].angle <= points[0].angle:
         return []
     if any(after >= before for before, after in pairwise(pressures)):
-        shown = ", ".join(f"{one / 1e6:.4g}" for one in pressures)
-        raise CrankworkError(Refusal("blow_down_rising", pressures=shown))
+        raise CrankworkError(Refusal("blow_down_rising", pressures=[one / 1e6 for one in pressures]))
     return [Part("rounded", points, (corners.slope("expansion", points[0].angle), 0.0))]
 
 
