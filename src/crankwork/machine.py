@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from crankwork.cylinders.layout import Layout
 from crankwork.dynamics.masses import CrankGearMasses
+from crankwork.loads.chamber import Chamber, Charge, cycle_of
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.loads.measured import MeasuredPressure
 from crankwork.mechanism.mechanism import Mechanism
@@ -233,6 +234,8 @@ class Machine:
         Whether its weights count; those of a linkage are loads.
     loads : tuple of Load
         What pushes a linkage.
+    chambers, charges : mapping of str to Chamber and to Charge
+        The gas between sliding pieces of a linkage, and that which is sealed in several chambers, by name.
     drive : Drive
         What turns with the crank and drives it.
     transient : Transient or None
@@ -256,6 +259,8 @@ class Machine:
     gas: Gas | None = None
     has_gravity: bool = False
     loads: tuple[Load, ...] = ()
+    chambers: Mapping[str, Chamber] = field(default_factory=dict)
+    charges: Mapping[str, Charge] = field(default_factory=dict)
     drive: Drive = Drive()
     transient: Transient | None = None
     method: Method = EXACT
@@ -282,4 +287,4 @@ class Machine:
         """Crank angle after which everything repeats. [deg]"""
         if self.gas is not None:
             return self.gas.cycle
-        return self.engine.layout.cycle if self.engine is not None else 360.0
+        return self.engine.layout.cycle if self.engine is not None else cycle_of(self.chambers)

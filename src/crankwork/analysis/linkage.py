@@ -9,10 +9,11 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from crankwork.analysis.chambers import gas_check, gas_summary, solve_linkage
 from crankwork.analysis.linkage_memory import efficiency_of, linkage_memory, speed_of
 from crankwork.analysis.linkage_speed import transient_summary, turn_of
 from crankwork.analysis.results import Results
-from crankwork.analysis.solved import Notice, Solved
+from crankwork.analysis.solved import Notice, SolvedLinkage
 from crankwork.analysis.tabulated import DYNAMICS
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.routes import ROUTES, by_groups
@@ -22,6 +23,7 @@ from crankwork.formula.known import Found, Known, given
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.quality import FourBarType, grashof, limits_of_all, stroke_ratio, transmission_extremes
 from crankwork.loads.load import applied_loads
@@ -61,37 +63,40 @@ def four_bar_type(machine: Machine) -> FourBarType | Literal[""]:
     return ""
 
 
-def running_at(solved: Solved, motion: Motion) -> Running:
+def running_at(solved: SolvedLinkage, motion: Motion) -> Running:
     """Return the linkage at work, with its loads."""
     machine = solved.machine
     loads = applied_loads(machine.mechanism, motion, machine.loads)
+    loads = loads.also(solved.filling.loads(machine.mechanism, motion))
     return Running(machine.mechanism, motion, solved.speed, loads, machine.angular_acceleration)
 
 
 def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
-    """Return everything a linkage does over one revolution.
+    """Return everything a linkage does over one cycle: a revolution, or two of some gas.
 
     Columns, summary, checks and notices; only the angles that the linkage reaches. `grid`: ascending crank angles
-    within one revolution; the machine's own table otherwise [rad].
+    within one cycle; the machine's own table otherwise [rad].
     """
-    solved = Solved(machine, machine.method, machine.speed * machine.method.pi / math.pi)
     own_table = grid is None
     if grid is None:
-        grid = CrankGrid.steps(machine.table_step, 360.0, special=machine.table_special)
-    dense, notices = reachable(machine, CrankGrid.steps(_DENSE_STEP, 360.0))
-    low, high = dense.degrees[0], dense.degrees[-1]
+        grid = CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
+    dense, notices = reachable(machine, CrankGrid.steps(_DENSE_STEP, machine.cycle))
+    is_whole, low, high = not notices, dense.degrees[0], dense.degrees[-1]
     inside = np.flatnonzero((grid.degrees >= low) & (grid.degrees <= high))
     if inside.size == 0 and own_table:
         grid, inside = dense, np.arange(len(dense))
     if inside.size == 0:
         raise CrankworkError(Refusal("table_unreached", low=low, high=high))
     grid = grid[slice(int(inside[0]), int(inside[-1]) + 1)]
-    memory = linkage_memory(machine, linkage_motion(machine.mechanism, dense))
+    motion = remembered_motion(machine.mechanism, linkage_motion(machine.mechanism, dense), machine.linkage)
+    solved = solve_linkage(machine, motion)
+    notices += tuple(Notice(*one) for one in solved.filling.notices)
+    memory = linkage_memory(solved, motion)
     over = OverCycle({key: memory[key] for key in _followed(memory)}, CrankGrid.from_degrees, high - low, low)
-    summary = _summary(solved, over, memory, is_whole=not notices)
-    checks = _checks(solved, dense)
+    summary = _summary(solved, over, memory, is_whole=is_whole)
+    checks = _checks(solved, dense) | gas_check(solved, motion)
     between = {"mobility": mobility(machine.drawn)}
-    if not notices and "reduced_inertia" in memory:
+    if is_whole and "reduced_inertia" in memory:
         turn = turn_of(machine, over, {**memory, **summary})
         memory |= turn.columns
         checks |= turn.checks
@@ -107,11 +112,13 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
 
 def _followed(memory: Mapping[str, Known]) -> list[str]:
     """Return the columns that single values are taken from."""
-    kinds = ("slider_displacement", "link_angle", "joint_force", "slider_velocity")
+    kinds = ("slider_displacement", "link_angle", "joint_force", "slider_velocity", "gas_pressure", "gas_force")
     return [key for key in memory if key in DYNAMICS or key.partition(".")[0] in kinds]
 
 
-def _summary(solved: Solved, over: OverCycle, memory: Mapping[str, Known], *, is_whole: bool) -> dict[str, Known]:
+def _summary(
+    solved: SolvedLinkage, over: OverCycle, memory: Mapping[str, Known], *, is_whole: bool
+) -> dict[str, Known]:
     machine = solved.machine
     result = {"rotational_speed": given("rotational_speed", machine.speed, "crank.speed"), "speed": speed_of(machine)}
     if machine.angular_acceleration:
@@ -132,11 +139,12 @@ def _summary(solved: Solved, over: OverCycle, memory: Mapping[str, Known], *, is
             if (swing := largest - least).value < math.pi:
                 result[f"link_swing.{name}"] = swing
         else:
-            words = ("max", "min") if key in DYNAMICS else ("max",)
+            words = ("max", "min") if key in DYNAMICS or kind == "gas_force" else ("max",)
             found = (f"{kind}_{word}{angle}{dot}{name}" for word in words for angle in ("", "_angle"))
             result |= {one: extremes[one] for one in found}
-    if machine.loads and is_whole:
+    if (machine.loads or machine.chambers) and is_whole:
         result["mean_torque"] = over.mean("static_torque", "mean_torque")
+    result |= gas_summary(solved)
     return {key: one.named(key) for key, one in result.items()}
 
 
@@ -159,9 +167,9 @@ def _quality(machine: Machine, memory: Mapping[str, Known]) -> dict[str, Known]:
     return result
 
 
-def _checks(solved: Solved, grid: CrankGrid) -> dict[str, float]:
+def _checks(solved: SolvedLinkage, grid: CrankGrid) -> dict[str, float]:
     """Return how far four independent routes to the balancing torque differ, relative to the forces."""
-    if not (solved.machine.mechanism.bodies or solved.machine.loads):
+    if not (solved.machine.mechanism.bodies or solved.machine.loads or solved.machine.chambers):
         return {}
     running = running_at(solved, linkage_motion(solved.machine.mechanism, grid))
     found = joint_forces(running)
@@ -187,7 +195,7 @@ class TorqueByRoutes(NamedTuple):
 
 def torque_by_routes(results: Results, degrees: ArrayLike) -> TorqueByRoutes:
     """Return the balancing torque by five routes."""
-    solved: Solved = results.solved
+    solved: SolvedLinkage = results.solved
     running = running_at(solved, linkage_motion(solved.machine.mechanism, CrankGrid.from_degrees(degrees)))
     torques = {"by_groups": by_groups(running), **{name: route(running) for name, route in ROUTES.items()}}
     return TorqueByRoutes(torques, differences(list(torques.values())))
@@ -211,6 +219,7 @@ def _groups(columns: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
         "links": ("link_angle", "link_angular_velocity", "link_angular_acceleration",
                   "slider_displacement", "slider_velocity", "slider_acceleration"),
         "speed": ("crank_speed", "kinetic_energy_change"),
+        "chambers": ("cylinder_volume", "diagram_pressure", "gas_pressure", "gas_force"),
         "joint_forces": ("joint_force_x", "joint_force_y", "joint_force", "normal_force", "normal_moment"),
     }  # fmt: skip
     groups = {name: tuple(key for key in columns if key.partition(".")[0] in keys) for name, keys in kinds.items()}

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from crankwork.analysis import origins
+from crankwork.analysis.solved import SolvedLinkage
 from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor, remembered_efficiency
 from crankwork.dynamics.force_parts import balancing_torque_of_parts
 from crankwork.dynamics.joint_forces import joint_forces
@@ -15,26 +16,27 @@ from crankwork.dynamics.reduction import dynamic_torque, kinetic_energy, reduced
 from crankwork.dynamics.running import Running
 from crankwork.formula.known import Found, Known, Pieces, absent, given
 from crankwork.kinematics import transfer as rates
-from crankwork.kinematics.memory import angle_of, course_of, given_mechanism, remembered_motion
+from crankwork.kinematics.memory import angle_of, course_of, given_mechanism
 from crankwork.kinematics.motion import Motion
 from crankwork.loads.load import applied_loads
 from crankwork.machine import Drive, Machine
 
 
-def linkage_memory(machine: Machine, moved: Motion) -> dict[str, Known]:
+def linkage_memory(solved: SolvedLinkage, motion: Motion) -> dict[str, Known]:
     """Return all columns of a linkage (artobolevsky_1988, ch. 13-16).
 
-    Columns by key; those of points, links, sliders and joints are `key.NAME`. `moved`: its motion in numbers, over
-    the crank angles that it reaches.
+    Columns by key; those of points, links, sliders, joints and chambers are `key.NAME`. `motion`: its motion,
+    remembered.
     """
-    motion = remembered_motion(machine.mechanism, moved, machine.linkage)
+    machine = solved.machine
     w, eps = (
         speed_of(machine),
         _stated("angular_acceleration", machine.angular_acceleration, "crank.angular_acceleration"),
     )
     columns: dict[str, Known] = {"crank_angle": angle_of(motion.grid), **dict(_moving(machine, motion, w, eps))}
-    if machine.mechanism.bodies or machine.loads or machine.drive.inertia:
-        columns |= _at_work(machine, motion, w, eps)
+    columns |= solved.filling.columns
+    if machine.mechanism.bodies or machine.loads or machine.chambers or machine.drive.inertia:
+        columns |= _at_work(solved, motion, w, eps)
     return {key: one.named(key) for key, one in columns.items()}
 
 
@@ -83,10 +85,11 @@ def _moving(machine: Machine, motion: Motion, w: Known, eps: Known) -> Iterator[
         yield f"slider_acceleration.{name}", rates.slider_acceleration(one.position_2, w, one.position_1, eps)
 
 
-def _at_work(machine: Machine, motion: Motion, w: Known, eps: Known) -> dict[str, Known]:
+def _at_work(solved: SolvedLinkage, motion: Motion, w: Known, eps: Known) -> dict[str, Known]:
     """Return reduction, torques and forces in joints."""
+    machine = solved.machine
     mechanism = given_mechanism(machine.mechanism, machine.linkage)
-    loads = applied_loads(mechanism, motion, machine.loads)
+    loads = applied_loads(mechanism, motion, machine.loads).also(solved.filling.loads(mechanism, motion))
     beside = _stated("reduced_inertia.drive", machine.drive.inertia, "crank.inertia")
     inertia = reduced_inertia(mechanism, motion, beside)
     reduced: Known = reduced_torque(motion, loads)

@@ -83,11 +83,11 @@ def transfer_ratios(mechanism: Mechanism, degrees: ArrayLike) -> dict[str, Array
 
 
 def reached_angles(machine: Machine, step: float) -> tuple[Array, bool]:
-    """Return crank angles of a revolution as far as a linkage reaches them [deg], and whether it reaches all.
+    """Return crank angles of a cycle as far as a linkage reaches them [deg], and whether it reaches all.
 
     `step`: step [deg].
     """
-    grid, notices = reachable(machine, CrankGrid.steps(step, 360.0))
+    grid, notices = reachable(machine, CrankGrid.steps(step, machine.cycle))
     return grid.degrees, not notices
 
 

@@ -21,6 +21,7 @@ from crankwork.kinematics.extremes import dead_centres
 from crankwork.kinematics.piston import as_slider_crank
 from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank
 from crankwork.loads import gas as gas_formulas
+from crankwork.loads.filling import NO_GAS, Filling
 from crankwork.loads.indicator import IndicatorDiagram, solve_diagram
 from crankwork.loads.measured import measured_diagram, wrap_is_rough
 from crankwork.locale import Refusal
@@ -65,6 +66,13 @@ class Solved:
     machine: Machine
     method: Method
     speed: float
+
+
+@dataclass(frozen=True)
+class SolvedLinkage(Solved):
+    """A linkage made ready: the gas in its chambers known."""
+
+    filling: Filling = field(default=NO_GAS, compare=False)
 
 
 @dataclass(frozen=True)

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
-from crankwork.description.schema import Measure, Reader, nearest_name
+from crankwork.description.gas_build import ReadMeasured, build_gas
+from crankwork.description.schema import Measure, Reader
 from crankwork.description.stated import stated_numbers
 from crankwork.dynamics.masses import CrankGearMasses, rod_big_end_mass, rod_inertia_excess, rod_small_end_mass
 from crankwork.errors import MethodError
 from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
 from crankwork.loads.gas import piston_area
-from crankwork.loads.indicator import DiagramPoint, Piece
-from crankwork.loads.measured import MeasuredPressure
 from crankwork.locale import Refusal
-from crankwork.machine import Cylinder, Drive, Gas, Machine
+from crankwork.machine import Cylinder, Drive, Machine
 from crankwork.mechanism.mechanism import slider_crank
 from crankwork.method import EXACT, STANDARD_GRAVITY, Method
 from crankwork.units import UNITS
@@ -23,8 +22,6 @@ from crankwork.units import UNITS
 _LEAST_RISE = 1e-3
 _RADIANS = [name for name, unit in UNITS.items() if unit.dimension == "speed" and unit.factor == 1.0]
 _ENGINE_TABLES = {"engine", "bearings", "balance", "flywheel"}
-
-ReadMeasured = Callable[[Mapping[str, Any], Reader], MeasuredPressure | None]
 
 
 def build_machine(values: Mapping[str, Any], reader: Reader, read_measured: ReadMeasured) -> Machine | None:
@@ -42,7 +39,7 @@ def build_machine(values: Mapping[str, Any], reader: Reader, read_measured: Read
     _check_clearance(cylinder, lengths, reader)
     _check_inertia_ratio(method, lengths, reader)
     masses = _masses(values, lengths, cylinder, method, reader)
-    gas = calculated.gas if calculated else _gas(values.get("gas"), cylinder, reader, read_measured)
+    gas = calculated.gas if calculated else build_gas(values.get("gas"), cylinder, reader, read_measured)
     table, flywheel = values.get("table", {}), values.get("flywheel", {})
     special = [math.degrees(angle.value) for angle in table.get("special_angles", []) if angle]
     is_whole = not _ENGINE_TABLES.isdisjoint(values)
@@ -236,97 +233,3 @@ def _inertia_excess(rod: Mapping[str, Any], mass: float, centre: float, length: 
     else:
         return 0.0
     return float(rod_inertia_excess(inertia, mass, centre, length))
-
-
-def _gas(
-    values: Mapping[str, Any] | None, cylinder: Cylinder | None, reader: Reader, read_measured: ReadMeasured
-) -> Gas | None:
-    if values is None:
-        return None
-    _check_gas(values, cylinder, reader)
-    _check_rod(values, cylinder, reader)
-    _check_points(values, reader)
-    if "cycle" not in values:
-        return None
-    measured = read_measured(values["measured"], reader) if "measured" in values else None
-    source = values.get("measured", {})
-    resample = source.get("resample")
-    if values.get("pressures") == "absolute":
-        for name, point in values.get("points", {}).items():
-            pressure = (point or {}).get("pressure")
-            if pressure is not None and pressure.value < 0:
-                reader.complain(f"gas.points.{name}.pressure", Refusal("point_vacuum"))
-        if measured is not None and float(measured.pressure.min()) < 0:
-            row = measured.rows[int(measured.pressure.argmin())]
-            reader.complain("gas.measured.file", Refusal("measured_vacuum", line=row))
-    return Gas(
-        cycle=float(values["cycle"].split()[0]),
-        points={name: _point(one) for name, one in values.get("points", {}).items() if one is not None},
-        pieces=tuple(_piece(one) for one in values.get("pieces", []) if one and {"law", "points"} <= set(one)),
-        measured=measured,
-        angle_shift=math.degrees(_value(source, "shift")),
-        resample=math.degrees(resample.value) if resample else None,
-        is_absolute=values.get("pressures") == "absolute",
-        ambient=_value(values, "ambient", 101325.0),
-        names_ambient="ambient" in values,
-        back_pressure=_value(values, "back_pressure"),
-    )
-
-
-def _check_gas(values: Mapping[str, Any], cylinder: Cylinder | None, reader: Reader) -> None:
-    """Complain of what the gas needs and has not."""
-    if cylinder is None:
-        if not reader.doubts("cylinder.bore"):
-            reader.complain("gas", Refusal("gas_cylinder"))
-    elif {cylinder.clearance_volume, cylinder.compression_ratio} == {None} and not reader.doubts(
-        "cylinder.clearance_volume", "cylinder.compression_ratio"
-    ):
-        reader.complain("cylinder", Refusal("gas_volume"))
-    if values.get("pressures") != "absolute" and "ambient" in values and not reader.doubts("gas.pressures"):
-        reader.complain("gas.ambient", Refusal("ambient_unused"))
-    if "measured" not in values:
-        for key in ("points", "pieces"):
-            if key not in values and not reader.doubts(f"gas.{key}", "gas.measured"):
-                reader.complain(f"gas.{key}", Refusal(f"gas_{key}"))
-
-
-def _check_rod(values: Mapping[str, Any], cylinder: Cylinder | None, reader: Reader) -> None:
-    """Complain of a piston rod without pressure beside it, and of a pressure without a rod."""
-    has_rod, has_pressure = cylinder is not None and cylinder.piston_rod_diameter > 0, "back_pressure" in values
-    if has_pressure and not has_rod and not reader.doubts("cylinder.piston_rod_diameter", "cylinder"):
-        reader.complain("gas.back_pressure", Refusal("back_pressure_alone"))
-    if has_rod and not has_pressure and not reader.doubts("gas.back_pressure"):
-        reader.complain("cylinder.piston_rod_diameter", Refusal("piston_rod_alone"))
-
-
-def _check_points(values: Mapping[str, Any], reader: Reader) -> None:
-    """Complain of every point that a piece names and the table of points does not know."""
-    known = values.get("points")
-    if known is None:
-        return
-    for number, piece in enumerate(values.get("pieces", []), start=1):
-        key = f"gas.pieces[{number}]"
-        names = [(f"{key}.points[{i}]", name) for i, name in enumerate((piece or {}).get("points", []), start=1)]
-        names.append((f"{key}.reference", (piece or {}).get("reference")))
-        for place, name in names:
-            if name is not None and name not in known and not reader.doubts("gas.points"):
-                nearest = nearest_name(name, known)
-                near = Refusal("no_point_near", name=name, nearest=nearest)
-                reader.complain(
-                    place, near if nearest else Refusal("no_point", name=name, known=", ".join(known)[:120])
-                )
-
-
-def _point(values: Mapping[str, Any]) -> DiagramPoint:
-    angle, pressure, volume = (values.get(key) for key in ("angle", "pressure", "volume"))
-    return DiagramPoint(
-        angle=None if angle is None else round(math.degrees(angle.value), 9),
-        pressure=None if pressure is None else pressure.value,
-        volume=None if volume is None else volume.value,
-        stroke=values.get("stroke"),
-    )
-
-
-def _piece(values: Mapping[str, Any]) -> Piece:
-    points = tuple(name for name in values["points"] if name)
-    return Piece(values["law"], points, values.get("exponent"), values.get("reference"))

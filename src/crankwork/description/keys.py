@@ -53,7 +53,7 @@ _CYLINDER = Table({
     "piston_rod_diameter": Key(_LENGTH, "of a double-acting piston"),
 })  # fmt: skip
 
-_POINT = Table(
+POINT = Table(
     {
         "angle": Key(
             Quantity(("angle",), 0.0, 4 * math.pi + 1e-9),
@@ -72,7 +72,7 @@ _POINT = Table(
     }
 )
 
-_PIECE = Table({
+PIECE = Table({
     "law": Key(Choice(("constant", "polytropic", "rounded")), "what happens between the points", required=True),
     "points": Key(ListOf(Text(60), fewest=2), "names of the points, in the order of the crank angle", required=True),
     "exponent": Key(Number(0.0, 5.0), "polytropic exponent"),
@@ -80,7 +80,7 @@ _PIECE = Table({
                                "by default the first"),
 })  # fmt: skip
 
-_MEASURED = Table(
+MEASURED = Table(
     {
         "file": Key(Text(1000), "CSV file with a column of crank angle and one of pressure", required=True),
         "angle_column": Key(Text(), "heading of the angle column; by default the first column"),
@@ -104,9 +104,9 @@ _GAS = Table(
             Quantity(("pressure",), 0.0, 1e7), "absolute pressure on the crankcase side, for absolute pressures"
         ),
         "back_pressure": Key(_PRESSURE, "gauge pressure on the crank side of a double-acting piston"),
-        "points": Key(Named(_POINT), "named points of the indicator diagram"),
-        "pieces": Key(ListOf(_PIECE, fewest=1, most=500), "laws between the points, in the order of the crank angle"),
-        "measured": Key(_MEASURED, "measured pressure instead of points and pieces", instead_of=("points", "pieces")),
+        "points": Key(Named(POINT), "named points of the indicator diagram"),
+        "pieces": Key(ListOf(PIECE, fewest=1, most=500), "laws between the points, in the order of the crank angle"),
+        "measured": Key(MEASURED, "measured pressure instead of points and pieces", instead_of=("points", "pieces")),
     }
 )
 

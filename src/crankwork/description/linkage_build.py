@@ -10,9 +10,12 @@ from typing import Any
 
 import numpy as np
 
+from crankwork.analysis.chambers import solve_linkage
 from crankwork.analysis.linkage import reachable
 from crankwork.analysis.linkage_speed import transient_summary
 from crankwork.description.build import build_method, crank_speed
+from crankwork.description.chamber_build import build_chambers
+from crankwork.description.gas_build import ReadMeasured
 from crankwork.description.schema import Measure, Reader
 from crankwork.description.stated import stated_numbers
 from crankwork.dynamics.efficiency import Chain as EfficiencyChain
@@ -22,8 +25,10 @@ from crankwork.dynamics.tabulated import TabulatedBody
 from crankwork.errors import CrankworkError, GeometryError, MethodError, Problem
 from crankwork.kinematics.assembly import unassembled
 from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.placement import place
+from crankwork.loads.indicator import DiagramError
 from crankwork.loads.load import Load, applied_loads
 from crankwork.loads.process import ForceOnPoint, ProcessForce, TorqueOnLink
 from crankwork.loads.spring import SliderSpring, Spring
@@ -56,7 +61,7 @@ _LOAD_KEYS = {
 }
 
 
-def build_linkage(values: Mapping[str, Any], reader: Reader) -> Machine | None:
+def build_linkage(values: Mapping[str, Any], reader: Reader, read_measured: ReadMeasured) -> Machine | None:
     """Return the linkage machine, or None after complaints."""
     if reader.problems:
         return None
@@ -72,6 +77,7 @@ def build_linkage(values: Mapping[str, Any], reader: Reader) -> Machine | None:
     if not method.is_exact:
         reader.complain("method.kinematics", Refusal("linkage_exact"))
     loads = _loads(values, linkage, reader)
+    chambers, charges = build_chambers(values, linkage, reader, read_measured)
     drive = _drive(values, reader)
     transient = _transient(values, loads, reader)
     if reader.problems or mechanism is None or linkage is None:
@@ -87,6 +93,8 @@ def build_linkage(values: Mapping[str, Any], reader: Reader) -> Machine | None:
         angular_acceleration=_value(crank, "angular_acceleration"),
         title=values.get("title", ""),
         loads=loads,
+        chambers=chambers,
+        charges=charges,
         drive=replace(drive, inertia=drive.inertia + _value(crank, "inertia")),
         transient=transient,
         method=method,
@@ -94,7 +102,7 @@ def build_linkage(values: Mapping[str, Any], reader: Reader) -> Machine | None:
         table_special=tuple(round(math.degrees(one.value), 9) for one in table.get("special_angles", []) if one),
         stated=stated_numbers(values),
     )
-    return machine if _moves(machine, reader) else None
+    return machine if _moves(machine, reader) and _is_filled(machine, values, reader) else None
 
 
 def _decomposed(linkage: Linkage) -> tuple[Mechanism | None, list[Problem]]:
@@ -162,6 +170,27 @@ def _moves(machine: Machine, reader: Reader) -> bool:
         reader.complain("loads", error.args[0])
         return False
     return machine.transient is None or _ends(machine, machine.transient, motion, reader)
+
+
+def _is_filled(machine: Machine, values: Mapping[str, Any], reader: Reader) -> bool:
+    """Complain of gas that does not suit the volumes of its chambers."""
+    if not machine.chambers:
+        return True
+    reached, notices = reachable(machine, CrankGrid.steps(_STEP, machine.cycle))
+    if notices:
+        reader.complain("chambers", Refusal("chambers_partial"))
+        return False
+    moved = linkage_motion(machine.mechanism, reached)
+    try:
+        solve_linkage(machine, remembered_motion(machine.mechanism, moved, machine.linkage))
+    except DiagramError as error:
+        mistake = error.args[0]
+        if ".measured" in error.key:
+            name = error.key.split(".")[1]
+            mistake = Refusal("in_file", file=values["chambers"][name]["measured"]["file"], mistake=mistake)
+        reader.complain(error.key, mistake)
+        return False
+    return True
 
 
 def _with_starts(loads: tuple[Load, ...], values: Mapping[str, Any], mechanism: Mechanism) -> tuple[Load, ...]:
@@ -312,7 +341,11 @@ def _transient(values: Mapping[str, Any], loads: tuple[Load, ...], reader: Reade
     table = values.get("transient")
     if table is None:
         return None
-    if values.get("method", {}).get("weights") or not all(isinstance(one, Spring) and not one.preload for one in loads):
+    if (
+        values.get("method", {}).get("weights")
+        or not all(isinstance(one, Spring) and not one.preload for one in loads)
+        or values.get("chambers")
+    ):
         reader.complain("transient", Refusal("transient_loads"))
     return Transient(table["torque"].value, table["time"].value, _value(table, "speed"))
 

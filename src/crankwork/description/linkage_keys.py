@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from crankwork.description.keys import METHOD, TABLE
+from crankwork.description.keys import MEASURED, METHOD, PIECE, POINT, TABLE
 from crankwork.description.schema import Choice, Key, ListOf, Named, NameOr, Nested, Number, Quantity, Table, Text
 
 _LENGTH = Quantity(("length",), 1e-6, 100.0)
@@ -111,6 +111,49 @@ _TRANSIENT = Table(
     }
 )
 
+_PRESSURE = Quantity(("pressure",), -1e8, 1e10)
+_ABSOLUTE = Quantity(("pressure",), 1.0, 1e10)
+_TEMPERATURE = Quantity(("temperature",), 1.0, 1e4)
+_FACE = {
+    "slider": Key(_NAME, "the sliding piece that is its wall"),
+    "bore": Key(_LENGTH, "diameter of the face", instead_of=("area",)),
+    "rod_diameter": Key(_LENGTH, "of a piston rod that takes its area from the bore"),
+    "area": Key(Quantity(("area",), 1e-12, 1e4), "area of the face", instead_of=("bore",)),
+    "sense": Key(Choice((1, -1)), "1 if the volume grows as the piece moves along its guide, -1 if it shrinks"),
+}
+_OF_FACE = tuple(_FACE)
+
+_CHAMBER = Table({
+    **_FACE,
+    "faces": Key(ListOf(Table(_FACE), fewest=1, most=20), "its walls, where it has more than one", instead_of=_OF_FACE),
+    "clearance_volume": Key(Quantity(("volume",), 0.0, 1e3), "its least volume", instead_of=("compression_ratio",)),
+    "compression_ratio": Key(Number(1.0001, 1e4), "largest over least volume", instead_of=("clearance_volume",)),
+    "period": Key(Choice(("360 deg", "720 deg")), "crank angle after which its pressure repeats; by default 360 deg"),
+    "pressures": Key(Choice(("gauge", "absolute")), "what the pressures count from; by default gauge"),
+    "ambient": Key(Quantity(("pressure",), 0.0, 1e10), "absolute pressure on the other side, for absolute pressures"),
+    "pressure": Key(_PRESSURE, "a pressure that does not change", instead_of=("points", "pieces", "measured")),
+    "points": Key(Named(POINT), "named points of its indicator diagram"),
+    "pieces": Key(ListOf(PIECE, fewest=1, most=500), "laws between the points, in the order of the crank angle"),
+    "measured": Key(MEASURED, "measured pressure instead of points and pieces", instead_of=("points", "pieces")),
+    "temperature": Key(_TEMPERATURE, "absolute temperature of a sealed charge while it is here"),
+})  # fmt: skip
+
+_DEAD_VOLUME = Table({
+    "volume": Key(Quantity(("volume",), 1e-15, 1e3), "its volume", required=True),
+    "temperature": Key(_TEMPERATURE, "absolute temperature of the gas in it"),
+})  # fmt: skip
+
+_CHARGE = Table({
+    "chambers": Key(ListOf(_NAME, fewest=1, most=20), "the chambers that it is sealed in", required=True),
+    "dead_volumes": Key(ListOf(_DEAD_VOLUME, most=50), "volumes between them: exchangers, a regenerator"),
+    "gas_constant": Key(Quantity(("specific_heat",), 1.0, 1e5), "its specific gas constant"),
+    "exponent": Key(Number(0.0, 5.0), "of a polytrope that all of it follows; without one temperatures stay"),
+    "mean_pressure": Key(_ABSOLUTE, "absolute, mean over the crank angle", instead_of=("pressure", "mass")),
+    "pressure": Key(_ABSOLUTE, "absolute, at a crank angle", instead_of=("mean_pressure", "mass")),
+    "angle": Key(_TURN, "that crank angle; by default zero"),
+    "mass": Key(Quantity(("mass",), 1e-12, 1e6), "its mass", instead_of=("mean_pressure", "pressure")),
+})  # fmt: skip
+
 _TITLE = {"title": Key(Text(), "what the machine is called"),
           "decimal_mark": Key(Choice((".", ",")), 'put "," here to write 1,1 kg')}  # fmt: skip
 
@@ -125,6 +168,8 @@ LINKAGE_FILE = Table(
         "branch": Key(Named(Choice((1, -1))), "which way a group is assembled, 1 or -1, by the joint that it places"),
         "positions": Key(Named(_PLACE), "roughly where joints are at a crank angle of zero"),
         "loads": Key(ListOf(_LOAD), "what pushes the linkage"),
+        "chambers": Key(Named(_CHAMBER, most=50), "gas between sliding pieces, by name"),
+        "charges": Key(Named(_CHARGE, most=20), "gas that is sealed in chambers, by name"),
         "efficiency": Key(_EFFICIENCY, "of the joints between motor and process"),
         "motor": Key(_MOTOR, "an asynchronous motor on the crank"),
         "flywheel": Key(_FLYWHEEL, "a flywheel on the crank, to be found"),

@@ -24,6 +24,7 @@ from crankwork.locale import Refusal
 from crankwork.resources import read_resource, resource_names
 
 if TYPE_CHECKING:
+    from crankwork.loads.measured import MeasuredPressure
     from crankwork.machine import Machine
 
 TEMPLATES = "description/templates"
@@ -85,6 +86,10 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
     """Return the machine of the values, or None after complaints."""
     keys = file_keys(values)
     read_values = keys.read(values, "", reader) or {}
+
+    def read_samples(table: Mapping[str, Any], one: Reader, path: str) -> MeasuredPressure | None:
+        return read_measured(table, one, path, folder)
+
     if keys is LINKAGE_FILE or keys is TRANSFER_FILE:
         # an engine starts faster without this room
         from crankwork.description.linkage_build import (  # noqa: PLC0415 - loaded where it is needed
@@ -92,8 +97,10 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
             build_tabulated,
         )
 
-        return (build_linkage if keys is LINKAGE_FILE else build_tabulated)(read_values, reader)
-    machine = build_machine(read_values, reader, lambda table, one: read_measured(table, one, folder))
+        if keys is TRANSFER_FILE:
+            return build_tabulated(read_values, reader)
+        return build_linkage(read_values, reader, read_samples)
+    machine = build_machine(read_values, reader, read_samples)
     if machine is not None:
         try:
             solve(machine, machine.method)

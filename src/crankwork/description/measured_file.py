@@ -16,23 +16,22 @@ from crankwork.loads.measured import MeasuredPressure
 from crankwork.locale import Refusal
 from crankwork.units import UNITS
 
-_KEY = "gas.measured.file"
 _LARGEST = 1e12
 
 
-def read_measured(values: Mapping[str, Any], reader: Reader, folder: Path) -> MeasuredPressure | None:
-    """Return the samples of a CSV file, or None after a complaint."""
+def read_measured(values: Mapping[str, Any], reader: Reader, path: str, folder: Path) -> MeasuredPressure | None:
+    """Return the samples of a CSV file, or None after a complaint; `path`: what of the description they belong to."""
     if "file" not in values or "pressure_unit" not in values:
         return None
-    path = folder / values["file"]
+    key = f"{path}.measured.file"
     try:
-        text = files.read_text(path, limit=files.MAX_DATA_FILE)
+        text = files.read_text(folder / values["file"], limit=files.MAX_DATA_FILE)
         samples = _samples(text, values)
     except CrankworkError as error:
-        reader.complain(_KEY, error.args[0])
+        reader.complain(key, error.args[0])
         return None
     except ValueError as error:
-        reader.complain(_KEY, Refusal("in_file", file=values["file"], mistake=error.args[0]))
+        reader.complain(key, Refusal("in_file", file=values["file"], mistake=error.args[0]))
         return None
     numbers, angles, pressures = zip(*samples, strict=True)
     degrees = np.array(angles) if values.get("angle_unit", "deg") == "deg" else np.degrees(angles)

@@ -19,7 +19,9 @@ _SAME = 1e-9
 _FOLLOWS = (
     (r"engine\.bank_angle", ("engine.bank_angles", "engine.layout")),
     (r"engine\.(throws|firing_order)", ("engine.firing_order", "engine.layout")),
-    (r"gas\.points\..*", ("gas.pieces",)),
+    (r"(gas|chambers\.[^.]+)\.points\..*", (r"\1.pieces",)),
+    # a chamber with one face may have its keys beside the others
+    (r"(chambers\.[^.]+)\.faces\[1\]\.(\w+)", (r"\1.\2",)),
     # the second joint of a link lies as far along it as it is long
     (r"(links\.[^.]+)\.points\..*\[1\]", (r"\1.length",)),
     (r"(links\..*\.length|branch\..*|(links|sliders)\..*\.(points|centre).*)", ("positions",)),

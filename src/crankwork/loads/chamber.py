@@ -33,6 +33,7 @@ class Chamber:
     clearance_volume: float | None = None
     compression_ratio: float | None = None
     ambient: float = 0.0  # Pressure on the other side of its faces, counted as its own is
+    names_ambient: bool = True  # Whether the description gives it
     cycle: float = 360.0  # Crank angle after which its pressure repeats, 360 or 720
     pressure: float | None = None
     points: Mapping[str, DiagramPoint] = field(default_factory=dict)
@@ -68,3 +69,8 @@ class Charge:
     angle: float = 0.0
     mass: float | None = None
     gas_constant: float | None = None
+
+
+def cycle_of(chambers: Mapping[str, Chamber]) -> float:
+    """Return the crank angle after which every pressure repeats. [deg]"""
+    return max((one.cycle for one in chambers.values()), default=360.0)

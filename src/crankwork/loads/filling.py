@@ -18,7 +18,7 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import Motion
 from crankwork.loads import gas
 from crankwork.loads.applied import AppliedLoads, force_on_slider, together
-from crankwork.loads.chamber import Chamber, Charge, Face
+from crankwork.loads.chamber import Chamber, Charge, Face, cycle_of
 from crankwork.loads.indicator import DiagramError, IndicatorDiagram, solve_diagram
 from crankwork.loads.measured import measured_diagram, wrap_is_rough
 from crankwork.loads.pressure import at_angle, remembered_pressure
@@ -111,6 +111,7 @@ def filled(chambers: Mapping[str, Chamber], charges: Mapping[str, Charge], motio
         if ambient:
             around = given(f"ambient_pressure.{name}", ambient, f"chambers.{name}.ambient")
             acting = gas.gauge_pressure(pressures[name], around).named(acting.key)
+            told += [("ambient", {"pressure": ambient / 1e6})] * (not chambers[name].names_ambient)
         columns += [space.volume, space.volume_1, pressures[name], acting]
         for wall in space.walls:
             key = f"gas_force.{name}" if len(space.walls) == 1 else f"gas_force.{name}.{wall.slider}"
@@ -119,12 +120,8 @@ def filled(chambers: Mapping[str, Chamber], charges: Mapping[str, Charge], motio
         mean = gas.indicated_mean_pressure(works[name], space.swept).named(f"indicated_mean_pressure.{name}")
         own += [*_sizes(space), works[name], mean]
     columns += [one.force for one in forces]
-    return Filling(_by_key(columns), _by_key(own), tuple(forces), tuple(told))
-
-
-def cycle_of(chambers: Mapping[str, Chamber]) -> float:
-    """Return the crank angle after which every pressure repeats. [deg]"""
-    return max((one.cycle for one in chambers.values()), default=_TURN)
+    once = {repr(one): one for one in told}
+    return Filling(_by_key(columns), _by_key(own), tuple(forces), tuple(once.values()))
 
 
 def _by_key(knowns: list[Known]) -> dict[str, Known]:
@@ -175,6 +172,8 @@ def _area(face: Face, owner: str, path: str, pi: float) -> Known:
 def _space(name: str, chamber: Chamber, walls: tuple[_Wall, ...], over: OverCycle) -> _Space:
     travel, rate = f"face_volume.{name}", f"cylinder_volume_1.{name}"
     largest, least = over.largest_and_least[travel]
+    if largest.value - least.value <= _NOTHING * max(largest.value, -least.value):
+        raise DiagramError(f"chambers.{name}", Refusal("chamber_still"))
     found = over.extremes(travel)
     swept = (found[f"face_volume_max.{name}"] - found[f"face_volume_min.{name}"]).named(f"swept_volume.{name}")
     ratio = absent("compression_ratio")
@@ -291,7 +290,8 @@ def _mass(name: str, charge: Charge, whole: Known, constant: Known) -> Known:
     if charge.mean_pressure is None:
         start = at_angle(whole, charge.angle, f"reduced_volume.{name}.start")
     else:
-        start = (1 / over.mean("inverse", f"inverse.{name}")).named(f"reduced_volume.{name}.mean")
+        mean = math.radians(_TURN) / over.integral("inverse")
+        start = Known(Found(mean, "harmonic_mean", (whole,)), f"reduced_volume.{name}.mean")
     return gas.charge_mass(_stated(name, charge), start, constant).named(key)  # type: ignore[no-any-return]
 
 
@@ -319,5 +319,5 @@ def _course(name: str, whole: Known) -> OverCycle:
     over = OverCycle({"": whole}, CrankGrid.from_degrees, _TURN)
     largest, least = over.largest_and_least[""]
     if least.value <= _NOTHING * largest.value:
-        raise DiagramError(f"charges.{name}", Refusal("charge_empty", angle=f"{least.at:g}"))
+        raise DiagramError(f"charges.{name}", Refusal("charge_empty", angle=least.at))
     return OverCycle({"": whole, "inverse": 1 / whole}, CrankGrid.from_degrees, _TURN)

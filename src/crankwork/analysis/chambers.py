@@ -1,0 +1,54 @@
+"""The chambers of a linkage: work, mean pressure and power of their gas, and its work found a second way."""
+
+from __future__ import annotations
+
+import math
+
+from crankwork.analysis.linkage_memory import speed_of
+from crankwork.analysis.solved import SolvedLinkage
+from crankwork.dynamics.reduction import reduced_torque
+from crankwork.formula.known import Known, given, total
+from crankwork.formula.over_cycle import OverCycle
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.memory import given_mechanism
+from crankwork.kinematics.motion import Motion
+from crankwork.loads import gas
+from crankwork.loads.filling import filled
+from crankwork.machine import Machine
+
+
+def solve_linkage(machine: Machine, motion: Motion) -> SolvedLinkage:
+    """Return a linkage made ready, with the gas in its chambers over its remembered motion."""
+    method = machine.method
+    speed = machine.speed * method.pi / math.pi
+    return SolvedLinkage(machine, method, speed, filled(machine.chambers, machine.charges, motion, method.pi))
+
+
+def gas_summary(solved: SolvedLinkage) -> dict[str, Known]:
+    """Return the single values of the gas in each chamber, and work and power of all of it."""
+    chambers, found = solved.machine.chambers, dict(solved.filling.singles)
+    w = speed_of(solved.machine)
+    for name, chamber in chambers.items():
+        cycle = given(f"cycle_angle.{name}", math.radians(chamber.cycle), f"chambers.{name}.period")
+        power = gas.indicated_power(found[f"indicated_work.{name}"], w, cycle)
+        found[f"indicated_power.{name}"] = power.named(f"indicated_power.{name}")
+    if len(chambers) > 1:
+        found["indicated_power"] = total("indicated_power", [found[f"indicated_power.{name}"] for name in chambers])
+    return found
+
+
+def gas_check(solved: SolvedLinkage, motion: Motion) -> dict[str, float]:
+    """Return how far the work of the gas by pressure and volume is from that of its torque on the crank."""
+    machine, filling = solved.machine, solved.filling
+    if not filling.forces:
+        return {}
+    mechanism = given_mechanism(machine.mechanism, machine.linkage)
+    torque: Known = reduced_torque(motion, filling.loads(mechanism, motion))
+    over = OverCycle({"": torque}, CrankGrid.from_degrees, machine.cycle)
+    work = sum(
+        filling.singles[f"indicated_work.{name}"].value * machine.cycle / one.cycle
+        for name, one in machine.chambers.items()
+    )
+    largest, least = over.largest_and_least[""]
+    moved = max(largest.value, -least.value) * math.radians(machine.cycle) or 1.0
+    return {"work": abs(over.integral("") - work) / moved}

@@ -1,0 +1,158 @@
+"""From the values of a machine file to the chambers of a linkage and the gas that is sealed in them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from crankwork.description.gas_build import ReadMeasured, build_diagram, check_ambient, check_parts
+from crankwork.description.schema import Reader
+from crankwork.loads.chamber import Chamber, Charge, DeadVolume, Face
+from crankwork.locale import Refusal
+from crankwork.mechanism.linkage import Linkage
+
+_STANDARD_AMBIENT = 101325.0
+_OF_FACE = ("slider", "bore", "rod_diameter", "area", "sense")
+_OWN_PRESSURE = ("pressure", "points", "pieces", "measured")
+_AMOUNTS = ("mean_pressure", "pressure", "mass")
+
+
+def build_chambers(
+    values: Mapping[str, Any], linkage: Linkage | None, reader: Reader, read_measured: ReadMeasured
+) -> tuple[dict[str, Chamber], dict[str, Charge]]:
+    """Return chambers and charges by name; those with complaints may be left out."""
+    tables = {name: one for name, one in values.get("chambers", {}).items() if one is not None}
+    sealed = {name: one for name, one in values.get("charges", {}).items() if one is not None}
+    sliders = {one.name for one in linkage.members if one.guide} if linkage is not None else None
+    holder = _holders(sealed, tables, reader)
+    for name, one in sealed.items():
+        _check_charge(f"charges.{name}", one, reader)
+    chambers = {}
+    for name, one in tables.items():
+        path = f"chambers.{name}"
+        faces = tuple(_faces(path, one, sliders, reader))
+        _check_pressure(path, one, sealed.get(holder.get(name, "")), reader)
+        diagram = build_diagram(one, path, reader, read_measured)
+        if not faces or any(problem.key.startswith(path) for problem in reader.problems):
+            continue
+        is_absolute = one.get("pressures") == "absolute" or name in holder
+        chambers[name] = Chamber(
+            faces=faces,
+            clearance_volume=_value(one, "clearance_volume"),
+            compression_ratio=one.get("compression_ratio"),
+            ambient=_value(one, "ambient", _STANDARD_AMBIENT if is_absolute else 0.0) or 0.0,
+            names_ambient="ambient" in one or not is_absolute,
+            cycle=float(one.get("period", "360 deg").split()[0]),
+            pressure=_value(one, "pressure"),
+            temperature=_value(one, "temperature"),
+            **diagram._asdict(),
+        )
+    return chambers, {} if reader.problems else {name: _charge(one) for name, one in sealed.items()}
+
+
+def _value(table: Mapping[str, Any], key: str, default: float | None = None) -> float | None:
+    measure = table.get(key)
+    return default if measure is None else float(measure.value)
+
+
+def _faces(path: str, chamber: Mapping[str, Any], sliders: set[str] | None, reader: Reader) -> Iterator[Face]:
+    """Yield the faces of a chamber; complain of what is not one."""
+    listed = chamber.get("faces")
+    written = [{key: chamber[key] for key in _OF_FACE if key in chamber}] if listed is None else listed
+    taken: set[str] = set()
+    for number, face in enumerate(written, start=1):
+        place = path if listed is None else f"{path}.faces[{number}]"
+        if face is None or reader.doubts(place):
+            continue
+        slider, bore, rod = face.get("slider", ""), _value(face, "bore"), _value(face, "rod_diameter", 0.0) or 0.0
+        if not slider and not reader.doubts(f"{place}.slider"):
+            reader.complain(f"{place}.slider", Refusal("face_slider"))
+        elif slider and sliders is not None and slider not in sliders:
+            known = ", ".join(sorted(sliders))
+            reader.complain(f"{place}.slider", Refusal("absent_slider", name=slider, known=known))
+        elif slider in taken:
+            reader.complain(f"{place}.slider", Refusal("face_twice", slider=slider))
+        if bore is None and "area" not in face and not reader.doubts(f"{place}.bore", f"{place}.area"):
+            reader.complain(f"{place}.bore", Refusal("face_area"))
+        if rod and not rod < (bore or 0.0) and not reader.doubts(f"{place}.bore"):
+            reader.complain(f"{place}.rod_diameter", Refusal("face_rod"))
+        taken.add(slider)
+        yield Face(slider, bore, rod, _value(face, "area"), -1 if face.get("sense") == -1 else 1)
+
+
+def _check_pressure(path: str, chamber: Mapping[str, Any], charge: Mapping[str, Any] | None, reader: Reader) -> None:
+    """Complain of a chamber without a pressure, with more than one, and of what belongs to another kind of it."""
+    own = [key for key in _OWN_PRESSURE if key in chamber]
+    if charge is not None:
+        for key in (*own, "pressures", "period"):
+            if key in chamber:
+                reader.complain(f"{path}.{key}", Refusal("chamber_sealed"))
+    else:
+        check_ambient(chamber, path, reader)
+        if not own and not reader.doubts(*(f"{path}.{key}" for key in _OWN_PRESSURE), "charges"):
+            reader.complain(path, Refusal("chamber_pressure", path=path))
+        elif own and "pressure" not in own:
+            check_parts(chamber, path, reader)
+    if "temperature" in chamber and (charge is None or "exponent" in charge):
+        reader.complain(f"{path}.temperature", Refusal("temperature_unused"))
+    elif charge is not None and "exponent" not in charge and "temperature" not in chamber:
+        _miss(path, "temperature", reader)
+
+
+def _miss(path: str, key: str, reader: Reader) -> None:
+    if not reader.doubts(f"{path}.{key}"):
+        reader.complain(f"{path}.{key}", Refusal(f"charge_{key}"))
+
+
+def _holders(sealed: Mapping[str, Any], chambers: Mapping[str, Any], reader: Reader) -> dict[str, str]:
+    """Return which charge each chamber belongs to; complain of names of none, and of chambers of two charges."""
+    holder: dict[str, str] = {}
+    for charge, one in sealed.items():
+        for number, name in enumerate(one.get("chambers", []), start=1):
+            place = f"charges.{charge}.chambers[{number}]"
+            if name is not None and name not in chambers and not reader.doubts(f"chambers.{name}"):
+                known = ", ".join(sorted(chambers)) or "–"
+                reader.complain(place, Refusal("absent_chamber", name=name, known=known))
+            elif name in holder:
+                reader.complain(place, Refusal("chamber_twice", name=name))
+            elif name is not None:
+                holder[name] = charge
+    return holder
+
+
+def _check_charge(path: str, charge: Mapping[str, Any], reader: Reader) -> None:
+    """Complain of what the state of a charge lacks, and of what it does not need."""
+    amounts = [key for key in _AMOUNTS if key in charge]
+    if not amounts and not reader.doubts(*(f"{path}.{key}" for key in _AMOUNTS)):
+        reader.complain(path, Refusal("charge_amount"))
+    if "angle" in charge and "pressure" not in charge and not reader.doubts(f"{path}.pressure"):
+        reader.complain(f"{path}.angle", Refusal("charge_angle"))
+    parts = [(f"{path}.dead_volumes[{k}]", one) for k, one in enumerate(charge.get("dead_volumes", []), start=1)]
+    if "exponent" in charge:
+        unused = [f"{path}.{key}" for key in ("gas_constant", "mass") if key in charge]
+        unused += [f"{place}.temperature" for place, one in parts if one and "temperature" in one]
+        for place in unused:
+            reader.complain(place, Refusal("charge_polytrope"))
+        return
+    if "gas_constant" not in charge:
+        _miss(path, "gas_constant", reader)
+    for place, one in parts:
+        if one and "temperature" not in one:
+            _miss(place, "temperature", reader)
+
+
+def _charge(values: Mapping[str, Any]) -> Charge:
+    dead = tuple(
+        DeadVolume(one["volume"].value, _value(one, "temperature")) for one in values.get("dead_volumes", []) if one
+    )
+    return Charge(
+        chambers=tuple(values["chambers"]),
+        dead_volumes=dead,
+        exponent=values.get("exponent"),
+        mean_pressure=_value(values, "mean_pressure"),
+        pressure=_value(values, "pressure"),
+        angle=math.degrees(_value(values, "angle", 0.0) or 0.0),
+        mass=_value(values, "mass"),
+        gas_constant=_value(values, "gas_constant"),
+    )

@@ -1,0 +1,146 @@
+"""From the values of a machine file to the pressure in a cylinder or chamber: its diagram, or measured samples."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+from crankwork.description.schema import Reader, nearest_name
+from crankwork.loads.indicator import DiagramPoint, Piece
+from crankwork.loads.measured import MeasuredPressure
+from crankwork.locale import Refusal
+from crankwork.machine import Cylinder, Gas
+
+# reads the table of a file with samples, and complains under the path of what it belongs to
+ReadMeasured = Callable[[Mapping[str, Any], Reader, str], MeasuredPressure | None]
+
+
+def build_gas(
+    values: Mapping[str, Any] | None, cylinder: Cylinder | None, reader: Reader, read_measured: ReadMeasured
+) -> Gas | None:
+    """Return the gas in a cylinder, or None after complaints."""
+    if values is None:
+        return None
+    _check_gas(values, cylinder, reader)
+    _check_rod(values, cylinder, reader)
+    diagram = build_diagram(values, "gas", reader, read_measured)
+    if "cycle" not in values:
+        return None
+    return Gas(
+        cycle=float(values["cycle"].split()[0]),
+        **diagram._asdict(),
+        is_absolute=values.get("pressures") == "absolute",
+        ambient=_value(values, "ambient", 101325.0),
+        names_ambient="ambient" in values,
+        back_pressure=_value(values, "back_pressure"),
+    )
+
+
+def _check_gas(values: Mapping[str, Any], cylinder: Cylinder | None, reader: Reader) -> None:
+    """Complain of what the gas needs and has not."""
+    if cylinder is None:
+        if not reader.doubts("cylinder.bore"):
+            reader.complain("gas", Refusal("gas_cylinder"))
+    elif {cylinder.clearance_volume, cylinder.compression_ratio} == {None} and not reader.doubts(
+        "cylinder.clearance_volume", "cylinder.compression_ratio"
+    ):
+        reader.complain("cylinder", Refusal("gas_volume"))
+    check_ambient(values, "gas", reader)
+    check_parts(values, "gas", reader)
+
+
+def _check_rod(values: Mapping[str, Any], cylinder: Cylinder | None, reader: Reader) -> None:
+    """Complain of a piston rod without pressure beside it, and of a pressure without a rod."""
+    has_rod, has_pressure = cylinder is not None and cylinder.piston_rod_diameter > 0, "back_pressure" in values
+    if has_pressure and not has_rod and not reader.doubts("cylinder.piston_rod_diameter", "cylinder"):
+        reader.complain("gas.back_pressure", Refusal("back_pressure_alone"))
+    if has_rod and not has_pressure and not reader.doubts("gas.back_pressure"):
+        reader.complain("cylinder.piston_rod_diameter", Refusal("piston_rod_alone"))
+
+
+def check_ambient(values: Mapping[str, Any], path: str, reader: Reader) -> None:
+    """Complain of a pressure around that nothing is counted from."""
+    if values.get("pressures") != "absolute" and "ambient" in values and not reader.doubts(f"{path}.pressures"):
+        reader.complain(f"{path}.ambient", Refusal("ambient_unused"))
+
+
+def check_parts(values: Mapping[str, Any], path: str, reader: Reader) -> None:
+    """Complain of points without laws, and of laws without points."""
+    for key in ("points", "pieces") if "measured" not in values else ():
+        if key not in values and not reader.doubts(f"{path}.{key}", f"{path}.measured"):
+            reader.complain(f"{path}.{key}", Refusal(f"gas_{key}", path=path))
+
+
+class Diagram(NamedTuple):
+    """The parts of an indicator diagram, as a cylinder and a chamber have them."""
+
+    points: Mapping[str, DiagramPoint]
+    pieces: tuple[Piece, ...]
+    measured: MeasuredPressure | None
+    angle_shift: float
+    resample: float | None
+
+
+def build_diagram(values: Mapping[str, Any], path: str, reader: Reader, read_measured: ReadMeasured) -> Diagram:
+    """Return points and laws, or measured samples; complain of what does not fit together.
+
+    `path`: where the description states them.
+    """
+    _check_points(values, path, reader)
+    measured = read_measured(values["measured"], reader, path) if "measured" in values else None
+    source = values.get("measured", {})
+    resample = source.get("resample")
+    if values.get("pressures") == "absolute":
+        for name, point in values.get("points", {}).items():
+            pressure = (point or {}).get("pressure")
+            if pressure is not None and pressure.value < 0:
+                reader.complain(f"{path}.points.{name}.pressure", Refusal("point_vacuum"))
+        if measured is not None and float(measured.pressure.min()) < 0:
+            row = measured.rows[int(measured.pressure.argmin())]
+            reader.complain(f"{path}.measured.file", Refusal("measured_vacuum", line=row))
+    return Diagram(
+        points={name: _point(one) for name, one in values.get("points", {}).items() if one is not None},
+        pieces=tuple(_piece(one) for one in values.get("pieces", []) if one and {"law", "points"} <= set(one)),
+        measured=measured,
+        angle_shift=math.degrees(_value(source, "shift")),
+        resample=math.degrees(resample.value) if resample else None,
+    )
+
+
+def _check_points(values: Mapping[str, Any], path: str, reader: Reader) -> None:
+    """Complain of every point that a piece names and the table of points does not know."""
+    known = values.get("points")
+    if known is None:
+        return
+    for number, piece in enumerate(values.get("pieces", []), start=1):
+        key = f"{path}.pieces[{number}]"
+        names = [(f"{key}.points[{i}]", name) for i, name in enumerate((piece or {}).get("points", []), start=1)]
+        names.append((f"{key}.reference", (piece or {}).get("reference")))
+        for place, name in names:
+            if name is not None and name not in known and not reader.doubts(f"{path}.points"):
+                nearest = nearest_name(name, known)
+                near = Refusal("no_point_near", name=name, nearest=nearest, path=path)
+                reader.complain(
+                    place, near if nearest else Refusal("no_point", name=name, known=", ".join(known)[:120], path=path)
+                )
+
+
+def _point(values: Mapping[str, Any]) -> DiagramPoint:
+    angle, pressure, volume = (values.get(key) for key in ("angle", "pressure", "volume"))
+    return DiagramPoint(
+        angle=None if angle is None else round(math.degrees(angle.value), 9),
+        pressure=None if pressure is None else pressure.value,
+        volume=None if volume is None else volume.value,
+        stroke=values.get("stroke"),
+    )
+
+
+def _piece(values: Mapping[str, Any]) -> Piece:
+    points = tuple(name for name in values["points"] if name)
+    return Piece(values["law"], points, values.get("exponent"), values.get("reference"))
+
+
+def _value(table: Mapping[str, Any], key: str, default: float = 0.0) -> float:
+    measure = table.get(key)
+    return default if measure is None else float(measure.value)
