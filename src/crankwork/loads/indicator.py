@@ -405,9 +405,10 @@ def _check_chain(segments: list[Segment], cycle: float, named: Mapping[str, tupl
         raise DiagramError(f"{path}.pieces", Refusal("pieces_end", end=end, name=last, cycle=cycle))
 
 
-def _check_closed(segments: list[Segment], last: float, path: str) -> None:
-    """Raise unless the pressure stated at the last point, or found there, is that of the first."""
+def _check_closed(segments: list[Segment], stated: float, path: str) -> None:
+    """Raise unless the pressure stated at the last point, or that of the law which ends there, is that of the first."""
     first = float(segments[0].pressures[0])
+    last = min(stated, float(segments[-1].pressures[-1]), key=lambda one: abs(one - first))
     highest = max(float(np.max(np.abs(segment.pressures))) for segment in segments)
     if abs(first - last) > 0.02 * highest:
         raise DiagramError(
