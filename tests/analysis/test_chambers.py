@@ -1,0 +1,230 @@
+"""Examples with gas in chambers against geometry by hand, closed forms and quadrature; two turns against the engine."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.optimize import fsolve, minimize_scalar
+
+import crankwork
+from crankwork.kinematics.crank_grid import CrankGrid
+
+pytestmark = pytest.mark.elsewhere
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+ANGLES = np.array([0.0, 7.0, 63.5, 140.0, 226.0, 311.0])
+
+
+def analysed(name, *settings):
+    return crankwork.analyse(crankwork.read(EXAMPLES / f"{name}.toml", settings), CrankGrid.from_degrees(ANGLES))
+
+
+def least(function, start=0.0, end=360.0):
+    """Return the least value of a function of the crank angle, and where it is. [deg]"""
+    near = min(np.arange(start, end, 0.5), key=function)
+    found = minimize_scalar(function, bounds=(near - 1, near + 1), method="bounded", options={"xatol": 1e-10})
+    return found.fun, found.x
+
+
+def rod_end(radius, length, degrees):
+    """Return how far the end of a rod on a line through the shaft is from it, the crank at an angle to the line."""
+    phi = math.radians(degrees)
+    return radius * math.cos(phi) + math.sqrt(length**2 - (radius * math.sin(phi)) ** 2)
+
+
+class TestAtkinson:
+    """Coordinates from the equations of the linkage, by a solver that knows nothing of dyads."""
+
+    def height(self, degrees, near):
+        """Return the height of the piston in millimetres, and what was solved for: angles of coupler and rocker."""
+        turn = math.radians(347.0 + degrees)
+        crank = np.array([30 * math.cos(turn), 30 * math.sin(turn)])
+
+        def arm(angle, along, across=0.0):
+            sin, cos = math.sin(angle), math.cos(angle)
+            return np.array([along * cos - across * sin, along * sin + across * cos])
+
+        def open_by(angles):
+            return crank + arm(angles[0], 50.1) - np.array([-39.6, -109.6]) - arm(angles[1], 124.3)
+
+        angles = fsolve(open_by, near, xtol=1e-12)
+        pin = crank + arm(angles[0], 120.4, -128.1)
+        return pin[1] + math.sqrt(199**2 - (pin[0] + 49.8) ** 2), angles
+
+    def heights(self):
+        near, found = np.array([2.9, 1.8]), []
+        for degrees in range(361):
+            height, near = self.height(float(degrees), near)
+            found.append(height)
+        return np.array(found)
+
+    def test_it_expands_farther_than_it_compresses(self):
+        values = self.heights()
+        volume = analysed("atkinson").columns_at(np.arange(361.0))["cylinder_volume.cylinder"]
+        assert 1e9 * (volume - volume[0]) / (math.pi * 70**2 / 4) == pytest.approx(values[0] - values, abs=1e-9)
+        before, turn, after = np.roll(values[:-1], 1), values[:-1], np.roll(values[:-1], -1)
+        low, middle, *tops = np.sort(turn[(turn - before) * (after - turn) < 0])
+        assert tops == pytest.approx([values[0]] * 2, abs=0.1)
+        assert (values[0] - low) / (values[0] - middle) == pytest.approx(1.6, abs=0.01)
+
+
+class TestBetaStirling:
+    """Schmidt's analysis in closed form, with the strokes overlapping and a rod through the cold space."""
+
+    def test_work_and_pressure(self):
+        results = analysed("beta-stirling")
+        face, rod = math.pi * 7.0**2 / 4 * 1e-4, math.pi * 1.2**2 / 4 * 1e-4
+        # volumes are middle + cos * cosine + sin * sine of the crank angle
+        hot = np.array([face * 0.03 + 20e-6, -face * 0.03, 0.0])
+        cold = (face - rod) * np.array([0.0, 0.03 - 0.0125, -0.0216506351])
+        cold[0] = math.hypot(cold[1], cold[2]) + 15e-6
+        whole = hot / 900 + cold / 320
+        whole[0] += 18e-6 / 900 + 30e-6 / 560 + 14e-6 / 320
+        share, angle = math.hypot(whole[1], whole[2]) / whole[0], math.atan2(whole[2], whole[1])
+        root = math.sqrt(1 - share**2)
+        pressure = 1e6 * root / (1 + share * np.cos(np.radians(ANGLES) - angle))
+        assert results["gas_pressure.hot"] == pytest.approx(pressure - 1e6, abs=1e-4)
+        work = 2e6 * math.pi * (root - 1) / share * face * 0.03 * math.sin(angle)
+        assert results["indicated_work.hot"] == pytest.approx(work, rel=1e-10)
+        assert results["indicated_work.cold"] == pytest.approx(-work * 320 / 900, rel=1e-10)
+        assert results["mean_torque"] == pytest.approx(-work * (1 - 320 / 900) / math.tau, rel=1e-10)
+        assert results["gas_mass.helium"] == pytest.approx(1e6 * whole[0] * root / 2077, rel=1e-10)
+
+
+class TestOpposedPistons:
+    """Two rods on two throws of one crank, and the volume between their ends."""
+
+    def apart(self, degrees):
+        upper = math.degrees(math.atan2(-11.2841, -63.9953))
+        radius = math.hypot(11.2841, 63.9953)
+        return rod_end(radius, 860.0, degrees - 5 + upper) - rod_end(75.0, 290.0, degrees - 5)
+
+    def test_volume_and_work(self):
+        results, area = analysed("opposed-pistons"), math.pi * 105**2 / 4 * 1e-9
+        nearest, at = least(self.apart, -30.0, 30.0)
+        farthest = -least(lambda degrees: -self.apart(degrees))[0]
+        swept = area * (farthest - nearest)
+        clearance = swept / 15
+        assert abs(at) > 0.1
+        expected = [clearance + area * (self.apart(one) - nearest) for one in ANGLES]
+        assert results["cylinder_volume.cylinder"] == pytest.approx(expected, rel=1e-10)
+
+        def power(degrees):
+            rate = (self.apart(degrees + 1e-4) - self.apart(degrees - 1e-4)) / 2e-4
+            return results.value("diagram_pressure.cylinder", degrees % 360) * area * rate
+
+        ends = (0.0, 12.0, 112.0, 150.0, 242.0, 360.0)
+        parts = [quad(power, one + 1e-9, two, epsabs=1e-3)[0] for one, two in itertools.pairwise(ends)]
+        assert results["indicated_work.cylinder"] == pytest.approx(sum(parts), rel=1e-6)
+
+
+class TestSteamEngine:
+    """Admission, expansion along a hyperbola, exhaust and compression, by hand on both sides of the piston."""
+
+    def side(self, swept):
+        """Return the area of one diagram without its release, which is a curve. [J]"""
+        clearance, high, low = 2200e-6, 8e5, 1.2e5
+        cut_off, release, closing = (clearance + share * swept for share in (0.35, 0.95, 0.25))
+        work = high * 0.35 * swept + high * cut_off * math.log(release / cut_off)
+        return work - low * 0.75 * swept - low * closing * math.log(closing / clearance), high * cut_off / release
+
+    def test_work_of_both_sides(self):
+        results = analysed("double-acting-steam")
+        for name, rod in (("head", 0.0), ("crank", 0.05)):
+            area = math.pi * (0.3**2 - rod**2) / 4
+            swept = area * 0.45
+            assert results[f"swept_volume.{name}"] == pytest.approx(swept, rel=1e-12)
+            work, released = self.side(swept)
+            # the release falls from one pressure to the other over a twentieth of the stroke
+            rest = results[f"indicated_work.{name}"] - work
+            assert 1.2e5 * 0.05 * swept < rest < released * 0.05 * swept
+
+    def test_the_sides_push_against_each_other(self):
+        results = analysed("double-acting-steam")
+        for row in range(len(ANGLES)):
+            head, crank = (results[f"diagram_pressure.{name}"][row] - 1e5 for name in ("head", "crank"))
+            force = math.pi * (0.3**2 * head - (0.3**2 - 0.05**2) * crank) / 4
+            assert results["gas_force.head"][row] + results["gas_force.crank"][row] == pytest.approx(force, rel=1e-12)
+
+
+FOUR_STROKE = """
+    pressures = "absolute"
+    ambient = "0.1 MPa"
+    {points}
+    a = {{ angle = "0 deg", pressure = "0.09 MPa" }}
+    b = {{ angle = "180 deg" }}
+    c = {{ angle = "360 deg" }}
+    z = {{ angle = "375 deg", pressure = "5 MPa" }}
+    d = {{ angle = "540 deg" }}
+    e = {{ angle = "560 deg", pressure = "0.11 MPa" }}
+    f = {{ angle = "720 deg" }}
+"""
+
+
+def four_stroke(name):
+    laws = [("constant", "a", "b"), ("polytropic", "b", "c"), ("rounded", "c", "z"), ("polytropic", "z", "d"),
+            ("rounded", "d", "e"), ("constant", "e", "f")]  # fmt: skip
+    text = FOUR_STROKE.format(points=f"[{name}.points]")
+    for law, start, end in laws:
+        text += f'[[{name}.pieces]]\nlaw = "{law}"\npoints = ["{start}", "{end}"]\n'
+        text += "exponent = 1.3\n" if law == "polytropic" else ""
+    return text
+
+
+def test_two_turns_of_a_linkage_are_those_of_an_engine():
+    """The chain of the textbooks, from the piston to the crank, knows nothing of chambers, loads or guides."""
+    engine = crankwork.read_machine(f"""
+        [crank]
+        radius = "45 mm"
+        speed = "3000 rpm"
+        [rod]
+        length = "160 mm"
+        [cylinder]
+        bore = "86 mm"
+        compression_ratio = 9
+        [gas]
+        cycle = "720 deg"
+        {four_stroke("gas")}
+    """)
+    linkage = crankwork.read_machine(f"""
+        [fixed_points]
+        O = ["0 mm", "0 mm"]
+        [crank]
+        pivot = "O"
+        pin = "A"
+        radius = "45 mm"
+        speed = "3000 rpm"
+        [links]
+        rod = {{ joins = ["A", "B"], length = "160 mm" }}
+        [guides]
+        bore = {{ through = "O" }}
+        [sliders]
+        piston = {{ guide = "bore", pin = "B" }}
+        [chambers.cylinder]
+        slider = "piston"
+        bore = "86 mm"
+        sense = -1
+        compression_ratio = 9
+        period = "720 deg"
+        {four_stroke("chambers.cylinder")}
+        [flywheel]
+        fluctuation = 0.02
+    """)
+    grid = CrankGrid.from_degrees(np.concatenate([ANGLES, 360 + ANGLES[1:], [720.0]]))
+    one, other = crankwork.analyse(engine, grid), crankwork.analyse(linkage, grid)
+    assert other["gas_force.cylinder"] == pytest.approx(-one["gas_force"], rel=1e-12)
+    assert -other["balancing_torque"] == pytest.approx(one["crank_torque"], rel=1e-10, abs=1e-9)
+    assert -other["mean_torque"] == pytest.approx(one["mean_torque"], rel=1e-12)
+    for key in ("indicated_work", "indicated_mean_pressure", "indicated_power"):
+        assert other[f"{key}.cylinder"] == pytest.approx(one[key], rel=1e-12)
+    assert other["gas_pressure_max_angle.cylinder"] == pytest.approx(one["gas_pressure_max_angle"], abs=1e-9)
+    assert not other.unmet
+    turning = one.columns_at(np.arange(0, 720, 0.05))["crank_torque"]
+    excess = np.cumsum(turning - turning.mean()) * math.radians(0.05)
+    assert other["excess_work"] == pytest.approx(np.ptp(excess), rel=1e-3)
+    assert other.value("crank_speed", 500.0) > 0
