@@ -70,7 +70,7 @@ class TestAtkinson:
         before, turn, after = np.roll(values[:-1], 1), values[:-1], np.roll(values[:-1], -1)
         low, middle, *tops = np.sort(turn[(turn - before) * (after - turn) < 0])
         assert tops == pytest.approx([values[0]] * 2, abs=0.1)
-        assert (values[0] - low) / (values[0] - middle) == pytest.approx(1.6, abs=0.01)
+        assert (values[0] - low) / (values[0] - middle) == pytest.approx(1.61, abs=0.005)
 
 
 class TestBetaStirling:
