@@ -5,12 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from crankwork.kinematics.circuits import (
+from crankwork.kinematics.circuits import all_circuits, circuit_at, circuit_through
+from crankwork.kinematics.coordinates import (
     At,
-    all_circuits,
-    circuit_through,
-    crank_angle,
     distance,
+    driver_coordinate,
     link_angle,
     point_coordinate,
     relative_angle,
@@ -19,7 +18,9 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.mechanism.catalog import four_bar
 from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.mechanism import slider_crank
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, Segment
+from crankwork.mechanism.dyads import RRR, Guide
+from crankwork.mechanism.mechanism import LinkPoint, Mechanism, slider_crank
 
 pytestmark = pytest.mark.elsewhere
 
@@ -47,7 +48,7 @@ def swing(circuit, name, part=None):
 @pytest.mark.parametrize(("branch", "degrees"), [(1, 20.0), (1, 40.0), (1, 75.0), (-1, 20.0), (-1, 79.0), (1, 300.0)])
 def test_limits_of_a_crank_that_swings_do_not_depend_on_the_start(branch, degrees):
     circuit = circuit_through(four_bar(CRANK, COUPLER, ROCKER, GROUND, branch=branch), degrees)
-    driver = crank_angle(PARTIAL)
+    driver = driver_coordinate(PARTIAL)
     assert circuit.curve.is_closed
     assert math.degrees(circuit.extent(driver).travel) == pytest.approx(STRETCHED - FOLDED, abs=1e-9)
     assert pytest.approx(64.5329, abs=5e-5) == STRETCHED - FOLDED
@@ -63,7 +64,7 @@ def test_limits_of_a_crank_that_swings_do_not_depend_on_the_start(branch, degree
 
 
 def test_a_mirrored_linkage_has_the_other_circuit():
-    ends = [circuit.extent(crank_angle(PARTIAL)) for circuit in all_circuits(PARTIAL)]
+    ends = [circuit.extent(driver_coordinate(PARTIAL)) for circuit in all_circuits(PARTIAL)]
     found = sorted((math.degrees(one.least) % 360, math.degrees(one.greatest) % 360) for one in ends)
     expected = [(FOLDED, STRETCHED), (360 - STRETCHED, 360 - FOLDED)]
     assert np.array(found) == pytest.approx(np.array(expected), abs=1e-9)
@@ -71,7 +72,7 @@ def test_a_mirrored_linkage_has_the_other_circuit():
 
 def test_every_position_of_a_turning_crank_is_on_its_circuit(linkage):
     circuit = circuit_through(linkage)
-    driver = crank_angle(linkage)
+    driver = driver_coordinate(linkage)
     assert abs(circuit.turns(linkage.crank.link)) == 1
     assert circuit.branches(driver) == [circuit.whole]
     arcs = np.linspace(0, circuit.curve.length, 37)
@@ -120,7 +121,7 @@ def test_a_parallelogram_goes_straight_on_through_its_change_points(branch):
     else:
         crossed = np.arctan2(-1.3 * np.sin(crank / 2), 0.7 * np.cos(crank / 2)) * 2
         assert np.exp(1j * rocker) == pytest.approx(np.exp(1j * crossed), abs=1e-12)
-    changes = circuit.values(crank_angle(circuit.mechanism), circuit.curve.arc[circuit.curve.crossings])
+    changes = circuit.values(driver_coordinate(circuit.mechanism), circuit.curve.arc[circuit.curve.crossings])
     assert np.degrees(changes) % 360 == pytest.approx([180, 0], abs=1e-9)
 
 
@@ -169,4 +170,36 @@ def test_of_a_chain_the_stated_circuit_is_followed():
     assert isinstance(mechanism.dyads[0], Chain)
     (circuit,) = all_circuits(mechanism)
     assert circuit.curve.is_closed
-    assert len(circuit.branches(crank_angle(mechanism))) % 2 == 0
+    assert len(circuit.branches(driver_coordinate(mechanism))) % 2 == 0
+
+
+BASE, ARM = math.hypot(0.3, -0.7), 0.9
+
+
+def test_a_cylinder_is_dead_where_it_points_at_the_pivot():
+    law = Law((Segment("3-4-5", 1.2, 1.0),), 5.0, 0.8)
+    boom = Mechanism(
+        Cylinder("A", "B", law),
+        (RRR("A", "O", "B", "cylinder", "boom", 0.8, ARM, branch=-1),),
+        ground={"O": (0.1, 0.5), "A": (0.4, -0.2)},
+    )
+    circuit = circuit_at(boom, CrankGrid.from_radians([1.0]))
+    driver = driver_coordinate(boom)
+    ends = circuit.extent(driver)
+    assert circuit.values(driver, np.array([0.0])) == pytest.approx([1.0], abs=1e-14)
+    assert (ends.least, ends.greatest) == pytest.approx((ARM - BASE, ARM + BASE), abs=1e-13)
+    assert abs(circuit.turns("boom")) == 1
+    for part in circuit.branches(driver):
+        assert circuit.extent(link_angle("boom"), part).travel == pytest.approx(math.pi, abs=1e-9)
+
+
+def test_a_driving_slider_has_the_circuit_of_the_crank():
+    law = Law((Segment("3-4-5", 0.1, 1.0),), 5.0, 0.0)
+    slider = Mechanism(
+        DrivingSlider("piston", Guide(), law), (RRR("P", "O", "A", "rod", "crank", 0.2, 0.05),),
+        ground={"O": (0.0, 0.0)}, points=(LinkPoint("P", "piston", 0.0),),
+    )  # fmt: skip
+    circuit = circuit_at(slider, CrankGrid.from_radians([0.2]))
+    stroke = circuit.extent(driver_coordinate(slider))
+    assert (stroke.least, stroke.greatest) == pytest.approx((0.15, 0.25), abs=1e-14)
+    assert abs(circuit.turns("crank")) == 1

@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from crankwork.kinematics.circuits import all_circuits, crank_angle, link_angle
+from crankwork.kinematics.circuits import all_circuits
+from crankwork.kinematics.coordinates import driver_coordinate, link_angle
 from crankwork.mechanism.catalog import four_bar, stephenson_six_bar, watt_six_bar
 
 pytestmark = pytest.mark.elsewhere
@@ -153,7 +154,7 @@ def compare(number):
                 np.sort(its % math.tau if turns else its), abs=1e-8
             ), number
         dead = loops.turned_back(path, 0)
-        branches = circuit.branches(crank_angle(mechanism))
+        branches = circuit.branches(driver_coordinate(mechanism))
         assert len(branches) == max(1, len(dead))
 
 

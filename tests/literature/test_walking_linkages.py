@@ -11,7 +11,8 @@ import math
 import numpy as np
 import pytest
 
-from crankwork.kinematics.circuits import At, circuit_through, crank_angle, point_coordinate
+from crankwork.kinematics.circuits import circuit_through
+from crankwork.kinematics.coordinates import At, driver_coordinate, point_coordinate
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.mechanism.catalog import four_bar
@@ -157,7 +158,7 @@ def test_stride_and_lift_of_jansens_leg(jansen):
     ends = [circuit.extent(point_coordinate(At("leg", foot.along, foot.across), axis)) for axis in (0, 1)]
     found = [value for end in ends for value in (end.least, end.greatest)]
     assert found == pytest.approx(list(EXTREMES), abs=1e-10)
-    at = np.degrees(circuit.values(crank_angle(jansen), np.array([ends[1].least_at]))) % 360
+    at = np.degrees(circuit.values(driver_coordinate(jansen), np.array([ends[1].least_at]))) % 360
     assert at == pytest.approx([329.3341944780148], abs=1e-6)
 
 
@@ -167,7 +168,7 @@ def test_the_tracer_of_the_lambda_linkage():
     ends = [circuit.extent(point_coordinate(tracer, axis)) for axis in (0, 1)]
     found = [value for end in ends for value in (end.least, end.greatest)]
     assert found == pytest.approx([-0.3518070749468599, 4.35180707494686, 4.0, 4.898979485566356], abs=1e-11)
-    at = circuit.values(crank_angle(circuit.mechanism), np.array([ends[0].greatest_at]))
+    at = circuit.values(driver_coordinate(circuit.mechanism), np.array([ends[0].greatest_at]))
     assert np.degrees(at) == pytest.approx([55.99494215380475], abs=1e-8)
 
 

@@ -17,16 +17,18 @@ import numpy as np
 
 from crankwork.kinematics.assembly import singular_between, suspects
 from crankwork.kinematics.closing import ClosingEquations
+from crankwork.kinematics.coordinates import Coordinate, Stretch, rod_of, slider_place
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.curves import Curve, PositionEquations, follow
-from crankwork.kinematics.dyads import LinkMotion, fixed_guide, guide_on_link, point_on_link, seen_from
+from crankwork.kinematics.dyads import LinkMotion, fixed_point
 from crankwork.kinematics.extremes import closed_in
 from crankwork.kinematics.loops import as_chain
-from crankwork.kinematics.placement import Placed, closure_of, place
+from crankwork.kinematics.placement import Placed, closure_of, place_at
 from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.mechanism.chain import Chain, ChainLink, Slide
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
 from crankwork.mechanism.dyads import RPR, RRP, RRR, Branch, Guide, Point
-from crankwork.mechanism.mechanism import Mechanism
+from crankwork.mechanism.mechanism import Crank, Mechanism
 
 _BRANCHES: tuple[Branch, Branch] = (1, -1)
 _BETWEEN_KNOTS = 4
@@ -35,16 +37,6 @@ _STILL = 1e-11
 _BISECTIONS = 60
 _SINGULAR = 1e-13
 _SAME = 1e-6
-
-
-class Stretch(NamedTuple):
-    """Some positions of a circuit: directions and frames of all links, derivatives by the arc."""
-
-    angles: dict[str, Transfer]
-    frames: dict[str, LinkMotion]
-
-
-Coordinate = Callable[[Stretch], Transfer]
 
 
 class Extent(NamedTuple):
@@ -175,117 +167,79 @@ def _looked_at_closely(rate: Callable[[Array], Array], arc: Array, rates: Array)
     return arc, rates
 
 
-def link_angle(name: str) -> Coordinate:
-    """Return the direction of a link from the x axis. [rad]"""
-    return lambda there: there.angles[name]
-
-
-def crank_angle(mechanism: Mechanism) -> Coordinate:
-    """Return the crank angle, from the start in the direction of rotation. [rad]"""
-    crank = mechanism.crank
-
-    def coordinate(there: Stretch) -> Transfer:
-        angle = there.angles[crank.link]
-        return Transfer(
-            crank.direction * (angle.position - crank.start), crank.direction * angle.position_1, angle.position_2
-        )
-
-    return coordinate
-
-
-def relative_angle(link: str, other: str) -> Coordinate:
-    """Return the angle from one link to another. [rad]"""
-    return lambda there: Transfer(*(b - a for a, b in zip(there.angles[link], there.angles[other], strict=True)))
-
-
-def slider_place(guide: Guide, piece: str) -> Coordinate:
-    """Return the distance of a sliding piece along its guide. [m]"""
-
-    def coordinate(there: Stretch) -> Transfer:
-        line = guide_on_link(there.frames[guide.link], guide) if guide.link else fixed_guide(guide)
-        return seen_from(line, there.frames[piece].origin).x
-
-    return coordinate
-
-
-class At(NamedTuple):
-    """A point in the frame of a link."""
-
-    link: str
-    along: float = 0.0
-    across: float = 0.0
-
-    def on(self, there: Stretch) -> PointMotion:
-        """Return its motion."""
-        return point_on_link(there.frames[self.link], self.along, self.across)
-
-
-def point_coordinate(point: At, axis: int) -> Coordinate:
-    """Return a coordinate of a point, x or y. [m]"""
-    return lambda there: point.on(there)[axis]
-
-
-def distance(point: At, other: At) -> Coordinate:
-    """Return the distance of two points. [m]"""
-
-    def coordinate(there: Stretch) -> Transfer:
-        (x, x_1, _), (y, y_1, _) = (
-            tuple(b - a for a, b in zip(mine, its, strict=True))
-            for mine, its in zip(point.on(there), other.on(there), strict=True)
-        )
-        far = np.hypot(x, y)
-        return Transfer(far, (x * x_1 + y * y_1) / far, np.zeros_like(far))
-
-    return coordinate
-
-
 def circuit_through(mechanism: Mechanism, crank_degrees: float = 0.0) -> Circuit:
     """Return the circuit of a linkage that its position at a crank angle is on, which is no change point. [deg]"""
-    system, start = _system(mechanism, place(mechanism, CrankGrid.from_degrees([crank_degrees])))
-    return _circuit(mechanism, system, start)
+    return circuit_at(mechanism, CrankGrid.from_degrees([crank_degrees]))
 
 
-def _circuit(mechanism: Mechanism, system: PositionEquations, start: Array) -> Circuit:
-    """Return the circuit through a position, followed as the crank turns."""
-    forward = np.zeros_like(start)
-    forward[system.equations.index[mechanism.crank.link] + 2] = mechanism.crank.direction
-    return Circuit(mechanism, follow(system, start, forward))
+def circuit_at(mechanism: Mechanism, coordinate: CrankGrid) -> Circuit:
+    """Return the circuit that the position at one value of the driver's coordinate is on, followed as that grows."""
+    system, start = _system(mechanism, place_at(mechanism, coordinate))
+    index, driver = system.equations.index, mechanism.driver
+    ahead = np.zeros_like(start)
+    match driver:
+        case Crank():
+            ahead[index[driver.link] + 2] = driver.direction
+        case DrivingSlider():
+            ahead[index[driver.link] : index[driver.link] + 2] = (
+                math.cos(driver.guide.angle),
+                math.sin(driver.guide.angle),
+            )
+        case Cylinder() | LinkMotor():
+            angle, end, foot = start[index[driver.link] + 2], index[rod_of(driver.link)], index[driver.link]
+            ahead[end : end + 2] = math.cos(angle), math.sin(angle)
+            ahead[foot : foot + 2] = -math.cos(angle), -math.sin(angle)
+    return Circuit(mechanism, follow(system, start, ahead))
 
 
 def _system(mechanism: Mechanism, placed: Placed) -> tuple[PositionEquations, Array]:
-    """Return the equations of all links of a linkage, the crank one of them, and their coordinates where it is."""
-    crank = mechanism.crank
-    pivot = f"{crank.link}.pivot"
-    points: dict[str, dict[str, Point]] = {crank.link: {pivot: (0.0, 0.0), crank.pin: (crank.radius, 0.0)}}
-    angle = crank.start + crank.direction * float(placed.grid.angle[0])
-    links = [ChainLink(crank.link, crank.pivot, angle, {})]
+    """Return the equations of all links of a linkage, the driving one of them, and their coordinates where it is."""
+    driver, ground = mechanism.driver, dict(mechanism.ground)
+    points: dict[str, dict[str, Point]] = {}
     slides: list[Slide] = []
+    if isinstance(driver, Crank):
+        pivot = f"{driver.link}.pivot"
+        points[driver.link] = {pivot: (0.0, 0.0), driver.pin: (driver.radius, 0.0)}
+        ground[pivot] = driver.pivot
+    elif isinstance(driver, DrivingSlider):
+        points[driver.link] = {}
+        slides.append(Slide(driver.link, driver.guide))
     for group in mechanism.dyads:
         chain = group if isinstance(group, Chain) else as_chain(group, placed.links, 0.0)
-        links += chain.links
-        slides += chain.slides
         points |= {link.name: dict(link.points) for link in chain.links}
+        slides += chain.slides
     for one in mechanism.points:
         points[one.link].setdefault(one.name, (one.along, one.across))
-    ground = {**mechanism.ground, pivot: crank.pivot}
-    start = []
-    for link in links:
-        frame = placed.links[link.name]
-        x, y = (float(np.ravel(side.position)[0]) for side in frame.origin)
-        turned = math.atan2(float(np.ravel(frame.sin)[0]), float(np.ravel(frame.cos)[0]))
-        start += [x, y, angle if link.name == crank.link else turned]
+    frames = {name: (*_place_of(placed.links[name].origin), _angle_of(placed.links[name])) for name in points}
+    if isinstance(driver, Crank):
+        frames[driver.link] = (*frames[driver.link][:2], driver.start + driver.direction * float(placed.grid.angle[0]))
+    elif isinstance(driver, Cylinder | LinkMotor):
+        # barrel and rod: a piece that slides on the link and carries its far end
+        far = next(name for name, place in points[driver.link].items() if place != (0.0, 0.0))
+        del points[driver.link][far]
+        points[rod_of(driver.link)] = {far: (0.0, 0.0)}
+        slides.append(Slide(rod_of(driver.link), Guide(link=driver.link)))
+        frames[rod_of(driver.link)] = (*_place_of(placed.points[far]), frames[driver.link][2])
     named = {name for own in points.values() for name in own}
-    whole = Chain(
-        tuple(replace(link, points=points[link.name]) for link in links),
-        tuple(slides),
-        frozenset(named & ground.keys()),
+    links = tuple(ChainLink(name, frames[name][:2], frames[name][2], own) for name, own in points.items())
+    whole = Chain(links, tuple(slides), frozenset(named & ground.keys()))
+    around = Placed(placed.grid, {name: fixed_point(point) for name, point in ground.items()})
+    return PositionEquations(ClosingEquations(whole, 1), around), np.array(
+        [one for name in points for one in frames[name]]
     )
-    around = place(Mechanism(crank, (), ground=ground), placed.grid[:1])
-    return PositionEquations(ClosingEquations(whole, 1), around), np.array(start)
+
+
+def _place_of(point: PointMotion) -> tuple[float, float]:
+    x, y = (float(np.ravel(side.position)[0]) for side in point)
+    return x, y
+
+
+def _angle_of(frame: LinkMotion) -> float:
+    return math.atan2(float(np.ravel(frame.sin)[0]), float(np.ravel(frame.cos)[0]))
 
 
 def all_circuits(mechanism: Mechanism) -> list[Circuit]:
-    """Return every circuit of a linkage of dyads; of one with a chain only that of the stated position.
+    """Return every circuit of a linkage of dyads with a crank; of one with a chain only that of the stated position.
 
     Every way to put the dyads together gives stretches of crank angles; each circuit covers some of them.
     """
@@ -295,12 +249,13 @@ def all_circuits(mechanism: Mechanism) -> list[Circuit]:
     pieces: list[tuple[tuple[Branch, ...], float, float]] = []
     circuits: list[Circuit] = []
     for signs in product(_BRANCHES, repeat=signed):
-        pieces += [(signs, *ends) for ends in _assembled_stretches(with_branches(mechanism, signs))]
+        pieces += [(signs, *ends) for ends in assembled_stretches(with_branches(mechanism, signs))]
     for signs, start, end in pieces:
         one = with_branches(mechanism, signs)
-        system, position = _system(one, place(one, CrankGrid.from_degrees([(start + end) / 2])))
+        middle = CrankGrid.from_degrees([(start + end) / 2])
+        _, position = _system(one, place_at(one, middle))
         if all(circuit.curve.nearest(position)[1] > _SAME for circuit in circuits):
-            circuits.append(_circuit(one, system, position))
+            circuits.append(circuit_at(one, middle))
     return circuits
 
 
@@ -311,14 +266,14 @@ def with_branches(mechanism: Mechanism, signs: Sequence[Branch]) -> Mechanism:
     return replace(mechanism, dyads=tuple(dyads))
 
 
-def _assembled_stretches(mechanism: Mechanism) -> list[tuple[float, float]]:
+def assembled_stretches(mechanism: Mechanism) -> list[tuple[float, float]]:
     """Return the crank angles between which dyads of given signs can be assembled, over 360 where they go on. [deg]"""
     degrees = np.linspace(0.0, 360.0, _SCAN + 1)
     degrees = np.unique(np.concatenate([degrees, *_narrow(mechanism, degrees)]))
     works = np.all(_margins(mechanism, degrees) > _SINGULAR, axis=0)
     cut = np.zeros(len(degrees) - 1, dtype=bool)
     grid = CrankGrid.from_degrees(degrees)
-    for index, closure in enumerate(place(mechanism, grid).closures):
+    for index, closure in enumerate(place_at(mechanism, grid).closures):
         for interval, _ in singular_between(grid, closure, closure_of(mechanism, index)):
             cut[interval] = True
     stretches = []
@@ -338,8 +293,9 @@ def _assembled_stretches(mechanism: Mechanism) -> list[tuple[float, float]]:
 
 def _margins(mechanism: Mechanism, degrees: Array) -> Array:
     """Return how well each group closes at crank angles, below zero where it does not, shape (groups, n)."""
-    closures = place(mechanism, CrankGrid.from_degrees(degrees)).closures
-    rows = [np.nan_to_num(one.value / one.scale, nan=-1.0) + np.zeros(len(degrees)) for one in closures]
+    closures = place_at(mechanism, CrankGrid.from_degrees(degrees)).closures
+    with np.errstate(invalid="ignore"):
+        rows = [np.nan_to_num(one.value / one.scale, nan=-1.0) + np.zeros(len(degrees)) for one in closures]
     return np.stack(rows)
 
 

@@ -178,7 +178,8 @@ class Curve:
             far &= np.abs(local - self.arc[knot]) > _AT_CROSSING
         if far.any():
             guess[far] = self.system.corrected(guess[far], normal[far])
-            way[far], _ = self.system.ways(guess[far], normal[far])
+            with np.errstate(invalid="ignore"):
+                way[far], _ = self.system.ways(guess[far], normal[far])
         whole = turns[:, None] * (self.knots[-1] - self.knots[0])
         scale = self.system.equations.scale
         return (guess + whole) * scale, way * scale

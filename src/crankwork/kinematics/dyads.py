@@ -8,7 +8,7 @@ complex steps alike; whether a group closes is told by `closure`, which is posit
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -291,6 +291,14 @@ def point_on_guide(guide: LinkMotion, slide: Transfer) -> PointMotion:
     )
 
 
+Through = Callable[[str, Any], Any]
+
+
+def straight(key: str, value: Any) -> Any:  # noqa: ANN401, ARG001 - a known or a number stays what it is
+    """Return a quantity of a dyad that passes no change point."""
+    return value
+
+
 class RRRMotion(NamedTuple):
     """Where the two links of an RRR dyad meet, and their frames."""
 
@@ -303,10 +311,17 @@ class RRRMotion(NamedTuple):
 _CONSTANT: Mapping[str, Transfer] = MappingProxyType({})
 
 
-def rrr_motion(dyad: RRR, a: PointMotion, b: PointMotion, lengths: Mapping[str, Transfer] = _CONSTANT) -> RRRMotion:
+def rrr_motion(
+    dyad: RRR,
+    a: PointMotion,
+    b: PointMotion,
+    lengths: Mapping[str, Transfer] = _CONSTANT,
+    through: Through = straight,
+) -> RRRMotion:
     """Return the motion of the joint and the links of an RRR dyad (artobolevsky_1988, ch. 4).
 
-    Joint [m], frames of the links, closure; NaN where the links do not meet.
+    Joint [m], frames of the links, closure; NaN where the links do not meet. `through` leads what a change point would
+    make nought by nought over it.
 
     With d from a to b, u and v from a and b to the joint, and c = (p^2 - q^2 + d^2) / 2:
     h = u x v = branch sqrt(((p + q)^2 - d^2)(d^2 - (p - q)^2)) / 2, twice the area of the triangle, and
@@ -326,6 +341,7 @@ def rrr_motion(dyad: RRR, a: PointMotion, b: PointMotion, lengths: Mapping[str, 
     h = named(doubled_area(dyad.branch, p, q, square), f"doubled_area.{name}")
     c, k = named(foot_ratio(p, q, square), f"foot_ratio.{name}"), named(h / square, f"height_ratio.{name}")
     ux, uy = rrr_arm_x(c, dx, k, dy), rrr_arm_y(c, dy, k, dx)
+    ux, uy = through("arm_x", ux), through("arm_y", uy)
     ux, uy = named(ux, f"arm_x.{dyad.link_a}"), named(uy, f"arm_y.{dyad.link_a}")
     vx, vy = named(ux - dx, f"arm_x.{dyad.link_b}"), named(uy - dy, f"arm_y.{dyad.link_b}")
 
@@ -335,7 +351,7 @@ def rrr_motion(dyad: RRR, a: PointMotion, b: PointMotion, lengths: Mapping[str, 
         if one is not None:
             ex, ey = ex + sign * (one.position_1 * cos), ey + sign * (one.position_1 * sin)
     ex, ey = named(ex, f"distance_x_1.{name}"), named(ey, f"distance_y_1.{name}")
-    rate_a, rate_b = rrr_rate(ex, vx, ey, vy, h), rrr_rate(ex, ux, ey, uy, h)
+    rate_a, rate_b = through("rate_a", rrr_rate(ex, vx, ey, vy, h)), through("rate_b", rrr_rate(ex, ux, ey, uy, h))
     rate_a, rate_b = named(rate_a, f"link_angle_1.{dyad.link_a}"), named(rate_b, f"link_angle_1.{dyad.link_b}")
     ex, ey = bx_2 - ax_2, by_2 - ay_2
     turning = ((rate_a, cos_a, sin_a, -1.0), (rate_b, cos_b, sin_b, 1.0))
@@ -346,6 +362,7 @@ def rrr_motion(dyad: RRR, a: PointMotion, b: PointMotion, lengths: Mapping[str, 
     ex = named(closing_x(ex, rate_a, ux, rate_b, vx), f"closing_x.{name}")
     ey = named(closing_x(ey, rate_a, uy, rate_b, vy), f"closing_y.{name}")
     rate_a_1, rate_b_1 = rrr_rate(ex, vx, ey, vy, h), rrr_rate(ex, ux, ey, uy, h)
+    rate_a_1, rate_b_1 = through("rate_a_1", rate_a_1), through("rate_b_1", rate_b_1)
     rate_a_1, rate_b_1 = named(rate_a_1, f"link_angle_2.{dyad.link_a}"), named(rate_b_1, f"link_angle_2.{dyad.link_b}")
 
     link_a = LinkMotion(a, cos_a, sin_a, rate_a, rate_a_1)
@@ -411,7 +428,11 @@ class RRPMotion(NamedTuple):
 
 
 def rrp_motion(
-    dyad: RRP, joint: PointMotion, guide: LinkMotion, lengths: Mapping[str, Transfer] = _CONSTANT
+    dyad: RRP,
+    joint: PointMotion,
+    guide: LinkMotion,
+    lengths: Mapping[str, Transfer] = _CONSTANT,
+    through: Through = straight,
 ) -> RRPMotion:
     """Return the motion of the slider and the link of an RRP dyad (artobolevsky_1988, ch. 4).
 
@@ -425,15 +446,15 @@ def rrp_motion(
     link_, piece, changing = dyad.link, dyad.piece, lengths.get(dyad.link)
     length = dyad.length if changing is None else changing.position
     (along, along_1, along_2), (u, u_1, u_2) = named_coordinates(seen_from(guide, joint), dyad.joint)
-    h = named(rrp_reach(dyad.branch, length, u), f"guide_reach.{piece}")
+    h = named(through("reach", rrp_reach(dyad.branch, length, u)), f"guide_reach.{piece}")
     if changing is not None:
         along_1, u_1 = along_1 + changing.position_1 * (h / length), u_1 - changing.position_1 * (u / length)
-    rate = named(rrp_rate(u_1, h), f"guide_rate.{link_}")
+    rate = named(through("rate", rrp_rate(u_1, h)), f"guide_rate.{link_}")
     h_1 = named(rate * u, f"guide_reach_1.{piece}")
     if changing is not None:
         stretch = stretch_of(changing, rate, h / length, -u / length, link_)
         along_2, u_2 = along_2 + stretch[0], u_2 + stretch[1]
-    rate_1 = named(rrp_rate_1(u_2, rate, h_1, h), f"guide_rate_1.{link_}")
+    rate_1 = named(through("rate_1", rrp_rate_1(u_2, rate, h_1, h)), f"guide_rate_1.{link_}")
     slide = named_slide(Transfer(along + h, along_1 + h_1, rrp_slide_2(along_2, rate_1, u, rate, u_1)), piece)
     cos, sin = guide.cos, guide.sin
     cos, sin = rrp_cosine(cos, h, sin, u, length), rrp_sine(sin, h, cos, u, length)

@@ -12,11 +12,13 @@ from numpy.typing import NDArray
 from crankwork.errors import GeometryError
 from crankwork.formula.known import Root, absent, is_known
 from crankwork.kinematics.assembly import refusal, singular_between, unassembled
+from crankwork.kinematics.bridges import over_bridges, passed_branch
 from crankwork.kinematics.chain_memory import remembered_chain
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dyads import (
     Closure,
     LinkMotion,
+    Through,
     crank_motion,
     fixed_guide,
     fixed_point,
@@ -29,6 +31,7 @@ from crankwork.kinematics.dyads import (
     point_on_link,
     rrp_motion,
     rrr_motion,
+    straight,
     third_side_motion,
 )
 from crankwork.kinematics.loops import ChainPath
@@ -40,6 +43,7 @@ from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide
 from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
+from crankwork.mechanism.passage import Passage
 
 _STANDS = 1e-12
 
@@ -97,7 +101,7 @@ def place_at(mechanism: Mechanism, grid: CrankGrid, *, plain: Mechanism | None =
             except KeyError as missing:
                 raise GeometryError(Refusal("group_unplaced", group=_title(group), missing=str(missing))) from None
             if closure is not None:
-                placed.closures.append(closure)
+                placed.closures.append(_bridged(closure, mechanism.passages.get(index), grid))
             _name(placed, placed.links.keys() - before, placed.points.keys() - standing)
             _place_link_points(mechanism, placed, placed.links.keys() - before)
     return placed
@@ -126,6 +130,13 @@ def _place_driver(driver: Driver, placed: Placed) -> None:
             placed.lengths[link] = third_side_motion(driver, grid)
 
 
+def _bridged(closure: Closure, passage: Passage | None, grid: CrankGrid) -> Closure:
+    """Return how well a group closes; where it is led over a change point, nothing is to be told."""
+    if passage is None or not passage.bridges:
+        return closure
+    return closure._replace(value=np.where(passage.is_bridged(grid.degrees), closure.scale, closure.value))
+
+
 def _name(placed: Placed, links: set[str], points: set[str]) -> None:
     """Give what is remembered of links and points its name."""
     if placed.plain is not None:
@@ -143,18 +154,24 @@ def _place_link_points(mechanism: Mechanism, placed: Placed, links: set[str]) ->
 def _place_group(mechanism: Mechanism, index: int, placed: Placed) -> Closure | None:
     """Add the points, links and sliders of one group."""
     points, links, sliders = placed.points, placed.links, placed.sliders
-    match mechanism.dyads[index]:
+    group = mechanism.dyads[index]
+    through: Through = straight
+    if index in mechanism.passages and not isinstance(group, Chain | PRP | RPP):
+        passage = mechanism.passages[index]
+        group = replace(group, branch=passed_branch(passage, group.branch, placed.grid))
+        through = over_bridges(passage, placed.grid)
+    match group:
         case RRR() as dyad:
-            rrr = rrr_motion(dyad, points[dyad.joint_a], points[dyad.joint_b], placed.lengths)
+            rrr = rrr_motion(dyad, points[dyad.joint_a], points[dyad.joint_b], placed.lengths, through)
             points[dyad.point], links[dyad.link_a], links[dyad.link_b] = rrr.point, rrr.link_a, rrr.link_b
             return rrr.closure
         case RRP() as dyad:
-            rrp = rrp_motion(dyad, points[dyad.joint], placed.guide(dyad.guide, dyad.piece), placed.lengths)
+            rrp = rrp_motion(dyad, points[dyad.joint], placed.guide(dyad.guide, dyad.piece), placed.lengths, through)
             points[dyad.slider], sliders[dyad.piece] = rrp.point, rrp.slide
             links[dyad.link], links[dyad.piece] = rrp.link, rrp.piece
             return rrp.closure
         case RPR() as dyad:
-            rpr = rpr_motion(dyad, points[dyad.joint], points[dyad.pivot])
+            rpr = rpr_motion(dyad, points[dyad.joint], points[dyad.pivot], through)
             links[dyad.link], links[dyad.block], sliders[dyad.block] = rpr.link, rpr.block, rpr.slide
             return rpr.closure
         case PRP() as dyad:

@@ -12,6 +12,7 @@ from crankwork.kinematics import plane_motion as plane
 from crankwork.kinematics.dyads import (
     Closure,
     LinkMotion,
+    Through,
     is_nothing,
     joint_distance_square,
     named_coordinates,
@@ -19,6 +20,7 @@ from crankwork.kinematics.dyads import (
     named_slide,
     point_on_guide,
     seen_from,
+    straight,
     turned,
 )
 from crankwork.kinematics.transfer import PointMotion, Transfer
@@ -94,7 +96,7 @@ class RPRMotion(NamedTuple):
     closure: Closure | None
 
 
-def rpr_motion(dyad: RPR, joint: PointMotion, pivot: PointMotion) -> RPRMotion:
+def rpr_motion(dyad: RPR, joint: PointMotion, pivot: PointMotion, through: Through = straight) -> RPRMotion:
     """Return the motion of a slotted lever and its block (artobolevsky_1988, ch. 4).
 
     Distance along the slot [m], frames, closure; NaN where the pin is nearer to the pivot than the slot. `joint` and
@@ -114,12 +116,13 @@ def rpr_motion(dyad: RPR, joint: PointMotion, pivot: PointMotion) -> RPRMotion:
         for axis, mine, base in zip("xy", joint, pivot, strict=True)
     )
     square = named(joint_distance_square(dx, dy), f"joint_distance_square.{name}")
-    s = named(rpr_reach(dyad.branch, square, e), f"guide_reach.{block_}")
-    cos = named(rpr_cosine(s, dx, e, dy, square), f"link_cos.{block_}")
-    sin = named(rpr_sine(s, dy, e, dx, square), f"link_sin.{block_}")
-    rate = named(rpr_rate(dy_1, cos, dx_1, sin, s), f"link_angle_1.{name}")
+    s = named(through("reach", rpr_reach(dyad.branch, square, e)), f"guide_reach.{block_}")
+    cos = named(through("cos", rpr_cosine(s, dx, e, dy, square)), f"link_cos.{block_}")
+    sin = named(through("sin", rpr_sine(s, dy, e, dx, square)), f"link_sin.{block_}")
+    rate = named(through("rate", rpr_rate(dy_1, cos, dx_1, sin, s)), f"link_angle_1.{name}")
     s_1 = named(rpr_slide_1(dx_1, cos, dy_1, sin, e, rate), f"slider_displacement_1.{block_}")
-    rate_1 = named(rpr_rate_1(dy_2, cos, dx_2, sin, s_1, e, rate, s), f"link_angle_2.{name}")
+    rate_1 = rpr_rate_1(dy_2, cos, dx_2, sin, s_1, e, rate, s)
+    rate_1 = named(through("rate_1", rate_1), f"link_angle_2.{name}")
     s_2 = rpr_slide_2(dx_2, cos, dy_2, sin, s, rate, e, rate_1)
     block = LinkMotion(joint, cos, sin, rate, rate_1)
     angle = dyad.slot.angle

@@ -1,0 +1,48 @@
+"""The quantities of a dyad led over change points, as numbers and as knowns."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from crankwork.formula.known import Known, Pieces, Table, absent, given, is_known
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.dyads import Through
+from crankwork.mechanism.passage import Passage
+
+_END = 1e6
+
+
+def passed_branch(passage: Passage, branch: Any, grid: CrankGrid) -> Any:  # noqa: ANN401 - a known or a number
+    """Return the branch of a dyad at crank angles: with each change point it changes."""
+    if not is_known(branch):
+        return branch * passage.signs(grid.degrees)
+    ends = np.array([*passage.changes, _END])
+    signs = passage.signs(ends) * branch.value
+    laws = [absent("branch", 1.0) if sign > 0 else given("branch", -1.0) for sign in signs]
+    return Known(Pieces(ends.tolist(), tuple(laws)), "branch")
+
+
+def over_bridges(passage: Passage, grid: CrankGrid) -> Through:
+    """Return what replaces the quantities of a dyad about its change points by polynomials."""
+
+    def through(key: str, value: Any) -> Any:  # noqa: ANN401 - a known or a number
+        if is_known(value):
+            return _remembered(passage, key, value)
+        value = np.array(value + np.zeros_like(grid.degrees))
+        for bridge in passage.bridges:
+            near = np.abs(grid.degrees - bridge.degrees) <= bridge.width
+            value[near] = bridge.columns[key](grid.degrees[near])
+        return value
+
+    return through
+
+
+def _remembered(passage: Passage, key: str, known: Known) -> Known:
+    """Return a quantity that follows its formula, and polynomials about change points."""
+    ends, laws = [], []
+    for bridge in passage.bridges:
+        ends += [bridge.degrees - bridge.width, bridge.degrees + bridge.width]
+        laws += [known, Known(Table(bridge.columns[key], "change_point"), known.key)]
+    return Known(Pieces([*ends, _END], (*laws, known)), known.key)
