@@ -9,7 +9,7 @@ import pytest
 
 from crankwork.cylinders import articulated, load_vectors
 from crankwork.dynamics import force_parts, piston_forces
-from crankwork.kinematics import plane_motion, slider_crank, textbook, transfer
+from crankwork.kinematics import motion_laws, plane_motion, slider_crank, textbook, transfer
 from crankwork.loads import gas
 from crankwork.shaft import flywheel
 
@@ -51,6 +51,8 @@ pytestmark = pytest.mark.elsewhere
             (flywheel.work_of_mean_torque, (25, 12), 300),
             (flywheel.flywheel_beside_machine, (5, 1.5), 3.5),
             (gas.gauge_pressure, (1.6e5, 1e5), 6e4),
+            # 0.8 of the straight line less 8/4, where the sine is one
+            (motion_laws.sine_law, (0.2, 1.5, 0.4, 8, 2, math.pi / 2 - 0.8), -1.2),
         )
     ],
 )
