@@ -124,6 +124,8 @@ class Engine:
         Where the cylinders stand and when they fire.
     slaves : tuple of ArticulatedRod or None
         The articulated rod of each cylinder, None where the rod turns on the crankpin; empty if none is articulated.
+    slave_rod : CrankGearMasses or None
+        Masses of such a rod, at its piston pin and at its knuckle pin; those of the master rod if they are not given.
     bearings : Bearings
         Their sizes.
     counterweight : float
@@ -138,6 +140,7 @@ class Engine:
 
     layout: Layout
     slaves: tuple[ArticulatedRod | None, ...] = ()
+    slave_rod: CrankGearMasses | None = None
     bearings: Bearings = field(default_factory=Bearings)
     counterweight: float = 0.0
     rotating_share: float = 0.0

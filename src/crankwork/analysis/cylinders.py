@@ -70,6 +70,11 @@ class WholeEngine:
         return self.machine.masses or CrankGearMasses()
 
     @property
+    def each_masses(self) -> tuple[CrankGearMasses, ...]:
+        """The masses of every cylinder by number: piston and rod, and the throw with the first on it."""
+        return tuple(one.machine.masses or CrankGearMasses() for one in self.cylinders)
+
+    @property
     def on_pin(self) -> dict[int, tuple[Place, ...]]:
         """The cylinders of each crankpin."""
         pins = sorted({place.crankpin for place in self.layout.places})
@@ -87,7 +92,7 @@ def whole_engine(solved: SolvedCylinder) -> WholeEngine:
         kind = _kind(machine, engine, at)
         if kind not in kinds:
             slave, lean, is_first = kind
-            alike = replace(solved, machine=_own_machine(machine, lean, is_first=is_first))
+            alike = replace(solved, machine=_own_machine(machine, lean, slave, is_first=is_first))
             kinds[kind] = alike if slave is None else solve_slave(alike, slave)
             if at == 0:
                 kinds[kind] = solved
@@ -108,8 +113,13 @@ def _kind(machine: Machine, engine: Engine, at: int) -> tuple[ArticulatedRod | N
     return slave, places[at].axis - places[0].axis, places[at] is first
 
 
-def _own_machine(machine: Machine, lean: float, *, is_first: bool) -> Machine:
-    """Return the machine as a cylinder of that lean sees it. [deg]"""
+def _own_machine(machine: Machine, lean: float, slave: ArticulatedRod | None, *, is_first: bool) -> Machine:
+    """Return the machine as a cylinder of that lean, with a rod of its own where it is articulated, sees it. [deg]"""
+    if slave is not None and machine.masses is not None:
+        own = machine.engine.slave_rod if machine.engine is not None else None
+        parts = ("rod_small_end", "rod_big_end", "rod_inertia_excess")
+        rod = {"rod_inertia_excess": 0.0} if own is None else {one: getattr(own, one) for one in parts}
+        machine = replace(machine, masses=replace(machine.masses, **rod))
     if lean and machine.cylinder is not None:
         inclination = machine.cylinder.inclination + float(np.radians(lean))
         machine = replace(machine, cylinder=replace(machine.cylinder, inclination=inclination))

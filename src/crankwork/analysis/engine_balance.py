@@ -10,7 +10,12 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis.cylinders import WholeEngine
-from crankwork.analysis.engine_bearings import counterweights, rotating_mass_of, rotating_masses
+from crankwork.analysis.engine_bearings import (
+    counterweights,
+    reciprocating_masses,
+    rotating_mass_of,
+    rotating_masses,
+)
 from crankwork.analysis.results import Listing
 from crankwork.cylinders.balance import (
     ORDERS,
@@ -42,6 +47,7 @@ class EngineBalance(NamedTuple):
     # Of the rotating masses and of the counterweights, both of the first order
     rotating: OrderBalance
     counterweights: OrderBalance
+    knuckles: tuple[OrderBalance, ...]  # What the masses at knuckle pins add to those at the crankpin
     shafts: tuple[OrderBalance, ...]  # Of the balance shafts
     residual: tuple[OrderBalance, ...]  # All together
     # The counterweights and the weights of the balance shafts
@@ -56,6 +62,7 @@ class EngineBalance(NamedTuple):
         if self.weights:
             found["counterweights"] = self.counterweights
         found |= {f"balance_shafts.{one.order}": one for one in self.shafts}
+        found |= {f"knuckle_pins.{one.order}": one for one in self.knuckles}
         if self.weights or self.shafts or self.rotating.force.largest or self.rotating.moment.largest:
             found |= {f"residual.{one.order}": one for one in self.residual}
         return found
@@ -66,14 +73,15 @@ def engine_balance(whole: WholeEngine) -> EngineBalance:
 
     Source: den_hartog_1956, ch. 5; taylor_1985, vol. 2, ch. 8.
     """
-    layout, masses, w = whole.layout, whole.masses, whole.master.speed
+    layout, w = whole.layout, whole.master.speed
     r = whole.master.lengths.crank_radius
     harmonics = _harmonics(whole)
-    reciprocating = free_forces(layout, masses.reciprocating, r, w, harmonics)
+    reciprocating = free_forces(layout, reciprocating_masses(whole), r, w, harmonics)
     turning = rotating_unbalances(layout, rotating_masses(whole), r)
     weights = counterweights(whole, layout)
     rotating, balanced = turning_forces(layout, turning, w), turning_forces(layout, weights, w)
-    before = balance_sum((*reciprocating, rotating, balanced))
+    knuckles = _knuckles(whole)
+    before = balance_sum((*reciprocating, rotating, balanced, *knuckles))
     shaft_weights = tuple(
         weight
         for part in before
@@ -82,7 +90,9 @@ def engine_balance(whole: WholeEngine) -> EngineBalance:
     )
     shafts = shaft_forces(shaft_weights, w)
     residual = balance_sum((*before, *shafts))
-    return EngineBalance(reciprocating, rotating, balanced, shafts, residual, weights, shaft_weights, harmonics)
+    return EngineBalance(
+        reciprocating, rotating, balanced, knuckles, shafts, residual, weights, shaft_weights, harmonics
+    )
 
 
 def _harmonics(whole: WholeEngine) -> InertiaHarmonics:
@@ -96,6 +106,23 @@ def _harmonics(whole: WholeEngine) -> InertiaHarmonics:
     turn = CrankGrid.from_degrees(np.arange(_SAMPLES) * 360 / _SAMPLES)
     rows = [replay(one.memory["piston_transfer_2"], turn) for one in whole.cylinders]
     return sampled_harmonics(np.stack(rows), lengths.crank_radius, ORDERS)
+
+
+def _knuckles(whole: WholeEngine) -> tuple[OrderBalance, ...]:
+    """Return what masses at knuckle pins leave free beyond the same masses at the crankpin, by order."""
+    w, r, parts = whole.master.speed, whole.master.lengths.crank_radius, list[OrderBalance]()
+    for place, one in zip(whole.layout.places, whole.cylinders, strict=True):
+        if one.moving.slave is None or "knuckle_mass" not in one.memory:
+            continue
+        own = CrankGrid.from_degrees(np.arange(_SAMPLES) * 360 / _SAMPLES - place.firing_angle)
+        x, y = (replay(side.position_2, own) for side in one.moving.slave.knuckle)
+        away = (x + r * own.cos) + 1j * (y + r * own.sin)
+        vectors = -one.memory["knuckle_mass"].value * w**2 * away * unit_vectors(place.axis)
+        spectrum = np.fft.fft(vectors) / _SAMPLES
+        for order in ORDERS:
+            force = Ellipse(complex(spectrum[order]), complex(spectrum[-order]))
+            parts.append(OrderBalance(order, force, Ellipse(*(place.position * one for one in force))))
+    return balance_sum(parts)
 
 
 def _planes(whole: WholeEngine, part: OrderBalance) -> tuple[float] | tuple[float, float]:
@@ -146,7 +173,7 @@ def _order_forces(whole: WholeEngine, balance: EngineBalance) -> dict[str, Known
             acceleration = of.get("inertia_acceleration", of["piston_acceleration"])
             coefficient = Known(Found(float(row[at]), "harmonic", (acceleration,)), f"acceleration_coefficient.{name}")
             force = order_inertia_force(
-                memory["reciprocating_mass"], memory["crank_radius"], memory["speed"], coefficient
+                of["reciprocating_mass"], memory["crank_radius"], memory["speed"], coefficient
             ).named(f"order_inertia_force.{name}")
             found |= {one.key: one for one in (coefficient, force)}
             if not of_slaves:

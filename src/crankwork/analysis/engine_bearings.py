@@ -19,7 +19,7 @@ from crankwork.cylinders.counterweights import Unbalance, counterweight_moment, 
 from crankwork.cylinders.journal_loads import main_journal_loads
 from crankwork.cylinders.layout import Layout, Place
 from crankwork.cylinders.load_statistics import reversal
-from crankwork.cylinders.load_vectors import BearingLoad, bearing_load
+from crankwork.cylinders.load_vectors import BearingLoad
 from crankwork.cylinders.wear import oil_hole, ray_angles, wear_sums
 from crankwork.dynamics.piston_forces import transverse_weight, weight_force
 from crankwork.formula.known import Found, Known, Table, absent, given, in_order, total
@@ -58,10 +58,10 @@ def bearing_memory(whole: WholeEngine) -> dict[str, Known]:
     if whole.machine.masses is not None:
         mass, r, w = master["rod_big_end_mass"], master["crank_radius"], master["speed"]
         inertia = formulas.big_end_inertia_force(mass, r, w)
-    radial = {one.number: _radial(whole, one, inertia) for one in whole.layout.places}
-    rods = [BearingLoad(-radial[at], whole.of(at, "tangential_force")) for at in radial]
-    found = {one.key: one for one in (inertia, *_crankpins(whole, radial, inertia))}
-    load, size = rods[0], _of_one_rod(whole, 1, inertia)
+    forces = {one.number: _of_rod(whole, one, inertia) for one in whole.layout.places}
+    found = {one.key: one for one in (inertia, *_crankpins(whole, forces, inertia))}
+    rods = [BearingLoad(-along, across) for along, across in forces.values()]
+    load, size = rods[0], _of_one_rod(whole, 1, rods[0], inertia)
     if any(whole.engine.slaves):
         # the master rod carries the others: its bearing is loaded as the crankpin is
         pin = whole.layout.places[0].crankpin + 1
@@ -77,26 +77,38 @@ def bearing_memory(whole: WholeEngine) -> dict[str, Known]:
     return {one.key: one for one in in_order(ends) if one.key.startswith(_ON_SHAFT)} | found
 
 
-def _radial(whole: WholeEngine, place: Place, inertia: Known) -> Known:
-    """Return the load of a rod along the crank arm, under the name of its crankpin."""
-    name = f"crankpin_radial_force.{place.crankpin + 1}"
-    if len(whole.on_pin[place.crankpin]) > 1:
-        name = f"{name}.{place.number}"
-    along: Known = formulas.crankpin_radial_force(whole.of(place.number, "radial_force"), inertia)
-    return along.named(name)
+def _of_rod(whole: WholeEngine, place: Place, inertia: Known) -> tuple[Known, Known]:
+    """Return the load of a rod on its crankpin along and across the crank arm, of its forces and its mass there."""
+    name = f"{place.crankpin + 1}.{place.number}" if len(whole.on_pin[place.crankpin]) > 1 else f"{place.crankpin + 1}"
+    memory = whole.cylinders[place.number - 1].memory
+    # what of an articulated rod is at its knuckle pin has come through the master rod
+    own = absent(inertia.key) if "knuckle_side_force" in memory else inertia
+    weight, tangential = (
+        whole.of(place.number, key) if key in memory else absent(key)
+        for key in ("big_end_weight", "big_end_tangential_force")
+    )
+    along: Known = formulas.crankpin_radial_force(whole.of(place.number, "radial_force"), own, weight)
+    across = whole.of(place.number, "tangential_force")
+    if not tangential.is_absent:
+        across = formulas.crankpin_tangential_force(across, tangential).named(f"crankpin_tangential_force.{name}")
+    return along.named(f"crankpin_radial_force.{name}"), across
 
 
-def _crankpins(whole: WholeEngine, radial: Mapping[int, Known], inertia: Known) -> Iterator[Known]:
+def _crankpins(whole: WholeEngine, rods: Mapping[int, tuple[Known, Known]], inertia: Known) -> Iterator[Known]:
     """Yield radial and tangential force on every unlike crankpin and their resultant; of several rods, the sums."""
     for pin in unlike_pins(whole):
         some = [one.number for one in whole.on_pin[pin - 1]]
-        along = total(f"crankpin_radial_force.{pin}", [radial[at] for at in some])
-        across = total(f"crankpin_tangential_force.{pin}", [whole.of(at, "tangential_force") for at in some])
-        size = bearing_load(-along, across) if len(some) > 1 else _of_one_rod(whole, some[0], inertia)
+        along = total(f"crankpin_radial_force.{pin}", [rods[at][0] for at in some])
+        across = total(f"crankpin_tangential_force.{pin}", [rods[at][1] for at in some])
+        load = BearingLoad(-along, across)
+        size = load.resultant if len(some) > 1 else _of_one_rod(whole, some[0], load, inertia)
         yield from (along, across, size.named(f"crankpin_load.{pin}"))
 
 
-def _of_one_rod(whole: WholeEngine, number: int, inertia: Known) -> Known:
+def _of_one_rod(whole: WholeEngine, number: int, rod: BearingLoad, inertia: Known) -> Known:
+    if "big_end_weight" in whole.cylinders[number - 1].memory:
+        size: Known = rod.resultant
+        return size
     T, K = whole.of(number, "tangential_force"), whole.of(number, "radial_force")
     load: Known = formulas.crankpin_load(T, K, inertia)
     return load
@@ -200,11 +212,10 @@ def counterweights(whole: WholeEngine, layout: Layout) -> tuple[Unbalance, ...]:
 
     `layout`: its cylinders, along the shaft as they are to be taken [m].
     """
-    engine, masses = whole.engine, whole.masses
-    r = whole.master.lengths.crank_radius
+    engine, r = whole.engine, whole.master.lengths.crank_radius
     rotating = rotating_masses(whole) * engine.rotating_share
     share = engine.reciprocating_share
-    weights = throw_counterweights(layout, masses.reciprocating, rotating, r, share)
+    weights = throw_counterweights(layout, reciprocating_masses(whole), rotating, r, share)
     found = [
         one._replace(mass_moment=_counterweight(whole, pin), name=f"counterweights.{pin + 1}")
         for one, pin in zip(weights, whole.on_pin, strict=True)
@@ -222,7 +233,7 @@ def _counterweight(whole: WholeEngine, pin: int) -> Known:
             moment = counterweight_moment(
                 engine.rotating_share * rotating_mass_of(whole, place),
                 given("balanced_share", engine.reciprocating_share, "balance.reciprocating_share"),
-                memory["reciprocating_mass"],
+                whole.cylinders[place.number - 1].memory["reciprocating_mass"],
                 memory["crank_radius"],
             )
             terms.append(moment.named(f"{key}.{place.number}"))
@@ -235,14 +246,21 @@ def rotating_mass_of(whole: WholeEngine, place: Place) -> Known:
     """Return the rotating mass of a cylinder, that of a shared throw divided among its cylinders."""
     on_throw = [one.throw for one in whole.layout.places].count(place.throw)
     memory = whole.master.memory
-    mass = memory["rod_big_end_mass"] + memory["crank_mass"] / on_throw
+    own = whole.cylinders[place.number - 1].memory
+    mass = own.get("knuckle_mass", memory["rod_big_end_mass"]) + memory["crank_mass"] / on_throw
     return mass.named("rotating_mass.of_cylinder")
 
 
 def rotating_masses(whole: WholeEngine) -> Array:
     """Return the rotating masses, that of a shared throw divided among its cylinders, shape (cylinders,)."""
-    throws, masses = [one.throw for one in whole.layout.places], whole.masses
-    return np.array([masses.rod_big_end + masses.crank / throws.count(throw) for throw in throws])
+    throws, crank = [one.throw for one in whole.layout.places], whole.masses.crank
+    ends = [one.rod_big_end for one in whole.each_masses]
+    return np.array([end + crank / throws.count(throw) for end, throw in zip(ends, throws, strict=True)])
+
+
+def reciprocating_masses(whole: WholeEngine) -> Array:
+    """Return the reciprocating masses, shape (cylinders,). [kg]"""
+    return np.array([one.reciprocating for one in whole.each_masses])
 
 
 def bearing_columns(memory: Mapping[str, Known]) -> tuple[str, ...]:

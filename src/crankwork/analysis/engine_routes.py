@@ -3,23 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
 
+from crankwork.analysis.cylinders import WholeEngine
 from crankwork.analysis.forces import columns
 from crankwork.analysis.solved import SolvedCylinder, apart
+from crankwork.cylinders.throw import throw_mechanism
 from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.dynamics.masses import CrankGearMasses
+from crankwork.dynamics.reaction import JointForces
 from crankwork.dynamics.running import Running
+from crankwork.formula.known import Known
+from crankwork.formula.replay import Program
 from crankwork.kinematics.bodies import body_motions
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.piston import only_rod
 from crankwork.loads.applied import AppliedForce, AppliedLoads
 from crankwork.mechanism.dyads import RRP
-from crankwork.mechanism.mechanism import Body, Crank, body_at
+from crankwork.mechanism.mechanism import Body, Mechanism, body_at
 
 # where both ways are compared [deg]
 _STEP, _FIRST = 30.0, 7.0
@@ -37,24 +42,63 @@ def joint_force_residuals(solved: SolvedCylinder) -> dict[str, float]:
         return {}
     grid = CrankGrid.from_degrees(np.arange(_FIRST, solved.machine.cycle, _STEP))
     own = columns(solved, grid, ("crank_torque", "side_force", "gas_force"))
-    running = _running(solved, rod, grid, own.get("gas_force", np.zeros(len(grid))))
-    found = system_joint_forces(running)
+    mechanism, masses = solved.machine.mechanism, solved.machine.masses or CrankGearMasses()
+    bodies = (body_at(mechanism.crank.link, masses.crank, 0.0, mechanism.crank.pin), *_bodies(rod, masses))
+    gas = {rod.slider: own["gas_force"]} if "gas_force" in own else {}
+    found = system_joint_forces(_running(solved, replace(mechanism, bodies=bodies), gas, grid))
     (guide,) = found.guides.values()
-    # of a heavy rod without a piston what remains of its forces is their rounding
-    pressed = max(float(np.max(pin.resultant)) for pin in found.pins.values())
+    pressed = _largest(found)
     return {
         "joint_torque": apart(own["crank_torque"], -found.balancing_torque, solved.lengths.crank_radius * pressed),
         "joint_side_force": apart(own["side_force"], -guide.normal, pressed),
     }
 
 
-def _running(solved: SolvedCylinder, rod: RRP, grid: CrankGrid, gas_force: Array) -> Running:
-    machine = solved.machine
-    masses = machine.masses or CrankGearMasses()
-    mechanism = replace(machine.mechanism, bodies=tuple(_bodies(machine.mechanism.crank, rod, masses)))
-    motion = linkage_motion(mechanism, grid)
-    frame = motion.frames[rod.slider]
-    loads = [AppliedForce(rod.slider, frame.origin, -gas_force * frame.cos, -gas_force * frame.sin)]
+def throw_residuals(whole: WholeEngine, memory: Mapping[str, Known]) -> dict[str, float]:
+    """Return how far torque and load of a crankpin with articulated rods are from those of the linkage that they are.
+
+    Nothing for other engines, and for a method that only comes near the motion.
+    """
+    solved, masses = whole.master, whole.each_masses
+    places = whole.on_pin[whole.layout.places[0].crankpin]
+    numbers = [one.number for one in places]
+    is_rigid = solved.method.rod == "rigid" or not any(masses[at - 1].rod_inertia_excess for at in numbers)
+    if not any(whole.engine.slaves) or not solved.method.is_exact or not is_rigid:
+        return {}
+    mechanism = throw_mechanism(whole.layout, solved.lengths, whole.engine.slaves)
+    rods = [one for one in mechanism.dyads if isinstance(one, RRP)]
+    bodies = [body_at(mechanism.crank.link, masses[numbers[0] - 1].crank, 0.0, mechanism.crank.pin)]
+    bodies += [body for rod, at in zip(rods, numbers, strict=True) for body in _bodies(rod, masses[at - 1])]
+    grid = CrankGrid.from_degrees(np.arange(_FIRST, whole.layout.cycle, _STEP))
+    pin = f"crankpin_load.{places[0].crankpin + 1}"
+    torques = {f"torque.{at}": whole.of(at, "crank_torque") for at in numbers}
+    gases = {
+        rod.slider: whole.of(at, "gas_force") for rod, at in zip(rods, numbers, strict=True) if whole.has("gas_force")
+    }
+    own = Program({**torques, **gases, "load": memory[pin]})(grid)
+    found = system_joint_forces(
+        _running(solved, replace(mechanism, bodies=tuple(bodies)), {name: own[name] for name in gases}, grid)
+    )
+    pressed, torque = _largest(found), np.sum([own[key] for key in torques], axis=0)
+    (joint,) = (
+        one for one in found.pins.values() if one.joint.link == rods[0].link and one.joint.point == rods[0].joint
+    )
+    return {
+        "throw_torque": apart(torque, -found.balancing_torque, solved.lengths.crank_radius * pressed),
+        "throw_load": apart(own["load"], joint.resultant, pressed),
+    }
+
+
+def _largest(found: JointForces) -> float:
+    """Return the largest force in a joint: of a heavy rod without a piston what remains of others is rounding. [N]"""
+    return max(float(np.max(pin.resultant)) for pin in found.pins.values())
+
+
+def _running(solved: SolvedCylinder, mechanism: Mechanism, gas: Mapping[str, Array], grid: CrankGrid) -> Running:
+    """Return rods and pistons at work, the gas pushing the pistons by their names, with weights where they count."""
+    machine, motion = solved.machine, linkage_motion(mechanism, grid)
+    frames = {name: motion.frames[name] for name in gas}
+    loads = [AppliedForce(name, one.origin, -gas[name] * one.cos, -gas[name] * one.sin) for name, one in frames.items()]
     if machine.has_gravity:
         lean = machine.cylinder.inclination if machine.cylinder is not None else 0.0
         down = solved.method.gravity * math.sin(lean), -solved.method.gravity * math.cos(lean)
@@ -65,10 +109,9 @@ def _running(solved: SolvedCylinder, rod: RRP, grid: CrankGrid, gas_force: Array
     return Running(mechanism, motion, solved.speed, AppliedLoads(tuple(loads)), machine.angular_acceleration)
 
 
-def _bodies(crank: Crank, rod: RRP, masses: CrankGearMasses) -> Iterator[Body]:
-    """Yield piston, rod and crank; the two masses of the rod with the inertia of a rigid one about their centre."""
+def _bodies(rod: RRP, masses: CrankGearMasses) -> Iterator[Body]:
+    """Yield piston and rod; the two masses of the rod with the inertia of a rigid one about their centre."""
     yield body_at(rod.slider, masses.piston, 0.0, rod.slider)
-    yield body_at(crank.link, masses.crank, 0.0, crank.pin)
     whole = masses.rod_small_end + masses.rod_big_end
     if whole or masses.rod_inertia_excess:
         share = masses.rod_small_end / whole if whole else 0.0

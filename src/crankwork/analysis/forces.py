@@ -14,10 +14,12 @@ from crankwork.analysis.motion import (
 )
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import SolvedCylinder
-from crankwork.cylinders.articulated_forces import slave_forces
+from crankwork.cylinders.articulated_forces import KnuckleMass, slave_forces
+from crankwork.cylinders.bearings import big_end_tangential_force, big_end_weight
 from crankwork.dynamics import piston_forces as forces
 from crankwork.dynamics.masses import CrankGearMasses, reciprocating_mass, rotating_mass
 from crankwork.errors import MethodError
+from crankwork.formula.expression import Value
 from crankwork.formula.known import Known, absent, given
 from crankwork.formula.replay import Program
 from crankwork.kinematics import slider_crank
@@ -65,8 +67,15 @@ def _by_key(found: Iterable[Known]) -> dict[str, Known]:
 
 
 def _masses(solved: SolvedCylinder, masses: CrankGearMasses, moving: MovingCylinder) -> Iterator[Known]:
-    found = origins.masses(solved.machine, masses, moving.memory.get("piston_area"), moving.lengths.rod_length)
-    piston, crank, small, big, *excess = found
+    area = moving.memory.get("piston_area")
+    if moving.slave is not None:
+        engine, own = solved.machine.engine, moving.slave.own.length
+        is_own = engine is not None and engine.slave_rod is not None
+        rod = (own, "engine.articulated") if is_own else (moving.lengths.rod_length, "rod")
+        piston, crank, small, big, *excess = origins.masses(solved.machine, masses, area, *rod)
+        yield from (piston, small, big.named("knuckle_mass"), *excess, reciprocating_mass(piston, small))
+        return
+    piston, crank, small, big, *excess = origins.masses(solved.machine, masses, area, moving.lengths.rod_length)
     yield from (piston, small, crank, big, *excess, reciprocating_mass(piston, small), rotating_mass(crank, big))
 
 
@@ -94,13 +103,10 @@ def _axial_forces(solved: SolvedCylinder, moving: MovingCylinder) -> Iterator[Kn
 def _rod_forces(solved: SolvedCylinder, moving: MovingCylinder) -> Iterator[Known]:
     """Yield what the rod passes on, alone or with the correction couple that makes it a rigid rod, and the torque."""
     memory, (r, l, e), angle = moving.memory, moving.lengths, moving.angle  # noqa: E741
-    P, swing, masses = memory["piston_force"], moving.motion.swing, solved.machine.masses
-    dN = absent("side_force.couple")
-    if masses is not None and masses.rod_inertia_excess and solved.method.rod == "rigid":
-        excess = memory["rod_inertia_excess"]
-        couple = forces.correction_couple(excess, memory["rod_angular_acceleration"])
-        dN = forces.side_force_of_couple(couple, l, swing.cos).named("side_force.couple")
-        yield from (couple, forces.rod_transverse_force(couple, l), dN)
+    P, swing = memory["piston_force"], moving.motion.swing
+    couple = list(_couple(solved, moving, l))
+    yield from couple
+    dN = couple[-1] if couple else absent("side_force.couple")
     across = memory.get("transverse_weight", absent("transverse_weight"))
     rod = forces.rod_forces(P, angle, swing, dN=dN, F_wn=across)
     yield from rod
@@ -115,6 +121,16 @@ def _rod_forces(solved: SolvedCylinder, moving: MovingCylinder) -> Iterator[Know
     yield forces.overturning_moment(rod.side, memory["pin_distance"], P, e)
 
 
+def _couple(solved: SolvedCylinder, moving: MovingCylinder, length: Value) -> Iterator[Known]:
+    """Yield the couple that makes two masses a rigid rod, if it has one, and the forces that hold it."""
+    masses = solved.machine.masses
+    if masses is not None and masses.rod_inertia_excess and solved.method.rod == "rigid":
+        excess, turning = (moving.memory[key] for key in ("rod_inertia_excess", "rod_angular_acceleration"))
+        couple = forces.correction_couple(excess, turning)
+        yield from (couple, forces.rod_transverse_force(couple, length))
+        yield forces.side_force_of_couple(couple, length, moving.motion.swing.cos).named("side_force.couple")
+
+
 def _rotating(solved: SolvedCylinder, moving: MovingCylinder) -> Iterator[Known]:
     """Yield the inertia force of the rotating mass, and its torque where it has one."""
     machine, memory, angle = solved.machine, moving.memory, moving.angle
@@ -124,23 +140,38 @@ def _rotating(solved: SolvedCylinder, moving: MovingCylinder) -> Iterator[Known]
     yield forces.rotating_inertia_force(mass, r, moving.speed)
     if machine.has_gravity or machine.angular_acceleration:
         g = given("gravity", solved.method.gravity, "method.gravity") if machine.has_gravity else absent("")
-        cos, sin = origins.inclination(machine)
-        yield forces.rotating_torque(mass, r, g, angle.sin, cos, angle.cos, sin, moving.angular_acceleration)
+        (cos, sin), eps, big = origins.inclination(machine), moving.angular_acceleration, memory["rod_big_end_mass"]
+        yield forces.rotating_torque(mass, r, g, angle.sin, cos, angle.cos, sin, eps)
+        yield big_end_weight(big, g, angle.cos, cos, angle.sin, sin)
+        yield big_end_tangential_force(big, g, angle.sin, cos, angle.cos, sin, r, eps)
 
 
 def _slave_forces(solved: SolvedCylinder, moving: MovingCylinder) -> Iterator[Known]:
     """Yield the forces of a cylinder whose rod hangs on the master rod; those on the crankpin come through that."""
     if solved.slave is None or moving.slave is None:
         return
-    found = slave_forces(moving.memory["piston_force"], moving.lengths, solved.slave, moving.angle, moving.slave)
-    yield from (found.side.named("side_force"), found.along.named("rod_force"))
+    memory, rod = moving.memory, moving.slave
+    couple = list(_couple(solved, moving, rod.own.length))
+    yield from couple
+    mass, accelerations = absent("knuckle_mass"), [absent(f"knuckle_acceleration_{one}") for one in "xy"]
+    if "knuckle_mass" in memory:
+        w, eps = moving.speed, moving.angular_acceleration
+        mass = memory["knuckle_mass"]
+        accelerations = [
+            forces.piston_acceleration(one.position_2, w, one.position_1, eps).named(f"knuckle_acceleration_{axis}")
+            for axis, one in zip("xy", rod.knuckle, strict=True)
+        ]
+        yield from accelerations
+    g = given("gravity", solved.method.gravity, "method.gravity") if solved.machine.has_gravity else absent("gravity")
+    lean_cos, lean_sin = origins.inclination(solved.machine)
+    dN, across = couple[-1] if couple else absent("side_force.couple"), memory.get("transverse_weight", absent(""))
+    held = KnuckleMass(mass, accelerations[0], accelerations[1], g, lean_cos, lean_sin, dN, across)
+    found = slave_forces(memory["piston_force"], moving.lengths, solved.slave, moving.angle, rod, held)
+    yield from (found.side.named("side_force"), found.along.named("rod_force"), *found.knuckle)
     yield from (found.radial.named("radial_force"), found.tangential.named("tangential_force"))
     yield from (found.couple.named("knuckle_couple"), found.master_side.named("knuckle_side_force"))
     torque = forces.crank_torque(found.tangential.named("tangential_force"), moving.lengths.crank_radius, absent(""))
     yield from (torque, (-torque).named("overturning_moment"))
-    if solved.machine.masses is not None:
-        mass = moving.memory["rotating_mass"]
-        yield forces.rotating_inertia_force(mass, moving.lengths.crank_radius, moving.speed)
 
 
 FACTORS = ("side_factor", "rod_factor", "radial_factor", "tangential_factor")

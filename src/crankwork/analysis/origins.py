@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from crankwork.dynamics.masses import CrankGearMasses, rod_big_end_mass, rod_inertia_excess, rod_small_end_mass
 from crankwork.dynamics.piston_forces import angular_speed
+from crankwork.formula.expression import Value
 from crankwork.formula.known import Found, Known, absent, given
 from crankwork.kinematics.slider_crank import SliderCrank, stroke_central, stroke_offset
 from crankwork.machine import Machine, Stated
@@ -92,8 +93,13 @@ def cycle_angle(machine: Machine) -> Known:
     return given("cycle_angle", math.radians(machine.cycle), path)
 
 
-def masses(machine: Machine, known: CrankGearMasses, area: Known | None, length: Known) -> Iterator[Known]:
-    """Yield the masses of piston and crank, the two of the rod, and its excess of inertia if it has one."""
+def masses(
+    machine: Machine, known: CrankGearMasses, area: Known | None, length: Value, table: str = "rod"
+) -> Iterator[Known]:
+    """Yield the masses of piston and crank, the two of the rod, and its excess of inertia if it has one.
+
+    `table`: where the rod is described, if it is not like the master rod.
+    """
 
     def mass(key: str, value: float, path: str) -> Known:
         stated, plain = _stated(machine, path), given(key, value, path)
@@ -104,35 +110,37 @@ def masses(machine: Machine, known: CrankGearMasses, area: Known | None, length:
 
     yield mass("piston_mass", known.piston, "piston.mass")
     yield mass("crank_mass", known.crank, "crank.mass")
-    small = mass("rod_small_end_mass", known.rod_small_end, "rod.small_end_mass")
-    big = mass("rod_big_end_mass", known.rod_big_end, "rod.big_end_mass")
-    excess = given("rod_inertia_excess", known.rod_inertia_excess, "rod.inertia")
-    stated = _stated(machine, "rod.mass")
+    small = mass("rod_small_end_mass", known.rod_small_end, f"{table}.small_end_mass")
+    big = mass("rod_big_end_mass", known.rod_big_end, f"{table}.big_end_mass")
+    excess = given("rod_inertia_excess", known.rod_inertia_excess, f"{table}.inertia")
+    stated = _stated(machine, f"{table}.mass")
     if stated is not None:
-        whole = mass("rod_mass", known.rod_small_end + known.rod_big_end, "rod.mass")
-        centre = _centre(machine, length)
+        whole = mass("rod_mass", known.rod_small_end + known.rod_big_end, f"{table}.mass")
+        centre = _centre(machine, length, table)
         small = _checked(rod_small_end_mass(whole, centre, length), small)
         big = _checked(rod_big_end_mass(whole, small), big)
-        excess = _excess(machine, whole, centre, length, excess)
+        excess = _excess(machine, (whole, centre, length), excess, table)
     yield from (small, big)
     if known.rod_inertia_excess:
         yield excess
 
 
-def _centre(machine: Machine, length: Known) -> Known:
+def _centre(machine: Machine, length: Value, table: str) -> Known:
     """Return the distance of the centre of mass of the rod from the crankpin."""
-    share, at = (_stated(machine, f"rod.{key}") for key in ("small_end_share", "centre_of_mass"))
+    share, at = (_stated(machine, f"{table}.{key}") for key in ("small_end_share", "centre_of_mass"))
     if share is not None:
-        return (given("small_end_share", share.value, "rod.small_end_share") * length).named("rod_centre_distance")
-    return given("rod_centre_distance", at.value if at is not None else 0.0, "rod.centre_of_mass")
+        distance: Known = given("small_end_share", share.value, f"{table}.small_end_share") * length
+        return distance.named("rod_centre_distance")
+    return given("rod_centre_distance", at.value if at is not None else 0.0, f"{table}.centre_of_mass")
 
 
-def _excess(machine: Machine, mass: Known, centre: Known, length: Known, excess: Known) -> Known:
-    inertia, radius = (_stated(machine, f"rod.{key}") for key in ("inertia", "radius_of_gyration"))
+def _excess(machine: Machine, rod: tuple[Known, Known, Value], excess: Known, table: str) -> Known:
+    mass, centre, length = rod
+    inertia, radius = (_stated(machine, f"{table}.{key}") for key in ("inertia", "radius_of_gyration"))
     if inertia is not None:
-        own = given("rod_inertia", inertia.value, "rod.inertia")
+        own = given("rod_inertia", inertia.value, f"{table}.inertia")
     elif radius is not None:
-        gyration = given("rod_gyration_radius", radius.value, "rod.radius_of_gyration")
+        gyration = given("rod_gyration_radius", radius.value, f"{table}.radius_of_gyration")
         own = (mass * gyration * gyration).named("rod_inertia")
     else:
         return excess

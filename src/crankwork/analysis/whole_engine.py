@@ -79,10 +79,8 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
     """
     whole = whole_engine(results.solved) if found is None else found.whole
     notices = [Notice(*one) for one in whole.engine.notices]
-    if any(whole.engine.slaves) and whole.masses.rod_inertia_excess:
+    if any(whole.engine.slaves) and whole.masses.rod_inertia_excess and whole.engine.slave_rod is None:
         notices.append(Notice("articulated_two_mass", {}))
-    if any(whole.engine.slaves) and whole.masses.rod_big_end:
-        notices.append(Notice("articulated_big_ends", {}))
     if len({one.position for one in whole.layout.places}) == 1 < len({one.throw for one in whole.layout.places}):
         notices.append(Notice("no_spacing", {}))
     firing = firing_memory(whole)
@@ -113,12 +111,17 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
     whole_values = {key: one for key, one in {**firing, **works}.items() if key in _WHOLE_VALUES}
     single = {**whole_values, **torque.summary, **bearing_summary(whole, loads)}
     summary = {key: one.value for key, one in single.items()}
+    thrown = dict[str, float]()
+    if any(whole.engine.slaves):
+        from crankwork.analysis.engine_routes import throw_residuals  # noqa: PLC0415 - few engines have such rods
+
+        thrown = throw_residuals(whole, memory)
     told = (*torque.notices, *_torque_against_cycle(results.summary, summary))
     return replace(
         results,
         columns={**results.columns, **columns},
         summary={**results.summary, **summary},
-        checks={**results.checks, **torque_checks(whole, torque), **balance_checks(whole, balance)},
+        checks={**results.checks, **torque_checks(whole, torque), **balance_checks(whole, balance), **thrown},
         allowed=_allowed(results),
         notices=(*results.notices, *notices, *told),
         groups={**results.groups, **groups},

@@ -1,7 +1,7 @@
 """Loads on crankpin, big end and small end.
 
 The load on a journal is the force on the journal, from rods or main bearing; that on a bearing is the force of
-the journal on it, the opposite. Frames are those of `load_vectors`; the speed is constant.
+the journal on it, the opposite. Frames are those of `load_vectors`.
 """
 
 from __future__ import annotations
@@ -19,10 +19,30 @@ def big_end_inertia_force(m_2: Value, r: Value, w: Value) -> Value:
     return -m_2 * r * w**2
 
 
+@formula("big_end_weight", "artobolevsky_1988, ch. 13")
+def big_end_weight(m_2: Value, g: Value, cos_phi: Value, cos_theta: Value, sin_phi: Value, sin_theta: Value) -> Value:
+    """Weight of the rod mass at the crankpin along the crank arm, positive towards the crankshaft."""
+    return m_2 * g * (cos_phi * cos_theta - sin_phi * sin_theta)
+
+
+@formula("big_end_tangential_force", "artobolevsky_1988, ch. 13")
+def big_end_tangential_force(  # noqa: PLR0913 - one argument per symbol
+    m_2: Value, g: Value, sin_phi: Value, cos_theta: Value, cos_phi: Value, sin_theta: Value, r: Value, eps: Value
+) -> Value:
+    """Weight of the rod mass at the crankpin across the crank arm, less what its angular acceleration takes."""
+    return m_2 * (g * (sin_phi * cos_theta + cos_phi * sin_theta) - r * eps)
+
+
 @formula("crankpin_radial_force", "kolchin_demidov_2008, ch. 7")
-def crankpin_radial_force(K: Value, K_Rb: Value) -> Value:
+def crankpin_radial_force(K: Value, K_Rb: Value, K_wb: Value) -> Value:
     """Load on the crankpin along the crank arm."""
-    return K + K_Rb
+    return K + K_Rb + K_wb
+
+
+@formula("crankpin_tangential_force", "kolchin_demidov_2008, ch. 7")
+def crankpin_tangential_force(T: Value, T_b: Value) -> Value:
+    """Load on the crankpin across the crank arm."""
+    return T + T_b
 
 
 @formula("crankpin_load", "kolchin_demidov_2008, ch. 7")

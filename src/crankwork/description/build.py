@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from crankwork.description.gas_build import ReadMeasured, build_gas
@@ -185,18 +186,35 @@ def _masses(
     piston, crank = mass.get(("piston", "mass"), 0.0), mass.get(("crank", "mass"), 0.0)
     rod = values.get("rod", {})
     if ("rod", "mass") not in mass:
-        for key in ("inertia", "radius_of_gyration", "centre_of_mass", "small_end_share"):
-            if key in rod and not reader.doubts("rod.mass"):
-                reader.complain(f"rod.{key}", Refusal("rod_mass_missing"))
+        check_rod_mass(rod, "rod", reader)
         small, big = (mass.get(("rod", key), 0.0) for key in rod_keys[1:])
         return CrankGearMasses(piston, small, big, crank)
-    centre = _centre_of_mass(rod, lengths[1], reader) if lengths else None
-    if lengths is None or centre is None:
+    ends = rod_masses(rod, mass["rod", "mass"], lengths[1], reader, "rod") if lengths else None
+    return replace(ends, piston=piston, crank=crank) if ends else None
+
+
+def rod_masses(
+    rod: Mapping[str, Any], mass: float, length: float, reader: Reader, table: str
+) -> CrankGearMasses | None:
+    """Return the masses of a rod at its ends and its excess of inertia, or None after complaints.
+
+    `table`: the key of the table that describes it.
+    """
+    centre = _centre_of_mass(rod, length, reader, table)
+    if centre is None:
         return None
-    total = mass["rod", "mass"]
-    small = float(rod_small_end_mass(total, centre, lengths[1]))
-    excess = _inertia_excess(rod, total, centre, lengths[1])
-    return CrankGearMasses(piston, small, float(rod_big_end_mass(total, small)), crank, excess)
+    small = float(rod_small_end_mass(mass, centre, length))
+    excess = _inertia_excess(rod, mass, centre, length)
+    return CrankGearMasses(
+        rod_small_end=small, rod_big_end=float(rod_big_end_mass(mass, small)), rod_inertia_excess=excess
+    )
+
+
+def check_rod_mass(rod: Mapping[str, Any], table: str, reader: Reader) -> None:
+    """Complain of what is said about the mass of a rod where that is not given."""
+    for key in ("inertia", "radius_of_gyration", "centre_of_mass", "small_end_share"):
+        if key in rod and not reader.doubts(f"{table}.mass"):
+            reader.complain(f"{table}.{key}", Refusal("rod_mass_missing"))
 
 
 def _mass(measure: Measure, area: float | None, key: str, reader: Reader) -> float:
@@ -210,17 +228,17 @@ def _mass(measure: Measure, area: float | None, key: str, reader: Reader) -> flo
     return measure.value * area
 
 
-def _centre_of_mass(rod: Mapping[str, Any], length: float, reader: Reader) -> float | None:
+def _centre_of_mass(rod: Mapping[str, Any], length: float, reader: Reader, table: str) -> float | None:
     """Return the distance of the rod's centre of mass from the crankpin."""
     if "small_end_share" in rod:
         return float(rod["small_end_share"] * length)
     if "centre_of_mass" not in rod:
-        if not reader.doubts("rod.centre_of_mass", "rod.small_end_share"):
-            reader.complain("rod.mass", Refusal("rod_mass_where"))
+        if not reader.doubts(f"{table}.centre_of_mass", f"{table}.small_end_share"):
+            reader.complain(f"{table}.mass", Refusal("rod_mass_where"))
         return None
     centre = float(rod["centre_of_mass"].value)
     if centre >= length:
-        reader.complain("rod.centre_of_mass", Refusal("rod_centre_beyond", length=length * 1e3))
+        reader.complain(f"{table}.centre_of_mass", Refusal("rod_centre_beyond", length=length * 1e3))
         return None
     return centre
 

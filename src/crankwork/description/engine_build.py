@@ -13,7 +13,9 @@ from crankwork.cylinders.firing import LayoutError, LayoutNotice
 from crankwork.cylinders.journal_loads import check_journals
 from crankwork.cylinders.layout import Banks, Layout
 from crankwork.cylinders.standard_orders import StandardOrder, standard_orders
+from crankwork.description.build import check_rod_mass, rod_masses
 from crankwork.description.schema import Reader
+from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.errors import CrankworkError, GeometryError
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.locale import Refusal
@@ -57,13 +59,15 @@ def build_engine(
         reader.complain(error.key, error.args[0])
         return None
     _check_places(layout, table, reader)
+    slaves = _slaves(table, layout, lengths, reader)
     sizes = values.get("bearings", {})
     balance = values.get("balance", {})
     if sizes.get("counterweight") and sizes["counterweight"].value and balance.get("rotating_share"):
         reader.complain("bearings.counterweight", Refusal("counterweight_twice"))
     return Engine(
         layout=layout,
-        slaves=_slaves(table, layout, lengths, reader),
+        slaves=slaves,
+        slave_rod=_slave_rod(table.get("articulated", {}), slaves, reader),
         bearings=Bearings(**{key: _value(sizes, key) for key in _SIZES}, rays=sizes.get("rays", 12)),
         counterweight=_value(sizes, "counterweight") or 0.0,
         rotating_share=balance.get("rotating_share", 0.0),
@@ -165,6 +169,18 @@ def _usual(table: Mapping[str, Any], strokes: int) -> StandardOrder | None:
         if fits and table.get("numbering", one.numbering) == one.numbering:
             return one
     return None
+
+
+def _slave_rod(
+    table: Mapping[str, Any], slaves: tuple[ArticulatedRod | None, ...], reader: Reader
+) -> CrankGearMasses | None:
+    """Return the masses of the articulated rods where they have their own."""
+    rod = next((one for one in slaves if one is not None), None)
+    if "mass" not in table:
+        check_rod_mass(table, "engine.articulated", reader)
+    if "mass" not in table or rod is None:
+        return None
+    return rod_masses(table, table["mass"].value, rod.length, reader, "engine.articulated")
 
 
 def _slaves(

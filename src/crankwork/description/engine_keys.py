@@ -23,6 +23,14 @@ _ARTICULATED = Table({
     "knuckle_angles": Key(ListOf(_ANGLE, fewest=1),
                           "of the knuckle pins from the master rod, by cylinder after the master; "
                           "by default the angles between the cylinders"),
+    "mass": Key(Quantity(("mass",), 0.0, 1e6), "mass of an articulated rod; by default its ends are those of the rod"),
+    "small_end_share": Key(Number(0.0, 1.0), "share of that mass at the piston pin",
+                           instead_of=("centre_of_mass",)),
+    "centre_of_mass": Key(_LENGTH, "distance of its centre of mass from the knuckle pin axis",
+                          instead_of=("small_end_share",)),
+    "inertia": Key(Quantity(("inertia",), 0.0, 1e6), "its moment of inertia about the centre of mass",
+                   instead_of=("radius_of_gyration",)),
+    "radius_of_gyration": Key(_LENGTH, "its radius of gyration about the centre of mass", instead_of=("inertia",)),
 })  # fmt: skip
 
 ENGINE = Table({

@@ -7,6 +7,8 @@ from crankwork.notation.argument import Argument
 ARGUMENTS: dict[str, Argument] = {
     "K": Argument("radial_force"),
     "K_Rb": Argument("big_end_inertia_force"),
+    "K_wb": Argument("big_end_weight"),
+    "T_b": Argument("big_end_tangential_force"),
     "P_p": Argument("piston_pin_force"),
     "F_wp": Argument("", "G_p", unit="N"),
     "sin_psi": Argument("crankpin_angle", "sin {}"),

@@ -24,4 +24,9 @@ ARGUMENTS: dict[str, Argument] = {
     "cos_beta_a": Argument("articulated_rod_angle", "cos {}"),
     "beta_a1": Argument("articulated_rod_angle", "{}′"),
     "M_a": Argument("knuckle_couple"),
+    "X_A": Argument("knuckle_force_x"),
+    "Y_A": Argument("knuckle_force_y"),
+    "a_Ax": Argument("knuckle_acceleration_x"),
+    "a_Ay": Argument("knuckle_acceleration_y"),
+    "m_2a": Argument("knuckle_mass"),
 }

@@ -6,6 +6,8 @@ from crankwork.quantities.quantity import Quantity
 
 ROWS = (
     # crankpin and big end
+    Quantity("big_end_weight", "N", "Weight of the rod mass at the crankpin, along the crank arm."),
+    Quantity("big_end_tangential_force", "N", "Weight and inertia of the rod mass there, across the crank arm."),
     Quantity("big_end_inertia_force", "N",
              "Along the crank arm, positive towards the crankshaft, so never positive itself.", "MPa"),
     Quantity("crankpin_radial_force", "N",

@@ -51,6 +51,11 @@ ROWS = (
     Quantity("master_sine", "", "Sine of the crank angle from the axis of the master cylinder."),
     Quantity("master_cosine", "", "Cosine of the crank angle from the axis of the master cylinder."),
     Quantity("articulated_rod_angle", "deg", "Angle between articulated rod and axis of its cylinder."),
+    Quantity("knuckle_mass", "kg", "Part of the mass of the articulated rod placed at the knuckle pin."),
+    Quantity("knuckle_acceleration_x", "m/s2", "Of the knuckle pin along the axis of its cylinder, towards the head."),
+    Quantity("knuckle_acceleration_y", "m/s2", "Of the knuckle pin across the axis of its cylinder."),
+    Quantity("knuckle_force_x", "N", "Of the articulated rod on its knuckle pin, along the axis of its cylinder."),
+    Quantity("knuckle_force_y", "N", "Of the articulated rod on its knuckle pin, across the axis of its cylinder."),
     Quantity("knuckle_couple", "N*m", "Moment of the force on the knuckle pin about the crankpin."),
     Quantity("knuckle_side_force", "N", "Side force of the master piston that holds the moment of the knuckle pin."),
 )  # fmt: skip

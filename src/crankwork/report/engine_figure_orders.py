@@ -118,10 +118,12 @@ def balance_orders(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
         "rotating": (balance.rotating,),
         "counterweights": (balance.counterweights,) if balance.weights else (),
         "balance_shafts": balance.shafts,
+        "knuckle_pins": balance.knuckles,
         "residual": balance.residual,
     }
     kinds = {name: parts for name, parts in kinds.items() if parts}
-    fills = [["reciprocating", "rotating", "balance_shafts", "counterweights", "residual"].index(one) for one in kinds]
+    order = ["reciprocating", "rotating", "balance_shafts", "counterweights", "residual", "knuckle_pins"]
+    fills = [order.index(one) for one in kinds]
     panels = ["force", "moment"] if engine.diagrams.is_spread else ["force"]
     texts = [say(f"report.{kind}", language) for kind in kinds]
     head = 13.4 * _swatch_lines(texts) + 5

@@ -16,7 +16,7 @@ from crankwork.report.language import key_unit, label, unit_name
 from crankwork.units import from_si
 
 # kinds of rows whose number is an order
-_BY_ORDER = ("reciprocating", "balance_shafts", "residual")
+_BY_ORDER = ("reciprocating", "knuckle_pins", "balance_shafts", "residual")
 
 
 def table_column(results: Results, key: str, *, per_area: bool = False) -> Array:
