@@ -37,7 +37,7 @@ def _swing(ratio=0.3, offset=0.0):
 
 
 def _crank_frame_load(radial, tangential, inertia):
-    return BearingLoad(-bearings.crankpin_radial_force(radial, inertia), tangential)
+    return BearingLoad(-bearings.crankpin_radial_force(radial, inertia, 0.0), tangential)
 
 
 def _close(one, other, tolerance=1e-13):

@@ -120,12 +120,22 @@ def places(adapter) -> Callable[[str], list[Place]]:
         file, _, method = machine.rpartition(".")
         at = functools.partial(adapter.values, HERE / f"{file}.toml", method.replace("-", ":"))
         today = at(frozen["degrees"])
-        assert {name: today["rows"].get(name) for name in frozen["rows"]} == frozen["rows"]
+        today = {**today, "listings": _rows_of_then(frozen, today)}
         assert not _keys(frozen) - _keys(today)
         found = list(compared(machine, frozen, today, adapter))
         return [one for one in found if not _is_of_an_equal_extreme(one, today, at)]
 
     return compare
+
+
+def _rows_of_then(frozen: Mapping[str, Any], today: Mapping[str, Any]) -> dict[str, Any]:
+    """Return today's listings with the rows that were frozen, in that order; there may be others now."""
+    found = dict(today["listings"])
+    for name, rows in frozen["rows"].items():
+        now = today["rows"][name]
+        assert set(rows) <= set(now), name
+        found[name] = {key: [column[now.index(row)] for row in rows] for key, column in found[name].items()}
+    return found
 
 
 def _is_of_an_equal_extreme(place: Place, today: Mapping[str, Any], at: Callable[[list[float]], Any]) -> bool:

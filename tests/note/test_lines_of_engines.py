@@ -179,7 +179,16 @@ def test_the_articulated_rod_is_that_of_the_second_cylinder(name, angle, lines_o
     assert math.asin(steps["rod_sine.articulated.2"].value) == pytest.approx(
         whole.each("rod_angle", [angle])[1, 0], rel=1e-12
     )
+    # what the piston does, and what the mass at the knuckle pin and its weight do as that moves
+    (x, y), mass = whole.cylinders[1].moving.slave.knuckle, whole.cylinders[1].machine.masses.rod_big_end
+    a_x, a_y = (steps[f"knuckle_acceleration_{axis}.2"].value for axis in "xy")
+    own = CrankGrid.from_degrees([angle - whole.layout.places[1].firing_angle])
+    along, across = (replay(one.position_1, own)[0] for one in (x, y))
     torque = steps["piston_force.2"].value * steps["piston_transfer_1.2"].value
+    torque -= mass * (a_x * along + a_y * across)
+    if MACHINES[name].has_gravity:
+        lean = math.radians(whole.layout.places[1].axis - whole.layout.places[0].axis)
+        torque -= mass * whole.master.method.gravity * (math.cos(lean) * along - math.sin(lean) * across)
     shown = lines_of(results, "engine_torque", 30.0, angle)
     assert shown["crank_torque.2"].value == pytest.approx(torque, rel=1e-9)
 
