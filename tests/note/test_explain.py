@@ -141,7 +141,7 @@ def test_an_articulated_rod_is_told_from_the_master_rod():
     assert any(one.startswith("  sin β_m = λ_m·sin φ_m = 0.25·0.984808 = ") for one in lines)
     assert any(one.startswith("  cos β_1 = √(1 − (sin β_1)²) = ") for one in lines)
     assert any(one.startswith("  β′_1 = y_A′/(l_1·cos β_1) = ") for one in lines)
-    assert any(one.startswith("  F_N = F_P·sin β_1/cos β_1 = ") for one in lines)
+    assert any(one.startswith("  Y_A = F_P·sin β_1/cos β_1 − m_2A·a_Ay = ") for one in lines)
     assert "  sin γ = sin 72° = 0.951057" in lines
     assert sum(one.startswith("  ΔF_N = ") for one in lines) == 1
     given = lines[lines.index("Given values") :]

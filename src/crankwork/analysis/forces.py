@@ -14,7 +14,12 @@ from crankwork.analysis.motion import (
 )
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import SolvedCylinder
-from crankwork.cylinders.articulated_forces import KnuckleMass, slave_forces
+from crankwork.cylinders.articulated_forces import (
+    KnuckleMass,
+    knuckle_acceleration_across,
+    knuckle_acceleration_along,
+    slave_forces,
+)
 from crankwork.cylinders.bearings import big_end_tangential_force, big_end_weight
 from crankwork.dynamics import piston_forces as forces
 from crankwork.dynamics.masses import CrankGearMasses, reciprocating_mass, rotating_mass
@@ -155,11 +160,11 @@ def _slave_forces(solved: SolvedCylinder, moving: MovingCylinder) -> Iterator[Kn
     yield from couple
     mass, accelerations = absent("knuckle_mass"), [absent(f"knuckle_acceleration_{one}") for one in "xy"]
     if "knuckle_mass" in memory:
-        w, eps = moving.speed, moving.angular_acceleration
+        w, eps, (x, y) = moving.speed, moving.angular_acceleration, rod.knuckle
         mass = memory["knuckle_mass"]
         accelerations = [
-            forces.piston_acceleration(one.position_2, w, one.position_1, eps).named(f"knuckle_acceleration_{axis}")
-            for axis, one in zip("xy", rod.knuckle, strict=True)
+            knuckle_acceleration_along(x.position_2, w, x.position_1, eps),
+            knuckle_acceleration_across(y.position_2, w, y.position_1, eps),
         ]
         yield from accelerations
     g = given("gravity", solved.method.gravity, "method.gravity") if solved.machine.has_gravity else absent("gravity")

@@ -11,6 +11,18 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank
 
 
+@formula("knuckle_acceleration_x", "artobolevsky_1988, ch. 5")
+def knuckle_acceleration_along(x_A2: Value, w: Value, x_A1: Value, eps: Value) -> Value:
+    """Acceleration of the knuckle pin along the cylinder axis, positive towards the head."""
+    return x_A2 * w**2 + x_A1 * eps
+
+
+@formula("knuckle_acceleration_y", "artobolevsky_1988, ch. 5")
+def knuckle_acceleration_across(y_A2: Value, w: Value, y_A1: Value, eps: Value) -> Value:
+    """Acceleration of the knuckle pin across the cylinder axis."""
+    return y_A2 * w**2 + y_A1 * eps
+
+
 @formula("knuckle_force_x", "taylor_1985, ch. 8")
 def knuckle_force_along(P: Value, m_2a: Value, a_Ax: Value, g: Value, cos_theta: Value) -> Value:
     """Force of the articulated rod on its knuckle pin along the cylinder axis, positive towards the head."""

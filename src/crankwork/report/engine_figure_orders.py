@@ -34,16 +34,16 @@ class _Bars(NamedTuple):
 
 
 def _fill(paper: Paper, corners: tuple[float, float, float, float], kind: int) -> None:
-    """Draw a bar from left, top, right, bottom [pt]: white, hatched, grey, dotted grey or black by its kind."""
+    """Draw a bar from left, top, right, bottom [pt]: white, hatched, grey, hatched back, black or hatched across."""
     left, top, right, bottom = corners
-    fill = ("#ffffff", "#ffffff", "#b0b0b0", "#ffffff", BLACK)[kind]
+    fill = ("#ffffff", "#ffffff", "#b0b0b0", "#ffffff", BLACK, "#ffffff")[kind]
     paper.area([left, right, right, left], [top, top, bottom, bottom], fill=fill, width=0.7)
-    if kind in (1, 3):
+    for slope in {1: (1,), 3: (-1,), 5: (1, -1)}.get(kind, ()):
         width = right - left
         rise = np.arange(top - width + 3.5, bottom, 3.5)
         start, end = np.maximum(rise, top), np.minimum(rise + width, bottom)
         a, b = left + (start - rise), left + (end - rise)
-        if kind == 3:
+        if slope < 0:
             a, b = right - (start - rise), right - (end - rise)
         paper.segments(np.column_stack([a, start, b, end]), width=0.5)
 
