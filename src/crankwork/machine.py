@@ -126,6 +126,9 @@ class Engine:
         The articulated rod of each cylinder, None where the rod turns on the crankpin; empty if none is articulated.
     slave_rod : CrankGearMasses or None
         Masses of such a rod, at its piston pin and at its knuckle pin; those of the master rod if they are not given.
+    offsets : tuple of float
+        Of each cylinder axis from the crankshaft axis, by number, positive towards the crankpin at 90 degrees; empty
+        if all have that of the crank gear. [m]
     bearings : Bearings
         Their sizes.
     counterweight : float
@@ -141,6 +144,7 @@ class Engine:
     layout: Layout
     slaves: tuple[ArticulatedRod | None, ...] = ()
     slave_rod: CrankGearMasses | None = None
+    offsets: tuple[float, ...] = ()
     bearings: Bearings = field(default_factory=Bearings)
     counterweight: float = 0.0
     rotating_share: float = 0.0

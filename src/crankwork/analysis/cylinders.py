@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.analysis.solved import SolvedCylinder, solve_slave
+from crankwork.analysis.solved import SolvedCylinder, solve, solve_slave
 from crankwork.cylinders.articulated import ArticulatedRod
 from crankwork.cylinders.layout import Layout, Place
 from crankwork.dynamics.masses import CrankGearMasses
@@ -16,6 +16,7 @@ from crankwork.formula.known import Known, delayed
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.machine import Engine, Machine
+from crankwork.mechanism.mechanism import slider_crank
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,6 +56,11 @@ class WholeEngine:
         return len(set(map(id, self.cylinders))) == 1
 
     @property
+    def moves_alike(self) -> bool:
+        """Whether the piston of every cylinder moves as that of the first does."""
+        return len({(one.lengths, one.slave) for one in self.cylinders}) == 1
+
+    @property
     def layout(self) -> Layout:
         """Where the cylinders stand and when they fire."""
         return self.engine.layout
@@ -91,8 +97,13 @@ def whole_engine(solved: SolvedCylinder) -> WholeEngine:
     for at in range(len(engine.layout.places)):
         kind = _kind(machine, engine, at)
         if kind not in kinds:
-            slave, lean, is_first = kind
-            alike = replace(solved, machine=_own_machine(machine, lean, slave, is_first=is_first))
+            slave, offset, lean, is_first = kind
+            own = _own_machine(machine, lean, slave, is_first=is_first)
+            if offset not in (None, solved.lengths.offset):
+                sizes = solved.lengths._replace(offset=offset)
+                kinds[kind] = solve(replace(own, mechanism=slider_crank(*sizes)), solved.method)
+                continue
+            alike = replace(solved, machine=own)
             kinds[kind] = alike if slave is None else solve_slave(alike, slave)
             if at == 0:
                 kinds[kind] = solved
@@ -100,17 +111,18 @@ def whole_engine(solved: SolvedCylinder) -> WholeEngine:
     return WholeEngine(machine, engine, cylinders)
 
 
-def _kind(machine: Machine, engine: Engine, at: int) -> tuple[ArticulatedRod | None, float, bool]:
-    """Return what tells a cylinder from the others: its rod and, where it matters, its lean and its share of a throw.
+def _kind(machine: Machine, engine: Engine, at: int) -> tuple[ArticulatedRod | None, float | None, float, bool]:
+    """Return what tells a cylinder from the others: rod, offset and, where they matter, lean and share of a throw.
 
     With weight or a changing speed a bank leans by its own angle, and the mass of a throw counts for the first
     cylinder on it only.
     """
     places, slave = engine.layout.places, engine.slaves[at] if engine.slaves else None
+    offset = engine.offsets[at] if engine.offsets else None
     if not (machine.has_gravity or machine.angular_acceleration):
-        return slave, 0.0, True
+        return slave, offset, 0.0, True
     first = next(one for one in places if one.crankpin == places[at].crankpin)
-    return slave, places[at].axis - places[0].axis, places[at] is first
+    return slave, offset, places[at].axis - places[0].axis, places[at] is first
 
 
 def _own_machine(machine: Machine, lean: float, slave: ArticulatedRod | None, *, is_first: bool) -> Machine:

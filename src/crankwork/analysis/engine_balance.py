@@ -98,7 +98,7 @@ def engine_balance(whole: WholeEngine) -> EngineBalance:
 def _harmonics(whole: WholeEngine) -> InertiaHarmonics:
     """Return the orders of the piston acceleration, of each cylinder where some rods are articulated."""
     lengths, method = whole.master.lengths, whole.master.method
-    if not any(whole.engine.slaves):
+    if whole.moves_alike:
         ratio = method.inertia_rod_ratio
         if ratio is not None and not method.is_exact:
             lengths = lengths._replace(rod_length=lengths.crank_radius / ratio)

@@ -50,9 +50,9 @@ def _intervals(whole: WholeEngine, found: Mapping[str, Known]) -> dict[str, Know
 
 
 def _sizes(whole: WholeEngine, found: Mapping[str, Known]) -> dict[str, Known]:
-    """Return the volume of all cylinders, and stroke and dead centre of each where rods are articulated."""
+    """Return the volume of all cylinders, and stroke and dead centre of each where pistons move differently."""
     result, numbered = dict[str, Known](), list(enumerate(whole.cylinders, start=1))
-    if any(one.slave is not None for one in whole.cylinders):
+    if not whole.moves_alike:
         for number, one in numbered:
             top = (whole.layout.places[number - 1].firing_angle + one.stroke[1]) % whole.layout.cycle
             lengths = SliderCrank(*(one.memory[key] for key in ("crank_radius", "rod_length", "offset")))
@@ -94,7 +94,7 @@ def work_memory(whole: WholeEngine, firing: Mapping[str, Known]) -> dict[str, Kn
 
 
 def firing_listing(whole: WholeEngine, firing: Mapping[str, Known]) -> Listing:
-    """Return where each cylinder stands and when it fires; of articulated rods also stroke and dead centre of each."""
+    """Return where each cylinder stands and fires; of pistons that move differently also stroke and dead centre."""
     numbers = [one.number for one in whole.layout.places]
     columns = {"cylinder_number": np.array(numbers, dtype=float)}
     for kind in (*_LISTED, *(_OF_SLAVES if "stroke.1" in firing else ())):

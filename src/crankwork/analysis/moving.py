@@ -96,4 +96,4 @@ def drawn_mechanism(machine: Machine) -> Mechanism:
     lengths = as_slider_crank(machine.mechanism) if machine.engine is not None else None
     if machine.engine is None or lengths is None:
         return machine.mechanism
-    return throw_mechanism(machine.engine.layout, lengths, machine.engine.slaves)
+    return throw_mechanism(machine.engine.layout, lengths, machine.engine.slaves, machine.engine.offsets)

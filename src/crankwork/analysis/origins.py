@@ -40,7 +40,13 @@ def lengths(machine: Machine, sizes: SliderCrank) -> SliderCrank:
         length = _checked(radius / given("rod_ratio", ratio.value, "rod.ratio"), length)
     elif ratio is not None:
         length = _checked(radius * given("inverse_rod_ratio", ratio.value, "rod.ratio"), length)
-    return SliderCrank(radius, length, given("offset", e, "cylinder.offset") if e else absent("offset"))
+    return SliderCrank(radius, length, given("offset", e, _offset_of(machine, e)) if e else absent("offset"))
+
+
+def _offset_of(machine: Machine, offset: float) -> str:
+    """Return where an offset is stated: of all cylinders, or of the first that has it."""
+    offsets = machine.engine.offsets if machine.engine is not None else ()
+    return f"engine.offsets[{offsets.index(offset) + 1}]" if offset in offsets else "cylinder.offset"
 
 
 def of_cycle(machine: Machine, key: str) -> Known | None:

@@ -38,17 +38,19 @@ def vee(  # noqa: PLR0913 - each argument is a key of the description
     strokes: int = 4,
     uneven: bool = False,
     articulated: bool = False,
+    own_throws: bool = False,
 ) -> tuple[Layout, tuple[LayoutNotice, ...]]:
-    """Return a V engine, two cylinders to a throw; throws [deg] and uneven intervals as for `arranged`.
+    """Return a V engine, two cylinders to a throw or `own_throws`; throws [deg] and uneven intervals as for `arranged`.
 
     The bank angle goes from the bank of cylinder 1 to the other, positive with the rotation [deg], the pin offset is
     how far the crankpins of the other bank are ahead on the same throw [deg]. Numbering is by `banks`, 1 to n/2 in the
     first, or by `pairs`, 1 and 2 on the first throw.
     """
     axes = (-bank_angle / 2, bank_angle / 2)
-    banks = Banks(
-        "V", cylinders, axes, spacing, bank_stagger, pin_offset, numbering, own_throws=False, articulated=articulated
-    )
+    if own_throws:
+        # cylinders of both banks take turns along the shaft
+        spacing, bank_stagger = 2 * spacing, bank_stagger or spacing
+    banks = Banks("V", cylinders, axes, spacing, bank_stagger, pin_offset, numbering, own_throws, articulated)
     return arranged(banks, order, strokes=strokes, throws=throws, uneven=uneven)
 
 

@@ -14,19 +14,26 @@ from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism
 _UP = math.pi / 2
 
 
-def throw_mechanism(layout: Layout, lengths: SliderCrank, slaves: Sequence[ArticulatedRod | None] = ()) -> Mechanism:
+def throw_mechanism(
+    layout: Layout,
+    lengths: SliderCrank,
+    slaves: Sequence[ArticulatedRod | None] = (),
+    offsets: Sequence[float] = (),
+) -> Mechanism:
     """Return the rods and pistons of the crankpin of cylinder 1, the crank turning clockwise.
 
     Crankpin A, piston pins B1, B2 ... and knuckle pins C2, C3 ... by the numbers of the cylinders; at a crank angle
     of zero the crank lies along the axis of cylinder 1. `lengths`: crank, rod and offset of every cylinder, of the
-    master where rods are articulated [m]; `slaves`: the articulated rod of each cylinder that has one.
+    master where rods are articulated [m]; `slaves`: the articulated rod of each cylinder that has one; `offsets`: of
+    each cylinder, if they differ [m].
     """
     places = [one for one in layout.places if one.crankpin == layout.places[0].crankpin]
     points, rods = [], []
     for place in places:
         slave = slaves[place.number - 1] if slaves else None
         axis = math.radians(place.axis)
-        joint, length, offset = "A", lengths.rod_length, lengths.offset
+        joint, length = "A", lengths.rod_length
+        offset = offsets[place.number - 1] if offsets else lengths.offset
         if slave is not None:
             angle = math.radians(slave.knuckle_angle)
             joint, length, offset = f"C{place.number}", slave.length, slave.offset

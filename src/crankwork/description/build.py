@@ -58,6 +58,8 @@ def build_machine(values: Mapping[str, Any], reader: Reader, read_measured: Read
         engine = build_engine(values, lengths, cycle, reader)
     if reader.problems or lengths is None:
         return None
+    if engine is not None and engine.offsets:
+        lengths = (*lengths[:2], engine.offsets[0])
     return Machine(
         mechanism=slider_crank(*lengths),
         speed=crank_speed(crank["speed"], method),

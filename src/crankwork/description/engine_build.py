@@ -17,7 +17,7 @@ from crankwork.description.build import check_rod_mass, rod_masses
 from crankwork.description.schema import Reader
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.errors import CrankworkError, GeometryError
-from crankwork.kinematics.slider_crank import SliderCrank
+from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
 from crankwork.locale import Refusal
 from crankwork.machine import Bearings, Engine
 
@@ -28,6 +28,7 @@ _ONLY_FOR = {
     "numbering": ("V", "boxer", "W"),
     "bank_stagger": ("V", "boxer", "W"),
     "articulated": ("V", "radial"),
+    "own_throws": ("V",),
 }
 _SIZES: tuple[str, ...] = (
     "crankpin_diameter",
@@ -67,6 +68,7 @@ def build_engine(
     return Engine(
         layout=layout,
         slaves=slaves,
+        offsets=_offsets(values, layout, lengths, reader),
         slave_rod=_slave_rod(table.get("articulated", {}), slaves, reader),
         bearings=Bearings(**{key: _value(sizes, key) for key in _SIZES}, rays=sizes.get("rays", 12)),
         counterweight=_value(sizes, "counterweight") or 0.0,
@@ -143,6 +145,7 @@ def _layout(table: Mapping[str, Any], strokes: int) -> tuple[Layout, tuple[Layou
         case "V":
             options |= {"bank_stagger": stagger or 0.0, "pin_offset": _degrees(table, "pin_offset")}
             angle = _degrees(table, "bank_angle")
+            options["own_throws"] = table.get("own_throws", False)
             return vee(cylinders, order, angle, throws=throws, articulated=articulated, **options)
         case "boxer":
             return boxer(cylinders, order, bank_stagger=stagger, throws=throws, **options)
@@ -169,6 +172,30 @@ def _usual(table: Mapping[str, Any], strokes: int) -> StandardOrder | None:
         if fits and table.get("numbering", one.numbering) == one.numbering:
             return one
     return None
+
+
+def _offsets(
+    values: Mapping[str, Any], layout: Layout, lengths: tuple[float, float, float] | None, reader: Reader
+) -> tuple[float, ...]:
+    """Return the offset of each cylinder where they differ; complain where one cannot turn."""
+    stated = values["engine"].get("offsets", ())
+    if not stated or None in stated or lengths is None:
+        return ()
+    offsets, count = [one.value for one in stated], len(layout.places)
+    if len(offsets) != count:
+        reader.complain("engine.offsets", Refusal("offsets_count", count=len(offsets), cylinders=count))
+        return ()
+    if "offset" in values.get("cylinder", {}):
+        reader.complain("engine.offsets", Refusal("same", others=["cylinder.offset"]))
+    if "articulated" in values["engine"]:
+        reader.complain("engine.offsets", Refusal("offsets_articulated"))
+    for number, offset in enumerate(offsets, start=1):
+        if not turns_fully(SliderCrank(*lengths[:2], offset)):
+            shown = {"length": lengths[1], "radius": lengths[0], "offset": abs(offset)}
+            missing = lengths[0] + abs(offset) - lengths[1]
+            told = {name: f"{one * 1e3:.6g}" for name, one in {**shown, "missing": missing}.items()}
+            reader.complain(f"engine.offsets[{number}]", Refusal("rod_short", **told))
+    return tuple(offsets)
 
 
 def _slave_rod(

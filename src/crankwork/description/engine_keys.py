@@ -48,6 +48,10 @@ ENGINE = Table({
     "spacing": Key(_LENGTH, "between neighbouring crank throws along the shaft"),
     "bank_stagger": Key(_SPACING, "between the rods of one throw along the shaft"),
     "uneven": Key(Flag(), "say true where uneven firing intervals are meant"),
+    "own_throws": Key(Flag(), "say true where every cylinder of a V has a throw of its own, as in a narrow one"),
+    "offsets": Key(ListOf(Quantity(("length",), -100.0, 100.0), fewest=1, most=28),
+                   "of each cylinder axis from the crankshaft axis, towards the crankpin at 90 degrees; "
+                   "by default that of the cylinder"),
     "articulated": Key(_ARTICULATED, "rods of a radial or V engine that turn on the master rod"),
 })  # fmt: skip
 
