@@ -164,7 +164,7 @@ def _data(
     if "power" in table:
         size["rounds_size"] = True
     else:
-        bore, stroke = _si(values.get("cylinder", {}), "bore"), _stroke(values.get("crank", {}))
+        bore, stroke = _si(values.get("cylinder", {}), "bore"), _stroke_of_piston(values)
         size |= {"bore": bore, "stroke": stroke} if bore and stroke else {}
     loss = table.get("mechanical_loss")
     lost = table.get("lost_stroke", _lost_stroke(values, timing) if angle == 360 else 0.0)
@@ -188,6 +188,25 @@ def _stroke(crank: Mapping[str, Any]) -> float | None:
     return _si(crank, "stroke")
 
 
+def _stroke_of_piston(values: Mapping[str, Any]) -> float | None:
+    """Return the stroke, longer than twice the crank radius where the cylinder axis passes the shaft."""
+    stroke, lengths = _stroke(values.get("crank", {})), _rod_of(values)
+    offsets = values.get("engine", {}).get("offsets") or [values.get("cylinder", {}).get("offset")]
+    offset = 0.0 if offsets[0] is None else float(offsets[0].value)
+    if stroke is None or not offset or not turns_fully(lengths := lengths._replace(offset=offset)):
+        return stroke
+    return float(lengths.stroke)
+
+
+def _rod_of(values: Mapping[str, Any]) -> SliderCrank:
+    """Return crank and rod on the axis; a radius of one where only their ratio is given."""
+    rod, stroke = values.get("rod", {}), _stroke(values.get("crank", {}))
+    radius, ratio = (stroke or 2.0) / 2, rod.get("ratio", 0.25)
+    if "length" in rod and stroke:
+        return SliderCrank(radius, float(rod["length"].value))
+    return SliderCrank(radius, radius * ratio if rod.get("ratio_definition") == "l/r" else radius / ratio)
+
+
 def _fuel(given: object) -> Fuel | None:
     """Return a fuel by name or by its composition."""
     if given is None:
@@ -205,12 +224,7 @@ def _fuel(given: object) -> Fuel | None:
 
 def _lost_stroke(values: Mapping[str, Any], timing: Timing) -> float:
     """Return the share of the stroke after the last port has shut, from the ratio of rod and crank."""
-    rod, closes = values.get("rod", {}), max(timing.intake_closes, timing.exhaust_closes)
-    ratio = rod.get("ratio", 0.25)
-    lengths = SliderCrank(1.0, ratio if rod.get("ratio_definition") == "l/r" else 1 / ratio)
-    stroke = _stroke(values.get("crank", {}))
-    if "length" in rod and stroke:
-        lengths = SliderCrank(stroke / 2, float(rod["length"].value))
+    closes, lengths = max(timing.intake_closes, timing.exhaust_closes), _rod_of(values)
     if not closes or not turns_fully(lengths):
         return 0.0
     bottom = dead_centres(lengths)[1]
