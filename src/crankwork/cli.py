@@ -287,7 +287,7 @@ def report(  # noqa: PLR0913 - one argument per option of the command
 @commands.command()
 @click.argument("file")
 @click.argument("key", required=False)
-@click.option("--at", metavar="DEG", help="Crank angle, for what varies with it.")
+@click.option("--at", metavar="DEG", help="Crank angle, or time where a law drives, for what varies with it.")
 @click.option("--list", "with_keys", is_flag=True, help="Print the keys.")
 @click.option("--method", metavar="NAME", help="exact, textbook or series:N, instead of the file's own.")
 @click.option("--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the output.")
@@ -310,8 +310,11 @@ def explain(  # noqa: PLR0913 - one argument per option of the command
 
     if key is None and not with_keys:
         raise CrankworkError(_refusal("explain_what"))
-    overrides, angle = _overrides(settings, None, method), None if at is None else _angle(at)
-    results = analyse(read(file, overrides))
+    overrides = _overrides(settings, None, method)
+    # what is no crank angle may be a time, which the machine knows
+    machine = read(file, overrides)
+    where = None if at is None else _at(at, "time" if machine.mechanism.driver.law else "angle")
+    results = analyse(machine)
     if key is None or with_keys:
         click.echo("\n".join(key_lines(results, language)))
         return
@@ -320,7 +323,7 @@ def explain(  # noqa: PLR0913 - one argument per option of the command
     def place(path: str, numbers: Iterable[float]) -> str:
         return place_text(origin(path, numbers), language)
 
-    click.echo(explanation(results, key, angle, language, place), nl=False)
+    click.echo(explanation(results, key, where, language, place), nl=False)
 
 
 @commands.command()
@@ -369,15 +372,16 @@ def _degrees(text: str) -> str:
     return f"{text} deg" if text.strip()[-1:].isdecimal() else text
 
 
-def _angle(text: str) -> float:
-    """Return a crank angle [deg], as a person writes it: without a unit, or with the decimal comma that is printed."""
+def _at(text: str, dimension: str) -> float:
+    """Return a crank angle [deg] or a time [s], as a person writes it: without a unit, or with a decimal comma."""
     from crankwork.units import parse
 
+    written = _degrees(text) if dimension == "angle" else f"{text} s" if text.strip()[-1:].isdecimal() else text
     try:
-        value, _ = parse(_degrees(text), ("angle",), decimal_comma=True)
+        value, _ = parse(written, (dimension,), decimal_comma=True)
     except ValueError as error:
         raise CrankworkError(_refusal("option_wrong", option="--at", mistake=error.args[0])) from None
-    return round(math.degrees(value), 9)
+    return round(math.degrees(value), 9) if dimension == "angle" else value
 
 
 def _with_progress(steps: Iterable[dict[str, bytes]], count: int) -> dict[str, bytes]:

@@ -29,11 +29,17 @@ from crankwork.kinematics.quality import FourBarType, grashof, limits_of_all, st
 from crankwork.loads.load import applied_loads
 from crankwork.locale import Refusal
 from crankwork.machine import Machine
+from crankwork.mechanism.driver import Law, LinkMotor
 from crankwork.mechanism.dyads import RRP, RRR
+from crankwork.mechanism.mechanism import Crank, Driver
 from crankwork.mechanism.structure import mobility
 
 _DENSE_STEP = 1.0
 _MOST_COEFFICIENTS = 10_000_000
+_OF_DRIVER = (
+    "driver_displacement", "driver_velocity", "driver_acceleration", "driver_angle", "driver_speed",
+    "driver_angular_acceleration", "driver_force", "driver_torque", "driver_power",
+)  # fmt: skip
 
 
 def reachable(machine: Machine, grid: CrankGrid) -> tuple[CrankGrid, tuple[Notice, ...]]:
@@ -41,6 +47,9 @@ def reachable(machine: Machine, grid: CrankGrid) -> tuple[CrankGrid, tuple[Notic
     try:
         linkage_motion(machine.mechanism, grid)
     except GeometryError as error:
+        # a law either passes what its linkage reaches, or has to be changed
+        if machine.mechanism.driver.law is not None:
+            raise
         status = linkage_motion(machine.mechanism, grid, partial=True).status
         reached = np.flatnonzero(status == 0) if status is not None else np.empty(0, dtype=int)
         if reached.size < 2:
@@ -53,7 +62,9 @@ def reachable(machine: Machine, grid: CrankGrid) -> tuple[CrankGrid, tuple[Notic
 
 def four_bar_type(machine: Machine) -> FourBarType | Literal[""]:
     """Return the type of a four-bar linkage by Grashof, empty for any other linkage."""
-    crank, ground = machine.mechanism.crank, machine.mechanism.ground
+    crank, ground = machine.mechanism.driver, machine.mechanism.ground
+    if not isinstance(crank, Crank):
+        return ""
     match machine.mechanism.dyads:
         case (RRR() as dyad,) if {dyad.joint_a, dyad.joint_b} & set(ground):
             coupler, rocker, fixed = dyad.length_a, dyad.length_b, dyad.joint_b
@@ -68,7 +79,10 @@ def running_at(solved: SolvedLinkage, motion: Motion) -> Running:
     machine = solved.machine
     loads = applied_loads(machine.mechanism, motion, machine.loads)
     loads = loads.also(solved.filling.loads(machine.mechanism, motion))
-    return Running(machine.mechanism, motion, solved.speed, loads, machine.angular_acceleration)
+    w, eps = solved.speed, machine.angular_acceleration
+    if motion.driver is not None:
+        _, w, eps = motion.driver
+    return Running(machine.mechanism, motion, w, loads, eps)
 
 
 def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
@@ -104,6 +118,8 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
         between |= turn.between
         notices += turn.notices
     summary |= transient_summary(machine)
+    if machine.mechanism.driver.law is not None:
+        notices += (Notice("by_law", {}),)
     columns = Program(memory)(grid)
     values = {key: one.value for key, one in summary.items()}
     memory |= {**summary, **between}
@@ -112,20 +128,17 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
 
 def _followed(memory: Mapping[str, Known]) -> list[str]:
     """Return the columns that single values are taken from."""
-    kinds = ("slider_displacement", "link_angle", "joint_force", "slider_velocity", "gas_pressure", "gas_force")
+    kinds = (
+        "slider_displacement", "link_angle", "joint_force", "slider_velocity", "gas_pressure", "gas_force", *_OF_DRIVER,
+    )  # fmt: skip
     return [key for key in memory if key in DYNAMICS or key.partition(".")[0] in kinds]
 
 
 def _summary(
     solved: SolvedLinkage, over: OverCycle, memory: Mapping[str, Known], *, is_whole: bool
 ) -> dict[str, Known]:
-    machine = solved.machine
-    result = {"rotational_speed": given("rotational_speed", machine.speed, "crank.speed"), "speed": speed_of(machine)}
-    if machine.angular_acceleration:
-        eps = given("angular_acceleration", machine.angular_acceleration, "crank.angular_acceleration")
-        result["angular_acceleration"] = eps
-    if machine.drive.efficiency != 1:
-        result["efficiency"] = efficiency_of(machine.drive)
+    machine, law = solved.machine, solved.machine.mechanism.driver.law
+    result = _given_values(machine)
     if is_whole:
         result |= _quality(machine, memory)
     keys = [key for key in over.knowns if not over.is_nothing(key)]
@@ -139,18 +152,46 @@ def _summary(
             if (swing := largest - least).value < math.pi:
                 result[f"link_swing.{name}"] = swing
         else:
-            words = ("max", "min") if key in DYNAMICS or kind == "gas_force" else ("max",)
-            found = (f"{kind}_{word}{angle}{dot}{name}" for word in words for angle in ("", "_angle"))
-            result |= {one: extremes[one] for one in found}
-    if (machine.loads or machine.chambers) and is_whole:
+            words = ("max", "min") if key in DYNAMICS or kind == "gas_force" or key in _OF_DRIVER else ("max",)
+            for word in words:
+                extreme = f"{kind}_{word}{dot}{name}"
+                result[extreme] = extremes[extreme]
+                angle = extremes[f"{kind}_{word}_angle{dot}{name}"]
+                result |= _at_time(extreme, angle, law) if law else {f"{kind}_{word}_angle{dot}{name}": angle}
+    if (machine.loads or machine.chambers) and is_whole and law is None:
         result["mean_torque"] = over.mean("static_torque", "mean_torque")
     result |= gas_summary(solved)
     return {key: one.named(key) for key, one in result.items()}
 
 
+def _given_values(machine: Machine) -> dict[str, Known]:
+    """Return the speed of a crank and what it is driven with, or the period of a law."""
+    law = machine.mechanism.driver.law
+    if law is not None:
+        return {"period": given("period", law.period, "driver.period")}
+    result = {"rotational_speed": given("rotational_speed", machine.speed, "crank.speed"), "speed": speed_of(machine)}
+    if machine.angular_acceleration:
+        eps = given("angular_acceleration", machine.angular_acceleration, "crank.angular_acceleration")
+        result["angular_acceleration"] = eps
+    if machine.drive.efficiency != 1:
+        result["efficiency"] = efficiency_of(machine.drive)
+    return result
+
+
+def _at_time(extreme: str, angle: Known, law: Law) -> dict[str, Known]:
+    """Return when an extreme stands, of which the angle of the period is known. [s]"""
+    kind, dot, name = extreme.partition(".")
+    key, node = f"{kind}_time{dot}{name}", angle.node
+    if not isinstance(node, Found) or node.at is None:
+        return {}
+    return {key: Known(Found(node.at / 360.0 * law.period, node.word.replace("angle", "time"), node.operands, node.at))}
+
+
 def _quality(machine: Machine, memory: Mapping[str, Known]) -> dict[str, Known]:
     """Return time ratios and the least transmission angles of a linkage that turns fully."""
     mechanism, result = machine.mechanism, {}
+    if mechanism.driver.law is not None:
+        return {}
     groups = [index for index, dyad in enumerate(mechanism.dyads) if isinstance(dyad, RRR | RRP)]
     pieces = [dyad.piece for dyad in mechanism.dyads if isinstance(dyad, RRP)]
     found = dict(zip(pieces, limits_of_all(mechanism, pieces), strict=True)) if pieces else {}
@@ -177,13 +218,24 @@ def _checks(solved: SolvedLinkage, grid: CrankGrid) -> dict[str, float]:
     some = _every(grid, len(solved.machine.drawn.members))
     part = running_at(solved, linkage_motion(solved.machine.mechanism, grid[some]))
     # forces that do no work balance each other to their own rounding, so a torque of zero is measured by them
-    turning = solved.machine.mechanism.crank.radius * max(float(np.max(pin.resultant)) for pin in found.pins.values())
+    sizes = [float(np.max(pin.resultant)) for pin in found.pins.values()]
+    turning = _lever(solved.machine.mechanism.driver) * max(sizes, default=0.0)
     scale = max(float(np.max(np.abs(reference))), turning) or 1.0
     apart = {
         name: route(part) - reference[some] if name == "whole_system" else route(running) - reference
         for name, route in ROUTES.items()
     }
     return {name: float(np.max(np.abs(one))) / scale for name, one in apart.items()}
+
+
+def _lever(driver: Driver) -> float:
+    """Return the length with which the force in a joint is a torque of the driver, or 1 where that is a force."""
+    match driver:
+        case Crank(radius=radius):
+            return radius
+        case LinkMotor(sides=sides):
+            return max(sides)
+    return 1.0
 
 
 class TorqueByRoutes(NamedTuple):
@@ -223,4 +275,4 @@ def _groups(columns: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
         "joint_forces": ("joint_force_x", "joint_force_y", "joint_force", "normal_force", "normal_moment"),
     }  # fmt: skip
     groups = {name: tuple(key for key in columns if key.partition(".")[0] in keys) for name, keys in kinds.items()}
-    return {"dynamics": DYNAMICS, **groups}
+    return {"driver": _OF_DRIVER, "dynamics": DYNAMICS, **groups}

@@ -12,14 +12,28 @@ from crankwork.dynamics.force_parts import balancing_torque_of_parts
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.link_loads import link_angular_acceleration
 from crankwork.dynamics.reaction import JointForces
-from crankwork.dynamics.reduction import dynamic_torque, kinetic_energy, reduced_inertia, reduced_torque, static_torque
+from crankwork.dynamics.reduction import (
+    driver_power,
+    dynamic_torque,
+    kinetic_energy,
+    reduced_inertia,
+    reduced_torque,
+    static_torque,
+)
 from crankwork.dynamics.running import Running
 from crankwork.formula.known import Found, Known, Pieces, absent, given
 from crankwork.kinematics import transfer as rates
 from crankwork.kinematics.memory import angle_of, course_of, given_mechanism
 from crankwork.kinematics.motion import Motion
+from crankwork.kinematics.motion_laws import clock
+from crankwork.kinematics.transfer import Transfer
 from crankwork.loads.load import applied_loads
 from crankwork.machine import Drive, Machine
+from crankwork.mechanism.driver import Law, LinkMotor
+from crankwork.mechanism.mechanism import Crank
+
+# what a driver gives, by whether it turns
+DRIVEN = {False: "driver_force", True: "driver_torque"}
 
 
 def linkage_memory(solved: SolvedLinkage, motion: Motion) -> dict[str, Known]:
@@ -29,6 +43,8 @@ def linkage_memory(solved: SolvedLinkage, motion: Motion) -> dict[str, Known]:
     remembered.
     """
     machine = solved.machine
+    if motion.driver is not None and machine.mechanism.driver.law is not None:
+        return {key: one.named(key) for key, one in _by_law(machine, motion, machine.mechanism.driver.law).items()}
     w, eps = (
         speed_of(machine),
         _stated("angular_acceleration", machine.angular_acceleration, "crank.angular_acceleration"),
@@ -38,6 +54,20 @@ def linkage_memory(solved: SolvedLinkage, motion: Motion) -> dict[str, Known]:
     if machine.mechanism.bodies or machine.loads or machine.chambers or machine.drive.inertia:
         columns |= _at_work(solved, motion, w, eps)
     return {key: one.named(key) for key, one in columns.items()}
+
+
+def _by_law(machine: Machine, motion: Motion, law: Law) -> dict[str, Known]:
+    """Return the columns of a linkage whose driver follows a law over time, with what the driver has to give."""
+    q, rate, second = motion.driver or Transfer(None, None, None)
+    columns = {"time": clock(law), **{one.key: one for one in (q, rate, second)}}
+    columns |= dict(_moving(machine, motion, rate, second))
+    if machine.mechanism.bodies or machine.loads:
+        mechanism = given_mechanism(machine.mechanism, machine.linkage)
+        loads = applied_loads(mechanism, motion, machine.loads)
+        found = joint_forces(Running(mechanism, motion, rate, loads, second))
+        driven = found.balancing_torque.named(DRIVEN[machine.mechanism.driver.turns])
+        columns |= {driven.key: driven, "driver_power": driver_power(driven, rate), **dict(_forces(machine, found))}
+    return columns
 
 
 def speed_of(machine: Machine) -> Known:
@@ -65,6 +95,7 @@ def _stated(key: str, value: float, path: str) -> Known:
 
 def _moving(machine: Machine, motion: Motion, w: Known, eps: Known) -> Iterator[tuple[str, Known]]:
     """Yield positions, velocities and accelerations of everything that moves."""
+    driver = machine.mechanism.driver
     for name, (x, y) in motion.points.items():
         if name in machine.mechanism.ground:
             continue
@@ -74,7 +105,7 @@ def _moving(machine: Machine, motion: Motion, w: Known, eps: Known) -> Iterator[
         second = rates.point_acceleration(x.position_2, w, x.position_1, eps, y.position_2, y.position_1)
         yield f"point_acceleration.{name}", second
     for name, one in motion.links.items():
-        if name != machine.mechanism.crank.link:
+        if name != driver.link or not isinstance(driver, Crank | LinkMotor):
             yield f"link_angle.{name}", one.position
             yield f"link_angular_velocity.{name}", rates.link_angular_velocity(one.position_1, w)
             turning = link_angular_acceleration(one.position_2, w, one.position_1, eps)
@@ -123,10 +154,11 @@ def _driving(static: Known, dynamic: Known, balancing: Known, drive: Drive, moti
 
 def _forces(machine: Machine, found: JointForces) -> Iterator[tuple[str, Known]]:
     """Yield the forces in joints and guides; the joint of crank and ground has the name of its fixed point."""
-    crank = machine.mechanism.crank
-    pivot = next((name for name, place in machine.mechanism.ground.items() if place == crank.pivot), "")
+    driver, pivot = machine.mechanism.driver, ""
+    if isinstance(driver, Crank):
+        pivot = next((name for name, place in machine.mechanism.ground.items() if place == driver.pivot), "")
     for joint, pin in found.pins.items():
-        name = pivot if pivot and joint == f"{crank.link}_pivot" else joint
+        name = pivot if pivot and joint == f"{driver.link}_pivot" else joint
         yield f"joint_force_x.{name}", pin.x
         yield f"joint_force_y.{name}", pin.y
         yield f"joint_force.{name}", pin.resultant

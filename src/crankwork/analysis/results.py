@@ -93,6 +93,15 @@ class Results:
         return method
 
     @property
+    def period(self) -> float:
+        """Period of the law that drives; zero where a crank turns at the angle of the tables. [s]"""
+        return self.machine.mechanism.driver.law.period if self.machine.mechanism.driver.law else 0.0
+
+    def degrees_of(self, at: float) -> float:
+        """Return the angle of the tables, at a crank angle [deg], or at a time where a law drives. [s] -> [deg]"""
+        return 360.0 * at / self.period if self.period else float(at)
+
+    @property
     def unmet(self) -> tuple[str, ...]:
         """The keys of the checks that are not met."""
         met = {key: value <= max(_ROUNDING, self.allowed.get(key, 0.0)) for key, value in self.checks.items()}
@@ -100,10 +109,9 @@ class Results:
 
     @property
     def tables(self) -> Mapping[str, tuple[str, ...]]:
-        """The keys of each table, crank angle first."""
-        present = {
-            name: ("crank_angle", *(key for key in keys if key in self.columns)) for name, keys in self.groups.items()
-        }
+        """The keys of each table, crank angle first, or the time where a law drives."""
+        first = "time" if "time" in self.columns else "crank_angle"
+        present = {name: (first, *(key for key in keys if key in self.columns)) for name, keys in self.groups.items()}
         return {name: keys for name, keys in present.items() if len(keys) > 1}
 
     def columns_at(self, angles: CrankGrid | ArrayLike, keys: Iterable[str] | None = None) -> dict[str, Array]:
@@ -157,7 +165,8 @@ class Results:
         key : str
             Key of a column, of a single value, or of what lies between them.
         at : float, optional
-            Crank angle, any within the cycle: columns are played again there, not interpolated. [deg]
+            Crank angle, any within the cycle: columns are played again there, not interpolated; the time where a
+            law drives. [deg] or [s]
 
         Returns
         -------
@@ -193,7 +202,7 @@ class Results:
         key : str
             As in `value`.
         at : float, optional
-            Crank angle of what varies. [deg]
+            Crank angle of what varies, or the time where a law drives. [deg] or [s]
         language : str
             `en`, `ru` or `vi`.
 
@@ -233,6 +242,12 @@ class Results:
 
     def _within(self, key: str, at: float | None) -> float:
         """Return a crank angle for what varies."""
+        if self.period:
+            if at is None:
+                raise CrankworkError(Refusal("time_missing", key=key, example=f"{self.period / 2:g}"))
+            if not 0 <= at <= self.period:
+                raise CrankworkError(Refusal("time_outside", time=at, period=self.period))
+            return self.degrees_of(at)
         if at is None:
             middle = float(self.grid.degrees[len(self.grid) // 2])
             raise CrankworkError(Refusal("angle_missing", key=key, example=f"{middle:g}"))

@@ -11,8 +11,9 @@ import numpy as np
 from crankwork.analysis.moving import Frame, Moving
 from crankwork.kinematics.crank_grid import Array
 from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.driver import Cylinder, DrivingSlider
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide, Point
-from crankwork.mechanism.mechanism import Mechanism
+from crankwork.mechanism.mechanism import Crank, Mechanism
 
 PIVOT = "crank pivot"
 _CATALOG = frozenset((
@@ -31,22 +32,29 @@ class Member(NamedTuple):
     points: tuple[str, ...]
     guide: Guide | None = None
     has_rod: bool = False
+    is_cylinder: bool = False  # Barrel and rod, from the first point to the second
 
 
 class Skeleton(NamedTuple):
     """A mechanism as it is drawn."""
 
-    members: tuple[Member, ...]  # Moving links, the crank first
-    pivots: Mapping[str, Point]  # Joints with the ground, that of the crank first [m]
+    members: tuple[Member, ...]  # Moving links, the driving one first
+    pivots: Mapping[str, Point]  # Joints with the ground, that of a crank first [m]
     # Points that are no joints: those that draw a path, and centres of mass
     coupler_points: tuple[str, ...]
     centres: tuple[str, ...]
     letters: Mapping[str, str]  # What is written at a point
+    pin: str = ""  # The pin of a crank, whose path is drawn too
 
     @property
-    def crank(self) -> Member:
-        """The driving link."""
+    def driver(self) -> Member:
+        """The driving link; of a motor between two the first."""
         return self.members[0]
+
+    @property
+    def traced(self) -> tuple[str, ...]:
+        """The points whose paths are drawn."""
+        return (*([self.pin] if self.pin else []), *self.coupler_points)
 
     def member(self, name: str) -> Member:
         """Return the moving link of a name."""
@@ -59,25 +67,40 @@ def skeleton(mechanism: Mechanism, links: Sequence[str] = ()) -> Skeleton:
     `links`: the moving links in the order of their numbers, as `Structure.links` gives them; group after group where
     it is left out.
     """
-    found = [one for group in mechanism.dyads for one in _members_of(group)]
-    pivot = next((name for name, at in mechanism.ground.items() if at == mechanism.crank.pivot), PIVOT)
-    crank = Member(mechanism.crank.link, 1, (pivot, mechanism.crank.pin))
-    numbers = {name: count for count, name in enumerate(links or [crank.name, *(one.name for one in found)], 1)}
-    further = {one.name: [p.name for p in mechanism.points if p.link == one.name] for one in (crank, *found)}
+    found = list(_driven_first(mechanism))
+    pin, crank_pivot = "", dict[str, Point]()
+    if isinstance(mechanism.driver, Crank):
+        pin, crank_pivot = mechanism.driver.pin, {found[0].points[0]: mechanism.driver.pivot}
+    numbers = {name: count for count, name in enumerate(links or [one.name for one in found], 1)}
+    further = {one.name: [p.name for p in mechanism.points if p.link == one.name] for one in found}
     members = tuple(
         one._replace(number=numbers.get(one.name, 0), points=tuple(dict.fromkeys([*one.points, *further[one.name]])))
-        for one in (crank, *found)
+        for one in found
     )
     owners = {name: sum(name in one.points for one in members) for one in members for name in one.points}
-    fixed = {pivot: mechanism.crank.pivot, **{name: at for name, at in mechanism.ground.items() if name in owners}}
+    fixed = {**crank_pivot, **{name: at for name, at in mechanism.ground.items() if name in owners}}
     massive = {one.start for one in mechanism.bodies if one.start == one.end}
     slides = {one.points[0] for one in members if one.guide and one.points}
     free = [name for name, count in owners.items() if count == 1 and name not in fixed and name not in slides]
-    free = [name for name in free if name != mechanism.crank.pin]
+    free = [name for name in free if name != pin]
     centres = tuple(name for name in free if name in massive)
     members = tuple(one._replace(points=tuple(p for p in one.points if p not in centres)) for one in members)
     couplers = tuple(name for name in free if name not in massive)
-    return Skeleton(members, fixed, couplers, centres, point_letters(mechanism, members, centres))
+    return Skeleton(members, fixed, couplers, centres, point_letters(mechanism, members, centres), pin)
+
+
+def _driven_first(mechanism: Mechanism) -> Iterator[Member]:
+    """Yield the links with the points and guides of the driver and the groups, the driving one first."""
+    driver, found = mechanism.driver, [one for group in mechanism.dyads for one in _members_of(group)]
+    match driver:
+        case Crank(pivot=at, link=link, pin=pin):
+            pivot = next((name for name, place in mechanism.ground.items() if place == at), PIVOT)
+            yield Member(link, 1, (pivot, pin))
+        case DrivingSlider(link=link, guide=guide):
+            yield Member(link, 1, (), guide)
+        case Cylinder(barrel=barrel, rod=rod, link=link):
+            yield Member(link, 1, (barrel, rod), is_cylinder=True)
+    yield from (one for one in found if one.name != driver.link)
 
 
 def _members_of(group: Dyad | Chain) -> Iterator[Member]:

@@ -15,6 +15,7 @@ from crankwork.analysis.linkage import reachable
 from crankwork.analysis.linkage_speed import transient_summary
 from crankwork.description.build import build_method, crank_speed
 from crankwork.description.chamber_build import build_chambers
+from crankwork.description.driver_build import build_law, check_driver, check_loads
 from crankwork.description.gas_build import ReadMeasured
 from crankwork.description.schema import Measure, Reader
 from crankwork.description.stated import stated_numbers
@@ -39,8 +40,9 @@ from crankwork.machine import Drive, Machine, TransferTable, Transient
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.decomposition import mechanism_of
 from crankwork.mechanism.description import linkage_from
+from crankwork.mechanism.driver import Law
 from crankwork.mechanism.dyads import RPR, RRP, RRR
-from crankwork.mechanism.linkage import Linkage
+from crankwork.mechanism.linkage import GROUND, Linkage
 from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.shaft.motor import AsynchronousMotor, GearedMotor
 
@@ -65,8 +67,9 @@ def build_linkage(values: Mapping[str, Any], reader: Reader, read_measured: Read
     """Return the linkage machine, or None after complaints."""
     if reader.problems:
         return None
-    tables = {name: _plain(values[name]) for name in _GEOMETRY if name in values}
-    tables["crank"] = {name: one for name, one in tables["crank"].items() if name not in _ELSEWHERE}
+    tables = _geometry(values, reader)
+    if reader.problems:
+        return None
     linkage, problems = linkage_from(tables)
     mechanism = None
     if linkage is not None:
@@ -78,6 +81,8 @@ def build_linkage(values: Mapping[str, Any], reader: Reader, read_measured: Read
         reader.complain("method.kinematics", Refusal("linkage_exact"))
     loads = _loads(values, linkage, reader)
     chambers, charges = build_chambers(values, linkage, reader, read_measured)
+    if "driver" in values:
+        check_loads(values, reader)
     drive = _drive(values, reader)
     transient = _transient(values, loads, reader)
     if reader.problems or mechanism is None or linkage is None:
@@ -85,11 +90,11 @@ def build_linkage(values: Mapping[str, Any], reader: Reader, read_measured: Read
     loads = _with_starts(loads, values, mechanism)
     if values.get("method", {}).get("weights"):
         loads = (*loads, Weight(method.gravity))
-    crank, table = values["crank"], values.get("table", {})
+    crank, table = values.get("crank", {}), values.get("table", {})
     machine = Machine(
         mechanism=mechanism,
         linkage=linkage,
-        speed=crank_speed(crank["speed"], method),
+        speed=crank_speed(crank["speed"], method) if "speed" in crank else 0.0,
         angular_acceleration=_value(crank, "angular_acceleration"),
         title=values.get("title", ""),
         loads=loads,
@@ -98,11 +103,30 @@ def build_linkage(values: Mapping[str, Any], reader: Reader, read_measured: Read
         drive=replace(drive, inertia=drive.inertia + _value(crank, "inertia")),
         transient=transient,
         method=method,
-        table_step=round(math.degrees(_value(table, "step", math.radians(10.0))), 9),
+        table_step=_table_step(_value(table, "step"), mechanism.driver.law),
         table_special=tuple(round(math.degrees(one.value), 9) for one in table.get("special_angles", []) if one),
         stated=stated_numbers(values),
     )
     return machine if _moves(machine, reader) and _is_filled(machine, values, reader) else None
+
+
+def _geometry(values: Mapping[str, Any], reader: Reader) -> dict[str, Any]:
+    """Return the tables that describe the linkage, and its driver with its law."""
+    tables = {name: _plain(values[name]) for name in _GEOMETRY if name in values}
+    if "crank" in tables:
+        tables["crank"] = {name: one for name, one in tables["crank"].items() if name not in _ELSEWHERE}
+    if "driver" in values:
+        check_driver(values, reader)
+        named = {name: one for name, one in values["driver"].items() if name not in ("start", "period")}
+        tables["driver"] = {**named, "law": build_law(values, reader)}
+    return tables
+
+
+def _table_step(given: float, law: Law | None) -> float:
+    """Return the step of the tables [deg], given as an angle, or as a part of the period of a law."""
+    if not given:
+        return 10.0
+    return round(math.degrees(given), 9) if law is None else min(360.0 * given / law.period, 360.0)
 
 
 def _decomposed(linkage: Linkage) -> tuple[Mechanism | None, list[Problem]]:
@@ -162,7 +186,8 @@ def _moves(machine: Machine, reader: Reader) -> bool:
         reached, _ = reachable(machine, grid)
         motion = linkage_motion(machine.mechanism, reached)
     except GeometryError as error:
-        reader.complain(_unassembled_key(machine, grid), error.args[0])
+        is_by_law = machine.mechanism.driver.law is not None
+        reader.complain("driver.law" if is_by_law else _unassembled_key(machine, grid), error.args[0])
         return False
     try:
         applied_loads(machine.mechanism, motion, machine.loads)
@@ -381,8 +406,8 @@ def _check_load(key: str, load: Mapping[str, Any], linkage: Linkage | None, read
 
 def _check_names(key: str, load: Mapping[str, Any], linkage: Linkage, reader: Reader) -> None:
     """Complain of sliders, links and points that are not there, and of a point that is not on the link."""
-    names = {"slider": {one.name for one in linkage.members if one.guide},
-             "link": {one.name for one in linkage.members} | {linkage.crank.link},
+    names = {"slider": {one.name for one in (*linkage.members, linkage.driving) if one.guide},
+             "link": {one.name for one in linkage.members} | linkage.base - {GROUND},
              "point": set(linkage.owners)}  # fmt: skip
     for name, known in names.items():
         if name in load and load[name] not in known:

@@ -3,9 +3,23 @@
 from __future__ import annotations
 
 import math
+from typing import get_args
 
 from crankwork.description.keys import MEASURED, METHOD, PIECE, POINT, TABLE
-from crankwork.description.schema import Choice, Key, ListOf, Named, NameOr, Nested, Number, Quantity, Table, Text
+from crankwork.description.schema import (
+    Choice,
+    Key,
+    ListOf,
+    Named,
+    NameOr,
+    Nested,
+    Number,
+    NumberOr,
+    Quantity,
+    Table,
+    Text,
+)  # fmt: skip
+from crankwork.mechanism.driver import LawKind
 
 _LENGTH = Quantity(("length",), 1e-6, 100.0)
 _COORDINATE = Quantity(("length",), -1e3, 1e3)
@@ -33,6 +47,30 @@ _CRANK = Table({
     "direction": Key(Choice(("anticlockwise", "clockwise")), "which way it turns"),
     "points": Key(Named(_PLACE), "further points: from the pivot towards the pin, and to the left of that"),
     "inertia": Key(_INERTIA, "moment of inertia about its axis, all that turns with it included"),
+})  # fmt: skip
+
+_COORDINATE_OF_DRIVER = Quantity(("length", "angle"), -1e3, 1e3)
+_TIME = Quantity(("time",), 1e-6, 1e6)
+
+_SEGMENT = Table({
+    "kind": Key(Choice(get_args(LawKind)), "how it moves", required=True),
+    "to": Key(_COORDINATE_OF_DRIVER, "the coordinate at its end; that of the beginning for a dwell"),
+    "over": Key(NumberOr(_TIME, Number(0.0, 1.0, above=True)), "its time, or its share of the period",
+                required=True, instead_of=("speed",)),
+    "speed": Key(Quantity(("velocity", "speed"), 0.0, 3e4, above=True), "rate of a constant one, in place of its time",
+                 instead_of=("over",)),
+    "ramp": Key(Number(0.0, 0.5, above=True), "of a trapezoidal velocity, the part that each ramp takes"),
+    "at": Key(ListOf(Number(0.0, 1.0)), "of a table, shares of the segment, rising between 0 and 1"),
+    "values": Key(ListOf(_COORDINATE_OF_DRIVER), "of a table, the coordinate there"),
+})  # fmt: skip
+
+_DRIVER = Table({
+    "slider": Key(_NAME, "the sliding piece on a fixed guide that drives"),
+    "cylinder": Key(ListOf(_NAME, fewest=2, most=2), "the two points that a driving cylinder joins"),
+    "between": Key(ListOf(_NAME, fewest=2, most=2), "the two moving links that a motor in their pin turns"),
+    "start": Key(_COORDINATE_OF_DRIVER, "its coordinate at the beginning; that of the end without"),
+    "law": Key(ListOf(_SEGMENT, fewest=1), "how its coordinate changes, segment after segment", required=True),
+    "period": Key(_TIME, "time of the whole law, where segments are shares of it"),
 })  # fmt: skip
 
 _LINK = Table({
@@ -178,6 +216,14 @@ LINKAGE_FILE = Table(
         "table": Key(TABLE, "the rows of the tables"),
     }
 )
+
+# a crank that follows a law has no speed of its own, and other drivers have no crank
+DRIVEN_FILE = Table({
+    **LINKAGE_FILE.keys,
+    "crank": Key(Table({name: key._replace(required=False) for name, key in _CRANK.keys.items()}), "the driving link"),
+    "driver": Key(_DRIVER, "what drives, and the law by which it moves", required=True),
+    "table": Key(Table({"step": Key(_TIME, "step of the tables")}), "the rows of the tables"),
+})  # fmt: skip
 
 _RATIOS = ListOf(Number(-1e3, 1e3), fewest=2)
 _BODY = Table(

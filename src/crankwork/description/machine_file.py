@@ -14,7 +14,7 @@ from crankwork import files
 from crankwork.analysis import solve
 from crankwork.description.build import build_machine
 from crankwork.description.keys import MACHINE_FILE, SIZED_FILE
-from crankwork.description.linkage_keys import LINKAGE_FILE, TRANSFER_FILE
+from crankwork.description.linkage_keys import DRIVEN_FILE, LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.locate import locate
 from crankwork.description.measured_file import read_measured
 from crankwork.description.schema import ListOf, Named, Nested, Reader, Table, is_one_line
@@ -90,7 +90,7 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
     def read_samples(table: Mapping[str, Any], one: Reader, path: str) -> MeasuredPressure | None:
         return read_measured(table, one, path, folder)
 
-    if keys is LINKAGE_FILE or keys is TRANSFER_FILE:
+    if keys in (LINKAGE_FILE, DRIVEN_FILE, TRANSFER_FILE):
         # an engine starts faster without this room
         from crankwork.description.linkage_build import (  # noqa: PLC0415 - loaded where it is needed
             build_linkage,
@@ -122,7 +122,7 @@ def file_keys(values: Mapping[str, Any]) -> Table:
     if "transfer" in values:
         return TRANSFER_FILE
     if any(name in values for name in _OF_LINKAGES):
-        return LINKAGE_FILE
+        return DRIVEN_FILE if "driver" in values else LINKAGE_FILE
     cycle = values.get("cycle")
     return SIZED_FILE if isinstance(cycle, dict) and "power" in cycle else MACHINE_FILE
 
@@ -290,7 +290,7 @@ def json_schema() -> str:
     schema = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "crankwork machine file",
-        "anyOf": [one.schema() for one in (MACHINE_FILE, SIZED_FILE, LINKAGE_FILE, TRANSFER_FILE)],
+        "anyOf": [one.schema() for one in (MACHINE_FILE, SIZED_FILE, LINKAGE_FILE, DRIVEN_FILE, TRANSFER_FILE)],
     }
     return json.dumps(schema, indent=2, ensure_ascii=False)
 

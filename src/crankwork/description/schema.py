@@ -299,6 +299,21 @@ class NameOr(NamedTuple):
         return {"anyOf": [{"type": "string"}, self.other.schema()]}
 
 
+class NumberOr(NamedTuple):
+    """A quantity with its unit, or a plain number."""
+
+    quantity: Quantity
+    number: Number
+
+    def read(self, value: object, key: str, reader: Reader) -> Measure | float | None:
+        """Return the quantity of a text and the number of a number."""
+        return (self.quantity if isinstance(value, str) else self.number).read(value, key, reader)
+
+    def schema(self) -> dict[str, Any]:
+        """Return the schema of either."""
+        return {"anyOf": [self.quantity.schema(), self.number.schema()]}
+
+
 class Named(NamedTuple):
     """A table whose keys are names of the user's own, all values of one kind."""
 

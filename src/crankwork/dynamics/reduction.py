@@ -48,6 +48,12 @@ def kinetic_energy(J: Value, w: Value) -> Value:
     return J * w**2 / 2
 
 
+@formula("driver_power", "artobolevsky_1988, ch. 15")
+def driver_power(Q_q: Value, v_q: Value) -> Value:
+    """Power of a driver."""
+    return Q_q * v_q
+
+
 @formula("dynamic_torque", "artobolevsky_1988, ch. 16")
 def dynamic_torque(w: Value, J_1: Value, J: Value, eps: Value) -> Value:
     """Torque that changes the speed of the masses."""

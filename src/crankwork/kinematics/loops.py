@@ -126,7 +126,7 @@ def _start(equations: ClosingEquations, surroundings: Surroundings) -> _Solution
     if not np.isfinite(q).all():
         raise GeometryError(
             Refusal(
-                "chain_unassembled",
+                "chain_unassembled" if chain.radian == 1.0 else "chain_unassembled_start",
                 links=equations.names,
                 angle=math.degrees(chain.start),
                 open=float(miss[0]) * 1e3,

@@ -57,7 +57,8 @@ def remembered_motion(mechanism: Mechanism, moved: Motion, linkage: Linkage | No
     """
     driver, reached = mechanism.driver, (float(moved.grid.degrees[0]), float(moved.grid.degrees[-1]))
     grid = _untyped(CrankAngle(start=reached[0], end=reached[1]))
-    at = grid if driver.law is None else _untyped(_coordinate(driver))
+    rates = None if driver.law is None else remembered_law(driver.law, turns=driver.turns)
+    at = grid if rates is None else _untyped(_coordinate(driver, rates.position))
     placed = place_at(given_mechanism(mechanism, linkage), at, plain=mechanism)
     links = {}
     for name, frame in placed.links.items():
@@ -68,24 +69,16 @@ def remembered_motion(mechanism: Mechanism, moved: Motion, linkage: Linkage | No
             turns = Known(HalfTurns(frame.sin, frame.cos, near), f"half_turns.{name}")
             angle = direction_of_slope(frame.sin, frame.cos, turns).named(f"link_angle.{name}")
             links[name] = Transfer(angle, frame.angle_1, frame.angle_2)
-    return Motion(grid, placed.points, links, placed.sliders, placed.links)
+    return Motion(grid, placed.points, links, placed.sliders, placed.links, rates)
 
 
-def _coordinate(driver: Driver) -> CrankAngle:
-    """Return the coordinate of a driver by its law, with the functions that an angle has."""
-    angle = rates_of(driver).position
+def _coordinate(driver: Driver, angle: Known) -> CrankAngle:
+    """Return the coordinate of a driver in place of an angle, with the functions that an angle has."""
     if not driver.turns:
         return CrankAngle(angle, angle, angle)
     return CrankAngle(
         angle, named(sine_of_direction(angle), "crank_sin"), named(cosine_of_direction(angle), "crank_cos")
     )
-
-
-def rates_of(driver: Driver) -> Transfer:
-    """Return coordinate, rate and second rate of a driver as knowns over the angle of its period."""
-    if driver.law is None:
-        raise TypeError(f"{driver.link} follows no law")
-    return remembered_law(driver.law, turns=driver.turns)
 
 
 def course_of(grid: Any) -> Callable[[Mapping[str, Known]], OverCycle]:  # noqa: ANN401 - typed as a grid

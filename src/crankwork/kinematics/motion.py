@@ -13,6 +13,7 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dyads import (
     LinkMotion,
 )
+from crankwork.kinematics.motion_laws import law_at
 from crankwork.kinematics.placement import Placed, assembled, place, reached
 from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.mechanism.mechanism import Mechanism
@@ -31,6 +32,8 @@ class Motion:
     sliders: Mapping[str, Transfer]  # Distance of each slider along its guide, arrays of shape (n,) [m]
     # Links and sliding pieces as frames, with origin and direction; empty where the motion comes from a table
     frames: Mapping[str, LinkMotion] = field(default_factory=dict)
+    # Coordinate of the driver, its rate and second rate, where a law moves it; columns or knowns
+    driver: Transfer | None = None
     # 0 where the crank gets, 1 where the mechanism cannot be assembled, 2 where it can, but not be reached, shape (n,)
     status: Status | None = None
 
@@ -77,12 +80,12 @@ def linkage_motion(mechanism: Mechanism, grid: CrankGrid, *, partial: bool = Fal
     a status at the others, instead of refusing.
     """
     if not partial:
-        return _as_motion(assembled(mechanism, grid), grid, np.zeros(len(grid), dtype=np.int8))
+        return _as_motion(mechanism, assembled(mechanism, grid), grid, np.zeros(len(grid), dtype=np.int8))
     placed = place(mechanism, grid)
-    return _as_motion(placed, grid, reached(mechanism, placed))
+    return _as_motion(mechanism, placed, grid, reached(mechanism, placed))
 
 
-def _as_motion(placed: Placed, grid: CrankGrid, status: Status) -> Motion:
+def _as_motion(mechanism: Mechanism, placed: Placed, grid: CrankGrid, status: Status) -> Motion:
     """Return the motion of what has been placed, NaN where the crank does not get."""
     lost = status != 0 if status.any() else None
 
@@ -100,7 +103,9 @@ def _as_motion(placed: Placed, grid: CrankGrid, status: Status) -> Motion:
         frames = {name: _masked(link, full) for name, link in frames.items()}
     sliders = {name: transfer(one) for name, one in placed.sliders.items()}
     links = {name: frame for name, frame in frames.items() if name not in sliders}
-    return Motion(grid, points, Directions(placed.grid, links), sliders, frames, status)
+    law = mechanism.driver.law
+    driver = None if law is None else law_at(law, grid)
+    return Motion(grid, points, Directions(placed.grid, links), sliders, frames, driver, status)
 
 
 def _masked(link: LinkMotion, full: Callable[[Array], Array]) -> LinkMotion:

@@ -260,15 +260,17 @@ def remembered_law(law: Law, *, turns: bool) -> Transfer:
     time, ends = clock(law), list[float]()
     columns: tuple[list[Known], ...] = ([], [], [])
     for number, one in enumerate(_ways(law), start=1):
-        origin = given(f"{keys[0]}.start_{number}", one.origin)
+        before, here = f"driver.law[{number - 1}]" if number > 1 else "driver", f"driver.law[{number}]"
+        origin = given(f"{keys[0]}.{number}", one.origin, f"{before}.{'to' if number > 1 else 'start'}")
         if not one.pieces:
             ends.append(one.end)
             for column, known in zip(columns, (origin, absent(keys[1]), absent(keys[2])), strict=True):
                 column.append(known)
             continue
         begins, lasts = (law.period * degrees / 360.0 for degrees in (one.start, one.end - one.start))
-        begin = given(f"start_time.{number}", begins) if begins else absent("start_time")
-        way, duration = given(f"{way_key}.{number}", one.way), given(f"segment_time.{number}", lasts)
+        begin = given(f"start_time.{number}", begins, f"{before}.over") if begins else absent("start_time")
+        way = given(f"{way_key}.{number}", one.way, f"{here}.to")
+        duration = given(f"segment_time.{number}", lasts, f"{here}.over")
         z = ((time - begin) / duration).named(f"time_share.{number}")
         for piece in one.pieces:
             f, f_1, f_2 = _normalised(piece, z)

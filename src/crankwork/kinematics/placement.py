@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -42,6 +43,7 @@ from crankwork.locale import Refusal
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide
+from crankwork.mechanism.joints import group_links
 from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
 from crankwork.mechanism.passage import Passage
 
@@ -231,9 +233,23 @@ def assembled(mechanism: Mechanism, grid: CrankGrid) -> Placed:
         return _assembled_at(mechanism, grid)
     passed = law_at(law, CrankGrid.steps(1.0, 360.0)).position
     # a coordinate that only rounding changes stands
-    if np.ptp(passed) > _STANDS * max(1.0, float(np.max(np.abs(passed)))):
-        _assembled_at(mechanism, CrankGrid.from_radians(np.linspace(passed.min(), passed.max(), passed.size)))
+    stands = np.ptp(passed) <= _STANDS * max(1.0, float(np.max(np.abs(passed))))
+    ways = passed[:1] if stands else np.linspace(passed.min(), passed.max(), passed.size)
+    whole = CrankGrid.from_radians(ways)
+    placed = place_at(mechanism, whole)
+    for index, (group, closure) in enumerate(zip(mechanism.dyads, placed.closures, strict=True)):
+        bad = unassembled(closure)
+        between = [angle for _, angle in singular_between(whole, closure, closure_of(mechanism, index))]
+        if bad is not None or between:
+            # what the driver meets first
+            lost = [*ways[bad if bad is not None else []].tolist(), *between]
+            raise _unreached(mechanism.driver, group, min(lost, key=lambda one: abs(one - law.start)))
     return place(mechanism, grid)
+
+
+def _unreached(driver: Driver, group: Dyad | Chain, at: float) -> GeometryError:
+    told, size = ("law_unreached_angle", math.degrees(at)) if driver.turns else ("law_unreached", at * 1e3)
+    return GeometryError(Refusal(told, links=", ".join(group_links(group)), at=size))
 
 
 def _assembled_at(mechanism: Mechanism, grid: CrankGrid) -> Placed:

@@ -85,7 +85,7 @@ def process_force(load: ProcessForce, motion: Motion, path: str = "") -> Applied
     start: Value = load.start
     if is_known(slide.position):
         start = given(f"slider_displacement.{load.slider}.start", start, f"{path}.start")
-    way = slide.position - start, slide.position_1
+    way = slide.position - start, _in_time(slide.position_1, motion)
     way = _Way(*(way if load.forward == 1 else (-way[0], -way[1])))
     force = _force(load, way, motion, (load.slider, path))
     return AppliedLoads((force_along_guide(motion, load.slider, -force if load.forward == 1 else force),))
@@ -98,9 +98,15 @@ def process_force_at_point(
     check_name("point", load.point, motion.points)
     x, y = motion.points[load.point]
     cos, sin = np.cos(load.direction), np.sin(load.direction)
-    way = _Way(x.position * cos + y.position * sin - load.start, x.position_1 * cos + y.position_1 * sin)
+    rate = _in_time(x.position_1 * cos + y.position_1 * sin, motion)
+    way = _Way(x.position * cos + y.position * sin - load.start, rate)
     force = -_force(load, way, motion, (load.point, path))
     return force_at(mechanism, motion, load.point, (force * cos, force * sin), load.link)
+
+
+def _in_time(rate: Value, motion: Motion) -> Value:
+    """Return a rate that has the sign of the velocity: by the driver's coordinate, which may go back."""
+    return rate if motion.driver is None else rate * motion.driver.position_1
 
 
 def _force(load: ProcessForce | ProcessForceAtPoint, way: _Way, motion: Motion, named_at: tuple[str, str]) -> Value:

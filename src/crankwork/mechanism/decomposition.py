@@ -158,11 +158,30 @@ class _Order:
         """Return the direction of the solved frame of a link at a crank angle of zero. [rad]"""
         return self._drawn_angle(link) + self.frames.get(link, ((0.0, 0.0), 0.0))[1]
 
-    def _drawn_angle(self, link: str, *, stated: bool = False) -> float:
-        """Return the direction of the drawn frame of a member at a crank angle of zero, stated or solved. [rad]"""
+    def _drawn_ends(self, cylinder: Member) -> dict[str, Point]:
+        """Return where the ends of a cylinder are drawn, as points of links that are."""
+        at, found = self.linkage.at_zero(), {}
+        for end in cylinder.points:
+            for name in self.linkage.owners[end]:
+                member = self.linkage.member(name) if name not in self.linkage.base else cylinder
+                drawn = [one for one in member.points if one in at][:2]
+                if end in at:
+                    found[end] = at[end]
+                elif len(drawn) == 2 and member is not cylinder:
+                    (x, y), angle = at[drawn[0]], self._drawn_angle(name, at)
+                    (u, v), cos, sin = (
+                        _difference(member.points[drawn[0]], member.points[end]),
+                        math.cos(angle),
+                        math.sin(angle),
+                    )
+                    found[end] = (x + u * cos - v * sin, y + u * sin + v * cos)
+        return found
+
+    def _drawn_angle(self, link: str, stated: Mapping[str, Point] | None = None) -> float:
+        """Return the direction of the drawn frame of a member at the beginning, from stated or solved places. [rad]"""
         if not link or link in self.linkage.base:
             return self.linkage.driving_frame[1] if link else 0.0
-        member, at = self.linkage.member(link), self.linkage.at_zero() if stated else self.at
+        member, at = self.linkage.member(link), self.at if stated is None else stated
         if member.guide:
             guide = self.linkage.guides[member.guide]
             return guide.angle + self._drawn_angle(guide.link)
@@ -174,10 +193,11 @@ class _Order:
 
     def _chain(self, members: list[Member], known: set[str]) -> Chain:
         """Return members that no dyad describes, with the start that the positions give."""
-        at = self.linkage.at_zero()
         links, slides = [], []
         for one in members:
             self.frames[one.name] = ((0.0, 0.0), 0.0)
+            # a cylinder is drawn where its ends are, which are points of other links
+            at = self._drawn_ends(one) if one.name == self.linkage.driver.link else self.linkage.at_zero()
             anchor = next((name for name in one.points if name in at), None)
             if anchor is None or (not one.guide and sum(name in at for name in one.points) < 2):
                 key = f"{'sliders' if one.guide else 'links'}.{one.name}"
@@ -185,7 +205,7 @@ class _Order:
                     Problem(key, Refusal("positions_needed", name=one.name, joints=", ".join(one.points)))
                 )
                 continue
-            angle, (u, v) = self._drawn_angle(one.name, stated=True), one.points[anchor]
+            angle, (u, v) = self._drawn_angle(one.name, at), one.points[anchor]
             cos, sin = math.cos(angle), math.sin(angle)
             origin = (at[anchor][0] - u * cos + v * sin, at[anchor][1] - u * sin - v * cos)
             links.append(ChainLink(one.name, origin, angle, dict(one.points)))

@@ -4,32 +4,37 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
+from itertools import product
 from typing import Any
 
 from crankwork.errors import Problem
 from crankwork.locale import Refusal
 from crankwork.mechanism.decomposition import mechanism_of
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor
 from crankwork.mechanism.dyads import Branch, Guide, Point
 from crankwork.mechanism.linkage import GROUND, Linkage, Member
-from crankwork.mechanism.mechanism import Crank, Mechanism
+from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
+from crankwork.mechanism.structure import structure
 
 Table = Mapping[str, Any]
 
-_TABLES = ("fixed_points", "crank", "links", "guides", "sliders", "branch", "positions")
+_TABLES = ("fixed_points", "crank", "driver", "links", "guides", "sliders", "branch", "positions")
 _CRANK = ("pivot", "pin", "radius", "start", "direction", "points")
 _MASS = ("mass", "inertia", "centre")
 _LINK = ("joins", "length", "points", *_MASS)
 _SLIDER = ("guide", "pin", "points", *_MASS)
 _GUIDE = ("through", "angle", "link")
+_DRIVERS = ("slider", "cylinder", "between")
+_DRIVER = (*_DRIVERS, "law")
 _DIRECTIONS: dict[str, Branch] = {"anticlockwise": 1, "clockwise": -1}
 
 
 def mechanism_from(tables: Table) -> tuple[Mechanism | None, list[Problem]]:
     """Return the mechanism that some tables describe, or every problem that is in them.
 
-    The mechanism where there is no problem. `tables`: tables `fixed_points`, `crank`, `links`, `guides`, `sliders`,
-    `branch`, `positions` with plain values in SI units, angles in radians.
+    The mechanism where there is no problem. `tables`: tables `fixed_points`, `crank` or `driver`, `links`, `guides`,
+    `sliders`, `branch`, `positions` with plain values in SI units, angles in radians; `driver.law` is a `Law`.
 
     Examples
     --------
@@ -72,15 +77,34 @@ class _Reader:
         """Return the linkage; it makes sense only if there are no problems."""
         self._known_keys("", self.tables, _TABLES)
         ground = {name: self._point(f"fixed_points.{name}", at) for name, at in self._table("fixed_points").items()}
-        crank, throws = self._crank(ground)
         positions = {name: self._point(f"positions.{name}", at) for name, at in self._table("positions").items()}
-        driving = Member(crank.link, throws)
-        drawn = Linkage(crank, ground, (), positions=positions, driving=driving).at_zero()
-        members = (*self._links(drawn), *self._sliders())
         guides = {name: self._guide(name, guide, ground) for name, guide in self._named("guides", _GUIDE)}
-        linkage = Linkage(crank, ground, members, guides, self._branches(), positions, driving)
+        law: Any = self._table("driver").get("law")
+        if "driver" in self.tables and law is None:
+            self._problem("driver.law", Refusal("law_missing"))
+            law = Law((), 1.0, 1.0)
+        named = [one for one in _DRIVERS if one in self._table("driver")]
+        sliders = tuple(self._sliders())
+        driver: Driver
+        if named:
+            self._known_keys("driver", self._table("driver"), _DRIVER)
+            if len(named) > 1 or "crank" in self.tables:
+                others = ", ".join([*named[1:], *(["crank"] if "crank" in self.tables else [])])
+                self._problem(f"driver.{named[0]}", Refusal("drivers_many", one=named[0], others=others))
+            driver, driving = self._driving_slider(sliders, guides, law)
+        else:
+            driver, throws = self._crank(ground, law)
+            driving = Member(driver.link, throws)
+        drawn = Linkage(driver, ground, (), positions=positions, driving=driving).at_zero()
+        links = tuple(self._links(drawn))
+        members = (*links, *(one for one in sliders if one.name != driving.name))
+        linkage = Linkage(driver, ground, members, guides, self._branches(), positions, driving)
         self._names(linkage)
-        return linkage
+        if self.problems or not named:
+            return linkage
+        if named[0] == "cylinder":
+            return self._with_cylinder(linkage, law)
+        return self._with_motor(linkage, law) if named[0] == "between" else linkage
 
     def _problem(self, key: str, message: str) -> None:
         self.problems.append(Problem(key, message))
@@ -137,7 +161,91 @@ class _Reader:
         self._problem(f"{key}.points", Refusal("be_coordinates"))
         return {}
 
-    def _crank(self, ground: Mapping[str, Point]) -> tuple[Crank, dict[str, Point]]:
+    def _driving_slider(
+        self, sliders: tuple[Member, ...], guides: Mapping[str, Guide], law: Law
+    ) -> tuple[DrivingSlider, Member]:
+        """Return the slider that drives, as a member; one that nothing hangs on where something else drives."""
+        name = self._table("driver").get("slider")
+        nobody = DrivingSlider("", Guide(), law), Member("", {})
+        if name is None:
+            return nobody
+        found = next((one for one in sliders if one.name == self._word("driver.slider", name)), None)
+        if found is None:
+            known = ", ".join(one.name for one in sliders)
+            self._problem("driver.slider", Refusal("absent_slider", name=str(name)[:40], known=known))
+            return nobody
+        guide = guides.get(found.guide, Guide())
+        if guide.link:
+            self._problem(
+                "driver.slider", Refusal("driven_on_link", name=found.name, guide=found.guide, link=guide.link)
+            )
+        return DrivingSlider(found.name, guide, law), found
+
+    def _two(self, key: str, known: Mapping[str, object] | set[str], refusal: str) -> tuple[str, str] | None:
+        """Return two different names of things that there are."""
+        names = self._table("driver")[key]
+        if not isinstance(names, list | tuple) or len(names) != 2 or not all(isinstance(one, str) for one in names):
+            self._problem(f"driver.{key}", Refusal("driver_two"))
+            return None
+        for name in names:
+            if name not in known:
+                self._problem(f"driver.{key}", Refusal(refusal, name=name[:40], known=", ".join(sorted(known))))
+        if names[0] == names[1]:
+            self._problem(f"driver.{key}", Refusal("driver_same", name=names[0][:40]))
+        return None if self.problems else (names[0], names[1])
+
+    def _with_cylinder(self, linkage: Linkage, law: Law) -> Linkage:
+        """Return a linkage with a link of changing length between two of its points."""
+        ends = self._two("cylinder", set(linkage.owners), "absent_point")
+        if ends is None:
+            return linkage
+        taken = {one.name for one in linkage.members}
+        name = next(one for one in ("cylinder", "hydraulic_cylinder", "cylinder_link") if one not in taken)
+        both = set(linkage.owners[ends[0]]) & set(linkage.owners[ends[1]])
+        if both:
+            told = Refusal("cylinder_idle", first=ends[0], second=ends[1], name=min(both))
+            self._problem("driver.cylinder", told)
+        member = Member(name, {ends[0]: (0.0, 0.0), ends[1]: (law.start, 0.0)})
+        members = (*linkage.members, member)
+        return replace(linkage, driver=Cylinder(*ends, law, name), members=members)
+
+    def _with_motor(self, linkage: Linkage, law: Law) -> Linkage:
+        """Return a linkage with the third side of the triangle that a motor between two links opens."""
+        links = self._two("between", {one.name for one in linkage.members if not one.guide}, "absent_link")
+        if links is None:
+            return linkage
+        first, second = (linkage.member(one) for one in links)
+        pin = next((name for name in first.points if name in second.points), "")
+        if not pin:
+            self._problem("driver.between", Refusal("motor_pin", first=first.name, second=second.name))
+            return linkage
+        drawn, found = linkage.at_zero(), []
+        for one, other in product(self._joints(linkage, first, pin), self._joints(linkage, second, pin)):
+            if not {one, other, pin} <= drawn.keys():
+                continue
+            sides = tuple(
+                math.dist(link.points[pin], link.points[end]) for link, end in ((first, one), (second, other))
+            )
+            (cx, cy), (ax, ay), (bx, by) = drawn[pin], drawn[one], drawn[other]
+            angle = math.remainder(math.atan2(by - cy, bx - cx) - math.atan2(ay - cy, ax - cx), math.tau)
+            a, b = sides
+            opened = angle + law.start
+            length = math.sqrt(max(a * a + b * b - 2 * a * b * math.cos(opened), 0.0))
+            motor = LinkMotor(links, pin, (a, b), angle, law)
+            member = Member(motor.link, {one: (0.0, 0.0), other: (length, 0.0)})
+            found.append(replace(linkage, driver=motor, members=(*linkage.members, member)))
+        if not found:
+            self._problem("driver.between", Refusal("motor_drawn", first=first.name, second=second.name, pin=pin))
+            return linkage
+        # of several third sides the one after which dyads are left
+        groups = [structure(one)[0] for one in found]
+        return next((one for one, made in zip(found, groups, strict=True) if made and made.number <= 2), found[0])
+
+    @staticmethod
+    def _joints(linkage: Linkage, member: Member, pin: str) -> list[str]:
+        return [name for name in member.points if name != pin and len(linkage.owners[name]) > 1]
+
+    def _crank(self, ground: Mapping[str, Point], law: Law | None) -> tuple[Crank, dict[str, Point]]:
         table = self._table("crank")
         self._known_keys("crank", table, _CRANK)
         pivot, pin = self._word("crank.pivot", table.get("pivot")), self._word("crank.pin", table.get("pin"))
@@ -151,7 +259,8 @@ class _Reader:
         radius = self._number("crank.radius", table.get("radius"), positive=True)
         start = self._number("crank.start", table.get("start", 0.0))
         sense = _DIRECTIONS.get(str(direction), 1)
-        return Crank(radius, ground.get(pivot, (0.0, 0.0)), start, sense, pin), self._points("crank", table)
+        pivoted = ground.get(pivot, (0.0, 0.0))
+        return Crank(radius, pivoted, start, sense, pin, law=law), self._points("crank", table)
 
     def _links(self, drawn: Mapping[str, Point]) -> Iterator[Member]:
         for name, table in self._named("links", _LINK):

@@ -11,6 +11,7 @@ from crankwork.errors import Problem
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import Known, given
 from crankwork.locale import Refusal
+from crankwork.mechanism.driver import Cylinder, LinkMotor
 from crankwork.mechanism.linkage import GROUND, Linkage, Member
 
 # sets of members looked at for one group; larger groups than any linkage has
@@ -32,9 +33,10 @@ class AssurGroup:
 class Structure:
     """Mobility and groups of a linkage."""
 
-    links: tuple[str, ...]  # Moving links, the crank first; their numbers in the formula
+    links: tuple[str, ...]  # Moving links, the driving ones first; their numbers in the formula
     joints: int  # Joints of one freedom, p5
     groups: tuple[AssurGroup, ...]  # Groups in the order in which they are solved
+    drive: tuple[str, str] = (GROUND, "")  # What the driver moves against each other; the first link by default
 
     @property
     def mobility(self) -> int:
@@ -49,8 +51,11 @@ class Structure:
     @property
     def formula(self) -> str:
         """The formula of structure, for example `I(0,1) -> II(2,3) -> II(4,5)`."""
-        return " -> ".join(["I(0,1)", *(
-            f"{_ROMAN[group.number]}({','.join(str(self.links.index(name) + 1) for name in group.members)})"
+        number = {GROUND: 0, "": 1, **{name: count for count, name in enumerate(self.links, start=1)}}
+        driven = f"I({','.join(str(number[name]) for name in self.drive)})"
+        # the third side of a triangle has no number
+        return " -> ".join([driven, *(
+            f"{_ROMAN[group.number]}({','.join(str(number[name]) for name in group.members if name in number)})"
             for group in self.groups
         )])  # fmt: skip
 
@@ -61,14 +66,29 @@ def mobility(linkage: Linkage) -> Known:
     `linkage`: crank, links and sliding pieces; a pin of k links counts k - 1 joints. Source: artobolevsky_1988, ch.
     2; Chebyshev's formula without higher pairs.
     """
-    links, joints = given("moving_links", 1.0 + len(linkage.members)), given("lower_pairs", float(_joints(linkage)))
+    links, joints = given("moving_links", float(len(_links(linkage)))), given("lower_pairs", float(_joints(linkage)))
     found: Known = chain_mobility(links, joints)
     return found
 
 
 def _joints(linkage: Linkage) -> int:
     pins = sum(len(owners) - 1 for owners in linkage.owners.values())
-    return 1 + pins + sum(1 for one in linkage.members if one.guide)
+    # that of the driver: a pivot, a guide, or barrel and rod; a motor sits in a pin, and its third side in none
+    own = -2 if isinstance(linkage.driver, LinkMotor) else 1
+    return own + pins + sum(1 for one in linkage.members if one.guide)
+
+
+def _links(linkage: Linkage) -> tuple[str, ...]:
+    """Return the moving links, the driving ones first: the rod of a cylinder is one, a third side is none."""
+    names = [one.name for one in linkage.members]
+    match linkage.driver:
+        case Cylinder(link=link):
+            names = [link, f"{link}_rod", *names]
+        case LinkMotor(link=link, links=links):
+            names = [*links, *(name for name in names if name != link)]
+        case _:
+            names = [linkage.driver.link, *names]
+    return tuple(dict.fromkeys(names))
 
 
 def structure(linkage: Linkage) -> tuple[Structure | None, list[Problem]]:
@@ -90,15 +110,17 @@ def structure(linkage: Linkage) -> tuple[Structure | None, list[Problem]]:
             return None, [Problem("", _too_free(linkage, rest))]
         if _Equations(linkage, solved).excess(found) > 0:
             return None, [Problem(_key(linkage, found[0]), _too_stiff(linkage, found))]
-        bearer = _only_bearer(linkage, found, bodies)
+        # a link of changing length moves its group, whatever bears it
+        bearer = "" if linkage.driver.link in found else _only_bearer(linkage, found, bodies)
         stuck = next((name for name in found if bearer and linkage.member(name).guide), None)
         if stuck is not None:
             return None, [Problem(_key(linkage, stuck), _too_still(stuck, found, bearer))]
         bodies |= {name: bearer or name for name in found}
         groups.append(AssurGroup(found, _class(linkage, found, solved)))
         solved |= set(found)
-    links = tuple(dict.fromkeys([linkage.driver.link, *names]))
-    return Structure(links, _joints(linkage), tuple(groups)), []
+    links, driver = _links(linkage), linkage.driver
+    drive = links[:2] if isinstance(driver, Cylinder | LinkMotor) else (GROUND, links[0])
+    return Structure(links, _joints(linkage), tuple(groups), (drive[0], drive[1])), []
 
 
 def _only_bearer(linkage: Linkage, some: tuple[str, ...], bodies: dict[str, str]) -> str:

@@ -23,6 +23,8 @@ ARGUMENTS: dict[str, Argument] = {
     "f_z1": Argument("way_share_1"),
     "f_z2": Argument("way_share_2"),
     "T_s": Argument("segment_time"),
+    "Q_q": Argument("driver_force"),
+    "v_q": Argument("driver_velocity"),
     "l_s": Argument("link_length", "{}₃"),
     "l_1": Argument("link_length_1"),
     "l_2": Argument("link_length_2"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import textwrap
 from collections.abc import Callable, Iterable, Iterator
+from typing import NamedTuple
 
 from crankwork.analysis.results import Results
 from crankwork.description.origins import Origin
@@ -54,29 +55,30 @@ def explanation(
 ) -> str:
     """Return how a value came about, down to what is given.
 
-    `key`: key of a column, of a single value, or of what lies between them; `at`: crank angle of what varies [deg];
+    `key`: key of a column, of a single value, or of what lies between them; `at`: crank angle [deg] or time [s] of what
+    varies;
     `place`: says where a value comes from that is said to stand at a path of the machine file.
     """
     value = results.value(key, at)
     known = results.memory.get(key)
-    degrees = 0.0 if at is None else float(at)
+    degrees, places = 0.0 if at is None else results.degrees_of(at), _Places(results.period, language)
     asked = known is not None and not known.varies
     explained = None if known is None else Explanation(known, degrees, type(results.grid).from_degrees)
     if known is not None and explained is not None and explained.moment(None).is_noise(known):
         value = 0.0
-    where = "" if at is None or asked else f"({_angle(degrees, language)})"
+    where = "" if at is None or asked else f"({places(degrees)})"
     shown = " = ".join([f"{value_symbol(key, language)}{where}", *_values(key, value, language)])
     head = [f"{capital(label(key, language)) if _has_label(key) else key}: {shown}"]
     if explained is None:
         return "\n".join([*head, "", say("explain.no_memory", language)]) + "\n"
-    return "\n".join([*head, *_Printed(explained, language, place)]) + "\n"
+    return "\n".join([*head, *_Printed(explained, places, place)]) + "\n"
 
 
 def key_lines(results: Results, language: Language = "en") -> list[str]:
     """Return the keys of results, each with its name; a column has its sign of varying with the crank angle."""
     keys = dict.fromkeys((*results.columns, *results.summary))
     wide = max(map(len, keys))
-    sign = f"({QUANTITIES['crank_angle'].symbol(language)})"
+    sign = f"({QUANTITIES['time' if results.period else 'crank_angle'].symbol(language)})"
     varying = {key for key in keys if key in results.columns and results.memory[key].varies}
     return [f"{key:<{wide}}  {sign if key in varying else '   '}  {label(key, language)}".rstrip() for key in keys]
 
@@ -101,11 +103,34 @@ def _values(key: str, value: float, language: Language) -> list[str]:
     return [value_text(one, unit, language) for one, unit in shown_values(ValueLine(key, value))]
 
 
+class _Places(NamedTuple):
+    """What angles of the tables are called: crank angles, or times where a law with a period drives. [s]"""
+
+    period: float
+    language: Language
+
+    def __call__(self, degrees: float) -> str:
+        """Return an angle of the tables as it is printed."""
+        if self.period:
+            return value_text(degrees / 360.0 * self.period, "s", self.language)
+        return _angle(degrees, self.language)
+
+    @property
+    def steady(self) -> str:
+        """The heading of what stands still."""
+        return say("explain.steady_time" if self.period else "explain.steady", self.language)
+
+    def at(self, degrees: float) -> str:
+        """Return the heading of what stands at an angle of the tables."""
+        return say("explain.at_time" if self.period else "explain.at", self.language, angle=self(degrees))
+
+
 class _Printed:
     """The lines below the value: of what does not vary, of each crank angle, what is given, sources."""
 
-    def __init__(self, explanation: Explanation, language: Language, place: Place) -> None:
-        self._explanation, self._language, self._place = explanation, language, place
+    def __init__(self, explanation: Explanation, places: _Places, place: Place) -> None:
+        self._explanation, self._language, self._place = explanation, places.language, place
+        self._places = places
         self._sources: dict[str, int] = {}
         self._own: dict[str, str] = {}
 
@@ -117,13 +142,13 @@ class _Printed:
         later = _later(made)
         steady = [one for one in made if id(one.known.node) not in later]
         moving = [one for one in made if id(one.known.node) in later]
-        yield from self._section("explain.steady", steady)
+        yield from self._section(self._places.steady, steady)
         here: float | None = None
         told: dict[str, None] = {}
         for one in moving:
             angle = self._angle_of(one)
             if angle is not None and angle != here:
-                yield from ("", say("explain.at", self._language, angle=_angle(angle, self._language)))
+                yield from ("", self._places.at(angle))
                 here, told = angle, {}
             lines = [line for line in self._lines([one]) if line not in told]
             told |= dict.fromkeys(lines)
@@ -141,7 +166,7 @@ class _Printed:
     def _section(self, title: str, some: Iterable[Explained]) -> Iterator[str]:
         lines = dict.fromkeys(self._lines(some))
         if lines:
-            yield from ("", say(title, self._language), *lines)
+            yield from ("", title, *lines)
 
     def _lines(self, some: Iterable[Explained]) -> Iterator[str]:
         for one in some:
@@ -186,7 +211,7 @@ class _Printed:
                 before = _angle((one.degrees - by) % cycle, language)
                 parts = [f"{parts[0]}({_angle(one.degrees, language)})", f"{self._symbol(of)}({before})"]
             case Found(word="at", operands=of, at=at) if at is not None:
-                parts += [f"{self._symbol(column)}({_angle(at, language)})" for column in of[:1]]
+                parts += [f"{self._symbol(column)}({self._places(at)})" for column in of[:1]]
             case Found(word="sine" | "cosine" as word, operands=(of,)):
                 of_degrees = _angle(float(from_si(of.value, "deg")), language)
                 parts.append(f"{'sin' if word == 'sine' else 'cos'} {of_degrees}")
@@ -211,7 +236,7 @@ class _Printed:
             if part.key and part.varies
         )
         words = say(f"memory.{word}", self._language)
-        where = "" if at is None else say("explain.where", self._language, angle=_angle(at, self._language))
+        where = "" if at is None else say("explain.where", self._language, angle=self._places(at))
         return f"{words}{f' ({columns})' if columns else ''}{where}"
 
     def _own_values(self, one: Explained) -> list[str]:
@@ -240,7 +265,7 @@ class _Printed:
     def _held(self, one: Explained) -> str:
         if one.stretch is None:
             return ""
-        start, end = (_angle(edge, self._language) for edge in one.stretch)
+        start, end = (self._places(edge) for edge in one.stretch)
         return f"   ({say('explain.holds', self._language, start=start, end=end)})"
 
     def _cited(self, source: str) -> str:

@@ -30,4 +30,8 @@ ROWS = (
     Quantity("link_length_2", "mm", "Second derivative of the length of a link by the coordinate of the driver."),
     Quantity("stretch_x", "mm", "What a link of changing length adds to the second derivative of its end, along x."),
     Quantity("stretch_y", "mm", "What a link of changing length adds to the second derivative of its end, along y."),
+    Quantity("driver_force", "N",
+             "Force with which a driver moves its mechanism, positive as its coordinate grows: of a cylinder pushing."),
+    Quantity("driver_torque", "N*m", "Torque with which a driver moves its mechanism, positive as its angle grows."),
+    Quantity("driver_power", "kW", "Force times velocity of the driver, or torque times angular velocity."),
 )  # fmt: skip

@@ -14,7 +14,7 @@ from crankwork.analysis.skeleton import skeleton
 from crankwork.errors import CrankworkError
 from crankwork.locale import capital, say
 from crankwork.machine import Machine
-from crankwork.mechanism.mechanism import Mechanism
+from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import Language
 from crankwork.report import drawing_parts as parts
@@ -55,12 +55,12 @@ def moving_drawing(
     if gear:
         drawn, reach, scale = engine_drawing(gear, moved, duration, still)
     else:
-        drawn, reach, scale = linkage_drawing(mechanism, skeleton(mechanism, links), moved, duration, still)
+        drawn, reach, scale = linkage_drawing(skeleton(mechanism, links), moved, duration, still)
     x, y, width, height = _view_box(reach)
     stage = Stage(scale, duration, still)
     foot = [
         parts.scale_bar(x + _MARGIN / 2, y + height - 16, scale, 0.3 * width, language),
-        _readout(x + width - _MARGIN / 2, y + height - 16, stage, language),
+        _readout(x + width - _MARGIN / 2, y + height - 16, stage, language, period_of(mechanism)),
     ]
     box = f"{x:.0f} {y:.0f} {width:.0f} {height:.0f}"
     head = (
@@ -81,16 +81,24 @@ def _view_box(reach: Box) -> tuple[float, float, float, float]:
     return left, top - _MARGIN, right - left, bottom - top + 2 * _MARGIN + _FOOTER
 
 
-def _readout(x: float, y: float, stage: Stage, language: Language) -> str:
-    """Write the crank angle, one text per step, each shown in its turn."""
+def period_of(mechanism: Mechanism) -> float:
+    """Return the period of the law that drives; zero where a crank turns all the time. [s]"""
+    return 0.0 if mechanism.driver.law is None else mechanism.driver.law.period
+
+
+def _readout(x: float, y: float, stage: Stage, language: Language, period: float) -> str:
+    """Write the crank angle or the time, one text per step, each shown in its turn."""
     count = 360 // _READOUT
     sign, unit = symbol("crank_angle", language), unit_name("deg", language)
+    if period:
+        sign, unit = symbol("time", language), f" {unit_name('s', language)}"
     texts = []
     for step in range(count):
         shown = ["hidden", "visible", "hidden"][0 if step else 1 : 3 if step < count - 1 else 2]
         times = [0.0, step / count, (step + 1) / count][0 if step else 1 : 3 if step < count - 1 else 2]
         angle = step * _READOUT
-        text = f'<tspan font-style="italic">{sign}</tspan> = {angle}{unit}'
+        shown_angle = number(angle * period / 360.0, language, digits=3) if period else angle
+        text = f'<tspan font-style="italic">{sign}</tspan> = {shown_angle}{unit}'
         turns = parts.animate("visibility", shown, stage, times=times)
         still = "visible" if angle == _STILL else "hidden"
         texts.append(f'<text x="{x:.1f}" y="{y:.1f}" visibility="{still}">{text}{turns}</text>')
@@ -106,7 +114,7 @@ def _title(title: str, language: Language) -> str:
 def _description(mechanism: Mechanism, language: Language, seconds: float, links: Sequence[str]) -> str:
     """Return the lengths in words, what the numbers stand for, and the time of a revolution."""
     gear = crank_gear(mechanism)
-    lengths = [("crank_radius", mechanism.crank.radius)]
+    lengths = [("crank_radius", mechanism.driver.radius)] if isinstance(mechanism.driver, Crank) else []
     lengths += [("rod_length", rod.length) for rod in (gear.rods if gear else ())]
     texts = [
         f"{label(key, language)} {number(displayed(key, value), language)} {unit_name(key_unit(key), language)}"
@@ -115,5 +123,6 @@ def _description(mechanism: Mechanism, language: Language, seconds: float, links
     if not gear:
         members = sorted(skeleton(mechanism, links).members, key=lambda one: one.number)
         texts += [f"{one.number} – {one.name}" for one in members]
-    texts.append(say("drawing.one_revolution", language, seconds=number(seconds, language)))
+    every = "one_period" if period_of(mechanism) else "one_revolution"
+    texts.append(say(f"drawing.{every}", language, seconds=number(seconds, language)))
     return html.escape(_NOT_XML.sub("", "; ".join(texts)))

@@ -45,10 +45,18 @@ def _is_angle(key: str) -> bool:
     return kind.endswith("_angle") and kind not in QUANTITIES
 
 
+def _is_time(key: str) -> bool:
+    """Return whether a derived key is the time of something."""
+    kind = key.partition(".")[0]
+    return kind.endswith("_time") and kind not in QUANTITIES
+
+
 def key_unit(key: str, *, per_area: bool = False) -> str:
     """Return the display unit of a key, a derived one such as `piston_force_max_angle` included."""
     if _is_angle(key):
         return "deg"
+    if _is_time(key):
+        return "s"
     row = QUANTITIES[base_key(key)]
     return row.per_area_unit if per_area and row.per_area_unit else row.unit
 
@@ -61,7 +69,7 @@ def displayed(key: str, value: float, *, per_area: float | None = None) -> float
 
 
 def _is_per_area(key: str) -> bool:
-    return not _is_angle(key) and bool(QUANTITIES[base_key(key)].per_area_unit)
+    return not _is_angle(key) and not _is_time(key) and bool(QUANTITIES[base_key(key)].per_area_unit)
 
 
 def label(key: str, language: Language) -> str:
@@ -82,6 +90,8 @@ def _label(key: str, language: Language) -> str:
         return QUANTITIES[key].label(language)
     if key.endswith(("_max_angle", "_min_angle")):
         return say("report.max_angle", language)
+    if key.endswith(("_max_time", "_min_time")):
+        return say("report.max_time", language)
     for suffix in ("max", "min", "error"):
         if key.endswith(f"_{suffix}"):
             return say(f"report.{suffix}", language, name=_label(key.removesuffix(f"_{suffix}"), language))
@@ -92,6 +102,8 @@ def symbol(key: str, language: Language) -> str:
     """Return the symbol of a key; derived keys get the mark of what they are."""
     if _is_angle(key):
         return QUANTITIES["crank_angle"].symbol(language)
+    if _is_time(key):
+        return QUANTITIES["time"].symbol(language)
     kind = key.partition(".")[0]
     if kind in QUANTITIES:
         return QUANTITIES[kind].symbol(language)

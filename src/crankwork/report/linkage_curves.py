@@ -30,6 +30,7 @@ from crankwork.report.linkage_look import (
     displayed_values,
     figure_look,
     over_drive_angle,
+    over_time,
     quantity_of,
 )
 
@@ -90,6 +91,7 @@ def _has_legend(quantities: Sequence[Quantity], style: Style) -> bool:
 
 
 def _draw(axes: Axes, degrees: Array, values: Sequence[tuple[Quantity, Array]], style: Style) -> None:
+    at = degrees * style.period / 360.0 if style.period else degrees
     lines = [
         Curve(row.symbol(style.language), row.label(style.language), displayed_values(row, column), _STYLES[i % 4])
         for i, (row, column) in enumerate(values)
@@ -97,8 +99,8 @@ def _draw(axes: Axes, degrees: Array, values: Sequence[tuple[Quantity, Array]], 
     first = values[0][0]
     unit = unit_name(first.unit, style.language)
     has_legend = _has_legend([row for row, _ in values], style)
-    draw_curves(axes, degrees, lines, one_row=not has_legend)
-    over_drive_angle(axes, float(degrees[-1]), style.language)
+    draw_curves(axes, at, lines, one_row=not has_legend)
+    (over_time if style.period else over_drive_angle)(axes, float(at[-1]), style.language)
     through_zero(axes, *(one.values for one in lines))
     if not has_legend:
         axes.set_ylabel(axis_title(first, style.language).replace(" $", "\n$", 1))

@@ -9,23 +9,21 @@ import numpy as np
 from crankwork.analysis import Array
 from crankwork.analysis.moving import Moving
 from crankwork.analysis.skeleton import Skeleton
-from crankwork.mechanism.mechanism import Mechanism
 from crankwork.report import drawing_parts as parts
 from crankwork.report.drawing_parts import Box, Stage
 from crankwork.report.linkage_labels import Label, labels
 from crankwork.report.linkage_scene import SLOT, Rail, Scene, Slot, scene
 
 _SIZE = 420.0
+_BARREL = 9.0
 _DOWN = np.array([1.0, -1.0])
 
 
-def linkage_drawing(
-    mechanism: Mechanism, shape: Skeleton, moving: Moving, duration: str, still: int
-) -> tuple[list[str], Box, float]:
+def linkage_drawing(shape: Skeleton, moving: Moving, duration: str, still: int) -> tuple[list[str], Box, float]:
     """Return the parts of the drawing, the box that holds them at all angles, and the scale in pixels per metre."""
     drawn, scale = scene(shape, moving, _SIZE)
     stage = Stage(scale, duration, still)
-    paths = [drawn.points[name] for name in (mechanism.crank.pin, *shape.coupler_points)]
+    paths = [drawn.points[name] for name in shape.traced]
     texts = labels(drawn, [path[::2] for path in paths])
     body = [
         *(parts.path(path * _DOWN) for path in paths),
@@ -54,14 +52,14 @@ def walls(rail: Rail) -> list[tuple[Array, Array]]:
 
 
 def _moving(drawn: Scene, stage: Stage) -> Iterator[str]:
-    """Draw what moves: rams, links, slots and the blocks in them, the crank, joints upon all."""
-    crank, points = drawn.skeleton.crank, drawn.points
+    """Draw what moves: rams, links, slots and the blocks in them, the driving link, joints upon all."""
+    driver, points = drawn.skeleton.driver, drawn.points
     for block in (one for one in drawn.blocks if one.is_still):
         yield parts.carried(
             stage, f"block {block.name}", block.pose.origin * _DOWN, block.pose.along * _DOWN, block.half
         )
     for bar in sorted(drawn.bars, key=lambda one: one.is_flat):
-        if bar.name == crank.name:
+        if bar.name == driver.name:
             continue
         nodes = [node * _DOWN for node in bar.nodes]
         yield (
@@ -74,11 +72,10 @@ def _moving(drawn: Scene, stage: Stage) -> Iterator[str]:
         yield parts.carried(
             stage, f"block {block.name}", block.pose.origin * _DOWN, block.pose.along * _DOWN, block.half
         )
-    for bar in (one for one in drawn.bars if one.name == crank.name):
-        nodes = [node * _DOWN for node in bar.nodes]
-        yield (
-            parts.link(stage, bar.name, nodes[0], nodes[1], 5.0) if bar.is_flat else parts.plate(stage, bar.name, nodes)
-        )
+    wide = _BARREL if driver.is_cylinder else 5.0
+    for bar in (one for one in drawn.bars if one.name == driver.name):
+        nodes, flat = [node * _DOWN for node in bar.nodes], bar.is_flat
+        yield parts.link(stage, bar.name, nodes[0], nodes[1], wide) if flat else parts.plate(stage, bar.name, nodes)
     for name in drawn.skeleton.letters:
         if name in drawn.skeleton.centres:
             yield parts.centre_of_mass(stage, points[name] * _DOWN)

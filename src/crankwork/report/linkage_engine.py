@@ -11,7 +11,7 @@ import numpy as np
 from crankwork.analysis.moving import Moving
 from crankwork.machine import Cylinder
 from crankwork.mechanism.dyads import RRP
-from crankwork.mechanism.mechanism import Mechanism
+from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.report import drawing_parts as parts
 from crankwork.report.drawing_parts import Box, Stage
 
@@ -31,6 +31,7 @@ def crank_gear(mechanism: Mechanism, cylinder: Cylinder | None = None, *, has_ga
     """Return the crank gear that a mechanism is, or None if it is another linkage."""
     rods = tuple(one for one in mechanism.dyads if isinstance(one, RRP))
     is_gear = len(rods) == len(mechanism.dyads) and not mechanism.points
+    is_gear = is_gear and isinstance(mechanism.driver, Crank)
     if is_gear and all(one.joint == mechanism.crank.pin and not one.guide_link for one in rods):
         return Gear(mechanism, rods, cylinder, has_gas)
     return None

@@ -35,6 +35,9 @@ def linkage_figures(results: Results, *, language: Language = "en") -> dict[str,
     style = style._replace(links=found.links if found is not None else ())
     degrees, is_whole = reached_angles(machine, _DENSE_STEP)
     known = results.columns_at(degrees)
+    if machine.mechanism.driver.law is not None:
+        style = style._replace(period=machine.mechanism.driver.law.period)
+        return _driver(degrees, known, style) | _sliders(degrees, known, style) | _dynamics(degrees, known, style)
     drawn = _plans(machine, degrees, results.solved.speed, style, is_whole=is_whole)
     drawn |= _sliders(degrees, known, style)
     drawn |= _dynamics(degrees, known, style)
@@ -54,6 +57,12 @@ def _plans(machine: Machine, degrees: Array, speed: float, style: Style, *, is_w
         "velocity_plan": velocity_plan(mechanism, moved, index, speed, style),
         "acceleration_plan": acceleration_plan(mechanism, moved, index, speed, eps, style),
     }
+
+
+def _driver(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[str, bytes]:
+    """Return coordinate and rates of the driver, its force or torque, its power."""
+    panels = [key for key in known if key.startswith("driver_")]
+    return {"driver": curves(degrees, known, panels, say("tables.driver", style.language), style)}
 
 
 def _sliders(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[str, bytes]:

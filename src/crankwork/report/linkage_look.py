@@ -27,6 +27,7 @@ class Style(NamedTuple):
     language: Language = "en"
     links: tuple[str, ...] = ()
     method: str = ""
+    period: float = 0.0  # Of the law that drives; curves are over time then, and not over the crank angle [s]
 
 
 PLAIN = Style()
@@ -72,6 +73,12 @@ def over_drive_angle(axes: Axes, end: float, language: Language) -> None:
     # a linkage has a crank, no crankshaft
     sign = math_symbol(QUANTITIES["crank_angle"].symbol(language))
     axes.set_xlabel(f"{say('drawing.angle_of_crank', language)} {sign}, °")
+
+
+def over_time(axes: Axes, end: float, language: Language) -> None:
+    """Make the horizontal axis the time from 0 to `end`. [s]"""
+    axes.set_xlim(0, end)
+    axes.set_xlabel(axis_title(QUANTITIES["time"], language))
 
 
 def round_scale(least: float) -> float:

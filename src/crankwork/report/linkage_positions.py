@@ -158,7 +158,7 @@ def _rectangle(axes: Axes, pose: Pose, half: tuple[float, float], at: int, fill:
 
 def _paths(sheet: _Sheet, names: Sequence[str]) -> None:
     """Draw the paths of the crank pin and of the coupler points."""
-    for name in (sheet.drawn.skeleton.crank.points[1], *names):
+    for name in (*([sheet.drawn.skeleton.pin] if sheet.drawn.skeleton.pin else []), *names):
         sheet.axes.plot(*sheet.drawn.points[name].T, color="black", linewidth=0.6, linestyle=DASH_DOT, zorder=3)
 
 
@@ -177,7 +177,7 @@ def _texts(sheet: _Sheet) -> None:
         lines.append((nodes[:, 0], nodes[:, 1]))
     lines += [_line(*wall) for rail in drawn.rails for wall in walls(rail)]
     lines += [_line(*wall) for rail in drawn.rails for wall in walls(rail._replace(half=rail.half + 5))]
-    numbered = [drawn.skeleton.crank.points[1]]
+    numbered = [drawn.skeleton.pin]
     numbered += [one.points[0] for one in drawn.skeleton.members if one.guide and not one.guide.link and one.points]
     numbered += drawn.skeleton.coupler_points[: max(_NUMBERED - len(numbered), 0)]
     points = [

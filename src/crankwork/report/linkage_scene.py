@@ -14,6 +14,8 @@ BLOCK = (14.0, 8.0)
 RAM = (22.0, 13.0)
 SLOT = 9.5
 _SLOT_SPARE, _RAIL_SPARE, _GAP = 18.0, 10.0, 1.5
+# of the shortest length of a cylinder, how far its rod reaches, and how much its barrel is longer than it must be
+_IN_BARREL, _SPARE_OF_BARREL = 0.85, 0.1
 _BUSHING, _BUSHING_CLEAR, _ROD_SPARE = 34.0, 30.0, 14.0
 
 
@@ -78,13 +80,25 @@ def scene(shape: Skeleton, moving: Moving, size: float) -> tuple[Scene, float]:
     points = {name: place * scale for name, place in metres.items()}
     drawn = Scene(shape, points, [], [], [], [])
     for one in shape.members:
-        if not one.guide:
+        if one.is_cylinder:
+            drawn.bars.extend(_cylinder(one.name, points[one.points[0]], points[one.points[1]]))
+        elif not one.guide:
             drawn.bars.extend(_bars(one.name, [points[name] for name in one.points]))
     scaled = [one.scaled(scale) for one in slides]
     _add_slots(drawn, [one for one in scaled if one.member.guide and one.member.guide.link])
     _add_rails(drawn, [one for one in scaled if one.member.guide and not one.member.guide.link])
     _add_stubs(drawn, scaled)
     return drawn, scale
+
+
+def _cylinder(name: str, barrel: Array, rod: Array) -> list[Bar]:
+    """Return a rod and the barrel that it moves in, which holds its end at every length."""
+    way = rod - barrel
+    length = np.hypot(way[:, :1], way[:, 1:])
+    inside = _IN_BARREL * float(length.min())
+    along = way / length
+    reach = min(float(length.max()) - inside + _SPARE_OF_BARREL * float(length.min()), float(length.min()))
+    return [Bar(f"{name}_rod", (rod - inside * along, rod)), Bar(name, (barrel, barrel + reach * along))]
 
 
 class _Slide(NamedTuple):

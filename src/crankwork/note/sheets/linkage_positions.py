@@ -35,7 +35,7 @@ def position_plans(shape: Skeleton, moving: Moving, plans: list[int], main: int,
     for at in plans:
         if at != plans[main]:
             items += _plan(drawn, at, middle, is_main=False)
-    for name in (shape.crank.points[1], *shape.coupler_points):
+    for name in shape.traced:
         items.append(Polyline(_placed(drawn.points[name], middle), "axis", name=f"path.{name}"))
     items += _plan(drawn, plans[main], middle, is_main=True)
     items += _names(drawn, plans, main, middle, (items, room))
@@ -132,7 +132,7 @@ def _names(drawn: Scene, plans: list[int], main: int, middle: Array, clear: tupl
             x, y = _placed(drawn.points[name][plans[main]], middle)
             letters.setdefault(letter, Named(printable(letter), (float(x), float(y))))
     named = names_beside(list(letters.values()), lines, room, height=TEXT, dot=0.0)
-    shown = [shape.crank.points[1], *shape.coupler_points]
+    shown = list(shape.traced)
     shown += [one.points[0] for one in shape.members if one.guide and not one.guide.link and one.points]
     points = []
     for name in dict.fromkeys(shown):
