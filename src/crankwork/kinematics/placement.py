@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.errors import GeometryError
-from crankwork.formula.known import Root, absent, is_known
+from crankwork.formula.known import Root, absent, is_known, named
 from crankwork.kinematics.assembly import refusal, singular_between, unassembled
 from crankwork.kinematics.bridges import over_bridges, passed_branch
 from crankwork.kinematics.chain_memory import remembered_chain
@@ -127,7 +127,7 @@ def _place_driver(driver: Driver, placed: Placed) -> None:
             placed.sliders[piece] = way
             placed.links[piece] = line._replace(origin=named_point(point_on_guide(line, way), piece))
         case Cylinder(link=link):
-            placed.lengths[link] = way
+            placed.lengths[link] = way._replace(position=named(way.position, f"link_length.{link}"))
         case LinkMotor(link=link):
             placed.lengths[link] = third_side_motion(driver, grid)
 

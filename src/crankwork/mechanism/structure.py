@@ -66,7 +66,7 @@ def mobility(linkage: Linkage) -> Known:
     `linkage`: crank, links and sliding pieces; a pin of k links counts k - 1 joints. Source: artobolevsky_1988, ch.
     2; Chebyshev's formula without higher pairs.
     """
-    links, joints = given("moving_links", float(len(_links(linkage)))), given("lower_pairs", float(_joints(linkage)))
+    links, joints = given("moving_links", float(len(links_of(linkage)))), given("lower_pairs", float(_joints(linkage)))
     found: Known = chain_mobility(links, joints)
     return found
 
@@ -78,7 +78,7 @@ def _joints(linkage: Linkage) -> int:
     return own + pins + sum(1 for one in linkage.members if one.guide)
 
 
-def _links(linkage: Linkage) -> tuple[str, ...]:
+def links_of(linkage: Linkage) -> tuple[str, ...]:
     """Return the moving links, the driving ones first: the rod of a cylinder is one, a third side is none."""
     names = [one.name for one in linkage.members]
     match linkage.driver:
@@ -118,7 +118,7 @@ def structure(linkage: Linkage) -> tuple[Structure | None, list[Problem]]:
         bodies |= {name: bearer or name for name in found}
         groups.append(AssurGroup(found, _class(linkage, found, solved)))
         solved |= set(found)
-    links, driver = _links(linkage), linkage.driver
+    links, driver = links_of(linkage), linkage.driver
     drive = links[:2] if isinstance(driver, Cylinder | LinkMotor) else (GROUND, links[0])
     return Structure(links, _joints(linkage), tuple(groups), (drive[0], drive[1])), []
 

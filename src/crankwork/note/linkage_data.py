@@ -8,9 +8,12 @@ from collections.abc import Iterator
 from crankwork.analysis.linkage import four_bar_type
 from crankwork.analysis.stated import StatedLoad, stated_loads
 from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.driver import Cylinder
 from crankwork.mechanism.dyads import PRP, RRP, RRR, Dyad
 from crankwork.mechanism.joints import Pin, joints
 from crankwork.mechanism.linkage import GROUND, Member
+from crankwork.mechanism.mechanism import Crank
+from crankwork.mechanism.structure import links_of
 from crankwork.note.document import Block, ItemList, Runs, Table
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_tables import equations
@@ -37,11 +40,10 @@ def task(material: Material) -> Iterator[Block]:
     )
     if machine.angular_acceleration:
         yield words.paragraph("acceleration", value=words.amount(machine.angular_acceleration, "rad/s2"))
-    yield _links(material)
-    yield from _places(material)
+    yield from links_and_places(material)
     if machine.loads:
         yield words.paragraph("outer_loads")
-        yield ItemList(tuple(_load(one, words) for one in stated_loads(machine)))
+        yield ItemList(tuple(outer_load(one, words) for one in stated_loads(machine)))
     elif machine.mechanism.bodies:
         yield words.paragraph("no_loads")
     if machine.drive.inertia:
@@ -63,12 +65,22 @@ def method(material: Material) -> Block:
     )
 
 
+def links_and_places(material: Material) -> Iterator[Block]:
+    """Yield tables of the links, the fixed points and the guides."""
+    yield _links(material)
+    yield from _places(material)
+
+
 def _links(material: Material) -> Table:
     """Return links and sliding pieces with their masses."""
     words, linkage = material.words, material.machine.drawn
     owners = linkage.owners
     rows = []
-    for number, one in enumerate(linkage.members, start=2):
+    numbers = {name: number for number, name in enumerate(links_of(linkage), start=1)}
+    for one in linkage.members:
+        if one.name not in numbers or one.name == linkage.driver.link:
+            continue
+        number = numbers[one.name]
         shared = [name for name in one.points if len(owners[name]) > 1]
         rows.append((
             str(number), one.name, ", ".join(shared), _length(one, shared, words),
@@ -119,7 +131,8 @@ def _places(material: Material) -> Iterator[Table]:
         yield Table(words.caption("guides"), (*titles, (words.column("angle"),)), lines, align="ccrrr")
 
 
-def _load(load: StatedLoad, words: Words) -> Runs:
+def outer_load(load: StatedLoad, words: Words) -> Runs:
+    """Return a load in words."""
     amounts = {
         name: "…" if value is None else words.amount(value, unit) for name, (value, unit) in load.amounts.items()
     }
@@ -136,13 +149,13 @@ def structural_analysis(material: Material) -> Iterator[Block]:
     yield _pairs(material, ("", *found.links))
     yield words.paragraph("chebyshev")
     yield from equations(material.lines("structure"), words)
-    yield words.paragraph("one_drive")
+    yield words.paragraph("one_driver" if material.words.period else "one_drive")
     numbers = {name: str(number) for number, name in enumerate(found.links, start=1)}
     kinds = {_members(one): type(one).__name__ for one in material.machine.mechanism.dyads}
     rows = [
         (
             str(number),
-            ", ".join(f"{numbers[name]} ({name})" for name in group.members),
+            ", ".join(f"{numbers[name]} ({name})" for name in group.members if name in numbers),
             _ROMAN[group.number],
             words.kind(kinds.get(frozenset(group.members), "")),
         )
@@ -171,13 +184,18 @@ def _members(dyad: Dyad | Chain) -> frozenset[str]:
 
 def _pairs(material: Material, links: tuple[str, ...]) -> Table:
     """Return the joints with the numbers of the links that they join."""
-    words, crank = material.words, material.machine.mechanism.crank
-    pivot = next((name for name, place in material.machine.mechanism.ground.items() if place == crank.pivot), "")
+    words, driver, pivot = material.words, material.machine.mechanism.driver, ""
+    if isinstance(driver, Crank):
+        ground = material.machine.mechanism.ground
+        pivot = next((name for name, place in ground.items() if place == driver.pivot), "")
     rows = []
     for number, one in enumerate(joints(material.machine.mechanism), start=1):
         ends = sorted(0 if name == GROUND else links.index(name) for name in (one.link, one.other))
         name = (one.point or pivot) if isinstance(one, Pin) else one.link
         kind = words.term("turning" if isinstance(one, Pin) else "sliding")
         rows.append((str(number), name, f"{ends[0]}–{ends[1]}", kind))
+    if isinstance(driver, Cylinder):
+        inside = "–".join(str(links.index(name)) for name in (driver.link, f"{driver.link}_rod"))
+        rows.append((str(len(rows) + 1), driver.link, inside, words.term("sliding")))
     titles = tuple((words.column(one),) for one in ("number", "pair", "between", "kind"))
     return Table(words.caption("pairs"), titles, rows, align="cccc")

@@ -14,6 +14,10 @@ from crankwork.note.groups import Group
 
 _DEGREES = 30.0
 
+_DRIVER = (
+    "driver_displacement", "driver_velocity", "driver_acceleration", "driver_angle", "driver_speed",
+    "driver_angular_acceleration",
+)  # fmt: skip
 _MOTION = (
     "point_x", "point_y", "point_velocity", "point_acceleration", "link_angle", "link_angular_velocity",
     "link_angular_acceleration", "slider_displacement", "slider_velocity", "slider_acceleration",
@@ -32,9 +36,11 @@ def linkage_lines(results: Results, degrees: float | None = None) -> tuple[Group
     groups = [
         Group("structure", told.lines(["mobility"])),
         Group("speed", told.lines(["speed"]) if results.method.pi != math.pi else ()),
+        told.group("driver", _DRIVER),
         told.group("motion", _MOTION),
         Group("inertia_loads", told.of(_inertia(results)), told.degrees),
         told.group("joint_forces", _JOINTS),
+        told.group("driver_force", ("driver_force", "driver_torque", "driver_power")),
         told.group("reduction", _REDUCTION),
         told.group("torques", _TORQUES),
         Group("efficiency", tuple(_efficiency(results))),

@@ -33,7 +33,7 @@ class Material:
     @cached_property
     def words(self) -> Words:
         """The words of the language."""
-        return Words(self.options.language)
+        return Words(self.options.language, self.results.period)
 
     @property
     def machine(self) -> Machine:
@@ -76,9 +76,10 @@ class Material:
     def groups(self) -> dict[str, Group]:
         """Lines of the memory by the name of their group, worked where the loads need the largest torque."""
         degrees = None
-        if self.machine.loads:
-            at = int(np.argmax(np.abs(self.columns["static_torque"])))
-            degrees = float(self.positions[at])
+        largest = ("driver_force", "driver_torque") if self.results.period else ("static_torque",)
+        key = next((one for one in largest if one in self.columns), None)
+        if self.machine.loads and key is not None:
+            degrees = float(self.positions[int(np.argmax(np.abs(self.columns[key])))])
         return {one.name: one for one in linkage_lines(self.results, degrees)}
 
     def lines(self, group: str, *kinds: str) -> tuple[Line, ...]:

@@ -51,6 +51,9 @@ def worked_at(material: Material, group: str) -> Iterator[Block]:
     found = material.groups.get(group)
     if found is not None and found.degrees is not None:
         words = material.words
+        if words.period:
+            yield words.paragraph("worked_time", value=words.amount(words.place(found.degrees)[1], "s"))
+            return
         yield words.paragraph("worked_position", value=words.amount(math.radians(found.degrees), "deg"))
 
 

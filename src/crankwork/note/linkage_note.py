@@ -8,6 +8,7 @@ from crankwork.analysis import Results
 from crankwork.note import linkage_table_note as table
 from crankwork.note.document import Block, Contents, Note, PageBreak, TitlePage
 from crankwork.note.linkage_data import structural_analysis, task
+from crankwork.note.linkage_driver import driven_forces, driven_motion, driven_task
 from crankwork.note.linkage_forces import forces, reduction, torques
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_motion import kinematics, law_of_motion
@@ -26,6 +27,9 @@ _REPORT: tuple[Section, ...] = (
     task, conclusion, structural_analysis, kinematics, forces, reduction, torques, motor, flywheel, law_of_motion,
     checks, sources, appendix,
 )  # fmt: skip
+_DRIVEN: tuple[Section, ...] = (
+    driven_task, structural_analysis, driven_motion, driven_forces, checks, conclusion, sources, appendix,
+)  # fmt: skip
 # the tables keep the numbers that courses of machines give them
 _OF_TABLE: tuple[Section, ...] = (
     table.table_task, table.static, table.dynamic, table.driving, checks, conclusion, sources,
@@ -37,6 +41,8 @@ def linkage_note(results: Results, options: NoteOptions) -> Note:
     material = Material(results, options)
     words, of_table = material.words, results.machine.transfer is not None
     sections = _OF_TABLE if of_table else _REPORT if options.order == "en" else _COURSE
+    if results.period:
+        sections = _DRIVEN
     blocks: list[Block] = [TitlePage(), Contents(), PageBreak()]
     for section in sections:
         blocks.extend(section(material))

@@ -8,7 +8,7 @@ import numpy as np
 
 from crankwork.analysis.results import Results
 from crankwork.locale import capital, say
-from crankwork.note.document import Bibliography, Block, Bold, ItemList, Math, Paragraph, Reference, Runs, Table
+from crankwork.note.document import Bibliography, Block, Bold, ItemList, Paragraph, Reference, Runs, Table
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_tables import any_nonzero, equations, position_tables, quantity_columns
 from crankwork.note.linkage_words import Words, named
@@ -104,23 +104,27 @@ def conclusion(material: Material) -> Iterator[Block]:
     yield words.paragraph("conclusion", table=Reference("summary"))
     rows = [_row(key, results, words) for key in results.summary if not _is_angle(key)]
     titles: list[Runs] = [(words.column(one),) for one in ("quantity", "value", "unit")]
-    titles.append((words.column("at") + " ", Math(words.symbol("crank_angle")), ", °"))
+    symbol, _, unit = words.place(0.0)
+    titles.append(
+        (words.column("at") + " ", symbol, ", °" if unit == "deg" else f", {printed_unit(unit, words.language)}")
+    )
     yield Table(words.caption("summary"), tuple(titles), rows, align="lrcr", label="summary")
 
 
 def _is_angle(key: str) -> bool:
-    return key.partition(".")[0].endswith(("_max_angle", "_min_angle"))
+    return key.partition(".")[0].endswith(("_max_angle", "_min_angle", "_max_time", "_min_time"))
 
 
 def _row(key: str, results: Results, words: Words) -> tuple[str, ...]:
     """Return name, value and unit of a single value, and the crank angle where it is reached."""
     kind, dot, name = key.partition(".")
-    at = results.summary.get(f"{kind}_angle{dot}{name}") if kind.endswith(("_max", "_min")) else None
+    angle = results.summary.get(f"{kind}_angle{dot}{name}") if kind.endswith(("_max", "_min")) else None
+    at = results.summary.get(f"{kind}_time{dot}{name}") if angle is None else float(np.degrees(angle))
     return (
         label(key, words.language) if not key.startswith("flywheel_inertia.") else _wheel(key, words),
         words.number(displayed(key, results.summary[key])),
         printed_unit(key_unit(key), words.language) or "–",
-        words.number(float(np.degrees(at)), digits=4) if at is not None else "",
+        "" if at is None else words.number(at, digits=4),
     )
 
 
@@ -139,6 +143,7 @@ def appendix(material: Material) -> Iterator[Block]:
     yield words.heading("linkage_appendix")
     for caption, keys in (
         ("torques_all", any_nonzero(_DYNAMICS, columns)),
+        ("driver_all", [key for key in columns if key.startswith("driver_")]),
         ("motion_all", named(columns, *_MOTION)),
         ("reactions_all", any_nonzero(named(columns, "joint_force", "normal_force", "normal_moment"), columns)),
     ):

@@ -10,7 +10,7 @@ import numpy as np
 from crankwork.analysis import Array
 from crankwork.formula.expression import Formula
 from crankwork.formula.lines import FormulaLine, Line
-from crankwork.note.document import Block, Equation, Math, Runs, Table
+from crankwork.note.document import Block, Equation, Runs, Table
 from crankwork.note.legends import explained_keys, legend
 from crankwork.note.linkage_words import Words, in_display_unit
 from crankwork.quantities import QUANTITIES, Language, base_key
@@ -58,8 +58,9 @@ def position_tables(
     if not columns:
         return
     count = len(degrees)
-    angle = QUANTITIES["crank_angle"].symbol(words.language)
-    before = [Column((Math(angle), ", °"), [words.number(float(one)) for one in degrees])]
+    places = [words.place(float(one)) for one in degrees]
+    heading: Runs = (places[0][0], ", °") if places[0][2] == "deg" else words.titled("time")
+    before = [Column(heading, [words.number(value) for _, value, _ in places])]
     if first is not None:
         before.insert(0, Column((words.column("position"),), [str(first + k) for k in range(count)]))
     for part, some in enumerate(_parts(columns, _UPRIGHT if count < _LONG else _WIDE), start=1):

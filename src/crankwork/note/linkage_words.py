@@ -36,7 +36,17 @@ _WITHIN = str.maketrans({".": ",", "/": ":", "′": "'", "″": "'"})
 
 
 class Words(NoteWords):
-    """What the note of a linkage says, in one language."""
+    """What the note of a linkage says, in one language; positions are times where a law with a period drives. [s]"""
+
+    def __init__(self, language: Language, period: float = 0.0) -> None:
+        super().__init__(language)
+        self.period = period
+
+    def place(self, degrees: float) -> tuple[Math, float, str]:
+        """Return symbol, value and unit of a position: a crank angle, or a time."""
+        if self.period:
+            return Math(self.symbol("time")), degrees / 360.0 * self.period, "s"
+        return Math(self.symbol("crank_angle")), degrees, "deg"
 
     def heading(self, key: str, level: int = 1, label: str = "") -> Heading:
         """Return a heading of a section; those of bibliography and appendix have no number."""

@@ -12,7 +12,7 @@ from crankwork.analysis.moving import moving, reached_angles
 from crankwork.analysis.plans import accelerations, velocities
 from crankwork.analysis.skeleton import skeleton
 from crankwork.errors import CrankworkError
-from crankwork.locale import say
+from crankwork.locale import Refusal, say
 from crankwork.machine import Machine
 from crankwork.mechanism.structure import structure
 from crankwork.note.sheets.graph import Graph
@@ -47,6 +47,8 @@ def linkage_sheets(results: Results, language: Language = "en", *, paper: Paper 
     words = Words(language)
     if results.machine.is_crank_gear:
         raise CrankworkError("sheets of a linkage need a linkage; take engine_sheets for this machine")
+    if results.period:
+        raise CrankworkError(Refusal("sheets_by_law"))
     machine, wanted = results.machine, None
     if machine.linkage is not None:
         degrees, _ = reached_angles(machine, _DENSE_STEP)

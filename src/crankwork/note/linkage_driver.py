@@ -1,0 +1,118 @@
+"""What the note of a linkage says of a driver that follows a law over time: its task, its law, what it has to give."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+
+from crankwork.analysis.stated import stated_loads
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor
+from crankwork.mechanism.mechanism import Driver
+from crankwork.note.document import Block, Citation, ItemList, Paragraph, Reference, Runs, Table
+from crankwork.note.linkage_data import links_and_places, method, outer_load
+from crankwork.note.linkage_material import Material
+from crankwork.note.linkage_motion import worked_at
+from crankwork.note.linkage_tables import any_nonzero, equations, position_tables, quantity_columns
+from crankwork.note.linkage_words import Words, named
+from crankwork.units import from_si
+
+_SOURCE = "artobolevsky_1988, ch. 4"
+_STATICS = "artobolevsky_1988, ch. 13"
+_COORDINATE = (
+    "driver_displacement", "driver_velocity", "driver_acceleration", "driver_angle", "driver_speed",
+    "driver_angular_acceleration",
+)  # fmt: skip
+_MOVING = (
+    "point_velocity", "link_angular_velocity", "slider_velocity", "point_acceleration", "link_angular_acceleration",
+    "slider_acceleration",
+)  # fmt: skip
+
+
+def driven_task(material: Material) -> Iterator[Block]:
+    """Yield what is asked and what is given, the law of the driver first."""
+    words, machine = material.words, material.machine
+    driver = machine.mechanism.driver
+    yield words.heading("task")
+    yield words.paragraph("driven_task")
+    yield _drives(driver, words)
+    if driver.law is not None:
+        period = words.amount(driver.law.period, "s")
+        yield words.paragraph("driver_law", period=period, table=Reference("law"))
+        yield _segments(driver.law, words, turns=driver.turns)
+    yield from links_and_places(material)
+    if machine.loads:
+        yield words.paragraph("outer_loads")
+        yield ItemList(tuple(outer_load(one, words) for one in stated_loads(machine)))
+    elif machine.mechanism.bodies:
+        yield words.paragraph("no_loads")
+    yield method(material)
+
+
+def _drives(driver: Driver, words: Words) -> Paragraph:
+    match driver:
+        case DrivingSlider(link=name):
+            return words.paragraph("driver_slider", name=name)
+        case Cylinder(barrel=first, rod=second):
+            return words.paragraph("driver_cylinder", first=first, second=second)
+        case LinkMotor(links=(first, second), pin=pin):
+            return words.paragraph("driver_motor", first=first, second=second, pin=pin)
+    return words.paragraph("driver_crank", radius=words.amount(driver.radius, "mm"))
+
+
+def _segments(law: Law, words: Words, *, turns: bool) -> Table:
+    """Return the segments of a law: how they move, from where to where, when and how long."""
+    unit = "deg" if turns else "mm"
+    places = [law.start, *(one.to for one in law.segments)]
+    times = [one.share * law.period for one in law.segments]
+    rows = [
+        (
+            str(number), words.kind(one.kind), *(words.number(float(from_si(place, unit))) for place in ends),
+            words.number(sum(times[: number - 1])), words.number(times[number - 1]),
+        )
+        for number, (one, ends) in enumerate(zip(law.segments, itertools.pairwise(places), strict=True), start=1)
+    ]  # fmt: skip
+    titles: list[Runs] = [(words.column(one),) for one in ("number", "motion_law")]
+    titles += [(words.column(one, unit),) for one in ("law_from", "law_to")]
+    titles += [words.titled("start_time"), words.titled("segment_time")]
+    return Table(words.caption("law"), tuple(titles), rows, align="clrrrr", label="law")
+
+
+def driven_motion(material: Material) -> Iterator[Block]:
+    """Yield the section about the motion of the driver and what it moves."""
+    words, columns, degrees = material.words, material.columns, material.positions
+    yield words.heading("linkage_kinematics")
+    yield words.paragraph("driven_positions", source=Citation(_SOURCE))
+    yield from worked_at(material, "driver")
+    yield from equations(material.lines("driver"), words)
+    own = named(columns, *_COORDINATE)
+    yield from position_tables("driver", degrees, quantity_columns(own, columns, words), words, first=material.first)
+    yield from equations(material.lines("motion"), words)
+    places = [f"point_{axis}.{key.partition('.')[2]}" for key in named(columns, "point_x") for axis in "xy"]
+    for caption, keys in (
+        ("positions", [*places, *named(columns, "link_angle", "slider_displacement")]),
+        ("velocities", named(columns, *_MOVING[:3])),
+        ("accelerations", named(columns, *_MOVING[3:])),
+    ):
+        shown = quantity_columns(keys, columns, words)
+        yield from position_tables(caption, degrees, shown, words, first=material.first)
+    yield from material.figures("driver", "sliders")
+
+
+def driven_forces(material: Material) -> Iterator[Block]:
+    """Yield the section about inertia, joint forces, and what the driver has to give."""
+    words, columns, mechanism = material.words, material.columns, material.machine.mechanism
+    if not (mechanism.bodies or material.machine.loads):
+        return
+    yield words.heading("linkage_forces")
+    if mechanism.bodies:
+        yield words.paragraph("inertia_of_links", source=Citation(_STATICS))
+        yield from worked_at(material, "inertia_loads")
+        yield from equations(material.lines("inertia_loads"), words)
+    yield words.paragraph("driven_reactions")
+    yield from equations(material.lines("joint_forces"), words)
+    yield from equations(material.lines("driver_force"), words)
+    given = any_nonzero(named(columns, "driver_force", "driver_torque", "driver_power"), columns)
+    joints = any_nonzero(named(columns, "joint_force", "normal_force", "normal_moment"), columns)
+    shown = quantity_columns([*given, *joints], columns, words)
+    yield from position_tables("reactions", material.positions, shown, words, first=material.first, label="reactions")
+    yield from material.figures("joint_forces")

@@ -1,0 +1,82 @@
+"""Note, explanation, figures and moving drawing of machines whose driver follows a law over time."""
+
+import dataclasses
+import re
+from pathlib import Path
+
+import pytest
+
+import crankwork
+from crankwork.errors import CrankworkError
+from crankwork.locale import LANGUAGES
+from crankwork.note.linkage_note import linkage_note
+from crankwork.note.options import NoteOptions
+from crankwork.note.sheets.linkage import linkage_sheets
+from crankwork.note.web import web
+from crankwork.report.drawing import moving_drawing
+from crankwork.report.figures import figures
+from crankwork.report.summary import description_text, summary_text
+
+MACHINES = Path(__file__).parent.parent / "machines"
+NAMES = ("boom", "driven-slider", "elbow", "crank-by-table", "cylinder-between-links")
+
+
+@pytest.fixture(scope="module")
+def results():
+    return {name: crankwork.analyse(crankwork.read(MACHINES / f"{name}.toml")) for name in NAMES}
+
+
+def written(results, language):
+    """Return the note as plain words."""
+    note = linkage_note(results, NoteOptions(language=language, figures=False))
+    page = re.sub(r"<style.*?</style>", " ", web(note).decode(), flags=re.DOTALL)
+    return re.sub(r"<[^>]+>", " ", page)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_note_is_written(results, language):
+    for name, one in results.items():
+        text = written(one, language)
+        assert not re.search(r"[{}]|None|nan", text), name
+        assert one.machine.title in text
+
+
+@pytest.mark.parametrize("name", ["boom", "driven-slider", "elbow", "cylinder-between-links"])
+def test_where_no_crank_drives_nothing_says_crank(results, name):
+    one = dataclasses.replace(results[name])
+    said = [written(one, "en"), summary_text(one), description_text(one.machine, one), moving_drawing(one.machine)]
+    said += [column for keys in one.tables.values() for column in keys]
+    assert not any("third_side" in text for text in said[1:])
+    for text in said:
+        assert "crank" not in text.replace("crankwork", "").lower(), re.findall(".{40}crank.{40}", text)
+
+
+def test_explanations_are_at_times(results):
+    boom = results["boom"]
+    text = boom.explain("driver_force", at=2.0).replace("\u00a0", " ")
+    assert "(2 s)" in text
+    assert "At the time 2 s" in text
+    assert "law from 0 s to 4 s" in text
+    assert "°" not in text.partition("Given values")[0]
+    assert boom.value("driver_displacement", at=2.0) == pytest.approx(1.6, rel=1e-14)
+    with pytest.raises(CrankworkError, match="--at 4"):
+        boom.value("driver_force")
+    with pytest.raises(CrankworkError, match="from 0 to 8 s"):
+        boom.value("driver_force", at=9.0)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_figures_run_over_time(results, name):
+    one = results[name]
+    drawn = figures(one)
+    assert "driver" in drawn
+    for data in drawn.values():
+        assert "angle of the crank" not in data.decode()
+    drawing = moving_drawing(one.machine)
+    assert re.search(r"= [\d.]+ s", drawing)
+    assert "nan" not in drawing
+
+
+def test_sheets_are_refused(results):
+    with pytest.raises(CrankworkError, match="leave the sheets out"):
+        linkage_sheets(results["boom"])
