@@ -13,7 +13,7 @@ from crankwork.mechanism.driver import Law, Segment
 
 # what presumes a crank that turns evenly
 _TURNING = ("efficiency", "motor", "flywheel", "transient", "chambers", "charges")
-_WITHOUT_DRIVER = ("speed", "angular_acceleration", "inertia")
+_WITHOUT_DRIVER = ("speed", "angular_acceleration")
 _SUM = 1e-9
 _OF_KIND = {"ramp": "trapezoidal", "at": "table", "values": "table"}
 

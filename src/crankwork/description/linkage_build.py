@@ -53,7 +53,7 @@ _REVOLUTION = math.tau + 1e-9
 _MOST_TURNS = 10_000
 # share of the size of a linkage by which a stated position may be rough
 _ROUGHLY = 0.25
-_ELSEWHERE = ("speed", "angular_acceleration", "inertia")
+_RATES = ("speed", "angular_acceleration")
 # what each kind of load needs, and what it may have besides
 _LOAD_KEYS = {
     "process": (("slider", "force"), ("at", "against", "curve", "stroke", "start", "acts")),
@@ -100,7 +100,7 @@ def build_linkage(values: Mapping[str, Any], reader: Reader, read_measured: Read
         loads=loads,
         chambers=chambers,
         charges=charges,
-        drive=replace(drive, inertia=drive.inertia + _value(crank, "inertia")),
+        drive=drive if _weighs(values) else replace(drive, inertia=drive.inertia + _value(crank, "inertia")),
         transient=transient,
         method=method,
         table_step=_table_step(_value(table, "step"), mechanism.driver.law),
@@ -110,11 +110,18 @@ def build_linkage(values: Mapping[str, Any], reader: Reader, read_measured: Read
     return machine if _moves(machine, reader) and _is_filled(machine, values, reader) else None
 
 
+def _weighs(values: Mapping[str, Any]) -> bool:
+    """Return whether the inertia of the crank is that of a body among the others."""
+    return "driver" in values or not {"mass", "centre"}.isdisjoint(values.get("crank", {}))
+
+
 def _geometry(values: Mapping[str, Any], reader: Reader) -> dict[str, Any]:
     """Return the tables that describe the linkage, and its driver with its law."""
     tables = {name: _plain(values[name]) for name in _GEOMETRY if name in values}
     if "crank" in tables:
-        tables["crank"] = {name: one for name, one in tables["crank"].items() if name not in _ELSEWHERE}
+        # what a crank alone weighs it bears at its pivot; what turns besides does not
+        elsewhere = _RATES if _weighs(values) else (*_RATES, "inertia")
+        tables["crank"] = {name: one for name, one in tables["crank"].items() if name not in elsewhere}
     if "driver" in values:
         check_driver(values, reader)
         named = {name: one for name, one in values["driver"].items() if name not in ("start", "period")}

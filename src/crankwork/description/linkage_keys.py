@@ -47,6 +47,8 @@ _CRANK = Table({
     "direction": Key(Choice(("anticlockwise", "clockwise")), "which way it turns"),
     "points": Key(Named(_PLACE), "further points: from the pivot towards the pin, and to the left of that"),
     "inertia": Key(_INERTIA, "moment of inertia about its axis, all that turns with it included"),
+    "mass": Key(Quantity(("mass",), 1e-9, 1e6), "its mass, which its pivot bears"),
+    "centre": Key(NameOr(_PLACE), "centre of mass: a point of it, or [along, across] from the pivot; else the pivot"),
 })  # fmt: skip
 
 _COORDINATE_OF_DRIVER = Quantity(("length", "angle"), -1e3, 1e3)

@@ -97,9 +97,13 @@ class _Places:
     """Where a description states members and guides."""
 
     def __init__(self, linkage: Linkage | None) -> None:
-        self._guides = {} if linkage is None else {one.name: one.guide for one in linkage.members}
+        members = () if linkage is None else (linkage.driving, *linkage.members)
+        self._guides = {one.name: one.guide for one in members}
+        self._crank = linkage.driver.link if linkage is not None and isinstance(linkage.driver, Crank) else ""
 
     def member(self, name: str) -> str:
+        if name == self._crank:
+            return "crank"
         return f"{'sliders' if self._guides.get(name) else 'links'}.{name}"
 
     def guide(self, piece: str) -> str:

@@ -20,13 +20,14 @@ from crankwork.mechanism.structure import structure
 Table = Mapping[str, Any]
 
 _TABLES = ("fixed_points", "crank", "driver", "links", "guides", "sliders", "branch", "positions")
-_CRANK = ("pivot", "pin", "radius", "start", "direction", "points")
 _MASS = ("mass", "inertia", "centre")
+_CRANK = ("pivot", "pin", "radius", "start", "direction", "points", *_MASS)
 _LINK = ("joins", "length", "points", *_MASS)
 _SLIDER = ("guide", "pin", "points", *_MASS)
 _GUIDE = ("through", "angle", "link")
 _DRIVERS = ("slider", "cylinder", "between")
 _DRIVER = (*_DRIVERS, "law")
+_SAME = 1e-12
 _DIRECTIONS: dict[str, Branch] = {"anticlockwise": 1, "clockwise": -1}
 
 
@@ -93,8 +94,7 @@ class _Reader:
                 self._problem(f"driver.{named[0]}", Refusal("drivers_many", one=named[0], others=others))
             driver, driving = self._driving_slider(sliders, guides, law)
         else:
-            driver, throws = self._crank(ground, law)
-            driving = Member(driver.link, throws)
+            driver, driving = self._crank(ground, law)
         drawn = Linkage(driver, ground, (), positions=positions, driving=driving).at_zero()
         links = tuple(self._links(drawn))
         members = (*links, *(one for one in sliders if one.name != driving.name))
@@ -245,7 +245,7 @@ class _Reader:
     def _joints(linkage: Linkage, member: Member, pin: str) -> list[str]:
         return [name for name in member.points if name != pin and len(linkage.owners[name]) > 1]
 
-    def _crank(self, ground: Mapping[str, Point], law: Law | None) -> tuple[Crank, dict[str, Point]]:
+    def _crank(self, ground: Mapping[str, Point], law: Law | None) -> tuple[Crank, Member]:
         table = self._table("crank")
         self._known_keys("crank", table, _CRANK)
         pivot, pin = self._word("crank.pivot", table.get("pivot")), self._word("crank.pin", table.get("pin"))
@@ -260,7 +260,31 @@ class _Reader:
         start = self._number("crank.start", table.get("start", 0.0))
         sense = _DIRECTIONS.get(str(direction), 1)
         pivoted = ground.get(pivot, (0.0, 0.0))
-        return Crank(radius, pivoted, start, sense, pin, law=law), self._points("crank", table)
+        crank = Crank(radius, pivoted, start, sense, pin, law=law)
+        return crank, self._massive_crank(Member(crank.link, self._points("crank", table)), table, crank, pivot)
+
+    def _massive_crank(self, member: Member, table: Table, crank: Crank, pivot: str) -> Member:
+        """Return a crank with its mass; its moment of inertia is that about its axis, all of it included."""
+        if not any(name in table for name in _MASS):
+            return member
+        mass = self._number("crank.mass", table.get("mass", 0.0))
+        whole = self._number("crank.inertia", table.get("inertia", 0.0))
+        centre = table.get("centre", pivot)
+        places = {pivot: (0.0, 0.0), crank.pin: (crank.radius, 0.0), **member.points}
+        points = dict(member.points)
+        if not isinstance(centre, str):
+            name = f"{member.name}.centre"
+            points[name] = places[name] = self._point("crank.centre", centre)
+            centre = name
+        elif centre not in places:
+            known = ", ".join(places)
+            self._problem("crank.centre", Refusal("centre_unknown", centre=centre, link=member.name, known=known))
+            return member
+        turning = mass * math.hypot(*places[centre]) ** 2
+        if "inertia" in table and whole < turning * (1 - _SAME):
+            self._problem("crank.inertia", Refusal("crank_inertia_small", least=turning))
+        own = max(whole - turning, 0.0) if "inertia" in table else 0.0
+        return _replaced(member, points, mass, own, centre)
 
     def _links(self, drawn: Mapping[str, Point]) -> Iterator[Member]:
         for name, table in self._named("links", _LINK):

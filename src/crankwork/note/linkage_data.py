@@ -77,8 +77,9 @@ def _links(material: Material) -> Table:
     owners = linkage.owners
     rows = []
     numbers = {name: number for number, name in enumerate(links_of(linkage), start=1)}
-    for one in linkage.members:
-        if one.name not in numbers or one.name == linkage.driver.link:
+    driving = (linkage.driving,) if linkage.driving.centre or linkage.driving.guide else ()
+    for one in (*driving, *linkage.members):
+        if one.name == linkage.driver.link and one not in driving:
             continue
         number = numbers[one.name]
         shared = [name for name in one.points if len(owners[name]) > 1]

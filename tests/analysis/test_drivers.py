@@ -1,0 +1,69 @@
+"""A boom on its cylinder from the machine file, against the equation of motion of a pendulum and the law of cosines."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import crankwork
+
+pytestmark = pytest.mark.elsewhere
+EXAMPLE = Path(__file__).parent.parent.parent / "examples" / "excavator-boom.toml"
+RESULTS = crankwork.analyse(crankwork.read(EXAMPLE))
+
+
+def raised(time):
+    """Return the length of the cylinder in the first four seconds and its two rates."""
+    z = time / 4
+    way = 0.6
+    length = 1.65 + way * (10 * z**3 - 15 * z**4 + 6 * z**5)
+    rate = way / 4 * (30 * z**2 - 60 * z**3 + 30 * z**4)
+    second = way / 16 * (60 * z - 180 * z**2 + 120 * z**3)
+    return length, rate, second
+
+
+def by_hand(time):
+    """Return direction, angular velocity of the boom, force and power of the cylinder."""
+    q, v, a = raised(time)
+    base, arm = math.hypot(0.55, 0.55), 2.1
+    cosine = (base**2 + arm**2 - q**2) / (2 * base * arm)
+    gamma = math.acos(cosine)
+    lever = base * arm * math.sin(gamma) / q
+    omega = v / lever
+    # v = lever omega, and lever' by gamma from the law of cosines
+    lever_1 = (base * arm * cosine - lever**2) / q
+    epsilon = (a - lever_1 * omega**2) / lever
+    angle = gamma - math.pi / 4
+    centre, tip = complex(2.4, -0.2), complex(5.1, -0.75)
+    turned = complex(math.cos(angle), math.sin(angle))
+    inertia = 3100 + 1150 * abs(centre) ** 2
+    moment = inertia * epsilon + 1150 * 9.80665 * (centre * turned).real + 21e3 * (tip * turned).real
+    force = moment / lever
+    return angle, omega, force, force * v
+
+
+@pytest.mark.parametrize("time", [0.1, 1.0, 1.7, 2.0, 3.2, 3.99])
+def test_motion_force_and_power_are_those_by_hand(time):
+    keys = ("link_angle.boom", "link_angular_velocity.boom", "driver_force", "driver_power")
+    found = [RESULTS.value(key, at=time) for key in keys]
+    assert found == pytest.approx(by_hand(time), rel=1e-12)
+
+
+def test_single_values_are_at_their_times():
+    summary = RESULTS.summary
+    time = summary["driver_power_max_time"]
+    times = time + np.array([-1e-3, 0.0, 1e-3])
+    before, there, after = (by_hand(one)[3] for one in times)
+    assert there == pytest.approx(summary["driver_power_max"], rel=1e-12)
+    assert there > max(before, after)
+    assert summary["period"] == 8.0
+    assert summary["driver_velocity_max"] == pytest.approx(1.875 * 0.6 / 4, rel=1e-13)
+    assert RESULTS["time"][1] == 0.25
+    assert not RESULTS.unmet
+
+
+def test_what_presumes_a_turning_shaft_is_absent():
+    assert RESULTS.notices[0].code == "by_law"
+    for key in ("mean_torque", "reduced_inertia", "dynamic_torque", "rotational_speed", "time_ratio"):
+        assert not any(one.startswith(key) for one in (*RESULTS.summary, *RESULTS.columns))
