@@ -12,11 +12,12 @@ import numpy as np
 from crankwork.analysis import origins
 from crankwork.analysis.forces import COLUMNS, FORCES, columns
 from crankwork.analysis.motion import HARMONICS, KINEMATICS
+from crankwork.analysis.reduction import REDUCTION
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import SolvedCylinder, apart, solve
 from crankwork.formula.known import Found, Known, given
 from crankwork.formula.over_cycle import OverCycle
-from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.slider_crank import (
     bottom_dead_centre_angle,
     mean_piston_speed,
@@ -36,7 +37,7 @@ _NOT_SHOWN = ("first_law_residual", "rotational_speed")
 _MOVING = ("piston_velocity", "piston_acceleration")
 _PUSHING = ("gas_pressure", "inertia_force", "piston_force", "side_force", "tangential_force", "crank_torque")
 _WRONG_FORCES = ("inertia_force", "piston_force", "side_force", "tangential_force", "radial_force", "crank_torque")
-GROUPS = {"kinematics": KINEMATICS, "harmonics": HARMONICS, "forces": FORCES}
+GROUPS = {"kinematics": KINEMATICS, "harmonics": HARMONICS, "forces": FORCES, "dynamics": REDUCTION}
 
 
 def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: Method | None = None) -> Results:
@@ -176,6 +177,8 @@ def _checks(solved: SolvedCylinder, summary: Mapping[str, float]) -> dict[str, f
         from crankwork.analysis.engine_routes import joint_force_residuals  # noqa: PLC0415 - loaded where it is needed
 
         result |= joint_force_residuals(solved)
+        if "reduced_inertia" in dense:
+            result["torque_of_energy"] = apart(dense["crank_torque"], _torque_of_energy(solved, dense))
     if solved.space is not None and not solved.machine.angular_acceleration:
         work = summary["mean_torque"] * math.radians(solved.machine.cycle)
         result["work"] = abs(work - summary["indicated_work"]) / _moved_work(solved, summary)
@@ -184,6 +187,17 @@ def _checks(solved: SolvedCylinder, summary: Mapping[str, float]) -> dict[str, f
         residual, heat = calculated.values["first_law_residual"], calculated.values["fuel_heat"]
         result["first_law"] = abs(residual) / max(heat, _moved_work(solved, summary))
     return result
+
+
+def _torque_of_energy(solved: SolvedCylinder, dense: Mapping[str, Array]) -> Array:
+    """Return the torque that gas and weights do work with, less what changes the energy of the masses."""
+    w, eps, memory = solved.speed, solved.machine.angular_acceleration, solved.memory
+    pushed = sum((dense[key] for key in ("gas_force", "weight_force") if key in dense), np.zeros_like(w))
+    # that of the rotating mass has its inertia in it
+    turning = memory["rotating_mass"].value * solved.lengths.crank_radius**2
+    rotating = dense.get("rotating_torque", 0.0) + turning * eps
+    energy = w**2 / 2 * dense["reduced_inertia_1"] + dense["reduced_inertia"] * eps
+    return np.asarray(pushed * dense["piston_velocity"] / w + rotating - energy)
 
 
 def _allowed(solved: SolvedCylinder, summary: Mapping[str, float]) -> dict[str, float]:

@@ -10,6 +10,8 @@ import numpy as np
 
 from crankwork.analysis import origins
 from crankwork.analysis.cylinders import WholeEngine
+from crankwork.analysis.engine_bearings import rotating_mass_of
+from crankwork.analysis.reduction import MOVING
 from crankwork.analysis.results import Listing
 from crankwork.analysis.solved import Notice
 from crankwork.cylinders.layout import Layout
@@ -82,6 +84,28 @@ def _torque(whole: WholeEngine, number: int, tangential: Known) -> Known:
         weight = whole.of(number, "rotating_torque")
     torque: Known = crank_torque(tangential, own["crank_radius"], weight)
     return torque.named(whole.of(number, "crank_torque").key)
+
+
+def engine_reduction(whole: WholeEngine) -> dict[str, Known]:
+    """Return the reduced moment of inertia of all cylinders, and of what turns with the crank, with its derivative."""
+    if whole.machine.masses is None:
+        return {}
+    places, r = whole.layout.places, whole.master.memory["crank_radius"]
+    numbers = [one.number for one in places]
+    parts = [whole.of(at, f"reduced_inertia.{one}") for one in MOVING for at in whole.has(f"reduced_inertia.{one}")]
+    parts_1 = [
+        whole.of(at, f"reduced_inertia_1.{one}") for one in MOVING for at in whole.has(f"reduced_inertia_1.{one}")
+    ]
+    for at, place in zip(numbers, places, strict=True):
+        mass = rotating_mass_of(whole, place)
+        if "knuckle_mass" in whole.cylinders[at - 1].memory:
+            mass = mass - whole.cylinders[at - 1].memory["knuckle_mass"]
+        parts.append((mass * r * r).named(f"reduced_inertia.rotating.{at}"))
+    drive = whole.machine.drive.inertia
+    if drive:
+        parts.append(given("reduced_inertia.drive", drive, "flywheel.inertia"))
+    found = total("total_reduced_inertia", parts), total("total_reduced_inertia_1", parts_1)
+    return {one.key: one for one in found}
 
 
 def engine_torque(

@@ -12,6 +12,7 @@ from crankwork.analysis.motion import (
     harmonic_memory,
     inertia_acceleration,
 )
+from crankwork.analysis.reduction import REDUCTION, cylinder_reduction
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import SolvedCylinder
 from crankwork.cylinders.articulated_forces import (
@@ -36,7 +37,7 @@ FORCES = (
     "rod_transverse_force", "radial_force", "tangential_force", "rotating_inertia_force", "rotating_torque",
     "crank_torque", "overturning_moment",
 )  # fmt: skip
-COLUMNS = ("crank_angle", *KINEMATICS, "cylinder_volume", *FORCES, "knuckle_side_force", "knuckle_couple")
+COLUMNS = ("crank_angle", *KINEMATICS, "cylinder_volume", *FORCES, "knuckle_side_force", "knuckle_couple", *REDUCTION)
 
 
 def cylinder_memory(solved: SolvedCylinder) -> dict[str, Known]:
@@ -56,6 +57,8 @@ def cylinder_memory(solved: SolvedCylinder) -> dict[str, Known]:
     if solved.machine.masses is not None or solved.space is not None:
         memory |= _by_key(_axial_forces(solved, moving))
         memory |= _by_key(_slave_forces(solved, moving) if solved.slave is not None else _rod_forces(solved, moving))
+    if solved.machine.masses is not None:
+        memory |= _by_key(cylinder_reduction(moving))
     return memory
 
 

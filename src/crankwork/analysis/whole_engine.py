@@ -21,6 +21,7 @@ from crankwork.analysis.engine_bearings import (
 )
 from crankwork.analysis.engine_firing import firing_listing, firing_memory, work_memory
 from crankwork.analysis.engine_torque import (
+    engine_reduction,
     engine_torque,
     harmonics_listing,
     harmonics_memory,
@@ -92,13 +93,14 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
     loads = load_values(whole, memory, over, extremes) | wear_memory(whole, memory)
     works, harmonics = work_memory(whole, firing), harmonics_memory(whole, torque, memory)
     torques = [key for key in memory if key.startswith(_TORQUES)]
-    keys = [*torques, *torque.columns, *bearing_columns(memory)]
-    memory |= torque.columns
+    reduced = engine_reduction(whole)
+    keys = [*torques, *torque.columns, *bearing_columns(memory), *reduced]
+    memory |= {**torque.columns, **reduced}
     columns = Program({key: memory[key] for key in keys})(results.grid)
     groups = {
         name: tuple(key for key in columns if key.startswith(starts) and _belongs(name, key))
         for name, starts in _TABLES.items()
-    }
+    } | {"dynamics": (*results.groups["dynamics"], *reduced)}
     listings: dict[str, Listing] = {
         "firing": firing_listing(whole, firing),
         "torque_harmonics": harmonics_listing(harmonics),

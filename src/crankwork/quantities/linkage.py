@@ -11,6 +11,8 @@ ROWS = (
     Quantity("lower_pairs", "", "Number of revolute and sliding joints; a pin of k links counts k - 1."),
     # reduction of a linkage to its crank
     Quantity("reduced_inertia", "kg*m2", "Moment of inertia on the crank with the kinetic energy of the mechanism."),
+    Quantity("total_reduced_inertia", "kg*m2", "Of all cylinders, with what turns with the crank."),
+    Quantity("total_reduced_inertia_1", "kg*m2", "Of all cylinders."),
     Quantity("reduced_inertia_1", "kg*m2",
              "Derivative of the reduced moment of inertia by the crank angle in radians."),
     Quantity("reduced_torque", "N*m",
