@@ -267,9 +267,10 @@ def _every(grid: CrankGrid, links: int) -> slice:
 def _groups(columns: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
     """Return the keys of each table."""
     kinds = {
-        "points": ("point_x", "point_y", "point_velocity", "point_acceleration"),
+        "points": ("point_x", "point_y", "point_velocity_x", "point_velocity_y", "point_velocity",
+                   "point_acceleration_x", "point_acceleration_y", "point_acceleration"),
         "links": ("link_angle", "link_angular_velocity", "link_angular_acceleration",
-                  "slider_displacement", "slider_velocity", "slider_acceleration"),
+                  "slider_displacement", "slider_velocity", "slider_acceleration", "coriolis_acceleration"),
         "speed": ("crank_speed", "kinetic_energy_change"),
         "chambers": ("cylinder_volume", "diagram_pressure", "gas_pressure", "gas_force"),
         "joint_forces": ("joint_force_x", "joint_force_y", "joint_force", "normal_force", "normal_moment"),

@@ -26,10 +26,12 @@ from crankwork.kinematics import transfer as rates
 from crankwork.kinematics.memory import angle_of, course_of, given_mechanism
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.motion_laws import clock
-from crankwork.kinematics.transfer import Transfer
+from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.loads.load import applied_loads
 from crankwork.machine import Drive, Machine
 from crankwork.mechanism.driver import Law, LinkMotor
+from crankwork.mechanism.joints import SlidingJoint, joints
+from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Crank
 
 # what a driver gives, by whether it turns
@@ -101,19 +103,39 @@ def _moving(machine: Machine, motion: Motion, w: Known, eps: Known) -> Iterator[
             continue
         yield f"point_x.{name}", x.position
         yield f"point_y.{name}", y.position
-        yield f"point_velocity.{name}", rates.point_velocity(x.position_1, y.position_1, w)
-        second = rates.point_acceleration(x.position_2, w, x.position_1, eps, y.position_2, y.position_1)
-        yield f"point_acceleration.{name}", second
+        yield from _rates_of_point(name, PointMotion(x, y), w, eps)
     for name, one in motion.links.items():
         if name != driver.link or not isinstance(driver, Crank | LinkMotor):
             yield f"link_angle.{name}", one.position
             yield f"link_angular_velocity.{name}", rates.link_angular_velocity(one.position_1, w)
             turning = link_angular_acceleration(one.position_2, w, one.position_1, eps)
             yield f"link_angular_acceleration.{name}", turning
+    carrier = {
+        one.name: one.other
+        for one in joints(machine.mechanism)
+        if isinstance(one, SlidingJoint) and one.other != GROUND
+    }
     for name, one in motion.sliders.items():
         yield f"slider_displacement.{name}", one.position
         yield f"slider_velocity.{name}", rates.slider_velocity(one.position_1, w)
         yield f"slider_acceleration.{name}", rates.slider_acceleration(one.position_2, w, one.position_1, eps)
+        turning = motion.frames[carrier[name]].angle_1 if name in carrier else absent("link_angle_1")
+        if not turning.is_absent:
+            velocity = rates.slider_velocity(one.position_1, w).named(f"slider_velocity.{name}")
+            carried = rates.link_angular_velocity(turning, w).named(f"link_angular_velocity.{carrier[name]}")
+            yield f"coriolis_acceleration.{name}", rates.coriolis_acceleration(carried, velocity)
+
+
+def _rates_of_point(name: str, point: PointMotion, w: Known, eps: Known) -> Iterator[tuple[str, Known]]:
+    """Yield velocity and acceleration of a point: along the axes, and their magnitude."""
+    (_, x_1, x_2), (_, y_1, y_2) = point
+    v_x = rates.point_velocity_x(x_1, w).named(f"point_velocity_x.{name}")
+    v_y = rates.point_velocity_y(y_1, w).named(f"point_velocity_y.{name}")
+    a_x = rates.point_acceleration_x(x_2, w, x_1, eps).named(f"point_acceleration_x.{name}")
+    a_y = rates.point_acceleration_y(y_2, w, y_1, eps).named(f"point_acceleration_y.{name}")
+    velocity, acceleration = rates.point_velocity(v_x, v_y), rates.point_acceleration(a_x, a_y)
+    yield from ((one.key, one) for one in (v_x, v_y, velocity.named(f"point_velocity.{name}")))
+    yield from ((one.key, one) for one in (a_x, a_y, acceleration.named(f"point_acceleration.{name}")))
 
 
 def _at_work(solved: SolvedLinkage, motion: Motion, w: Known, eps: Known) -> dict[str, Known]:

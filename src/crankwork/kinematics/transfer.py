@@ -42,13 +42,43 @@ def slider_acceleration(s_2: Value, w: Value, s_1: Value, eps: Value) -> Value:
     return s_2 * w**2 + s_1 * eps
 
 
+@formula("point_velocity_x", "artobolevsky_1988, ch. 5")
+def point_velocity_x(x_P1: Value, w: Value) -> Value:
+    """Velocity of a point along x."""
+    return x_P1 * w
+
+
+@formula("point_velocity_y", "artobolevsky_1988, ch. 5")
+def point_velocity_y(y_P1: Value, w: Value) -> Value:
+    """Velocity of a point along y."""
+    return y_P1 * w
+
+
 @formula("point_velocity", "artobolevsky_1988, ch. 5")
-def point_velocity(x_P1: Value, y_P1: Value, w: Value) -> Value:
+def point_velocity(v_Px: Value, v_Py: Value) -> Value:
     """Magnitude of the velocity of a point."""
-    return np.sqrt(x_P1**2 + y_P1**2) * w
+    return np.sqrt(v_Px**2 + v_Py**2)
+
+
+@formula("point_acceleration_x", "artobolevsky_1988, ch. 5")
+def point_acceleration_x(x_P2: Value, w: Value, x_P1: Value, eps: Value) -> Value:
+    """Acceleration of a point along x when the crank speed changes."""
+    return x_P2 * w**2 + x_P1 * eps
+
+
+@formula("point_acceleration_y", "artobolevsky_1988, ch. 5")
+def point_acceleration_y(y_P2: Value, w: Value, y_P1: Value, eps: Value) -> Value:
+    """Acceleration of a point along y when the crank speed changes."""
+    return y_P2 * w**2 + y_P1 * eps
 
 
 @formula("point_acceleration", "artobolevsky_1988, ch. 5")
-def point_acceleration(x_P2: Value, w: Value, x_P1: Value, eps: Value, y_P2: Value, y_P1: Value) -> Value:
-    """Magnitude of the acceleration of a point when the crank speed changes."""
-    return np.sqrt((x_P2 * w**2 + x_P1 * eps) ** 2 + (y_P2 * w**2 + y_P1 * eps) ** 2)
+def point_acceleration(a_Px: Value, a_Py: Value) -> Value:
+    """Magnitude of the acceleration of a point."""
+    return np.sqrt(a_Px**2 + a_Py**2)
+
+
+@formula("coriolis_acceleration", "khurmi_gupta_2005, ch. 8")
+def coriolis_acceleration(w_i: Value, v_s: Value) -> Value:
+    """Coriolis acceleration of a piece that slides along a guide that turns."""
+    return 2 * w_i * v_s

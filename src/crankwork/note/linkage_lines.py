@@ -21,6 +21,7 @@ _DRIVER = (
 _MOTION = (
     "point_x", "point_y", "point_velocity", "point_acceleration", "link_angle", "link_angular_velocity",
     "link_angular_acceleration", "slider_displacement", "slider_velocity", "slider_acceleration",
+    "coriolis_acceleration",
 )  # fmt: skip
 _INERTIA = ("link_inertia_force", "link_inertia_torque")
 _JOINTS = ("joint_force_x", "joint_force_y", "joint_force", "normal_force", "normal_moment")

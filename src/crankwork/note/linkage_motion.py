@@ -13,7 +13,7 @@ from crankwork.note.linkage_words import named
 
 _SOURCE = "artobolevsky_1988, ch. 4"
 _MOVING = ("point_velocity", "link_angular_velocity", "slider_velocity")
-_ACCELERATING = ("point_acceleration", "link_angular_acceleration", "slider_acceleration")
+_ACCELERATING = ("point_acceleration", "link_angular_acceleration", "slider_acceleration", "coriolis_acceleration")
 
 
 def kinematics(material: Material) -> Iterator[Block]:
