@@ -3,18 +3,28 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
 
 from crankwork.analysis.linkage_memory import speed_of
 from crankwork.analysis.solved import SolvedLinkage
 from crankwork.dynamics.reduction import reduced_torque
-from crankwork.formula.known import Known, given, total
+from crankwork.formula.known import Known, breaks_of, given, total
 from crankwork.formula.over_cycle import OverCycle
-from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.memory import given_mechanism
 from crankwork.kinematics.motion import Motion
 from crankwork.loads import gas
 from crankwork.loads.filling import filled
 from crankwork.machine import Machine
+
+if TYPE_CHECKING:
+    from crankwork.analysis.results import Results
+
+_STEP = 1.0
+# behind a corner of the pressure, where there may be a jump [deg]
+_AFTER = 1e-6
 
 
 def solve_linkage(machine: Machine, motion: Motion) -> SolvedLinkage:
@@ -34,6 +44,25 @@ def gas_summary(solved: SolvedLinkage) -> dict[str, Known]:
         found[f"indicated_power.{name}"] = power.named(f"indicated_power.{name}")
     if len(chambers) > 1:
         found["indicated_power"] = total("indicated_power", [found[f"indicated_power.{name}"] for name in chambers])
+    return found
+
+
+class Indicator(NamedTuple):
+    """Volume and pressure of a chamber over its cycle and back to its beginning, shape (n,). [m3], [Pa]"""
+
+    volume: Array
+    pressure: Array
+
+
+def indicators(results: Results) -> dict[str, Indicator]:
+    """Return the indicator diagrams of the chambers by name, with both sides of every jump."""
+    machine, found = results.machine, {}
+    for name in machine.chambers:
+        keys = (f"cylinder_volume.{name}", f"diagram_pressure.{name}")
+        corners = breaks_of((results.memory[key] for key in keys), machine.cycle)
+        fine = np.concatenate([np.arange(0.0, machine.cycle, _STEP), corners, corners[:-1] + _AFTER])
+        columns = results.columns_at(np.unique(fine), keys)
+        found[name] = Indicator(*(np.append(columns[key], columns[key][0]) for key in keys))
     return found
 
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
 
+from crankwork.loads.chamber import Chamber, face_owners
 from crankwork.loads.load import Load
 from crankwork.loads.process import ForceOnPoint, ProcessForce, ProcessForceAtPoint, TorqueOnLink
 from crankwork.loads.spring import SliderSpring, Spring
@@ -51,3 +53,58 @@ def _largest(force: object) -> float | None:
     """Return the largest value of a constant or of a table, nothing of a law that is a program."""
     values = getattr(force, "values", force)
     return None if callable(values) else float(np.max(np.abs(np.asarray(values, dtype=float))))
+
+
+class StatedChamber(NamedTuple):
+    """A chamber as a description states it."""
+
+    name: str
+    faces: tuple[tuple[str, int], ...]  # Sliding pieces and the senses in which they move
+    owners: tuple[str, ...]  # What follows a key in the name of what belongs to each face
+    ambient: float  # Pressure on the other side [Pa]
+    kind: str  # Where its pressure comes from: `charge`, `constant`, `samples` or `laws`
+    names: Mapping[str, str]  # The `name` of the charge, the `file` of samples, or the `count` of laws
+    amounts: Mapping[str, tuple[float, str]]  # Values and the units in which they are told [SI]
+
+
+class StatedCharge(NamedTuple):
+    """What is sealed in chambers as a description states it."""
+
+    name: str
+    chambers: tuple[str, ...]
+    dead_volumes: tuple[tuple[float, float | None], ...]  # Volumes, and temperatures if they have one [m3], [K]
+    exponent: float | None  # That of a polytrope
+
+
+def stated_chambers(machine: Machine) -> tuple[StatedChamber, ...]:
+    """Return the chambers of a linkage as its description states them."""
+    return tuple(_stated_chamber(name, one, machine) for name, one in machine.chambers.items())
+
+
+def stated_charges(machine: Machine) -> tuple[StatedCharge, ...]:
+    """Return what is sealed in the chambers of a linkage."""
+    return tuple(
+        StatedCharge(
+            name, one.chambers, tuple((dead.volume, dead.temperature) for dead in one.dead_volumes), one.exponent
+        )
+        for name, one in machine.charges.items()
+    )
+
+
+def _stated_chamber(name: str, chamber: Chamber, machine: Machine) -> StatedChamber:
+    charge = next((key for key, one in machine.charges.items() if name in one.chambers), "")
+    names, amounts = dict[str, str](), dict[str, tuple[float, str]]()
+    if charge:
+        kind, names = "charge" if chamber.temperature is None else "charge_at", {"name": charge}
+        amounts = {} if chamber.temperature is None else {"temperature": (chamber.temperature, "K")}
+    elif chamber.pressure is not None:
+        kind, amounts = "constant", {"pressure": (chamber.pressure, "MPa")}
+    elif chamber.measured is not None:
+        kind, names = "samples", {"file": chamber.measured.file or "–"}
+    else:
+        kind, names = "laws", {"count": str(len(chamber.pieces))}
+        amounts = {"cycle": (math.radians(chamber.cycle), "deg")}
+    return StatedChamber(
+        name, tuple((one.slider, one.sense) for one in chamber.faces), face_owners(name, chamber), chamber.ambient,
+        kind, names, amounts,
+    )  # fmt: skip

@@ -74,3 +74,10 @@ class Charge:
 def cycle_of(chambers: Mapping[str, Chamber]) -> float:
     """Return the crank angle after which every pressure repeats. [deg]"""
     return max((one.cycle for one in chambers.values()), default=360.0)
+
+
+def face_owners(name: str, chamber: Chamber) -> tuple[str, ...]:
+    """Return what the faces of a chamber are called in keys: as it is if there is one, else with their pieces."""
+    if len(chamber.faces) == 1:
+        return (name,)
+    return tuple(f"{name}.{one.slider}" for one in chamber.faces)

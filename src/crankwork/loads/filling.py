@@ -18,7 +18,7 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import Motion
 from crankwork.loads import gas
 from crankwork.loads.applied import AppliedLoads, force_on_slider, together
-from crankwork.loads.chamber import Chamber, Charge, Face, cycle_of
+from crankwork.loads.chamber import Chamber, Charge, Face, cycle_of, face_owners
 from crankwork.loads.indicator import DiagramError, IndicatorDiagram, solve_diagram
 from crankwork.loads.measured import measured_diagram, wrap_is_rough
 from crankwork.loads.pressure import at_angle, remembered_pressure
@@ -114,7 +114,7 @@ def filled(chambers: Mapping[str, Chamber], charges: Mapping[str, Charge], motio
             told += [("ambient", {"pressure": ambient / 1e6})] * (not chambers[name].names_ambient)
         columns += [space.volume, space.volume_1, pressures[name], acting]
         for wall in space.walls:
-            key = f"gas_force.{name}" if len(space.walls) == 1 else f"gas_force.{name}.{wall.slider}"
+            key = wall.area.key.replace("piston_area", "gas_force", 1)
             force = gas.face_force(wall.sense, acting, wall.area).named(key)
             forces.append(GasForce(name, wall.slider, force))
         mean = gas.indicated_mean_pressure(works[name], space.swept).named(f"indicated_mean_pressure.{name}")
@@ -129,6 +129,7 @@ def _by_key(knowns: list[Known]) -> dict[str, Known]:
 
 
 def _sizes(space: _Space) -> Iterator[Known]:
+    yield from (wall.area for wall in space.walls)
     yield space.swept
     if not space.clearance.is_absent:
         yield space.clearance
@@ -149,9 +150,8 @@ def _spaces(chambers: Mapping[str, Chamber], motion: Motion, pi: float) -> dict[
 
 
 def _walls(name: str, chamber: Chamber, motion: Motion, pi: float) -> Iterator[_Wall]:
-    for number, face in enumerate(chamber.faces, start=1):
+    for number, (face, owner) in enumerate(zip(chamber.faces, face_owners(name, chamber), strict=True), start=1):
         path = f"chambers.{name}.faces[{number}]"
-        owner = name if len(chamber.faces) == 1 else f"{name}.{face.slider}"
         sense = absent("face_sense", 1.0) if face.sense == 1 else given(f"face_sense.{owner}", -1.0, f"{path}.sense")
         slide: Any = motion.sliders[face.slider]
         yield _Wall(face.slider, sense, _area(face, owner, path, pi), slide.position, slide.position_1)

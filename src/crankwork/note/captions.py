@@ -9,6 +9,7 @@ from crankwork.locale import Language, capital, say
 
 # what is called as something else is called already
 _SAME = {
+    "headings.chambers": "tables.chambers",
     "headings.driving": "quantities.driving_torque",
     "headings.firing": "columns.order",
     "headings.method": "report.method",
@@ -20,6 +21,7 @@ _SAME = {
     "captions.accumulated": "tables.accumulated_torque",
     "captions.acceleration": "quantities.piston_acceleration",
     "captions.balance": "figures.balance_orders",
+    "captions.chambers": "tables.chambers",
     "captions.displacement": "quantities.piston_displacement",
     "captions.firing": "tables.firing",
     "captions.harmonics": "tables.torque_harmonics",

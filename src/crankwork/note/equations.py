@@ -36,7 +36,7 @@ from crankwork.note.linkage_words import owned_symbol
 from crankwork.note.math import formula_box
 from crankwork.note.printed_units import display_unit, printed_unit
 from crankwork.note.symbols import number_box, symbol_box
-from crankwork.quantities import QUANTITIES, Language, base_key, linkage
+from crankwork.quantities import QUANTITIES, Language, base_key, chambers, linkage
 from crankwork.report.language import number
 from crankwork.report.language import symbol as key_symbol
 from crankwork.units import UNITS, coherent_unit, from_si, to_si
@@ -85,8 +85,8 @@ def equation_symbol(step: Line | Formula, language: Language) -> str:
     return f"{shown}{',' if '_' in shown else '_'}{name}" if name and len(name) <= _SHORT_NAME else shown
 
 
-# quantities that links and points have, whose names are any words
-OF_LINKS = frozenset(row.key for row in linkage.ROWS)
+# quantities that links, points and chambers have, whose names are any words
+OF_LINKS = frozenset(row.key for row in (*linkage.ROWS, *chambers.ROWS))
 
 
 def value_symbol(key: str, language: Language) -> str:

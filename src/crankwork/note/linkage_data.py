@@ -14,6 +14,7 @@ from crankwork.mechanism.joints import Pin, joints
 from crankwork.mechanism.linkage import GROUND, Member
 from crankwork.mechanism.mechanism import Crank
 from crankwork.mechanism.structure import links_of
+from crankwork.note.chambers import given_chambers
 from crankwork.note.document import Block, ItemList, Runs, Table
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_tables import equations
@@ -44,8 +45,9 @@ def task(material: Material) -> Iterator[Block]:
     if machine.loads:
         yield words.paragraph("outer_loads")
         yield ItemList(tuple(outer_load(one, words) for one in stated_loads(machine)))
-    elif machine.mechanism.bodies:
+    elif machine.mechanism.bodies and not machine.chambers:
         yield words.paragraph("no_loads")
+    yield from given_chambers(material)
     if machine.drive.inertia:
         yield words.paragraph("drive_inertia", value=words.amount(machine.drive.inertia, "kg*m2"))
     if machine.drive.fluctuation is not None:

@@ -26,7 +26,7 @@ def has_forces(material: Material) -> bool:
 def forces(material: Material) -> Iterator[Block]:
     """Yield the section about inertia forces, joint forces and the balancing torque."""
     mechanism = material.machine.mechanism
-    if not (mechanism.bodies or material.machine.loads):
+    if not (mechanism.bodies or material.machine.loads or material.machine.chambers):
         return
     words, columns = material.words, material.columns
     yield words.heading("linkage_forces")

@@ -23,6 +23,9 @@ _MOTION = (
     "link_angular_acceleration", "slider_displacement", "slider_velocity", "slider_acceleration",
     "coriolis_acceleration",
 )  # fmt: skip
+_CHARGES = ("swept_volume", "clearance_volume", "compression_ratio", "gas_mass")
+_CHAMBERS = ("cylinder_volume", "diagram_pressure", "gas_pressure", "gas_force")
+_GAS_WORK = ("indicated_work", "indicated_mean_pressure", "indicated_power")
 _INERTIA = ("link_inertia_force", "link_inertia_torque")
 _JOINTS = ("joint_force_x", "joint_force_y", "joint_force", "normal_force", "normal_moment")
 _REDUCTION = ("reduced_inertia", "kinetic_energy", "reduced_inertia_1", "reduced_torque")
@@ -39,6 +42,9 @@ def linkage_lines(results: Results, degrees: float | None = None) -> tuple[Group
         Group("speed", told.lines(["speed"]) if results.method.pi != math.pi else ()),
         told.group("driver", _DRIVER),
         told.group("motion", _MOTION),
+        Group("charges", told.lines(_CHARGES)),
+        told.group("chambers", _CHAMBERS),
+        Group("gas_work", told.lines(_GAS_WORK)),
         Group("inertia_loads", told.of(_inertia(results)), told.degrees),
         told.group("joint_forces", _JOINTS),
         told.group("driver_force", ("driver_force", "driver_torque", "driver_power")),

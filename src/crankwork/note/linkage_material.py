@@ -56,7 +56,7 @@ class Material:
     def positions(self) -> Array:
         """The positions of the plans, every 30 degrees, as far as the linkage reaches them. [deg]"""
         reached, _ = reached_angles(self.machine, 1.0)
-        every = np.arange(0.0, 360.0 + _POSITION_STEP, _POSITION_STEP)
+        every = np.arange(0.0, self.machine.cycle + _POSITION_STEP, _POSITION_STEP)
         inside = every[(every >= reached[0]) & (every <= reached[-1])]
         # a linkage that reaches none of them is shown where it does move
         return inside if inside.size else reached[::5]
@@ -78,7 +78,7 @@ class Material:
         degrees = None
         largest = ("driver_force", "driver_torque") if self.results.period else ("static_torque",)
         key = next((one for one in largest if one in self.columns), None)
-        if self.machine.loads and key is not None:
+        if (self.machine.loads or self.machine.chambers) and key is not None:
             degrees = float(self.positions[int(np.argmax(np.abs(self.columns[key])))])
         return {one.name: one for one in linkage_lines(self.results, degrees)}
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 
 from crankwork.analysis import Results
 from crankwork.note import linkage_table_note as table
+from crankwork.note.chambers import chambers
 from crankwork.note.document import Block, Contents, Note, PageBreak, TitlePage
 from crankwork.note.linkage_data import structural_analysis, task
 from crankwork.note.linkage_driver import driven_forces, driven_motion, driven_task
@@ -19,13 +20,13 @@ from crankwork.note.options import NoteOptions
 Section = Callable[[Material], Iterator[Block]]
 
 _COURSE: tuple[Section, ...] = (
-    task, structural_analysis, kinematics, forces, reduction, torques, motor, flywheel, law_of_motion, checks,
+    task, structural_analysis, kinematics, chambers, forces, reduction, torques, motor, flywheel, law_of_motion, checks,
     conclusion, sources, appendix,
 )  # fmt: skip
 # engineers who read English want the results before the way to them
 _REPORT: tuple[Section, ...] = (
-    task, conclusion, structural_analysis, kinematics, forces, reduction, torques, motor, flywheel, law_of_motion,
-    checks, sources, appendix,
+    task, conclusion, structural_analysis, kinematics, chambers, forces, reduction, torques, motor, flywheel,
+    law_of_motion, checks, sources, appendix,
 )  # fmt: skip
 _DRIVEN: tuple[Section, ...] = (
     driven_task, structural_analysis, driven_motion, driven_forces, checks, conclusion, sources, appendix,

@@ -35,7 +35,7 @@ class Quantity(NamedTuple):
         """Return the name of the quantity in that language."""
         kind, part = self._split()
         name = say(f"quantities.{kind}", language)
-        return f"{name}, {part}" if part else name
+        return f"{name}, {part.replace('.', ', ')}" if part else name
 
     def _split(self) -> tuple[str, str]:
         kind, _, part = self.key.partition(".")

@@ -13,6 +13,7 @@ from crankwork.locale import say
 from crankwork.machine import Machine
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import Language
+from crankwork.report.chambers import chamber_figures
 from crankwork.report.language import label
 from crankwork.report.linkage_curves import curves
 from crankwork.report.linkage_energy import speed_curve, wittenbauer
@@ -40,6 +41,7 @@ def linkage_figures(results: Results, *, language: Language = "en") -> dict[str,
         return _driver(degrees, known, style) | _sliders(degrees, known, style) | _dynamics(degrees, known, style)
     drawn = _plans(machine, degrees, results.solved.speed, style, is_whole=is_whole)
     drawn |= _sliders(degrees, known, style)
+    drawn |= chamber_figures(results, degrees, known, style)
     drawn |= _dynamics(degrees, known, style)
     if is_whole and machine.drive.fluctuation is not None:
         drawn |= _evenness(machine, degrees, known, results.solved.speed, style)

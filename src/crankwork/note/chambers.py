@@ -1,0 +1,93 @@
+"""The gas in the chambers of a linkage: what is given, volumes, pressures and forces, work and power."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from crankwork.analysis.stated import StatedChamber, stated_chambers, stated_charges
+from crankwork.locale import say
+from crankwork.note.document import Block, Citation, Runs, Table
+from crankwork.note.linkage_material import Material
+from crankwork.note.linkage_motion import worked_at
+from crankwork.note.linkage_tables import equations, position_tables, quantity_columns
+from crankwork.note.linkage_words import Words, in_display_unit, named
+from crankwork.quantities import QUANTITIES, base_key
+
+_VOLUME, _CHARGE = "kolchin_demidov_2008, ch. 5", "urieli_berchowitz_1984"
+_MINUS = "\N{MINUS SIGN}"
+_SINGLE = (
+    "swept_volume", "clearance_volume", "compression_ratio", "gas_pressure_max", "indicated_work",
+    "indicated_mean_pressure", "indicated_power",
+)  # fmt: skip
+
+
+def given_chambers(material: Material) -> Iterator[Block]:
+    """Yield the chambers as they are given, and what is sealed in them."""
+    words = material.words
+    found = stated_chambers(material.machine)
+    if not found:
+        return
+    rows = [tuple(_given(one, material)) for one in found]
+    titles: list[Runs] = [(words.column(one),) for one in ("chamber", "faces")]
+    titles += [words.titled(key) for key in ("piston_area", "clearance_volume", "ambient_pressure")]
+    titles += [(words.column("gas"),)]
+    yield Table(words.caption("chambers"), tuple(titles), rows, align="llrrrl")
+    for charge in stated_charges(material.machine):
+        dead = "; ".join(_amount(volume, temperature, words) for volume, temperature in charge.dead_volumes) or "–"
+        parts = {"name": charge.name, "chambers": ", ".join(charge.chambers), "dead": dead}
+        if charge.exponent is None:
+            yield words.paragraph("charge_given", **parts)
+        else:
+            yield words.paragraph("charge_polytrope", exponent=words.number(charge.exponent), **parts)
+
+
+def _given(chamber: StatedChamber, material: Material) -> Iterator[str]:
+    """Yield name, faces, areas, clearance, pressure around, and what gives the pressure of a chamber."""
+    words, results = material.words, material.results
+    yield chamber.name
+    yield ", ".join(f"{slider} ({'+' if sense > 0 else _MINUS})" for slider, sense in chamber.faces)
+    keys = [f"piston_area.{one}" for one in chamber.owners]
+    yield "; ".join(words.number(in_display_unit(key, [results.value(key)])[0]) for key in keys)
+    yield words.number(
+        in_display_unit("clearance_volume", [results.summary.get(f"clearance_volume.{chamber.name}", 0.0)])[0]
+    )
+    yield words.number(in_display_unit("ambient_pressure", [chamber.ambient])[0])
+    amounts = {name: words.amount(value, unit) for name, (value, unit) in chamber.amounts.items()}
+    yield say(f"sentences.of_{chamber.kind}", words.language, **chamber.names, **amounts)
+
+
+def _amount(volume: float, temperature: float | None, words: Words) -> str:
+    shown = words.amount(volume, "cm3")
+    return shown if temperature is None else f"{shown} ({words.amount(temperature, 'K')})"
+
+
+def chambers(material: Material) -> Iterator[Block]:
+    """Yield the section about the gas: volumes, pressures and forces, then work and power."""
+    words, columns, machine = material.words, material.columns, material.machine
+    if not machine.chambers:
+        return
+    yield words.heading("chambers")
+    yield words.paragraph("chambers", source=Citation(_VOLUME))
+    if any(one.exponent is None for one in machine.charges.values()):
+        yield words.paragraph("isothermal", source=Citation(_CHARGE))
+    yield from equations(material.lines("charges"), words)
+    yield from worked_at(material, "chambers")
+    yield from equations(material.lines("chambers"), words)
+    keys = named(columns, "cylinder_volume", "gas_pressure", "gas_force")
+    shown = quantity_columns(keys, columns, words)
+    yield from position_tables("gas", material.positions, shown, words, first=material.first, label="gas")
+    yield from material.figures("chambers", "indicator")
+    yield words.paragraph("gas_work")
+    yield from equations(material.lines("gas_work"), words)
+    rows = [(one.name, *_values(one.name, material)) for one in stated_chambers(machine)]
+    titles = [words.titled(key, QUANTITIES[base_key(key)].unit) for key in _SINGLE]
+    yield Table(words.caption("gas_work"), ((words.column("chamber"),), *titles), rows, align="l" + "r" * len(_SINGLE))
+
+
+def _values(name: str, material: Material) -> Iterator[str]:
+    """Yield the single values of a chamber; a dash for what it has not."""
+    words, summary = material.words, material.results.summary
+    for key in _SINGLE:
+        value = summary.get(f"{key}.{name}", math.nan)
+        yield words.number(in_display_unit(key.removesuffix("_max"), [value])[0])
