@@ -74,12 +74,6 @@ class TestDoubleActing:
         assert found["cylinder_volume.crank"] == pytest.approx(expected, rel=1e-13)
         assert single(steam, "compression_ratio.head") == pytest.approx(1 + AREA * 0.45 / 2e-3, rel=1e-13)
 
-    def test_rates_are_differences_of_volumes(self, steam):
-        before, after = (columns(steam, CrankGrid.from_degrees(ANGLES + one)) for one in (-0.01, 0.01))
-        for name in ("head", "crank"):
-            slope = (after[f"cylinder_volume.{name}"] - before[f"cylinder_volume.{name}"]) / math.radians(0.02)
-            assert columns(steam)[f"cylinder_volume_1.{name}"] == pytest.approx(slope, abs=2e-9)
-
     def test_the_diagram_is_the_one_of_the_strokes(self, steam):
         cut_off = brentq(lambda degrees: piston(degrees) - 0.18, 1, 179, xtol=1e-13)
         at = np.array([0.5 * cut_off, 0.5 * cut_off + 90, 200.0])

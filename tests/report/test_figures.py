@@ -71,6 +71,8 @@ def test_every_linkage_has_its_plans_and_the_curves_of_what_is_known(path):
     if results.machine.linkage is not None:
         expected |= {"position_plans", "velocity_plan", "acceleration_plan", "joint_forces"}
         expected |= {"sliders"} if any(key.startswith("slider_") for key in results.columns) else set()
+        expected |= {"indicator", "chambers"} if results.machine.chambers else set()
+        expected |= {"wittenbauer", "speed"} if results.machine.drive.fluctuation else set()
     assert set(drawn) == expected
     for data in drawn.values():
         assert ET.fromstring(data).tag == f"{SVG}svg"  # noqa: S314 - our own bytes

@@ -100,8 +100,9 @@ def rrp_forces(link: Wrench, piece: Wrench, u: Vector, t: Vector, name: str = ""
     guide. Along the guide the piece gives R_t = -F_t; about the outer pin the link gives u x R = M, hence R_n = (M +
     u_n R_t) / u_t (artobolevsky_1988, ch. 13).
     """
-    along, across = -force_along(piece.x, t[0], piece.y, t[1]), force_across(piece.y, t[0], piece.x, t[1])
-    along, across = named(along, f"force_along.{name}"), named(across, f"force_across.{name}.piece")
+    load = named(force_along(piece.x, t[0], piece.y, t[1]), f"force_along.{name}.piece")
+    along, across = named(-load, f"force_along.{name}"), force_across(piece.y, t[0], piece.x, t[1])
+    across = named(across, f"force_across.{name}.piece")
     arm_along, arm_across = along_guide(u[0], t[0], u[1], t[1]), across_guide(u[1], t[0], u[0], t[1])
     arm_along, arm_across = named(arm_along, f"guide_along.{name}.arm"), named(arm_across, f"guide_across.{name}.arm")
     pressed = named(rrp_inner_force(link.moment, arm_across, along, arm_along), f"force_across.{name}")
@@ -128,8 +129,8 @@ def prp_forces(a: Wrench, b: Wrench, t_a: Vector, t_b: Vector, name: str = "") -
     Moments are about the pin. Along the guides R t_a = F_a t_a and R t_b = -F_b t_b (artobolevsky_1988, ch. 13).
     """
     sine = named(sine_between(t_a[0], t_b[1], t_a[1], t_b[0]), f"guide_sine.{name}")
-    along_a, along_b = force_along(a.x, t_a[0], a.y, t_a[1]), -force_along(b.x, t_b[0], b.y, t_b[1])
-    along_a, along_b = named(along_a, f"force_along.{name}"), named(along_b, f"force_along.{name}.2")
+    along_a = named(force_along(a.x, t_a[0], a.y, t_a[1]), f"force_along.{name}")
+    along_b = named(-named(force_along(b.x, t_b[0], b.y, t_b[1]), f"force_along.{name}.piece"), f"force_along.{name}.2")
     x = prp_inner_force(along_a, t_b[1], along_b, t_a[1], sine)
     y = prp_inner_force(along_b, t_a[0], along_a, t_b[0], sine)
     x, y = inner = _vector(name, (x, y))

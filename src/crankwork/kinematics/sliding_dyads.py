@@ -230,7 +230,7 @@ def rpp_motion(dyad: RPP, joint: PointMotion, guide: LinkMotion) -> RPPMotion:
         Transfer(along[0] - x - cos * block_slide[0], along[1] - cos * block_slide[1], along[2] - cos * block_slide[2]),
         dyad.link,
     )
-    link = guide._replace(origin=point_on_guide(guide, slide))
+    link = guide._replace(origin=named_point(point_on_guide(guide, slide), dyad.link))
     block = turned(guide, gamma, dyad.block)._replace(origin=joint)
     closure = None if is_known(gamma) else Closure(np.full_like(slide[0], sin * sin), 1.0, slide[0])
     return RPPMotion(slide, block_slide, link, block, closure)

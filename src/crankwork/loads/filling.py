@@ -112,7 +112,7 @@ def filled(chambers: Mapping[str, Chamber], charges: Mapping[str, Charge], motio
             around = given(f"ambient_pressure.{name}", ambient, f"chambers.{name}.ambient")
             acting = gas.gauge_pressure(pressures[name], around).named(acting.key)
             told += [("ambient", {"pressure": ambient / 1e6})] * (not chambers[name].names_ambient)
-        columns += [space.volume, space.volume_1, pressures[name], acting]
+        columns += [space.volume, pressures[name], acting]
         for wall in space.walls:
             key = wall.area.key.replace("piston_area", "gas_force", 1)
             force = gas.face_force(wall.sense, acting, wall.area).named(key)
