@@ -208,6 +208,9 @@ def _is_filled(machine: Machine, values: Mapping[str, Any], reader: Reader) -> b
     """Complain of gas that does not suit the volumes of its chambers."""
     if not machine.chambers:
         return True
+    if machine.mechanism.driver.law is not None:
+        reader.complain("chambers", Refusal("chambers_driven"))
+        return False
     reached, notices = reachable(machine, CrankGrid.steps(_STEP, machine.cycle))
     if notices:
         reader.complain("chambers", Refusal("chambers_partial"))
