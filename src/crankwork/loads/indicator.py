@@ -31,6 +31,8 @@ VolumeAt = Callable[[Array], Array]
 _CLOSING = 1e-3
 # share of the stroke by which a volume may miss that of a dead centre
 _SAME_PLACE = 1e-12
+# share of the largest volume that is as good as none
+_EMPTY = 1e-7
 
 
 class DiagramError(CrankworkError):
@@ -336,12 +338,12 @@ class _Solver:
 
     def _check_filled(self, key: str, start: float, end: float, reference: float) -> None:
         """Raise if a polytrope passes where the volume is nothing."""
-        if min(self._reach[0], reference) > _SAME_PLACE * self._reach[1]:
+        if min(self._reach[0], reference) > _EMPTY * self._reach[1]:
             return
         centres = self._centres_after(start)
         at = np.array([start, *centres[centres < end], end])
         volumes = self.volume_at(at)
-        if min(float(np.min(volumes)), reference) <= _SAME_PLACE * self._reach[1]:
+        if min(float(np.min(volumes)), reference) <= _EMPTY * self._reach[1]:
             raise DiagramError(key, Refusal("polytrope_empty", angle=float(at[np.argmin(volumes)])))
 
     def _angle_of_pressure(self, key: str, start: float, last: str, state: tuple[float, float, float]) -> float:
