@@ -341,24 +341,28 @@ def is_known(*values: object) -> bool:
     return any(type(one) is Known for one in values)
 
 
-def in_order(knowns: Iterable[Known], *, into: Callable[[Node], tuple[Known, ...]] | None = None) -> Iterator[Known]:
+def in_order(knowns: Iterable[Known], *, into: Callable[[Node], Sequence[Known]] | None = None) -> Iterator[Known]:
     """Yield everything that knowns are made of, operands before what is made of them, each node once.
 
     `into`: what of a node to look into; its operands otherwise.
     """
     done: set[int] = set()
-    stack = [(known, False) for known in reversed(tuple(knowns))]
+    stack: list[Known | None] = list(reversed(tuple(knowns)))
+    # what is made of operands on the stack, each after a gap below them
+    made: list[Known] = []
     while stack:
-        known, is_open = stack.pop()
-        if is_open:
-            yield known
-            continue
-        if id(known.node) in done:
-            continue
-        done.add(id(known.node))
-        stack.append((known, True))
-        operands = known.node.operands if into is None else into(known.node)
-        stack.extend((one, False) for one in reversed(operands))
+        known = stack.pop()
+        if known is None:
+            yield made.pop()
+        elif id(known.node) not in done:
+            done.add(id(known.node))
+            operands = known.node.operands if into is None else into(known.node)
+            if operands:
+                made.append(known)
+                stack.append(None)
+                stack.extend(operands[::-1])
+            else:
+                yield known
 
 
 def breaks_of(knowns: Iterable[Known], cycle: float, start: float = 0.0) -> Array:

@@ -29,8 +29,6 @@ _AT_LOOK = legendre.legvander(_LOOK, _NODES.size - 1)
 _SLOPE_AT_ENDS = np.stack([(-1.0) ** (_DEGREES + 1), np.ones(_NODES.size)]) * _DEGREES * (_DEGREES + 1) / 2
 _DERIVATIVE = np.pad(legendre.legder(np.eye(_NODES.size)), ((0, 1), (0, 0)))
 _WIDTH = 30.0
-# Numbers that are looked at together.
-_NUMBERS = 2**21
 _CONVERGED = 1e-12
 _PARTS = 3
 _CUTS = 9
@@ -38,7 +36,10 @@ _NO_BETTER = 0.03
 _PATIENT = 1
 # of equal values, whatever rounding says, the first counts
 _PLATEAU = 1e-13
+# of the size of a column, what two places of its polynomials must differ by to be told apart
+_UNSURE = 1e-9
 _NEAR_TOP = 0.05
+_ROUGH = 0.05
 _NOTHING = 1e-4
 _INSIDE = 1 - 1e-9
 _NEWTON = 12
@@ -55,6 +56,14 @@ class Extreme(NamedTuple):
 
     value: float
     at: float
+
+
+class _Places(NamedTuple):
+    """Rows and crank angles where the largest of columns may stand, and what is equal to it, of each column. [deg]"""
+
+    rows: NDArray[np.intp]
+    angles: Array
+    equal: Array
 
 
 class OverCycle:
@@ -223,65 +232,80 @@ class OverCycle:
 
     @cached_property
     def largest_and_least(self) -> dict[str, tuple[Extreme, Extreme]]:
-        """The largest and the least of every column, as many replayed together as memory has room for."""
-        keys, found = list(self._row), dict[str, tuple[Extreme, Extreme]]()
-        together = max(_NUMBERS // (self._low.size * _LOOK.size), 1)
-        for some in (keys[at : at + together] for at in range(0, len(keys), together)):
-            program = self._program if len(some) == len(keys) else Program({key: self.knowns[key] for key in some})
-            found |= self._extremes_of(some, program)
-        return found
-
-    def _extremes_of(self, keys: list[str], program: Program) -> dict[str, tuple[Extreme, Extreme]]:
-        rows = slice(self._row[keys[0]], self._row[keys[-1]] + 1)
-        places = [self._may_stand(sign * self._coefficients[rows], self._scale[rows]) for sign in (1.0, -1.0)]
-        every = distinct(np.concatenate([self.edges, *(angles for _, angles in places)]))
-        columns = program(self._angles_at(every))
-        values = np.stack([columns[key] for key in keys])
+        """The largest and the least of every column: where they stand by the polynomials, replayed there."""
+        places = [self._may_stand(sign * self._coefficients) for sign in (1.0, -1.0)]
+        every = distinct(np.concatenate([one.angles for one in places]))
+        columns = self._program(self._angles_at(every))
+        values = np.array([columns[key] for key in self._row]).reshape(-1, every.size)
         largest, least = (
-            self._first_of_equal(*place, every, sign * values) for place, sign in zip(places, (1.0, -1.0), strict=True)
+            self._first_of_equal(place, every, sign * values) for place, sign in zip(places, (1.0, -1.0), strict=True)
         )
         return {
             key: (Extreme(float(column[one]), float(every[one])), Extreme(float(column[other]), float(every[other])))
-            for key, column, one, other in zip(keys, values, largest, least, strict=True)
+            for key, column, one, other in zip(self._row, values, largest, least, strict=True)
         }
 
-    def _may_stand(self, coefficients: Array, scale: Array) -> tuple[NDArray[np.intp], Array]:
-        """Return rows and crank angles where, but for edges, the largest of columns may stand."""
-        looked = coefficients @ _AT_LOOK.T
-        top, span = looked.max(axis=(1, 2)), np.ptp(looked, axis=(1, 2))
-        high_up = looked >= (top - _NEAR_TOP * span)[:, None, None]
-        row_of_jump, jump = np.nonzero(np.abs(looked[:, 1:, 0] - looked[:, :-1, -1]) > _JUMP * scale[:, None])
-        inner = looked[:, :, 1:-1]
-        row, interval, place = np.nonzero(
-            (inner >= looked[:, :, :-2]) & (inner >= looked[:, :, 2:]) & high_up[:, :, 1:-1]
+    def _may_stand(self, coefficients: Array) -> _Places:
+        at_ends = coefficients @ _AT_LOOK[[0, -1]].T
+        top, least = at_ends.max(axis=(1, 2), initial=-np.inf), at_ends.min(axis=(1, 2), initial=np.inf)
+        rise = np.abs(coefficients[:, :, 1:]).sum(axis=2)
+        is_high = coefficients[:, :, 0] + rise >= (top - self._spare(top - least))[:, None]
+        # what no polynomial follows is rounding, and its peaks are none
+        row, interval = np.nonzero(is_high & (np.abs(coefficients[:, :, -2:]).sum(axis=2) < _ROUGH * rise))
+        inside = coefficients[row, interval]
+        looked = inside @ _AT_LOOK.T
+        np.maximum.at(top, row, looked.max(axis=1))
+        one, u = self._peaks(inside, looked, looked >= (top - _NEAR_TOP * (top - least))[row, None])
+        row, interval, at_peaks = row[one], interval[one], legendre.legval(u, inside[one].T, tensor=False)
+        np.maximum.at(top, row, at_peaks)
+        high = top - self._spare(top - least)
+        # what the column is before and after an edge; the end of the cycle is its start
+        before, after = np.roll(at_ends[:, :, 1], 1, axis=1), at_ends[:, :, 0]
+        at_edges = np.maximum(before, after) >= high[:, None]
+        edge = np.nonzero(np.append(at_edges, at_edges[:, :1], axis=1))
+        jump = np.nonzero((np.abs(after - before) > _JUMP * self._scale[:, None]) & (after >= high[:, None]))
+        row, interval, u = (one[at_peaks >= high[row]] for one in (row, interval, u))
+        peaks = (self._low[interval] + self._high[interval]) / 2 + (self._high - self._low)[interval] / 2 * u
+        beyond = np.nextafter(self._low[jump[1]], np.inf)
+        equal = _PLATEAU * (top - least + np.maximum(np.abs(top), np.abs(least)))
+        return _Places(
+            np.concatenate([edge[0], jump[0], row]), np.concatenate([self.edges[edge[1]], beyond, peaks]), equal
         )
+
+    def _peaks(self, coefficients: Array, looked: Array, is_high: NDArray[np.bool_]) -> tuple[NDArray[np.intp], Array]:
+        """Return which polynomials have a peak that is high up, and the places of peaks, from -1 to 1."""
+        inner = looked[:, 1:-1]
+        one, place = np.nonzero((inner >= looked[:, :-2]) & (inner >= looked[:, 2:]) & is_high[:, 1:-1])
         # a peak may hide between an edge and the first look beside it: there the column rises away from the edge
         slope = coefficients @ _SLOPE_AT_ENDS.T
-        low = np.nonzero((looked[:, :, 0] >= looked[:, :, 1]) & (slope[:, :, 0] > 0) & high_up[:, :, 0])
-        high = np.nonzero((looked[:, :, -1] >= looked[:, :, -2]) & (slope[:, :, 1] < 0) & high_up[:, :, -1])
+        low = np.flatnonzero((looked[:, 0] >= looked[:, 1]) & (slope[:, 0] > 0) & is_high[:, 0])
+        high = np.flatnonzero((looked[:, -1] >= looked[:, -2]) & (slope[:, 1] < 0) & is_high[:, -1])
         beside = (_LOOK[1] + _LOOK[0]) / 2
-        row, interval = np.concatenate([row, low[0], high[0]]), np.concatenate([interval, low[1], high[1]])
-        u = np.concatenate([_LOOK[place + 1], np.full(low[0].size, beside), np.full(high[0].size, -beside)])
-        u = self._flat(coefficients[row, interval], u)
-        peaks = (self._low[interval] + self._high[interval]) / 2 + (self._high - self._low)[interval] / 2 * u
-        after = np.nextafter(self._low[jump + 1], np.inf)
-        return np.concatenate([row_of_jump, row]), np.concatenate([after, peaks])
+        one = np.concatenate([one, low, high])
+        u = np.concatenate([_LOOK[place + 1], np.full(low.size, beside), np.full(high.size, -beside)])
+        return one, self._flat(coefficients[one], u)
 
-    def _first_of_equal(self, rows: NDArray[np.intp], angles: Array, every: Array, values: Array) -> NDArray[np.intp]:
+    def _spare(self, span: Array) -> Array:
+        """Return how far below the top of each column one place of its polynomials may be and count as the largest."""
+        left_out = np.max(self._left_out(self._coefficients), axis=1, initial=0.0)
+        most = (_UNSURE + 4 * left_out) * self._scale
+        return np.asarray(np.minimum(most, np.maximum(_NEAR_TOP * span, _CONVERGED * self._scale)))
+
+    def _first_of_equal(self, places: _Places, every: Array, values: Array) -> NDArray[np.intp]:
         """Return for each row at which of the angles its value is largest, of those that it may stand at."""
-        counts = np.zeros(values.shape, dtype=bool)
-        counts[:, np.searchsorted(every, self.edges)] = True
-        counts[rows, np.searchsorted(every, angles)] = True
-        seen = np.where(counts, values, -np.inf)
-        largest, least = seen.max(axis=1, initial=-np.inf), values.min(axis=1, where=counts, initial=np.inf)
-        spare = _PLATEAU * (largest - least + np.maximum(np.abs(largest), np.abs(least)))
-        equal = seen >= (largest - spare)[:, None]
-        first = equal.argmax(axis=1)
+        rows, angles = places.rows, places.angles
+        place = np.searchsorted(every, angles)
+        seen, largest = values[rows, place], np.full(len(values), -np.inf)
+        np.maximum.at(largest, rows, seen)
+        is_equal = seen >= (largest - places.equal)[rows]
+        rows, place, angles = rows[is_equal], place[is_equal], angles[is_equal]
+        first, edge = np.full(len(values), every.size), np.full(len(values), every.size)
+        np.minimum.at(first, rows, place)
         # an edge is meant where rounding alone tells the angle from it
-        begins = np.zeros(every.size, dtype=bool)
-        begins[np.searchsorted(every, self._low)] = True
-        near = equal & begins & (every - every[first][:, None] < _AT_EDGE)
-        return np.asarray(np.where(near.any(axis=1), near.argmax(axis=1), first))
+        begins = self._low[np.searchsorted(self._low, angles, side="right") - 1] == angles
+        near = begins & (angles - every[first[rows]] < _AT_EDGE)
+        np.minimum.at(edge, rows[near], place[near])
+        return np.where(edge < every.size, edge, first)
 
     def _zeros(self, coefficients: Array, low: Array, high: Array, starts_below: NDArray[np.bool_]) -> Array:
         """Return the zero of each polynomial between two places of different sign: Newton steps, kept between them."""

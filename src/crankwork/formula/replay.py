@@ -7,8 +7,10 @@ operations at the angles wanted.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Iterator, Mapping
-from typing import Protocol, Self
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import partial
+from operator import itemgetter
+from typing import Any, Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,7 +33,7 @@ from crankwork.formula.known import (
 )
 
 # Rows that are replayed together, so that what lies between formulas stays in the cache.
-_ROWS = (1024, 32768)
+_ROWS = (2048, 32768)
 # Numbers that may be held at once, so that a long chain is replayed in short parts.
 _NUMBERS = 2**22
 
@@ -61,52 +63,93 @@ class Angles(Protocol):
     def __len__(self) -> int: ...
 
 
+# What makes a column: a function, and what it takes.
+_Step = tuple[Callable[..., Any], tuple[Known | float, ...]]
+# Stand for the angles at which columns are replayed.
+_ANGLES, _DEGREES = Known(Node(None)), Known(OfAngle("degrees"))
+
+
 class Program:
-    """What has to be done, in order, to replay some columns."""
+    """What has to be done, in order, to replay some columns.
+
+    A step takes columns and numbers out of slots and puts a column into one; the slot of what is spent is used again.
+    """
 
     def __init__(self, knowns: Mapping[str, Known]) -> None:
         self.knowns = dict(knowns)
-        self._order = [one.node for one in in_order(self.knowns.values(), into=_beside) if one.varies]
-        self._spent = self._last_uses()
-        nodes = [node for node in self._order if isinstance(node, Delayed)]
-        self._earlier = [_Earlier(nodes, cycle) for cycle in sorted({node.cycle for node in nodes})]
+        steps: dict[int, _Step] = {}
+        late: list[Delayed] = []
+
+        def beside(node: Node) -> list[Known]:
+            if isinstance(node, Delayed):
+                late.append(node)
+                return []
+            _, inputs = steps[id(node)] = _step(node)
+            return [one for one in inputs if type(one) is Known and one.node.value is None and one is not _ANGLES]
+
+        order = [one.node for one in in_order((one for one in knowns.values() if one.varies), into=beside)]
+        for cycle in sorted({node.cycle for node in late}):
+            together = [node for node in late if node.cycle == cycle]
+            earlier = Known(Node(None))
+            steps[id(earlier.node)] = _Earlier(together, cycle), (_ANGLES,)
+            steps |= {id(node): (itemgetter(id(node)), (earlier,)) for node in together}
+            order.insert(0, earlier.node)
+        self._slots: list[Any] = [None]
+        self._slot_of = {id(_ANGLES.node): 0}
+        self._steps = list(self._placed([(id(node), *steps[id(node)]) for node in order]))
+
+    def _placed(
+        self, steps: list[tuple[int, Callable[..., Any], tuple[Known | float, ...]]]
+    ) -> Iterator[tuple[int, Callable[..., Any], Callable[[list[Any]], Iterable[Any]]]]:
+        """Yield of each step the slot of what it makes, its function, and what takes its operands out of the slots."""
+        slots, slot_of, free = self._slots, self._slot_of, list[int]()
+        last = {
+            id(one.node): at
+            for at, (_, _, inputs) in enumerate(steps)
+            for one in inputs
+            if type(one) is Known and one.node.value is None
+        }
+        for kept in (_ANGLES, *self.knowns.values()):
+            last.pop(id(kept.node), None)
+        for at, (made, function, inputs) in enumerate(steps):
+            taken = []
+            for one in inputs:
+                key = id(one.node) if type(one) is Known else id(one)
+                slot = slot_of.get(key)
+                if slot is None:
+                    slot = slot_of[key] = len(slots)
+                    slots.append(one.node.value if type(one) is Known else one)
+                elif last.get(key) == at:
+                    del last[key]
+                    free.append(slot)
+                taken.append(slot)
+            if not free:
+                free.append(len(slots))
+                slots.append(None)
+            slot = slot_of[made] = free.pop()
+            # of one slot `itemgetter` would give what is in it
+            yield slot, function, itemgetter(*taken) if len(taken) > 1 else itemgetter(slice(taken[0], taken[0] + 1))
 
     def __call__(self, angles: Angles) -> dict[str, Array]:
         """Return the columns at crank angles, by key; what does not vary with the angle is repeated. [SI]"""
         count = len(angles)
-        result = {key: np.full(count, known.node.value) for key, known in self.knowns.items() if not known.varies}
-        wanted = {key: known for key, known in self.knowns.items() if known.varies}
-        rows = {key: np.empty(count) for key in wanted}
-        together = min(max(_NUMBERS // max(len(self._order), 1), _ROWS[0]), _ROWS[1])
+        rows = {key: np.full(count, known.node.value or 0.0) for key, known in self.knowns.items()}
+        wanted = [(rows[key], self._slot_of[id(known.node)]) for key, known in self.knowns.items() if known.varies]
+        together = min(max(_NUMBERS // len(self._slots), _ROWS[0]), _ROWS[1])
         for start in range(0, count, together):
             part = slice(start, min(start + together, count))
             # a vertical link has no slope, and its arc tangent is a right angle
             with np.errstate(divide="ignore"):
-                values = self._replay(angles[part])
-            for key, known in wanted.items():
-                rows[key][part] = values[id(known.node)]
-        return {key: result[key] if key in result else rows[key] for key in self.knowns}
+                columns = self._replay(angles[part])
+            for column, slot in wanted:
+                column[part] = columns[slot]
+        return rows
 
-    def _replay(self, angles: Angles) -> dict[int, Array]:
-        values: dict[int, Array] = {}
-        for one in self._earlier:
-            values |= one(angles)
-        for node, spent in zip(self._order, self._spent, strict=True):
-            if id(node) not in values:
-                values[id(node)] = _column(node, angles, values)
-            for gone in spent:
-                values.pop(gone, None)
-        return values
-
-    def _last_uses(self) -> list[list[int]]:
-        """Return for each node in order which others nothing needs after it."""
-        last = {id(one.node): at for at, node in enumerate(self._order) for one in _beside(node)}
-        spent: list[list[int]] = [[] for _ in self._order]
-        wanted = {id(known.node) for known in self.knowns.values()}
-        for one, at in last.items():
-            if one not in wanted:
-                spent[at].append(one)
-        return spent
+    def _replay(self, angles: Angles) -> list[Any]:
+        slots: list[Any] = [angles, *self._slots[1:]]
+        for slot, function, operands in self._steps:
+            slots[slot] = function(*operands(slots))
+        return slots
 
 
 def replay(known: Known, angles: Angles) -> Array:
@@ -114,35 +157,14 @@ def replay(known: Known, angles: Angles) -> Array:
     return Program({"": known})(angles)[""]
 
 
-def _beside(node: Node) -> tuple[Known, ...]:
-    """Return the operands that are replayed at the same angles: not those of a delay, and not the laws of pieces."""
-    if isinstance(node, Delayed) or node.value is not None:
-        return ()
-    if isinstance(node, Table):
-        return () if node.by is None else (node.by,)
-    if isinstance(node, Pieces):
-        return tuple(itertools.chain.from_iterable(_beside_law(law) for law in node.operands if law.varies))
-    return node.operands
-
-
-def _beside_law(law: Known) -> tuple[Known, ...]:
-    """Return what a law of pieces needs at all angles; the formula of the law itself is used on its own stretch."""
-    match law.node:
-        case Use():
-            return law.node.operands
-        case Table(by=None):
-            return ()
-    return (law,)
-
-
 class _Earlier:
     """Delayed columns: what is delayed is replayed once, at all the angles that any delay asks for."""
 
     def __init__(self, nodes: list[Delayed], cycle: float) -> None:
-        self._nodes, self._cycle = [node for node in nodes if node.cycle == cycle], cycle
-        self._by = np.array(sorted({node.by for node in self._nodes}))
+        self._nodes, self._cycle = nodes, cycle
+        self._by = np.array(sorted({node.by for node in nodes}))
         self._row = {float(one): at for at, one in enumerate(self._by)}
-        self._program = Program({str(id(node.of.node)): node.of for node in self._nodes})
+        self._program = Program({str(id(node.of.node)): node.of for node in nodes})
 
     def __call__(self, angles: Angles) -> dict[int, Array]:
         distinct, places = angles.earlier(self._by, self._cycle)
@@ -150,59 +172,71 @@ class _Earlier:
         return {id(node): columns[str(id(node.of.node))][places[self._row[node.by]]] for node in self._nodes}
 
 
-def _column(node: Node, angles: Angles, values: Mapping[int, Array]) -> Array:
+def _step(node: Node) -> _Step:
+    """Return how a column is made of others at the same angles."""
     match node:
-        case OfAngle():
-            grid = angles.multiple(node.multiple).shifted(node.shift)
-            column: Array = getattr(grid, node.function)
-            return column
         case Use():
-            return np.asarray(node.formula.function(*_inputs(node.inputs, values)))
+            return node.formula.function, node.inputs
         case Arithmetic():
-            return np.asarray(node.function(*_inputs(node.inputs, values)))
+            return node.function, node.inputs
+        case OfAngle():
+            return partial(_of_angle, node), (_ANGLES,)
         case Total():
-            return np.asarray(sum(_inputs(node.operands, values)))
+            return _sum, node.operands
         case Pieces():
-            return _piece_by_piece(node, angles, values)
+            laws = [_law(one) for one in node.operands]
+            return partial(_piece_by_piece, node.ends, laws), (_DEGREES, *itertools.chain(*(one for _, one in laws)))
         case Table():
-            at = angles.degrees if node.by is None else np.asarray(_inputs((node.by,), values)[0])
-            return np.asarray(node.function(at), dtype=float)
+            return partial(_read, node.function), (_DEGREES if node.by is None else node.by,)
         case Root():
-            return node.solve(_inputs(node.operands, values) if node.operands else angles)
+            return (partial(_solved, node), node.operands) if node.operands else (node.solve, (_ANGLES,))
         case Component():
-            return np.asarray(values[id(node.operands[0].node)][node.at])
+            return itemgetter(node.at), node.operands
         case HalfTurns():
-            sin, cos = _inputs(node.operands, values)
-            return np.rint((node.near(angles.degrees) - np.arctan(sin / cos)) / np.pi)
+            return partial(_half_turns, node), (_DEGREES, *node.operands)
     raise TypeError(f"{type(node).__name__} cannot be replayed")
 
 
-def _inputs(inputs: Iterable[Known | float], values: Mapping[int, Array]) -> list[Array | float]:
-    found: list[Array | float] = []
-    for one in inputs:
-        if not isinstance(one, Known):
-            found.append(one)
-        elif one.node.value is not None:
-            found.append(one.node.value)
-        else:
-            found.append(values[id(one.node)])
-    return found
+def _of_angle(node: OfAngle, angles: Angles) -> Array:
+    column: Array = getattr(angles.multiple(node.multiple).shifted(node.shift), node.function)
+    return column
 
 
-def _piece_by_piece(node: Pieces, angles: Angles, values: Mapping[int, Array]) -> Array:
+def _sum(*terms: Array) -> Array:
+    return np.asarray(sum(terms))
+
+
+def _read(function: Callable[[Array], Array], at: Array) -> Array:
+    return np.asarray(function(np.asarray(at)), dtype=float)
+
+
+def _solved(root: Root, *columns: Array) -> Array:
+    return root.solve(columns)
+
+
+def _half_turns(node: HalfTurns, degrees: Array, sin: Array, cos: Array) -> Array:
+    return np.asarray(np.rint((node.near(degrees) - np.arctan(sin / cos)) / np.pi))
+
+
+def _law(law: Known) -> _Step:
+    """Return what makes a law of pieces: a formula is used on its own stretch, what else varies is cut out."""
+    if law.varies and (isinstance(law.node, Use) or (isinstance(law.node, Table) and law.node.by is None)):
+        return _step(law.node)
+    return _itself, (law,)
+
+
+def _itself(column: Array) -> Array:
+    return column
+
+
+def _piece_by_piece(ends: Array, laws: list[_Step], degrees: Array, *columns: Array | float) -> Array:
     """Return a column each stretch of which follows its own law."""
-    law_of = np.minimum(np.searchsorted(node.ends, angles.degrees, side="left"), len(node.operands) - 1)
-    result = np.empty(len(angles))
+    law_of = np.minimum(np.searchsorted(ends, degrees, side="left"), len(laws) - 1)
+    first = list(itertools.accumulate((len(inputs) for _, inputs in laws), initial=0))
+    result = np.empty(degrees.size)
     for at, rows in _stretches(law_of):
-        law = node.operands[at]
-        match law.node:
-            case Use(formula=formula, inputs=inputs) if law.varies:
-                taken = [one[rows] if isinstance(one, np.ndarray) else one for one in _inputs(inputs, values)]
-                result[rows] = formula.function(*taken)
-            case Table(function=function, by=None):
-                result[rows] = function(angles.degrees[rows])
-            case inner:
-                result[rows] = law.value if not law.varies else values[id(inner)][rows]
+        taken = (one[rows] if isinstance(one, np.ndarray) else one for one in columns[first[at] : first[at + 1]])
+        result[rows] = laws[at][0](*taken)
     return result
 
 
