@@ -42,10 +42,10 @@ _OF_DRIVER = (
 )  # fmt: skip
 
 
-def reachable(machine: Machine, grid: CrankGrid) -> tuple[CrankGrid, tuple[Notice, ...]]:
-    """Return the crank angles that the linkage can reach, and a notice if those are not all."""
+def reachable(machine: Machine, grid: CrankGrid) -> tuple[Motion, tuple[Notice, ...]]:
+    """Return the motion over the crank angles that the linkage can reach, and a notice if those are not all."""
     try:
-        linkage_motion(machine.mechanism, grid)
+        return linkage_motion(machine.mechanism, grid), ()
     except GeometryError as error:
         # a law either passes what its linkage reaches, or has to be changed
         if machine.mechanism.driver.law is not None:
@@ -56,8 +56,7 @@ def reachable(machine: Machine, grid: CrankGrid) -> tuple[CrankGrid, tuple[Notic
             raise
         kept = grid[slice(int(reached[0]), int(reached[-1]) + 1)]
         ends = {"from": float(kept.degrees[0]), "to": float(kept.degrees[-1])}
-        return kept, (Notice("partial", {"message": error.args[0], **ends}),)
-    return grid, ()
+        return linkage_motion(machine.mechanism, kept), (Notice("partial", {"message": error.args[0], **ends}),)
 
 
 def four_bar_type(machine: Machine) -> FourBarType | Literal[""]:
@@ -95,14 +94,14 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
     if grid is None:
         grid = CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
     dense, notices = reachable(machine, CrankGrid.steps(_DENSE_STEP, machine.cycle))
-    is_whole, low, high = not notices, dense.degrees[0], dense.degrees[-1]
+    is_whole, low, high = not notices, dense.grid.degrees[0], dense.grid.degrees[-1]
     inside = np.flatnonzero((grid.degrees >= low) & (grid.degrees <= high))
     if inside.size == 0 and own_table:
-        grid, inside = dense, np.arange(len(dense))
+        grid, inside = dense.grid, np.arange(len(dense.grid))
     if inside.size == 0:
         raise CrankworkError(Refusal("table_unreached", low=low, high=high))
     grid = grid[slice(int(inside[0]), int(inside[-1]) + 1)]
-    motion = remembered_motion(machine.mechanism, linkage_motion(machine.mechanism, dense), machine.linkage)
+    motion = remembered_motion(machine.mechanism, dense, machine.linkage)
     solved = solve_linkage(machine, motion)
     notices += tuple(Notice(*one) for one in solved.filling.notices)
     memory = linkage_memory(solved, motion)
@@ -208,11 +207,11 @@ def _quality(machine: Machine, memory: Mapping[str, Known]) -> dict[str, Known]:
     return result
 
 
-def _checks(solved: SolvedLinkage, grid: CrankGrid) -> dict[str, float]:
+def _checks(solved: SolvedLinkage, motion: Motion) -> dict[str, float]:
     """Return how far four independent routes to the balancing torque differ, relative to the forces."""
     if not (solved.machine.mechanism.bodies or solved.machine.loads or solved.machine.chambers):
         return {}
-    running = running_at(solved, linkage_motion(solved.machine.mechanism, grid))
+    running, grid = running_at(solved, motion), motion.grid
     found = joint_forces(running)
     reference = found.balancing_torque
     some = _every(grid, len(solved.machine.drawn.members))

@@ -87,8 +87,8 @@ def reached_angles(machine: Machine, step: float) -> tuple[Array, bool]:
 
     `step`: step [deg].
     """
-    grid, notices = reachable(machine, CrankGrid.steps(step, machine.cycle))
-    return grid.degrees, not notices
+    motion, notices = reachable(machine, CrankGrid.steps(step, machine.cycle))
+    return motion.grid.degrees, not notices
 
 
 def drawn_mechanism(machine: Machine) -> Mechanism:

@@ -190,8 +190,7 @@ def _moves(machine: Machine, reader: Reader) -> bool:
     """Complain of a linkage that can be assembled nowhere, or whose transient does not come to its end."""
     grid = CrankGrid.steps(_STEP, 360.0)
     try:
-        reached, _ = reachable(machine, grid)
-        motion = linkage_motion(machine.mechanism, reached)
+        motion, _ = reachable(machine, grid)
     except GeometryError as error:
         is_by_law = machine.mechanism.driver.law is not None
         reader.complain("driver.law" if is_by_law else _unassembled_key(machine, grid), error.args[0])
@@ -211,11 +210,10 @@ def _is_filled(machine: Machine, values: Mapping[str, Any], reader: Reader) -> b
     if machine.mechanism.driver.law is not None:
         reader.complain("chambers", Refusal("chambers_driven"))
         return False
-    reached, notices = reachable(machine, CrankGrid.steps(_STEP, machine.cycle))
+    moved, notices = reachable(machine, CrankGrid.steps(_STEP, machine.cycle))
     if notices:
         reader.complain("chambers", Refusal("chambers_partial"))
         return False
-    moved = linkage_motion(machine.mechanism, reached)
     try:
         solve_linkage(machine, remembered_motion(machine.mechanism, moved, machine.linkage))
     except DiagramError as error:

@@ -393,15 +393,16 @@ def _breaks(knowns: tuple[Known, ...], memo: dict[int, frozenset[float]]) -> fro
         node = known.node
         # operands mostly share their breaks: a set as it is, joined only to what is not in it
         found: frozenset[float] = frozenset()
-        for one in _varying(node):
-            others = memo[id(one.node)]
+        for one in node.operands:
+            others = memo.get(id(one.node), found)
             found = others if not found else found if others <= found else found | others
         if isinstance(node, Pieces | Table):
             found |= frozenset(node.knots)
         elif isinstance(node, Delayed):
             found = frozenset((one + node.by) % node.cycle for one in found)
-        memo[id(node)] = found if known.varies else frozenset()
-    return frozenset().union(*(memo[id(one.node)] for one in knowns))
+        if found and known.varies:
+            memo[id(node)] = found
+    return frozenset().union(*(memo.get(id(one.node), ()) for one in knowns))
 
 
 def _varying(node: Node) -> tuple[Known, ...]:

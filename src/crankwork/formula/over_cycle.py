@@ -120,18 +120,17 @@ class OverCycle:
         for some, _, part in done:
             self._coefficients[:, place[start : start + some.size]] = part
             start += some.size
-        self.error = float(np.max(self._left_out(self._coefficients), initial=0.0))
+        # what is left out, and what a column may rise by from its mean, in each interval
+        self._left = self._left_out(self._coefficients)
+        self._rise = np.abs(self._coefficients) @ np.minimum(_DEGREES, 1.0)
+        self.error = float(np.max(self._left, initial=0.0))
 
     def _fit(self, low: Array, high: Array) -> Array:
         """Return Legendre coefficients, shape (columns, intervals, degrees)."""
         degrees = (low + high)[:, None] / 2 + (high - low)[:, None] / 2 * _NODES
         columns = self._program(self._angles_at(degrees.ravel()))
-        values = (
-            np.stack([columns[key].reshape(degrees.shape) for key in self._row])
-            if columns
-            else np.empty((0, *degrees.shape))
-        )
-        return np.asarray(values @ _FROM_VALUES.T)
+        values = np.array([columns[key] for key in self._row]).reshape(-1, _NODES.size)
+        return np.asarray((values @ _FROM_VALUES.T).reshape(len(self._row), -1, _NODES.size))
 
     def _cuts(self, coefficients: Array, low: Array, high: Array) -> Array:
         """Return where intervals are cut, shape (_PARTS + 1, n): evenly, or where the worst column comes to nothing."""
@@ -148,7 +147,7 @@ class OverCycle:
         return np.asarray((low + high) / 2 + (high - low) / 2 * cuts)
 
     def _left_out(self, coefficients: Array) -> Array:
-        return np.asarray(np.abs(coefficients[:, :, -2:]).sum(axis=2) / self._scale[:, None])
+        return np.asarray((np.abs(coefficients[:, :, -2]) + np.abs(coefficients[:, :, -1])) / self._scale[:, None])
 
     def integral(self, key: str) -> float:
         """Return the integral of a column over the crank angle. [its unit, rad]"""
@@ -233,7 +232,7 @@ class OverCycle:
     @cached_property
     def largest_and_least(self) -> dict[str, tuple[Extreme, Extreme]]:
         """The largest and the least of every column: where they stand by the polynomials, replayed there."""
-        places = [self._may_stand(sign * self._coefficients) for sign in (1.0, -1.0)]
+        places = [self._may_stand(sign) for sign in (1.0, -1.0)]
         every = distinct(np.concatenate([one.angles for one in places]))
         columns = self._program(self._angles_at(every))
         values = np.array([columns[key] for key in self._row]).reshape(-1, every.size)
@@ -245,14 +244,14 @@ class OverCycle:
             for key, column, one, other in zip(self._row, values, largest, least, strict=True)
         }
 
-    def _may_stand(self, coefficients: Array) -> _Places:
-        at_ends = coefficients @ _AT_LOOK[[0, -1]].T
+    def _may_stand(self, sign: float) -> _Places:
+        """Return where the largest of columns, times a sign, may stand."""
+        at_ends = sign * (self._coefficients @ _AT_LOOK[[0, -1]].T)
         top, least = at_ends.max(axis=(1, 2), initial=-np.inf), at_ends.min(axis=(1, 2), initial=np.inf)
-        rise = np.abs(coefficients[:, :, 1:]).sum(axis=2)
-        is_high = coefficients[:, :, 0] + rise >= (top - self._spare(top - least))[:, None]
+        is_high = sign * self._coefficients[:, :, 0] + self._rise >= (top - self._spare(top - least))[:, None]
         # what no polynomial follows is rounding, and its peaks are none
-        row, interval = np.nonzero(is_high & (np.abs(coefficients[:, :, -2:]).sum(axis=2) < _ROUGH * rise))
-        inside = coefficients[row, interval]
+        row, interval = np.nonzero(is_high & (self._left * self._scale[:, None] < _ROUGH * self._rise))
+        inside = sign * self._coefficients[row, interval]
         looked = inside @ _AT_LOOK.T
         np.maximum.at(top, row, looked.max(axis=1))
         one, u = self._peaks(inside, looked, looked >= (top - _NEAR_TOP * (top - least))[row, None])
@@ -287,8 +286,7 @@ class OverCycle:
 
     def _spare(self, span: Array) -> Array:
         """Return how far below the top of each column one place of its polynomials may be and count as the largest."""
-        left_out = np.max(self._left_out(self._coefficients), axis=1, initial=0.0)
-        most = (_UNSURE + 4 * left_out) * self._scale
+        most = (_UNSURE + 4 * self._left.max(axis=1, initial=0.0)) * self._scale
         return np.asarray(np.minimum(most, np.maximum(_NEAR_TOP * span, _CONVERGED * self._scale)))
 
     def _first_of_equal(self, places: _Places, every: Array, values: Array) -> NDArray[np.intp]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
@@ -105,10 +104,11 @@ def structure(linkage: Linkage) -> tuple[Structure | None, list[Problem]]:
     bodies = {name: name for name in linkage.base}
     while len(solved) < len(names):
         rest = [name for name in names if name not in solved]
-        found = _smallest_group(linkage, rest, solved)
+        equations = _Equations(linkage, solved)
+        found = _smallest_group(linkage, rest, equations)
         if found is None:
             return None, [Problem("", _too_free(linkage, rest))]
-        if _Equations(linkage, solved).excess(found) > 0:
+        if equations.excess(found) > 0:
             return None, [Problem(_key(linkage, found[0]), _too_stiff(linkage, found))]
         # a link of changing length moves its group, whatever bears it
         bearer = "" if linkage.driver.link in found else _only_bearer(linkage, found, bodies)
@@ -135,29 +135,29 @@ def _only_bearer(linkage: Linkage, some: tuple[str, ...], bodies: dict[str, str]
     return min(set.intersection(*bearers), default="") if bearers else ""
 
 
-def _smallest_group(linkage: Linkage, rest: list[str], solved: set[str]) -> tuple[str, ...] | None:
+def _smallest_group(linkage: Linkage, rest: list[str], equations: _Equations) -> tuple[str, ...] | None:
     """Return the fewest members that what is solved determines, or overdetermines; those named first go first."""
-    equations = _Equations(linkage, solved)
-    beside = _beside(linkage, rest, equations.known)
     order = {name: number for number, name in enumerate(rest)}
+    beside = [{order[one] for one in some} for some in _beside(linkage, rest, equations.known).values()]
     # only members that hang together: of two groups that do not, one alone is determined
-    candidates: set[tuple[str, ...]] = {(name,) for name in rest}
+    candidates: list[tuple[int, ...]] = [(number,) for number in range(len(rest))]
     while candidates and len(candidates) <= _MOST_CANDIDATES:
-        for some in sorted(candidates, key=lambda names: [order[name] for name in names]):
-            if equations.excess(some) >= 0:
-                return some
-        candidates = {
-            tuple(sorted((*some, other), key=order.__getitem__))
+        for some in candidates:
+            names = tuple(rest[one] for one in some)
+            if equations.excess(names) >= 0:
+                return names
+        candidates = sorted({
+            tuple(sorted((*some, other)))
             for some in candidates
-            for other in set().union(*(beside[name] for name in some)).difference(some)
-        }
+            for other in set().union(*(beside[one] for one in some)).difference(some)
+        })  # fmt: skip
     return None
 
 
 def known_points(linkage: Linkage, solved: Iterable[str]) -> set[str]:
     """Return the points that are placed once some members are solved."""
     members = {*linkage.base, *solved}
-    return {name for name, owners in linkage.owners.items() if members.intersection(owners)}
+    return {name for name, owners in linkage.owners.items() if not members.isdisjoint(owners)}
 
 
 class _Equations:
@@ -171,12 +171,11 @@ class _Equations:
 
     def excess(self, some: tuple[str, ...]) -> int:
         """Return the equations less the coordinates of members: 0 for a group, more if it is over-constrained."""
-        pinned = Counter(point for name in some for point in self.members[name].points)
-        equations = sum(2 * (count if point in self.known else count - 1) for point, count in pinned.items())
-        for name in some:
-            guide = self.members[name].guide
-            equations += 2 * bool(guide and (self.guides[guide].link in self.carriers.union(some)))
-        return equations - 3 * len(some)
+        pinned = [point for name in some for point in self.members[name].points]
+        free = {point for point in pinned if point not in self.known}
+        guides = [self.guides[guide].link for name in some if (guide := self.members[name].guide)]
+        guided = sum(1 for link in guides if link in self.carriers or link in some)
+        return 2 * (len(pinned) - len(free) + guided) - 3 * len(some)
 
 
 def _class(linkage: Linkage, some: tuple[str, ...], solved: set[str]) -> int:
@@ -191,9 +190,8 @@ def _beside(linkage: Linkage, some: Iterable[str], known: set[str]) -> dict[str,
     """Return for each of some members those that are joined to it at a point not known, or by a guide."""
     beside: dict[str, set[str]] = {name: set() for name in some}
     for point, owners in linkage.owners.items():
-        inner = [name for name in owners if name in beside]
         if point not in known:
-            for one, other in combinations(inner, 2):
+            for one, other in combinations([name for name in owners if name in beside], 2):
                 beside[one].add(other)
                 beside[other].add(one)
     for member in linkage.members:
