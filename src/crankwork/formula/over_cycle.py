@@ -128,8 +128,7 @@ class OverCycle:
     def _fit(self, low: Array, high: Array) -> Array:
         """Return Legendre coefficients, shape (columns, intervals, degrees)."""
         degrees = (low + high)[:, None] / 2 + (high - low)[:, None] / 2 * _NODES
-        columns = self._program(self._angles_at(degrees.ravel()))
-        values = np.array([columns[key] for key in self._row]).reshape(-1, _NODES.size)
+        values = self._program.rows(self._angles_at(degrees.ravel())).reshape(-1, _NODES.size)
         return np.asarray((values @ _FROM_VALUES.T).reshape(len(self._row), -1, _NODES.size))
 
     def _cuts(self, coefficients: Array, low: Array, high: Array) -> Array:
@@ -234,8 +233,7 @@ class OverCycle:
         """The largest and the least of every column: where they stand by the polynomials, replayed there."""
         places = [self._may_stand(sign) for sign in (1.0, -1.0)]
         every = distinct(np.concatenate([one.angles for one in places]))
-        columns = self._program(self._angles_at(every))
-        values = np.array([columns[key] for key in self._row]).reshape(-1, every.size)
+        values = self._program.rows(self._angles_at(every))
         largest, least = (
             self._first_of_equal(place, every, sign * values) for place, sign in zip(places, (1.0, -1.0), strict=True)
         )

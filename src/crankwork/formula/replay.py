@@ -132,17 +132,26 @@ class Program:
 
     def __call__(self, angles: Angles) -> dict[str, Array]:
         """Return the columns at crank angles, by key; what does not vary with the angle is repeated. [SI]"""
+        return dict(zip(self.knowns, self.rows(angles), strict=True))
+
+    def rows(self, angles: Angles) -> Array:
+        """Return the columns at crank angles, each a row. [SI]"""
         count = len(angles)
-        rows = {key: np.full(count, known.node.value or 0.0) for key, known in self.knowns.items()}
-        wanted = [(rows[key], self._slot_of[id(known.node)]) for key, known in self.knowns.items() if known.varies]
+        rows = np.empty((len(self.knowns), count))
+        wanted = []
+        for row, known in zip(rows, self.knowns.values(), strict=True):
+            if known.varies:
+                wanted.append((row, self._slot_of[id(known.node)]))
+            else:
+                row[:] = known.value
         together = min(max(_NUMBERS // len(self._slots), _ROWS[0]), _ROWS[1])
         for start in range(0, count, together):
             part = slice(start, min(start + together, count))
             # a vertical link has no slope, and its arc tangent is a right angle
             with np.errstate(divide="ignore"):
                 columns = self._replay(angles[part])
-            for column, slot in wanted:
-                column[part] = columns[slot]
+            for row, slot in wanted:
+                row[part] = columns[slot]
         return rows
 
     def _replay(self, angles: Angles) -> list[Any]:
