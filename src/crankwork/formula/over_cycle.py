@@ -232,10 +232,13 @@ class OverCycle:
     def largest_and_least(self) -> dict[str, tuple[Extreme, Extreme]]:
         """The largest and the least of every column: where they stand by the polynomials, replayed there."""
         places = [self._may_stand(sign) for sign in (1.0, -1.0)]
-        every = distinct(np.concatenate([one.angles for one in places]))
+        # where one may stand counts for the other too, so that no largest is below its least
+        rows, angles = (np.concatenate([one[at] for one in places]) for at in (0, 1))
+        every = distinct(angles)
         values = self._program.rows(self._angles_at(every))
         largest, least = (
-            self._first_of_equal(place, every, sign * values) for place, sign in zip(places, (1.0, -1.0), strict=True)
+            self._first_of_equal(_Places(rows, angles, place.equal), every, sign * values)
+            for place, sign in zip(places, (1.0, -1.0), strict=True)
         )
         return {
             key: (Extreme(float(column[one]), float(every[one])), Extreme(float(column[other]), float(every[other])))
