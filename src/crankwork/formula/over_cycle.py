@@ -129,7 +129,7 @@ class OverCycle:
         """Return Legendre coefficients, shape (columns, intervals, degrees)."""
         degrees = (low + high)[:, None] / 2 + (high - low)[:, None] / 2 * _NODES
         values = self._program.rows(self._angles_at(degrees.ravel())).reshape(-1, _NODES.size)
-        return np.asarray((values @ _FROM_VALUES.T).reshape(len(self._row), -1, _NODES.size))
+        return np.asarray((values @ _FROM_VALUES.T).reshape(len(self._row), low.size, _NODES.size))
 
     def _cuts(self, coefficients: Array, low: Array, high: Array) -> Array:
         """Return where intervals are cut, shape (_PARTS + 1, n): evenly, or where the worst column comes to nothing."""
