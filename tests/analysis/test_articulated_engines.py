@@ -51,3 +51,9 @@ def test_free_forces_are_what_the_throw_as_a_linkage_puts_on_the_frame():
     for one in engine_balance(whole).residual:
         assert one.force.forward == pytest.approx(spectrum[one.order], abs=1e-12 * np.abs(spectrum).max())
         assert one.force.backward == pytest.approx(spectrum[-one.order], abs=1e-12 * np.abs(spectrum).max())
+
+
+def test_orders_are_those_of_the_inertia_forces_where_a_document_has_its_own_rod_ratio():
+    method = replace(RADIAL.method, kinematics="textbook", inertia_rod_ratio=0.34)
+    results = crankwork.analyse(replace(RADIAL, method=method))
+    assert results.checks["free_forces"] < 1e-13

@@ -104,7 +104,9 @@ def _harmonics(whole: WholeEngine) -> InertiaHarmonics:
             lengths = lengths._replace(rod_length=lengths.crank_radius / ratio)
         return inertia_harmonics(lengths, ORDERS, method)
     turn = CrankGrid.from_degrees(np.arange(_SAMPLES) * 360 / _SAMPLES)
-    rows = [replay(one.memory["piston_transfer_2"], turn) for one in whole.cylinders]
+    # that of the inertia force, where a document has its own
+    own = [one.memory.get("inertia_acceleration", one.memory["piston_acceleration"]) for one in whole.cylinders]
+    rows = [replay(one.node.operands[0], turn) for one in own]
     return sampled_harmonics(np.stack(rows), lengths.crank_radius, ORDERS)
 
 
