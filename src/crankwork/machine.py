@@ -251,6 +251,8 @@ class Machine:
         How to compute unless told otherwise.
     table_step, table_special : float and tuple of float
         Step of the tables and further angles. [deg]
+    working_range : tuple of float or None
+        Of a crank that does not turn fully, the crank angles between which largest values count. [deg]
     engine : Engine or None
         The whole engine that this crank gear is a cylinder of.
     """
@@ -273,6 +275,7 @@ class Machine:
     method: Method = EXACT
     table_step: float = 10.0
     table_special: tuple[float, ...] = ()
+    working_range: tuple[float, float] | None = None
     engine: Engine | None = None
     # The numbers of the description by their paths: `crank.stroke`; a machine may be made without one
     stated: Mapping[str, Stated] = field(default_factory=dict, compare=False, repr=False)

@@ -137,7 +137,11 @@ def test_every_notice_can_be_told(language):
     for code in texts("notices", "en"):
         values: dict[str, float | str] = dict.fromkeys(re.findall(r"\{(\w+)\}", say(f"notices.{code}", "en")), 1.0)
         values |= {name: "fuel" for name in values if name in ("name", "names", "message")}
-        values |= {name: one for name, one in (("quantity", "heat_to_coolant"), ("argument", "t_c")) if name in values}
+        values |= {
+            name: one
+            for name, one in (("quantity", "heat_to_coolant"), ("quantities", "joint_force"), ("argument", "t_c"))
+            if name in values
+        }
         told = notice_text(Notice(code, values).code, values, language)
         assert told
         assert "{" not in told

@@ -258,7 +258,7 @@ def test_a_linkage_that_does_not_turn_fully_keeps_the_numbers_of_its_positions(t
     rows = table(found, "transfer").rows
     assert [(row[0], row[1]) for row in rows] == [("1", "30"), ("2", "60"), ("3", "90")]
     (notices,) = [one for one in found.blocks if isinstance(one, ItemList)]
-    why = r"механизм движется только от \d+° до \d+°: звенья coupler и rocker не сходятся .* на \d+,\d+ мм.*"
+    why = r"механизм движется только от \d+,\d+° до \d+,\d+°: звенья coupler и rocker не сходятся .* на \d+,\d+ мм.*"
     assert re.fullmatch(why, notices.items[0][0]), notices.items[0][0]
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -12,13 +13,22 @@ from numpy.typing import ArrayLike
 from crankwork.analysis.chambers import gas_check, gas_summary, solve_linkage
 from crankwork.analysis.linkage_memory import efficiency_of, linkage_memory, speed_of
 from crankwork.analysis.linkage_speed import transient_summary, turn_of
+from crankwork.analysis.reach import (
+    Reached,
+    clear_of_changes,
+    limits_of,
+    open_range,
+    reachable,
+    rows_inside,
+    unbounded,
+)
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import Notice, SolvedLinkage
 from crankwork.analysis.tabulated import DYNAMICS
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.routes import ROUTES, by_groups
 from crankwork.dynamics.running import Running
-from crankwork.errors import CrankworkError, GeometryError
+from crankwork.errors import CrankworkError
 from crankwork.formula.known import Found, Known, given
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
@@ -26,6 +36,7 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.quality import FourBarType, grashof, limits_of_all, stroke_ratio, transmission_extremes
+from crankwork.kinematics.travel import Travel, passing
 from crankwork.loads.load import applied_loads
 from crankwork.locale import Refusal
 from crankwork.machine import Machine
@@ -40,23 +51,8 @@ _OF_DRIVER = (
     "driver_displacement", "driver_velocity", "driver_acceleration", "driver_angle", "driver_speed",
     "driver_angular_acceleration", "driver_force", "driver_torque", "driver_power",
 )  # fmt: skip
-
-
-def reachable(machine: Machine, grid: CrankGrid) -> tuple[Motion, tuple[Notice, ...]]:
-    """Return the motion over the crank angles that the linkage can reach, and a notice if those are not all."""
-    try:
-        return linkage_motion(machine.mechanism, grid), ()
-    except GeometryError as error:
-        # a law either passes what its linkage reaches, or has to be changed
-        if machine.mechanism.driver.law is not None:
-            raise
-        status = linkage_motion(machine.mechanism, grid, partial=True).status
-        reached = np.flatnonzero(status == 0) if status is not None else np.empty(0, dtype=int)
-        if reached.size < 2:
-            raise
-        kept = grid[slice(int(reached[0]), int(reached[-1]) + 1)]
-        ends = {"from": float(kept.degrees[0]), "to": float(kept.degrees[-1])}
-        return linkage_motion(machine.mechanism, kept), (Notice("partial", {"message": error.args[0], **ends}),)
+# how far from a change point the routes are compared that lose their digits in it [deg]
+_BESIDE = 0.05
 
 
 def four_bar_type(machine: Machine) -> FourBarType | Literal[""]:
@@ -87,29 +83,32 @@ def running_at(solved: SolvedLinkage, motion: Motion) -> Running:
 def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
     """Return everything a linkage does over one cycle: a revolution, or two of some gas.
 
-    Columns, summary, checks and notices; only the angles that the linkage reaches. `grid`: ascending crank angles
-    within one cycle; the machine's own table otherwise [rad].
+    Columns, summary, checks and notices; of a crank that does not turn fully between its dead positions. `grid`:
+    ascending crank angles within one cycle; the machine's own table otherwise [rad].
     """
-    own_table = grid is None
-    if grid is None:
-        grid = CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
-    dense, notices = reachable(machine, CrankGrid.steps(_DENSE_STEP, machine.cycle))
-    is_whole, low, high = not notices, dense.grid.degrees[0], dense.grid.degrees[-1]
-    inside = np.flatnonzero((grid.degrees >= low) & (grid.degrees <= high))
-    if inside.size == 0 and own_table:
-        grid, inside = dense.grid, np.arange(len(dense.grid))
-    if inside.size == 0:
-        raise CrankworkError(Refusal("table_unreached", low=low, high=high))
-    grid = grid[slice(int(inside[0]), int(inside[-1]) + 1)]
-    motion = remembered_motion(machine.mechanism, dense, machine.linkage)
+    machine = replace(machine, mechanism=passing(machine.mechanism))
+    reached = reachable(machine, _DENSE_STEP)
+    table, found = _table(machine, reached, grid), reached.travel
+    motion = remembered_motion(machine.mechanism, reached.motion, machine.linkage)
     solved = solve_linkage(machine, motion)
-    notices += tuple(Notice(*one) for one in solved.filling.notices)
+    notices = reached.notices + tuple(Notice(*one) for one in solved.filling.notices)
     memory = linkage_memory(solved, motion)
-    over = OverCycle({key: memory[key] for key in _followed(memory)}, CrankGrid.from_degrees, high - low, low)
-    summary = _summary(solved, over, memory, is_whole=is_whole)
-    checks = _checks(solved, dense) | gas_check(solved, motion)
+    followed = {key: memory[key] for key in _followed(memory)}
+    start, end = (0.0, machine.cycle) if found is None else machine.working_range or open_range(found)
+    ends = _where_unbounded(machine, found)
+    if machine.working_range is None or found is None:
+        boundless = unbounded(followed, *ends, end - start)
+        followed = {key: one for key, one in followed.items() if key not in boundless}
+        notices += _boundless(boundless, ends[0])
+    else:
+        notices += (Notice("working_range", {"from": start, "to": end}),)
+    over = OverCycle(followed, CrankGrid.from_degrees, end - start, start)
+    summary = _summary(solved, over, memory, is_whole=found is None)
+    if found is not None:
+        summary |= limits_of(found, memory)
+    checks = _checks(solved, clear_of_changes(machine.mechanism, reached.motion)) | gas_check(solved, motion)
     between = {"mobility": mobility(machine.drawn)}
-    if is_whole and "reduced_inertia" in memory:
+    if found is None and "reduced_inertia" in memory:
         turn = turn_of(machine, over, {**memory, **summary})
         memory |= turn.columns
         checks |= turn.checks
@@ -119,10 +118,39 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
     summary |= transient_summary(machine)
     if machine.mechanism.driver.law is not None:
         notices += (Notice("by_law", {}),)
-    columns = Program(memory)(grid)
+    columns = Program(memory)(table)
     values = {key: one.value for key, one in summary.items()}
     memory |= {**summary, **between}
-    return Results(solved, grid, columns, values, checks, notices, _groups(columns), memory=memory)
+    return Results(solved, table, columns, values, checks, notices, _groups(columns), memory=memory)
+
+
+def _table(machine: Machine, reached: Reached, grid: CrankGrid | None) -> CrankGrid:
+    """Return the crank angles of the table, of a crank that turns back those between its dead positions."""
+    asked = grid or CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
+    if reached.travel is None:
+        return asked
+    inside = rows_inside(reached.travel, asked.degrees)
+    if grid is None and len(inside) == 0:
+        return reached.grid
+    if len(inside) == 0:
+        raise CrankworkError(Refusal("table_unreached", low=reached.travel.start, high=reached.travel.end))
+    return inside
+
+
+def _where_unbounded(machine: Machine, found: Travel | None) -> tuple[list[float], list[float]]:
+    """Return the crank angles at which columns may grow beyond all bounds, and on which side of them the motion is."""
+    if found is not None:
+        return [found.start, found.end], [1.0, -1.0]
+    passages = machine.mechanism.passages.values()
+    changes = sorted({one for passage in passages for one in passage.changes if 0.0 <= one <= machine.cycle})
+    return changes, [-1.0 if one == machine.cycle else 1.0 for one in changes]
+
+
+def _boundless(keys: Iterable[str], angles: Iterable[float]) -> tuple[Notice, ...]:
+    """Return the notice of what grows beyond all bounds."""
+    kinds = dict.fromkeys(key.partition(".")[0] for key in keys)
+    shown = "°, ".join(f"{one:.6g}" for one in angles)
+    return (Notice("unbounded", {"angles": shown, "quantities": ", ".join(kinds)}),) if kinds else ()
 
 
 def _followed(memory: Mapping[str, Known]) -> list[str]:
@@ -145,10 +173,10 @@ def _summary(
     for key in keys:
         kind, dot, name = key.partition(".")
         largest, least = (extremes[f"{kind}_{word}{dot}{name}"] for word in ("max", "min"))
-        if kind == "slider_displacement":
-            result[f"slider_stroke.{name}"] = largest - least
-        elif kind == "link_angle":
-            if (swing := largest - least).value < math.pi:
+        if kind in {"slider_displacement", "link_angle"}:
+            if is_whole and kind == "slider_displacement":
+                result[f"slider_stroke.{name}"] = largest - least
+            elif is_whole and (swing := largest - least).value < math.pi:
                 result[f"link_swing.{name}"] = swing
         else:
             words = ("max", "min") if key in DYNAMICS or kind == "gas_force" or key in _OF_DRIVER else ("max",)
@@ -245,10 +273,18 @@ class TorqueByRoutes(NamedTuple):
 
 
 def torque_by_routes(results: Results, degrees: ArrayLike) -> TorqueByRoutes:
-    """Return the balancing torque by five routes."""
+    """Return the balancing torque by five routes; at a change point the mean of both sides of it."""
     solved: SolvedLinkage = results.solved
-    running = running_at(solved, linkage_motion(solved.machine.mechanism, CrankGrid.from_degrees(degrees)))
-    torques = {"by_groups": by_groups(running), **{name: route(running) for name, route in ROUTES.items()}}
+    asked, mechanism = np.atleast_1d(np.asarray(degrees, dtype=float)), solved.machine.mechanism
+    changes = np.array([one for passage in mechanism.passages.values() for one in passage.changes])
+    aside = np.zeros_like(asked)
+    if changes.size:
+        aside[np.abs(asked[:, None] - changes).min(axis=1) < _BESIDE] = _BESIDE
+    sides = []
+    for side in (1.0, -1.0) if aside.any() else (0.0,):
+        running = running_at(solved, linkage_motion(mechanism, CrankGrid.from_degrees(asked + side * aside)))
+        sides.append({"by_groups": by_groups(running), **{name: route(running) for name, route in ROUTES.items()}})
+    torques = {name: np.mean([one[name] for one in sides], axis=0) for name in sides[0]}
     return TorqueByRoutes(torques, differences(list(torques.values())))
 
 

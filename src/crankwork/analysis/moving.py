@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.analysis.linkage import reachable
+from crankwork.analysis.reach import open_range, reachable
 from crankwork.cylinders.throw import throw_mechanism
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.piston import as_slider_crank
 from crankwork.kinematics.transfer import PointMotion
+from crankwork.kinematics.travel import has_steady_crank, passing, travel, turns_fully
 from crankwork.machine import Machine
 from crankwork.mechanism.mechanism import Mechanism
 
@@ -87,8 +89,27 @@ def reached_angles(machine: Machine, step: float) -> tuple[Array, bool]:
 
     `step`: step [deg].
     """
-    motion, notices = reachable(machine, CrankGrid.steps(step, machine.cycle))
-    return motion.grid.degrees, not notices
+    found = reachable(machine, step)
+    return found.grid.degrees, found.travel is None
+
+
+class Course(NamedTuple):
+    """Crank angles of a moving drawing at equal times, the last that of the first [deg], and the mechanism drawn."""
+
+    degrees: Array
+    mechanism: Mechanism
+    turns: bool  # Whether the crank turns fully; it goes to and fro otherwise
+
+
+def course(mechanism: Mechanism, frames: int) -> Course:
+    """Return how the crank of a moving drawing goes: round, or to and fro between its dead positions."""
+    mechanism = passing(mechanism)
+    if not has_steady_crank(mechanism) or turns_fully(mechanism):
+        return Course(np.arange(frames + 1) * 360 / frames, mechanism, turns=True)
+    found = travel(mechanism)
+    low, high = open_range(found)
+    swung = (1 - np.cos(math.tau * np.arange(frames + 1) / frames)) / 2
+    return Course(low + (high - low) * swung, mechanism, turns=False)
 
 
 def drawn_mechanism(machine: Machine) -> Mechanism:

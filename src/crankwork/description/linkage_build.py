@@ -11,26 +11,23 @@ from typing import Any
 import numpy as np
 
 from crankwork.analysis.chambers import solve_linkage
-from crankwork.analysis.linkage import reachable
-from crankwork.analysis.linkage_speed import transient_summary
+from crankwork.analysis.reach import reachable
 from crankwork.description.build import build_method, crank_speed
 from crankwork.description.chamber_build import build_chambers
 from crankwork.description.driver_build import build_law, check_driver, check_loads
 from crankwork.description.gas_build import ReadMeasured
+from crankwork.description.linkage_reach import checked_motion, passing_if_assembled, with_starts
 from crankwork.description.schema import Measure, Reader
 from crankwork.description.stated import stated_numbers
 from crankwork.dynamics.efficiency import Chain as EfficiencyChain
 from crankwork.dynamics.efficiency import Parallel, Series, efficiency
-from crankwork.dynamics.reduction import reduced_inertia
 from crankwork.dynamics.tabulated import TabulatedBody
-from crankwork.errors import CrankworkError, GeometryError, MethodError, Problem
-from crankwork.kinematics.assembly import unassembled
+from crankwork.errors import GeometryError, MethodError, Problem
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.memory import remembered_motion
-from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.placement import place
 from crankwork.loads.indicator import DiagramError
-from crankwork.loads.load import Load, applied_loads
+from crankwork.loads.load import Load
 from crankwork.loads.process import ForceOnPoint, ProcessForce, TorqueOnLink
 from crankwork.loads.spring import SliderSpring, Spring
 from crankwork.loads.table import Table as LoadTable
@@ -50,10 +47,9 @@ _GEOMETRY = ("fixed_points", "crank", "links", "guides", "sliders", "branch", "p
 _STEP = 1.0
 _LEAST_EFFICIENCY = 1e-4
 _REVOLUTION = math.tau + 1e-9
-_MOST_TURNS = 10_000
 # share of the size of a linkage by which a stated position may be rough
 _ROUGHLY = 0.25
-_RATES = ("speed", "angular_acceleration")
+_RATES = ("speed", "angular_acceleration", "from", "to")
 # what each kind of load needs, and what it may have besides
 _LOAD_KEYS = {
     "process": (("slider", "force"), ("at", "against", "curve", "stroke", "start", "acts")),
@@ -87,7 +83,8 @@ def build_linkage(values: Mapping[str, Any], reader: Reader, read_measured: Read
     transient = _transient(values, loads, reader)
     if reader.problems or mechanism is None or linkage is None:
         return None
-    loads = _with_starts(loads, values, mechanism)
+    mechanism = passing_if_assembled(mechanism)
+    loads = with_starts(loads, values, mechanism)
     if values.get("method", {}).get("weights"):
         loads = (*loads, Weight(method.gravity))
     crank, table = values.get("crank", {}), values.get("table", {})
@@ -107,7 +104,8 @@ def build_linkage(values: Mapping[str, Any], reader: Reader, read_measured: Read
         table_special=tuple(round(math.degrees(one.value), 9) for one in table.get("special_angles", []) if one),
         stated=stated_numbers(values),
     )
-    return machine if _moves(machine, reader) and _is_filled(machine, values, reader) else None
+    moving = checked_motion(machine, crank, reader)
+    return moving if moving is not None and _is_filled(moving, values, reader) else None
 
 
 def _weighs(values: Mapping[str, Any]) -> bool:
@@ -186,23 +184,6 @@ def _settling(linkage: Linkage, mechanism: Mechanism) -> set[str]:
     return found
 
 
-def _moves(machine: Machine, reader: Reader) -> bool:
-    """Complain of a linkage that can be assembled nowhere, or whose transient does not come to its end."""
-    grid = CrankGrid.steps(_STEP, 360.0)
-    try:
-        motion, _ = reachable(machine, grid)
-    except GeometryError as error:
-        is_by_law = machine.mechanism.driver.law is not None
-        reader.complain("driver.law" if is_by_law else _unassembled_key(machine, grid), error.args[0])
-        return False
-    try:
-        applied_loads(machine.mechanism, motion, machine.loads)
-    except GeometryError as error:
-        reader.complain("loads", error.args[0])
-        return False
-    return machine.transient is None or _ends(machine, machine.transient, motion, reader)
-
-
 def _is_filled(machine: Machine, values: Mapping[str, Any], reader: Reader) -> bool:
     """Complain of gas that does not suit the volumes of its chambers."""
     if not machine.chambers:
@@ -210,10 +191,11 @@ def _is_filled(machine: Machine, values: Mapping[str, Any], reader: Reader) -> b
     if machine.mechanism.driver.law is not None:
         reader.complain("chambers", Refusal("chambers_driven"))
         return False
-    moved, notices = reachable(machine, CrankGrid.steps(_STEP, machine.cycle))
-    if notices:
+    reached = reachable(machine, _STEP)
+    if reached.travel is not None:
         reader.complain("chambers", Refusal("chambers_partial"))
         return False
+    moved = reached.motion
     try:
         solve_linkage(machine, remembered_motion(machine.mechanism, moved, machine.linkage))
     except DiagramError as error:
@@ -224,52 +206,6 @@ def _is_filled(machine: Machine, values: Mapping[str, Any], reader: Reader) -> b
         reader.complain(error.key, mistake)
         return False
     return True
-
-
-def _with_starts(loads: tuple[Load, ...], values: Mapping[str, Any], mechanism: Mechanism) -> tuple[Load, ...]:
-    """Return the loads, process forces counted from the beginning of the working stroke where no start is given."""
-    moved = None
-    result = []
-    for load, written in zip(loads, values.get("loads", []), strict=True):
-        if isinstance(load, ProcessForce) and load.against == "stroke" and "start" not in written:
-            moved = moved or linkage_motion(mechanism, CrankGrid.steps(_STEP, 360.0), partial=True)
-            way = moved.sliders[load.slider].position
-            way = way[np.isfinite(way)]
-            if way.size:
-                load = replace(load, start=float(np.min(way) if load.forward > 0 else np.max(way)))  # noqa: PLW2901
-        result.append(load)
-    return tuple(result)
-
-
-def _ends(machine: Machine, wanted: Transient, motion: Motion, reader: Reader) -> bool:
-    """Complain of a transient that cannot be followed to its end."""
-    inertia = float(np.mean(reduced_inertia(machine.mechanism, motion).inertia)) + machine.drive.inertia
-    if inertia <= 0:
-        reader.complain("transient", Refusal("transient_massless"))
-        return False
-    turns = (wanted.torque / inertia * wanted.time / 2 + wanted.speed) * wanted.time / math.tau
-    if turns > _MOST_TURNS:
-        reader.complain("transient.time", Refusal("transient_long", turns=turns, most=_MOST_TURNS))
-        return False
-    try:
-        transient_summary(machine)
-    except GeometryError as error:
-        reader.complain("transient", error.args[0])
-    except CrankworkError as error:
-        reader.complain("transient", Refusal("transient_ended", mistake=error.args[0]))
-    else:
-        return True
-    return False
-
-
-def _unassembled_key(machine: Machine, grid: CrankGrid) -> str:
-    """Return the key of the first link of the group that can be assembled nowhere."""
-    for group, closure in zip(machine.mechanism.dyads, place(machine.mechanism, grid).closures, strict=True):
-        if unassembled(closure) is not None:
-            names = [one.name for one in group.links] if isinstance(group, Chain) else vars(group).values()
-            member = next(one for one in machine.drawn.members if one.name in names)
-            return f"{'sliders' if member.guide else 'links'}.{member.name}"
-    return "links"
 
 
 def build_tabulated(values: Mapping[str, Any], reader: Reader) -> Machine | None:

@@ -49,6 +49,8 @@ _CRANK = Table({
     "inertia": Key(_INERTIA, "moment of inertia about its axis, all that turns with it included"),
     "mass": Key(Quantity(("mass",), 1e-9, 1e6), "its mass, which its pivot bears"),
     "centre": Key(NameOr(_PLACE), "centre of mass: a point of it, or [along, across] from the pivot; else the pivot"),
+    "from": Key(_ANGLE, "of a crank that does not turn fully, from where largest values count"),
+    "to": Key(_ANGLE, "of a crank that does not turn fully, up to where largest values count"),
 })  # fmt: skip
 
 _COORDINATE_OF_DRIVER = Quantity(("length", "angle"), -1e3, 1e3)

@@ -15,6 +15,7 @@ from crankwork.dynamics.dyad_forces import (
     rrp_forces,
     rrr_forces,
 )
+from crankwork.dynamics.force_passages import bridged_forces
 from crankwork.dynamics.force_system import cylinder_force, opened_group, solved_group
 from crankwork.dynamics.link_loads import Wrenches, arm, link_wrenches
 from crankwork.dynamics.reaction import GuideForce, JointForces, PinForce, Reaction, gathered, reaction_wrench
@@ -45,6 +46,9 @@ def joint_forces(running: Running) -> JointForces:
         held = [joint for joint in every if joint.link in links]
         if group is not None:
             reactions = _group_reactions(group, motion, held, wrenches)
+            passage = next((one for at, one in mechanism.passages.items() if mechanism.dyads[at] is group), None)
+            if passage is not None:
+                reactions = bridged_forces(reactions, passage)
         elif isinstance(driver, LinkMotor):
             reactions, torque = opened_group(motion, links, held, wrenches, driver)
         found |= reactions

@@ -10,7 +10,7 @@ import itertools
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 from operator import itemgetter
-from typing import Any, Protocol, Self
+from typing import Any, Literal, Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -88,6 +88,8 @@ class Program:
             return [one for one in inputs if type(one) is Known and one.node.value is None and one is not _ANGLES]
 
         order = [one.node for one in in_order((one for one in knowns.values() if one.varies), into=beside)]
+        # what pieces lead over a change point is nought by nought there and used beside it only
+        self._invalid: Literal["ignore", "warn"] = "ignore" if any(map(_is_bridged, order)) else "warn"
         for cycle in sorted({node.cycle for node in late}):
             together = [node for node in late if node.cycle == cycle]
             earlier = Known(Node(None))
@@ -148,7 +150,7 @@ class Program:
         for start in range(0, count, together):
             part = slice(start, min(start + together, count))
             # a vertical link has no slope, and its arc tangent is a right angle
-            with np.errstate(divide="ignore"):
+            with np.errstate(divide="ignore", invalid=self._invalid):
                 columns = self._replay(angles[part])
             for row, slot in wanted:
                 row[part] = columns[slot]
@@ -159,6 +161,13 @@ class Program:
         for slot, function, operands in self._steps:
             slots[slot] = function(*operands(slots))
         return slots
+
+
+def _is_bridged(node: Node) -> bool:
+    """Return whether a column follows polynomials about change points."""
+    return isinstance(node, Pieces) and any(
+        isinstance(law.node, Table) and law.node.word == "change_point" for law in node.operands
+    )
 
 
 def replay(known: Known, angles: Angles) -> Array:

@@ -11,14 +11,15 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.dyads import Through
 from crankwork.mechanism.passage import Passage
 
-_END = 1e6
+# beyond every angle, and the beginning of a turn so that no column breaks there
+BEYOND = 360e3
 
 
 def passed_branch(passage: Passage, branch: Any, grid: CrankGrid) -> Any:  # noqa: ANN401 - a known or a number
     """Return the branch of a dyad at crank angles: with each change point it changes."""
     if not is_known(branch):
         return branch * passage.signs(grid.degrees)
-    ends = np.array([*passage.changes, _END])
+    ends = np.array([*passage.changes, BEYOND])
     signs = passage.signs(ends) * branch.value
     laws = [absent("branch", 1.0) if sign > 0 else given("branch", -1.0) for sign in signs]
     return Known(Pieces(ends.tolist(), tuple(laws)), "branch")
@@ -45,4 +46,4 @@ def _remembered(passage: Passage, key: str, known: Known) -> Known:
     for bridge in passage.bridges:
         ends += [bridge.degrees - bridge.width, bridge.degrees + bridge.width]
         laws += [known, Known(Table(bridge.columns[key], "change_point"), known.key)]
-    return Known(Pieces([*ends, _END], (*laws, known)), known.key)
+    return Known(Pieces([*ends, BEYOND], (*laws, known)), known.key)

@@ -43,6 +43,11 @@ class Travel(NamedTuple):
         return self.turns > 0
 
 
+def has_steady_crank(mechanism: Mechanism) -> bool:
+    """Return whether a crank drives, at the angle of the tables and not by a law."""
+    return isinstance(mechanism.driver, Crank) and mechanism.driver.law is None
+
+
 def turns_fully(mechanism: Mechanism) -> bool:
     """Return whether a linkage can be assembled at and between all angles of a turn."""
     try:
@@ -139,9 +144,19 @@ def _stated(mechanism: Mechanism) -> float:
     return start + (end - start) * min(0.75, max(0.25, -start / (end - start)))
 
 
+def near_changes(circuit: Circuit) -> list[tuple[float, float]]:
+    """Return the crank angles of change points that lengths miss, and by how much of the longest. [deg], [-]"""
+    crank = circuit.mechanism.crank
+    at = circuit.curve.system.equations.index[crank.link] + 2
+    return [
+        (float(np.degrees(crank.direction * (one.u[at] - crank.start))) % 360.0, one.miss)
+        for one in circuit.curve.nearly
+    ]
+
+
 def passing(mechanism: Mechanism) -> Mechanism:
     """Return a linkage that passes the change points on its way, as itself where it has none."""
-    if not isinstance(mechanism.driver, Crank) or mechanism.driver.law or turns_fully(mechanism):
+    if not has_steady_crank(mechanism) or turns_fully(mechanism):
         return mechanism
     found = travel(mechanism)
     if not found.changes:

@@ -79,7 +79,9 @@ class Material:
         largest = ("driver_force", "driver_torque") if self.results.period else ("static_torque",)
         key = next((one for one in largest if one in self.columns), None)
         if (self.machine.loads or self.machine.chambers) and key is not None:
-            degrees = float(self.positions[int(np.argmax(np.abs(self.columns[key])))])
+            # in a change point forces may not be determined
+            is_told = np.all([np.isfinite(one) for one in self.columns.values()], axis=0)
+            degrees = float(self.positions[int(np.argmax(np.where(is_told, np.abs(self.columns[key]), -1.0)))])
         return {one.name: one for one in linkage_lines(self.results, degrees)}
 
     def lines(self, group: str, *kinds: str) -> tuple[Line, ...]:

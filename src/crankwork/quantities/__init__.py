@@ -6,12 +6,12 @@ Tables, figures, notes, the studio and the nomenclature page all read it.
 from __future__ import annotations
 
 from crankwork.locale import LANGUAGES, Language
-from crankwork.quantities import balance, bearings, chambers, cycle, cylinders, driver, engine, linkage, shaft
+from crankwork.quantities import balance, bearings, chambers, circuits, cycle, cylinders, driver, engine, linkage, shaft
 from crankwork.quantities.quantity import Quantity
 
 __all__ = ["LANGUAGES", "Language", "QUANTITIES", "Quantity", "base_key"]
 
-_ROOMS = (engine, cycle, cylinders, bearings, balance, linkage, shaft, driver, chambers)
+_ROOMS = (engine, cycle, cylinders, bearings, balance, linkage, shaft, driver, chambers, circuits)
 QUANTITIES: dict[str, Quantity] = {row.key: row for room in _ROOMS for row in room.ROWS}
 
 

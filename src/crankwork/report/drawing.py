@@ -7,9 +7,7 @@ import math
 import re
 from collections.abc import Sequence
 
-import numpy as np
-
-from crankwork.analysis.moving import drawn_mechanism, moving
+from crankwork.analysis.moving import Course, course, drawn_mechanism, moving
 from crankwork.analysis.skeleton import skeleton
 from crankwork.errors import CrankworkError
 from crankwork.locale import capital, say
@@ -37,7 +35,7 @@ def moving_drawing(
     frames: int = 72,
     links: Sequence[str] = (),
 ) -> str:
-    """Return the mechanism of a machine as an SVG that moves by itself, one revolution after the other.
+    """Return the mechanism of a machine as an SVG that moves by itself, one revolution after the other, or to and fro.
 
     Lengths are to scale and the motion is exact, points moving on straight lines between frames; strokes, joints,
     blocks and letters have their own size. Links are in the order of their numbers, as `Structure.links` gives them;
@@ -46,7 +44,8 @@ def moving_drawing(
     if frames < 8 or not 0 < seconds < math.inf:
         raise CrankworkError("a moving drawing needs at least 8 frames and a time above zero")
     mechanism, whole = (machine, None) if isinstance(machine, Mechanism) else (drawn_mechanism(machine), machine)
-    moved = moving(mechanism, np.arange(frames + 1) * 360 / frames)
+    way = course(mechanism, frames)
+    mechanism, moved = way.mechanism, moving(way.mechanism, way.degrees)
     duration, still = f"{seconds:g}s", round(frames * _STILL / 360)
     if whole is not None and whole.linkage is not None and not links:
         found, _ = structure(whole.linkage)
@@ -60,14 +59,14 @@ def moving_drawing(
     stage = Stage(scale, duration, still)
     foot = [
         parts.scale_bar(x + _MARGIN / 2, y + height - 16, scale, 0.3 * width, language),
-        _readout(x + width - _MARGIN / 2, y + height - 16, stage, language, period_of(mechanism)),
+        _readout(x + width - _MARGIN / 2, y + height - 16, stage, way, language),
     ]
     box = f"{x:.0f} {y:.0f} {width:.0f} {height:.0f}"
     head = (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" width="{width:.0f}" height="{height:.0f}" role="img">'
     )
     title = _title(whole.title if whole else "", language)
-    about = _description(mechanism, language, seconds, links)
+    about = _description(way, language, seconds, links)
     back = f'<rect x="{x:.0f}" y="{y:.0f}" width="{width:.0f}" height="{height:.0f}" fill="white"/>'
     lines = [head, f"<title>{title}</title>", f"<desc>{about}</desc>", back, *drawn, *foot, "</svg>", ""]
     return "\n".join(lines)
@@ -86,21 +85,23 @@ def period_of(mechanism: Mechanism) -> float:
     return 0.0 if mechanism.driver.law is None else mechanism.driver.law.period
 
 
-def _readout(x: float, y: float, stage: Stage, language: Language, period: float) -> str:
+def _readout(x: float, y: float, stage: Stage, way: Course, language: Language) -> str:
     """Write the crank angle or the time, one text per step, each shown in its turn."""
-    count = 360 // _READOUT
+    count, period = 360 // _READOUT, period_of(way.mechanism)
     sign, unit = symbol("crank_angle", language), unit_name("deg", language)
     if period:
         sign, unit = symbol("time", language), f" {unit_name('s', language)}"
+    frames = len(way.degrees) - 1
     texts = []
     for step in range(count):
         shown = ["hidden", "visible", "hidden"][0 if step else 1 : 3 if step < count - 1 else 2]
         times = [0.0, step / count, (step + 1) / count][0 if step else 1 : 3 if step < count - 1 else 2]
-        angle = step * _READOUT
-        shown_angle = number(angle * period / 360.0, language, digits=3) if period else angle
+        # to and fro, the angle in the middle of the time for which it is shown
+        angle = step * _READOUT if way.turns else round(float(way.degrees[round((step + 0.5) / count * frames)]))
+        shown_angle = number(angle * period / 360.0, language, digits=3) if period else number(angle, language)
         text = f'<tspan font-style="italic">{sign}</tspan> = {shown_angle}{unit}'
         turns = parts.animate("visibility", shown, stage, times=times)
-        still = "visible" if angle == _STILL else "hidden"
+        still = "visible" if step * _READOUT == _STILL else "hidden"
         texts.append(f'<text x="{x:.1f}" y="{y:.1f}" visibility="{still}">{text}{turns}</text>')
     return f'<g class="angle" {parts.FONT} text-anchor="end">{"".join(texts)}</g>'
 
@@ -111,8 +112,9 @@ def _title(title: str, language: Language) -> str:
     return html.escape(f"{own}: {what}" if own else capital(what))
 
 
-def _description(mechanism: Mechanism, language: Language, seconds: float, links: Sequence[str]) -> str:
-    """Return the lengths in words, what the numbers stand for, and the time of a revolution."""
+def _description(way: Course, language: Language, seconds: float, links: Sequence[str]) -> str:
+    """Return the lengths in words, what the numbers stand for, and the time of a revolution, or of to and fro."""
+    mechanism = way.mechanism
     gear = crank_gear(mechanism)
     lengths = [("crank_radius", mechanism.driver.radius)] if isinstance(mechanism.driver, Crank) else []
     lengths += [("rod_length", rod.length) for rod in (gear.rods if gear else ())]
@@ -123,6 +125,6 @@ def _description(mechanism: Mechanism, language: Language, seconds: float, links
     if not gear:
         members = sorted(skeleton(mechanism, links).members, key=lambda one: one.number)
         texts += [f"{one.number} – {one.name}" for one in members]
-    every = "one_period" if period_of(mechanism) else "one_revolution"
+    every = "one_period" if period_of(mechanism) else "one_revolution" if way.turns else "to_and_fro"
     texts.append(say(f"drawing.{every}", language, seconds=number(seconds, language)))
     return html.escape(_NOT_XML.sub("", "; ".join(texts)))

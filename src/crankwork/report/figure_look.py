@@ -158,8 +158,9 @@ def through_zero(axes: Axes, *values: Array) -> None:
 
     Tick labels stay below the figure, where no curve runs over them.
     """
-    low = min(0.0, *(float(np.min(one)) for one in values))
-    high = max(0.0, *(float(np.max(one)) for one in values))
+    # what is not determined at an angle is no number there
+    low = min(0.0, *(float(np.nanmin(one)) for one in values))
+    high = max(0.0, *(float(np.nanmax(one)) for one in values))
     margin = 0.05 * (high - low) or 1.0
     axes.set_ylim(low - margin if low < 0 else 0, high + margin if high > 0 else 0)
     if low < 0 < high:

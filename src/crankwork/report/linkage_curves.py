@@ -100,7 +100,10 @@ def _draw(axes: Axes, degrees: Array, values: Sequence[tuple[Quantity, Array]], 
     unit = unit_name(first.unit, style.language)
     has_legend = _has_legend([row for row, _ in values], style)
     draw_curves(axes, at, lines, one_row=not has_legend)
-    (over_time if style.period else over_drive_angle)(axes, float(at[-1]), style.language)
+    if style.period:
+        over_time(axes, float(at[-1]), style.language)
+    else:
+        over_drive_angle(axes, (float(at[0]), float(at[-1])), style.language)
     through_zero(axes, *(one.values for one in lines))
     if not has_legend:
         axes.set_ylabel(axis_title(first, style.language).replace(" $", "\n$", 1))

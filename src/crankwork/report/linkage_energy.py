@@ -105,6 +105,6 @@ def speed_curve(degrees: Array, speed: Array, style: Style = PLAIN) -> bytes:
         )
         spare = 0.08 * (high - low) or 0.01 * high
         axes.set_ylim(low - spare, high + spare)
-        over_drive_angle(axes, float(degrees[-1]), language)
+        over_drive_angle(axes, (float(degrees[0]), float(degrees[-1])), language)
         axes.set_ylabel(axis_title(row, language))
         return svg(figure, linkage_title("speed", language), style.method)

@@ -67,9 +67,18 @@ def axis_title(row: Quantity, language: Language) -> str:
     return f"{plain(row.label(language))} {math_symbol(row.symbol(language))}" + (f", {unit}" if unit else "")
 
 
-def over_drive_angle(axes: Axes, end: float, language: Language) -> None:
-    """Make the horizontal axis the angle of the crank of a linkage from 0 to `end`. [deg]"""
+_TICKS = (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 60.0, 90.0)
+_MOST_TICKS = 12
+
+
+def over_drive_angle(axes: Axes, ends: tuple[float, float], language: Language) -> None:
+    """Make the horizontal axis the angle of the crank of a linkage between the ends of its motion. [deg]"""
+    start, end = ends
     over_crank_angle(axes, end, language)
+    if start:
+        step = next((one for one in _TICKS if (end - start) / one <= _MOST_TICKS), _TICKS[-1])
+        axes.set_xlim(start, end)
+        axes.set_xticks([step * one for one in range(math.ceil(start / step), math.floor(end / step) + 1)])
     # a linkage has a crank, no crankshaft
     sign = math_symbol(QUANTITIES["crank_angle"].symbol(language))
     axes.set_xlabel(f"{say('drawing.angle_of_crank', language)} {sign}, °")

@@ -17,6 +17,8 @@ def notice_text(code: str, values: Mapping[str, float | str], language: Language
     for key, value in values.items():
         if key == "names":
             shown[key] = _meanings(str(value), language)
+        elif key == "quantities":
+            shown[key] = ", ".join(label(one, language) for one in str(value).split(", "))
         elif key == "quantity":
             shown[key] = label(str(value), language)
         elif key == "argument":

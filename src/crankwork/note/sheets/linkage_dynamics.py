@@ -49,7 +49,7 @@ def over_angle(
 
 def _reach(name: str, curves: Sequence[Curve]) -> tuple[float, float]:
     """Return least and largest value, with zero between them but where it is far away."""
-    low, high = min(float(np.min(one.y)) for one in curves), max(float(np.max(one.y)) for one in curves)
+    low, high = min(float(np.nanmin(one.y)) for one in curves), max(float(np.nanmax(one.y)) for one in curves)
     if name in _FAR and high - low < 0.4 * max(abs(low), abs(high)):
         spare = 0.05 * (high - low) or 0.01 * abs(high)
         return low - spare, high + spare

@@ -1,0 +1,156 @@
+"""How far a linkage gets, and what is told of it: dead positions, swing and stroke, change points."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crankwork.analysis.solved import Notice
+from crankwork.errors import GeometryError
+from crankwork.formula.known import Found, Known
+from crankwork.formula.replay import Program
+from crankwork.kinematics.circuits import Extent
+from crankwork.kinematics.coordinates import link_angle
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.motion import Motion, linkage_motion
+from crankwork.kinematics.placement import place
+from crankwork.kinematics.travel import Travel, has_steady_crank, near_changes, travel
+from crankwork.machine import Machine
+from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.mechanism import Mechanism
+
+# how near to a dead position motions and forces are drawn and checked: a part of the range, at most some degrees
+_NEAREST, _AT_MOST = 0.005, 0.25
+_FEWEST = 33
+# how near extremes are looked for, and how much what has no bound grows on the way there
+_EDGE = 1e-6
+_ASIDE = (1e-4, 1e-7)
+_GROWS = 10.0
+_NEARLY_SINGULAR = 1e-3
+
+
+class Reached(NamedTuple):
+    """The motion of a linkage as far as it reaches; the way of its crank, where that does not turn fully."""
+
+    motion: Motion
+    travel: Travel | None
+    notices: tuple[Notice, ...]
+
+    @property
+    def grid(self) -> CrankGrid:
+        """The crank angles that it reaches."""
+        return self.motion.grid
+
+
+def reachable(machine: Machine, step: float) -> Reached:
+    """Return the motion of a linkage in steps, and notices of what keeps it from turning simply."""
+    whole, mechanism = CrankGrid.steps(step, machine.cycle), machine.mechanism
+    try:
+        moved = linkage_motion(mechanism, whole)
+    except GeometryError as error:
+        # a law either passes what its linkage reaches, or has to be changed
+        if not has_steady_crank(mechanism):
+            raise
+        found = travel(mechanism)
+        if found.is_whole:
+            raise
+        notices = [Notice("partial", {"message": error.args[0], "from": found.start, "to": found.end})]
+        if any(isinstance(group, Chain) for group in mechanism.dyads):
+            notices.append(Notice("circuit_of_chain", {}))
+        moved = linkage_motion(mechanism, _inside(found, step))
+        return Reached(moved, found, (*notices, *_told(mechanism, found)))
+    margins = [np.min(one.value) / one.scale for one in place(mechanism, whole).closures]
+    is_near = has_steady_crank(mechanism) and min(margins, default=1.0) < _NEARLY_SINGULAR
+    return Reached(moved, None, tuple(_told(mechanism, travel(mechanism) if is_near else None)))
+
+
+def _inside(found: Travel, step: float) -> CrankGrid:
+    """Return angles from dead position to dead position, of the steps asked for where there are enough."""
+    width = found.end - found.start
+    spare = min(_AT_MOST, _NEAREST * width)
+    count = max(_FEWEST, math.ceil(width / step) + 1)
+    return CrankGrid.from_degrees(np.linspace(found.start + spare, found.end - spare, count))
+
+
+def _told(mechanism: Mechanism, found: Travel | None) -> Iterator[Notice]:
+    """Yield notices of change points that are passed, or nearly."""
+    changes = sorted({one for passage in mechanism.passages.values() for one in passage.changes})
+    if changes:
+        shown = sorted({round(one % 360.0, 6) for one in changes})
+        yield Notice("change_points", {"angles": "°, ".join(f"{one:g}" for one in shown)})
+        if changes[-1] > 360.0 + _EDGE:
+            yield Notice("two_turns", {"turns": math.ceil(changes[-1] / 360.0 - _EDGE)})
+    for degrees, miss in near_changes(found.circuit) if found else ():
+        yield Notice("nearly_change_point", {"angle": degrees, "miss": miss})
+
+
+def rows_inside(found: Travel, degrees: ArrayLike) -> CrankGrid:
+    """Return the angles of a table that lie between dead positions, whole turns aside. [deg]"""
+    asked = np.asarray(degrees, dtype=float)
+    first, last = math.floor((found.start - asked.max()) / 360.0), math.ceil((found.end - asked.min()) / 360.0)
+    every = np.unique(np.round(np.concatenate([asked + 360.0 * turn for turn in range(first, last + 1)]), 9))
+    edge = _EDGE * (found.end - found.start)
+    return CrankGrid.from_degrees(every[(every > found.start + edge) & (every < found.end - edge)])
+
+
+def open_range(found: Travel) -> tuple[float, float]:
+    """Return the range between dead positions without these. [deg]"""
+    edge = _EDGE * (found.end - found.start)
+    return found.start + edge, found.end - edge
+
+
+def unbounded(columns: Mapping[str, Known], ends: Iterable[float], towards: Iterable[float], width: float) -> list[str]:
+    """Return the columns that grow beyond all bounds towards some crank angles.
+
+    `ends`: the angles; `towards`: on which side of each the motion is, 1 or -1; `width`: what is small against it
+    [deg].
+    """
+    degrees = np.array([[end + side * width * one for one in _ASIDE] for end, side in zip(ends, towards, strict=True)])
+    if not degrees.size or not columns:
+        return []
+    values = Program(columns)(CrankGrid.from_degrees(degrees.ravel()))
+    found = []
+    for key, column in values.items():
+        far, near = np.abs(column.reshape(degrees.shape)).T
+        if not np.all(near <= _GROWS * far + 1e-9 * np.max(far)):
+            found.append(key)
+    return found
+
+
+def limits_of(found: Travel, memory: Mapping[str, Known]) -> dict[str, Known]:
+    """Return the range of a crank that turns back, and swing and stroke between its dead positions and all round."""
+    circuit, values = found.circuit, {}
+    for key, degrees in (
+        ("crank_range", found.end - found.start),
+        ("crank_range_start", found.start),
+        ("crank_range_end", found.end),
+    ):
+        values[key] = Known(Found(math.radians(degrees), "circuit"), key)
+    angles = {name: (f"link_angle.{name}", link_angle(name)) for name in circuit.curve.system.equations.index}
+    sliders = {name: (f"slider_displacement.{name}", one) for name, one in circuit.sliders.items()}
+    for kind, each in (("link_swing", angles), ("slider_stroke", sliders)):
+        for name, (column, coordinate) in each.items():
+            if column not in memory or (kind == "link_swing" and name in sliders):
+                continue
+            on_branch, whole = circuit.extent(coordinate, found.branch), circuit.extent(coordinate)
+            turns = kind == "link_swing" and circuit.turns(name) != 0
+            for key, extent, word in ((kind, on_branch, "branch"), (f"{kind}_circuit", whole, "circuit")):
+                if not (kind == "link_swing" and _is_full(extent)) and not (turns and extent is whole):
+                    values[f"{key}.{name}"] = Known(Found(extent.travel, word, (memory[column],)), f"{key}.{name}")
+    return values
+
+
+def _is_full(extent: Extent) -> bool:
+    return extent.travel >= math.tau - 1e-9
+
+
+def clear_of_changes(mechanism: Mechanism, moved: Motion) -> Motion:
+    """Return the motion beside change points, where forces are computed and compared."""
+    clear = np.ones(len(moved.grid), dtype=bool)
+    for passage in mechanism.passages.values():
+        clear &= ~passage.is_bridged(moved.grid.degrees)
+    return moved if clear.all() else linkage_motion(mechanism, CrankGrid.from_degrees(moved.grid.degrees[clear]))

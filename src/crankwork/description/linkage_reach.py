@@ -1,0 +1,134 @@
+"""How far a described linkage gets: what keeps it from moving, and what of its description depends on its way."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from crankwork.analysis.linkage_speed import transient_summary
+from crankwork.analysis.reach import open_range, reachable
+from crankwork.description.schema import Reader
+from crankwork.dynamics.reduction import reduced_inertia
+from crankwork.errors import CrankworkError, GeometryError
+from crankwork.kinematics.assembly import unassembled
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.motion import Motion, linkage_motion
+from crankwork.kinematics.placement import place
+from crankwork.kinematics.travel import Travel, has_steady_crank, passing, travel, turns_fully
+from crankwork.loads.load import Load, applied_loads
+from crankwork.loads.process import ProcessForce
+from crankwork.locale import Refusal
+from crankwork.machine import Machine, Transient
+from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.mechanism import Mechanism
+
+_STEP = 1.0
+_MOST_TURNS = 10_000
+
+
+def passing_if_assembled(mechanism: Mechanism) -> Mechanism:
+    """Return a linkage that passes its change points; where it cannot be assembled, that is told later."""
+    try:
+        return passing(mechanism)
+    except GeometryError:
+        return mechanism
+
+
+def checked_motion(machine: Machine, crank: Mapping[str, Any], reader: Reader) -> Machine | None:
+    """Complain of a linkage that can be assembled nowhere, or whose transient does not come to its end."""
+    try:
+        reached = reachable(machine, _STEP)
+    except GeometryError as error:
+        is_by_law = machine.mechanism.driver.law is not None
+        key = "driver.law" if is_by_law else _unassembled_key(machine, CrankGrid.steps(_STEP, 360.0))
+        reader.complain(key, error.args[0])
+        return None
+    machine = replace(machine, working_range=_working_range(crank, reached.travel, reader))
+    try:
+        applied_loads(machine.mechanism, reached.motion, machine.loads)
+    except GeometryError as error:
+        reader.complain("loads", error.args[0])
+        return None
+    if machine.transient is not None and not _ends(machine, machine.transient, reached.motion, reader):
+        return None
+    return None if reader.problems else machine
+
+
+def _working_range(crank: Mapping[str, Any], found: Travel | None, reader: Reader) -> tuple[float, float] | None:
+    """Return the crank angles between which largest values count, and complain of what the crank does not reach."""
+    given = [key for key in ("from", "to") if key in crank]
+    if not given:
+        return None
+    if found is None:
+        reader.complain(f"crank.{given[0]}", Refusal("working_range_full"))
+        return None
+    low = math.degrees(crank["from"].value) if "from" in crank else open_range(found)[0]
+    high = math.degrees(crank["to"].value) if "to" in crank else open_range(found)[1]
+    if not found.start < low < high < found.end:
+        ends = {"from": found.start, "to": found.end}
+        reader.complain(f"crank.{given[0]}", Refusal("working_range_outside", low=low, high=high, **ends))
+        return None
+    return low, high
+
+
+def with_starts(loads: tuple[Load, ...], values: Mapping[str, Any], mechanism: Mechanism) -> tuple[Load, ...]:
+    """Return the loads, process forces counted from the beginning of the working stroke where no start is given."""
+    swept = None
+    result = []
+    for load, written in zip(loads, values.get("loads", []), strict=True):
+        if isinstance(load, ProcessForce) and load.against == "stroke" and "start" not in written:
+            swept = swept or _swept(mechanism)
+            if load.slider in swept:
+                load = replace(load, start=swept[load.slider][0 if load.forward > 0 else 1])  # noqa: PLW2901
+        result.append(load)
+    return tuple(result)
+
+
+def _swept(mechanism: Mechanism) -> dict[str, tuple[float, float]]:
+    """Return the least and the greatest distance of every slider, none where the linkage cannot be assembled. [m]"""
+    try:
+        if turns_fully(mechanism):
+            moved = linkage_motion(mechanism, CrankGrid.steps(_STEP, 360.0))
+            return {name: (float(np.min(way[0])), float(np.max(way[0]))) for name, way in moved.sliders.items()}
+        if not has_steady_crank(mechanism):
+            return {}
+        found = travel(mechanism)
+    except GeometryError:
+        return {}
+    each = {name: found.circuit.extent(way, found.branch) for name, way in found.circuit.sliders.items()}
+    return {name: (extent.least, extent.greatest) for name, extent in each.items()}
+
+
+def _ends(machine: Machine, wanted: Transient, motion: Motion, reader: Reader) -> bool:
+    """Complain of a transient that cannot be followed to its end."""
+    inertia = float(np.mean(reduced_inertia(machine.mechanism, motion).inertia)) + machine.drive.inertia
+    if inertia <= 0:
+        reader.complain("transient", Refusal("transient_massless"))
+        return False
+    turns = (wanted.torque / inertia * wanted.time / 2 + wanted.speed) * wanted.time / math.tau
+    if turns > _MOST_TURNS:
+        reader.complain("transient.time", Refusal("transient_long", turns=turns, most=_MOST_TURNS))
+        return False
+    try:
+        transient_summary(machine)
+    except GeometryError as error:
+        reader.complain("transient", error.args[0])
+    except CrankworkError as error:
+        reader.complain("transient", Refusal("transient_ended", mistake=error.args[0]))
+    else:
+        return True
+    return False
+
+
+def _unassembled_key(machine: Machine, grid: CrankGrid) -> str:
+    """Return the key of the first link of the group that can be assembled nowhere."""
+    for group, closure in zip(machine.mechanism.dyads, place(machine.mechanism, grid).closures, strict=True):
+        if unassembled(closure) is not None:
+            names = [one.name for one in group.links] if isinstance(group, Chain) else vars(group).values()
+            member = next(one for one in machine.drawn.members if one.name in names)
+            return f"{'sliders' if member.guide else 'links'}.{member.name}"
+    return "links"

@@ -1,0 +1,146 @@
+"""What is told of a crank that turns back and of one that passes change points, from the machine file."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+from crankwork import analyse, read_machine
+from crankwork.errors import CrankworkError
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.report.drawing import moving_drawing
+
+pytestmark = pytest.mark.elsewhere
+
+
+def four_bar(*lengths, start=0.0, more="", of_crank="", mass=True):
+    crank, coupler, rocker, ground = lengths
+    centre = 'mass = "1 kg"\ncentre = ["40 mm", "0 mm"]' if mass else ""
+    return read_machine(f"""
+[fixed_points]
+O = ["0 mm", "0 mm"]
+B = ["{ground} mm", "0 mm"]
+[crank]
+pivot = "O"
+pin = "A"
+radius = "{crank} mm"
+speed = "60 rpm"
+start = "{start} deg"
+{of_crank}
+[links.coupler]
+joins = ["A", "C"]
+length = "{coupler} mm"
+{centre}
+[links.rocker]
+joins = ["B", "C"]
+length = "{rocker} mm"
+{more}
+""")
+
+
+def deg(value):
+    return math.degrees(value)
+
+
+@pytest.mark.parametrize("start", [0, 17, 30, 45, 79, 120, 200, 300, 350])
+def test_range_and_swing_do_not_depend_on_the_start(start):
+    summary = analyse(four_bar(150, 80, 150, 200, start=start)).summary
+    assert deg(summary["crank_range"]) == pytest.approx(64.53289907034215, abs=1e-9)
+    assert deg(summary["link_swing_circuit.rocker"]) == pytest.approx(64.53289907034215, abs=1e-9)
+    assert any(
+        deg(summary["link_swing.rocker"]) == pytest.approx(one, abs=1e-9) for one in (43.92320613281, 23.81345930662)
+    )
+    assert deg(summary["crank_range_end"] - summary["crank_range_start"]) == pytest.approx(64.53289907034215, abs=1e-9)
+
+
+def test_what_moves_to_both_sides_of_zero_is_told_whole():
+    machine = four_bar(30, 40, 50, 70)
+    results = analyse(machine)
+    half = deg(math.acos((3**2 + 7**2 - 9**2) / (2 * 3 * 7)))
+    assert deg(results.summary["crank_range_start"]) == pytest.approx(-half, abs=1e-9)
+    assert results.grid.degrees.tolist() == [10.0 * one for one in range(-12, 13)]
+    assert np.isfinite(results.columns["point_x.C"]).all()
+    notice = next(one for one in results.notices if one.code == "partial")
+    assert notice.values["from"] == pytest.approx(-half, abs=1e-9)
+    asked = analyse(machine, CrankGrid.from_degrees([0.0, 90.0, 300.0]))
+    assert asked.grid.degrees.tolist() == [-60.0, 0.0, 90.0]
+
+
+def test_what_has_no_bound_has_no_largest_value():
+    results = analyse(four_bar(150, 80, 150, 200))
+    assert not [key for key in results.summary if key.startswith("joint_force_max")]
+    told = next(one for one in results.notices if one.code == "unbounded")
+    assert "joint_force" in told.values["quantities"].split(", ")
+    assert told.values["angles"].split("°, ") == ["16.2602", "80.7931"]
+    assert results.unmet == ()
+
+
+def test_largest_values_of_a_working_range():
+    results = analyse(four_bar(150, 80, 150, 200, of_crank='from = "30 deg"\nto = "60 deg"'))
+    columns = results.columns_at(np.linspace(30, 60, 3001))
+    for joint in "OACB":
+        assert results.summary[f"joint_force_max.{joint}"] == pytest.approx(
+            columns[f"joint_force.{joint}"].max(), rel=1e-6
+        )
+    assert deg(results.summary["crank_range"]) == pytest.approx(64.53289907034215, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("of_crank", "crank", "message"),
+    [
+        ('from = "10 deg"', 150, r"crank\.from: from 10 to 80\.79.* is not within 16\.26.* to 80\.79"),
+        ('from = "60 deg"\nto = "50 deg"', 150, r"crank\.from: from 60 to 50 deg is not within"),
+        ('to = "50 deg"', 30, r"crank\.to: the crank turns fully"),
+    ],
+)
+def test_a_working_range_that_is_not_reached_is_refused(of_crank, crank, message):
+    with pytest.raises(CrankworkError, match=message):
+        four_bar(crank, 80 if crank == 150 else 180, 150, 200, of_crank=of_crank)
+
+
+def test_a_parallelogram_turns_fully():
+    results = analyse(four_bar(300, 1000, 300, 1000))
+    assert [one.code for one in results.notices] == ["change_points"]
+    assert results.notices[0].values["angles"] == "0°, 180"
+    grid = results.grid
+    assert results.columns["point_x.C"] == pytest.approx(1 + 0.3 * grid.cos, abs=1e-12)
+    speed = math.tau
+    # the coupler does not turn: its weight-free force of inertia is borne by the pins as the lever law says
+    inertia = 1.0 * 0.3 * speed**2
+    assert results.columns["joint_force.C"] == pytest.approx(np.full(len(grid), 0.04 * inertia), abs=1e-11)
+    assert results.columns["joint_force.A"] == pytest.approx(np.full(len(grid), 0.96 * inertia), abs=1e-11)
+    assert results.unmet == ()
+
+
+def test_forces_of_a_loaded_parallelogram_are_not_told_where_they_have_no_limit():
+    load = '[[loads]]\nkind = "torque"\nlink = "rocker"\ntorque = ["10 N*m"]'
+    results = analyse(four_bar(300, 1000, 300, 1000, more=load, mass=False))
+    grid = results.grid
+    at = np.abs(grid.sin) > 1e-9
+    # the coupler pulls with the torque over its distance from the pivot
+    assert results.columns["joint_force.C"][at] == pytest.approx(10 / (0.3 * np.abs(grid.sin[at])), rel=1e-10)
+    assert np.isnan(results.columns["joint_force.C"][~at]).all()
+    assert "joint_force_max.C" not in results.summary
+    assert {one.code for one in results.notices} == {"change_points", "unbounded"}
+    assert results.columns["balancing_torque"] == pytest.approx(np.full(len(grid), -10.0), abs=1e-10)
+
+
+def test_two_turns_of_a_kite_are_told():
+    codes = [one.code for one in analyse(four_bar(100, 150, 150, 100)).notices]
+    assert codes == ["change_points", "two_turns"]
+
+
+def test_lengths_that_are_nearly_those_of_a_change_point_are_told():
+    told = [one for one in analyse(four_bar(300, 1000, 300.0001, 1000)).notices if one.code == "nearly_change_point"]
+    assert sorted(round(one.values["angle"]) % 180 for one in told) == [0, 0]
+    assert [one.values["miss"] for one in told] == pytest.approx([1e-7, 1e-7], rel=0.02)
+
+
+def test_a_drawing_of_a_crank_that_turns_back_swings():
+    drawn = moving_drawing(four_bar(30, 40, 50, 70))
+    assert "to and fro in 4 s" in drawn
+    shown = [int(one.replace("−", "-")) for one in re.findall(r"</tspan> = (−?\d+)", drawn)]
+    assert min(shown) < -120
+    assert max(shown) > 120
+    assert "one revolution in 4 s" in moving_drawing(four_bar(300, 1000, 300, 1000))
