@@ -228,3 +228,4 @@ def test_two_turns_of_a_linkage_are_those_of_an_engine():
     excess = np.cumsum(turning - turning.mean()) * math.radians(0.05)
     assert other["excess_work"] == pytest.approx(np.ptp(excess), rel=1e-3)
     assert other.value("crank_speed", 500.0) > 0
+    assert other.value("work_per_cycle") == pytest.approx(-one["indicated_work"], rel=1e-10)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
@@ -110,15 +109,16 @@ def _even(memory: Mapping[str, Known], inertia: Curve, load: Curve, w: Known, fl
     )
     columns = {"kinetic_energy_change": change, "crank_speed": crank_speed.named("crank_speed")}
     residual = abs(turning.fluctuation - fluctuation) if added else max(turning.fluctuation - fluctuation, 0.0)
-    return Turn(columns, summary, {"flywheel": residual}, (), _of_energy(memory, summary["excess_work"])), added
+    cycle = given("cycle_angle", float(load.angle[-1] - load.angle[0]))
+    return Turn(columns, summary, {"flywheel": residual}, (), _of_energy(memory, summary["excess_work"], cycle)), added
 
 
-def _of_energy(memory: Mapping[str, Known], excess: Known) -> dict[str, Known]:
-    """Return the work of a turn, and how much of it the kinetic energy takes and gives; nothing without either."""
+def _of_energy(memory: Mapping[str, Known], excess: Known, cycle: Known) -> dict[str, Known]:
+    """Return the work of a cycle, and how much of it the kinetic energy takes and gives; nothing without either."""
     mean = memory.get("mean_torque")
     if mean is None or not mean.value:
         return {}
-    work = work_of_mean_torque(mean, given("cycle_angle", 2 * math.pi))
+    work = work_of_mean_torque(mean, cycle)
     return {"work_per_cycle": work, "energy_fluctuation": fluctuation_of_energy(excess, work)}
 
 

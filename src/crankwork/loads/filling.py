@@ -252,7 +252,11 @@ def _works(pressures: Mapping[str, Known], spaces: Mapping[str, _Space]) -> dict
         {name: one * spaces[name].volume_1 for name, one in pressures.items()}, CrankGrid.from_degrees, _TURN
     )
     return {
-        name: Known(Found(over.integral(name), "work", (one, spaces[name].volume)), f"indicated_work.{name}")
+        name: Known(
+            # what rounding leaves of a work that comes back is nothing
+            Found(over.mean(name, "").value * math.radians(_TURN), "work", (one, spaces[name].volume)),
+            f"indicated_work.{name}",
+        )
         for name, one in pressures.items()
     }
 
