@@ -116,6 +116,8 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
         between |= turn.between
         notices += turn.notices
     summary |= transient_summary(machine)
+    if machine.drawn.geared:
+        notices += (Notice("geared", {}),)
     if machine.mechanism.driver.law is not None:
         notices += (Notice("by_law", {}),)
     columns = Program(memory)(table)

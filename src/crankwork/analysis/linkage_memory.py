@@ -30,7 +30,7 @@ from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.loads.load import applied_loads
 from crankwork.machine import Drive, Machine
 from crankwork.mechanism.driver import Law, LinkMotor
-from crankwork.mechanism.joints import SlidingJoint, joints
+from crankwork.mechanism.joints import SlidingJoint, joints, pivots_of
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Crank
 
@@ -176,11 +176,9 @@ def _driving(static: Known, dynamic: Known, balancing: Known, drive: Drive, moti
 
 def _forces(machine: Machine, found: JointForces) -> Iterator[tuple[str, Known]]:
     """Yield the forces in joints and guides; the joint of crank and ground has the name of its fixed point."""
-    driver, pivot = machine.mechanism.driver, ""
-    if isinstance(driver, Crank):
-        pivot = next((name for name, place in machine.mechanism.ground.items() if place == driver.pivot), "")
+    pivots = {f"{link}_pivot": name for link, name in pivots_of(machine.mechanism).items()}
     for joint, pin in found.pins.items():
-        name = pivot if pivot and joint == f"{driver.link}_pivot" else joint
+        name = pivots.get(joint, joint)
         yield f"joint_force_x.{name}", pin.x
         yield f"joint_force_y.{name}", pin.y
         yield f"joint_force.{name}", pin.resultant

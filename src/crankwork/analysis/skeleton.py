@@ -96,6 +96,9 @@ def _driven_first(mechanism: Mechanism) -> Iterator[Member]:
         case Crank(pivot=at, link=link, pin=pin):
             pivot = next((name for name, place in mechanism.ground.items() if place == at), PIVOT)
             yield Member(link, 1, (pivot, pin))
+            for one in driver.geared:
+                fixed = next((name for name, place in mechanism.ground.items() if place == one.pivot), PIVOT)
+                yield Member(one.link, 0, (fixed,))
         case DrivingSlider(link=link, guide=guide):
             yield Member(link, 1, (), guide)
         case Cylinder(barrel=barrel, rod=rod, link=link):

@@ -43,7 +43,7 @@ from crankwork.mechanism.linkage import GROUND, Linkage
 from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.shaft.motor import AsynchronousMotor, GearedMotor
 
-_GEOMETRY = ("fixed_points", "crank", "links", "guides", "sliders", "branch", "positions")
+_GEOMETRY = ("fixed_points", "crank", "geared", "links", "guides", "sliders", "branch", "positions")
 _STEP = 1.0
 _LEAST_EFFICIENCY = 1e-4
 _REVOLUTION = math.tau + 1e-9

@@ -77,6 +77,16 @@ _DRIVER = Table({
     "period": Key(_TIME, "time of the whole law, where segments are shares of it"),
 })  # fmt: skip
 
+_GEARED = Table({
+    "pivot": Key(_NAME, "the fixed point it turns about", required=True),
+    "ratio": Key(Number(-1e3, 1e3), "its speed over that of the crank, negative the other way round", required=True),
+    "start": Key(_ANGLE, "direction of its x axis at a crank angle of zero"),
+    "points": Key(Named(_PLACE), "its points: along its x axis, and to the left of that", required=True),
+    "inertia": Key(_INERTIA, "moment of inertia about its axis"),
+    "mass": Key(Quantity(("mass",), 1e-9, 1e6), "its mass, which its pivot bears"),
+    "centre": Key(NameOr(_PLACE), "centre of mass: a point of it, or [along, across] from the pivot; else the pivot"),
+})  # fmt: skip
+
 _LINK = Table({
     "joins": Key(ListOf(_NAME, fewest=2), "names of its joints; its frame runs from the first to the second",
                  required=True),
@@ -204,6 +214,7 @@ LINKAGE_FILE = Table(
         **_TITLE,
         "fixed_points": Key(Named(_PLACE), "pivots of the ground: [x, y]"),
         "crank": Key(_CRANK, "the driving link", required=True),
+        "geared": Key(Named(_GEARED, most=50), "cranks that gears turn with the driving one, by name"),
         "links": Key(Named(_LINK, most=500), "links by name"),
         "guides": Key(Named(_GUIDE), "straight guides by name"),
         "sliders": Key(Named(_SLIDER, most=300), "sliding pieces by name"),

@@ -62,7 +62,8 @@ def equilibrium(
     """
     row = {link: 3 * k for k, link in enumerate(links)}
     pushed = _pushed(driver, motion)
-    matrix = np.zeros((len(motion.grid), 3 * len(row), 2 * len(held) + bool(pushed)))
+    meshes = len(driver.geared) if isinstance(driver, Crank) else 0
+    matrix = np.zeros((len(motion.grid), 3 * len(row), 2 * len(held) + meshes + bool(pushed)))
     for k, joint in enumerate(held):
         place, frame = joint_place(joint, motion), motion.frames[joint.link]
         for link, sign in ((joint.link, 1.0), (joint.other, -1.0)):
@@ -76,6 +77,10 @@ def equilibrium(
                 matrix[:, i + 2, 2 * k + 1] = sign
     for link, which, value in pushed:
         matrix[:, row[link] + which, -1] = value
+    if isinstance(driver, Crank):
+        for k, one in enumerate(driver.geared, start=2 * len(held)):
+            matrix[:, row[one.link] + 2, k] = 1.0
+            matrix[:, row[driver.link] + 2, k] = -one.ratio
     return Equilibrium(tuple(links), tuple(held), matrix)
 
 

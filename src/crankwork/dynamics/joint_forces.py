@@ -56,21 +56,42 @@ def joint_forces(running: Running) -> JointForces:
             carrier = reaction.joint.other
             if carrier != GROUND and carrier not in links:
                 wrenches.add(carrier, reaction_wrench(reaction, motion, carrier))
-    match driver, every[0]:
-        case Crank(link=link, direction=direction), Pin() as pivot:
-            crank = wrenches[link]
-            found[pivot] = PinForce(pivot, -crank.x, -crank.y)
-            torque = -crank.moment if direction == 1 else crank.moment
-        case DrivingSlider(link=link), SlidingJoint() as joint:
+    found |= _at_base(running, every, wrenches)
+    match driver:
+        case Crank():
+            torque = _crank_torque(driver, motion, wrenches)
+        case DrivingSlider(link=link):
             piece, (cos, sin) = wrenches[link], motion.frames[link][1:3]
-            across = -force_across(piece.y, cos, piece.x, sin)
-            found[joint] = GuideForce(
-                joint, named(across, f"normal_force.{link}"), named(-piece.moment, f"normal_moment.{link}")
-            )
             torque = -force_along(piece.x, cos, piece.y, sin)
-        case Cylinder(), _:
+        case Cylinder():
             torque = cylinder_force(mechanism, motion, found)
     return gathered(found, every, torque)
+
+
+def _at_base(running: Running, every: Sequence[Joint], wrenches: Wrenches) -> dict[Joint, Reaction]:
+    """Return the reactions in the joints of the links that are placed before any group."""
+    found: dict[Joint, Reaction] = {}
+    inner = {name for group in running.mechanism.dyads for name in group_links(group)}
+    for joint in every:
+        if joint.link in inner:
+            continue
+        held = wrenches[joint.link]
+        if isinstance(joint, Pin):
+            found[joint] = PinForce(joint, -held.x, -held.y)
+        else:
+            cos, sin = running.motion.frames[joint.link][1:3]
+            across = named(-force_across(held.y, cos, held.x, sin), f"normal_force.{joint.link}")
+            found[joint] = GuideForce(joint, across, named(-held.moment, f"normal_moment.{joint.link}"))
+    return found
+
+
+def _crank_torque(crank: Crank, motion: Motion, wrenches: Wrenches) -> Value:
+    """Return the torque of a crank, with that of the cranks that gears turn: changed as the inverse of the speed."""
+    torque = -wrenches[crank.link].moment if crank.direction == 1 else wrenches[crank.link].moment
+    for one in crank.geared:
+        rate = motion.frames[one.link].angle_1
+        torque = torque - named(rate * wrenches[one.link].moment, f"link_moment.{one.link}.geared")
+    return torque
 
 
 def _held_together(mechanism: Mechanism) -> Iterator[tuple[Dyad | Chain | None, tuple[str, ...]]]:

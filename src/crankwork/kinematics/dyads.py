@@ -19,7 +19,7 @@ from crankwork.formula.known import Known, absent, given, is_known, named
 from crankwork.kinematics import plane_motion as plane
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.transfer import PointMotion, Transfer
-from crankwork.mechanism.driver import LinkMotor
+from crankwork.mechanism.driver import GearedCrank, LinkMotor
 from crankwork.mechanism.dyads import RRP, RRR, Guide, Point
 from crankwork.mechanism.mechanism import Crank
 
@@ -182,6 +182,16 @@ def crank_motion(crank: Crank, grid: CrankGrid) -> LinkMotion:
         return LinkMotion(fixed_point(crank.pivot), cos, sin, forward, absent("link_angle_2"))
     rate = np.full_like(cos, crank.direction)
     return LinkMotion(fixed_point(crank.pivot), cos, sin, rate, np.zeros_like(cos))
+
+
+def geared_motion(geared: GearedCrank, crank: Crank, grid: CrankGrid) -> LinkMotion:
+    """Return the motion of a crank that gears turn with the driving one, its frame at its pivot."""
+    rate = geared.ratio * crank.direction
+    angle = rate * grid.angle if is_nothing(geared.start) else geared.start + rate * grid.angle
+    cos, sin = plane.cosine_of_direction(angle), plane.sine_of_direction(angle)
+    if is_known(cos):
+        return LinkMotion(fixed_point(geared.pivot), cos, sin, rate, absent("link_angle_2"))
+    return LinkMotion(fixed_point(geared.pivot), cos, sin, np.full_like(cos, rate), np.zeros_like(cos))
 
 
 def pin_on_crank(crank: Crank, link: LinkMotion) -> PointMotion:

@@ -17,8 +17,8 @@ from crankwork.kinematics.placement import place_at
 from crankwork.kinematics.plane_motion import cosine_of_direction, direction_of_slope, sine_of_direction
 from crankwork.kinematics.transfer import Transfer
 from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.driver import DrivingSlider, LinkMotor
-from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide
+from crankwork.mechanism.driver import DrivingSlider, GearedCrank, LinkMotor
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide, Point
 from crankwork.mechanism.linkage import Linkage
 from crankwork.mechanism.mechanism import Body, Crank, Driver, LinkPoint, Mechanism
 
@@ -98,12 +98,15 @@ class _Places:
 
     def __init__(self, linkage: Linkage | None) -> None:
         members = () if linkage is None else (linkage.driving, *linkage.members)
+        self._geared = set() if linkage is None else {one.name for one in linkage.geared}
         self._guides = {one.name: one.guide for one in members}
         self._crank = linkage.driver.link if linkage is not None and isinstance(linkage.driver, Crank) else ""
 
     def member(self, name: str) -> str:
         if name == self._crank:
             return "crank"
+        if name in self._geared:
+            return f"geared.{name}"
         return f"{'sliders' if self._guides.get(name) else 'links'}.{name}"
 
     def guide(self, piece: str) -> str:
@@ -134,6 +137,7 @@ def _given_driver(mechanism: Mechanism, ground: Mapping[str, Any]) -> Any:  # no
                 radius=given("crank_radius", driver.radius, "crank.radius"),
                 pivot=ground[pivot] if pivot else _point(f"{driver.link}_pivot", driver.pivot, "crank.pivot"),
                 start=_stated("line_angle.crank", driver.start, "crank.start"),
+                geared=tuple(_geared(one, mechanism.ground, ground) for one in driver.geared),
             )
         case DrivingSlider(link=piece, guide=guide):
             return replace(driver, guide=_guide(piece, guide, f"guides.{piece}"))
@@ -141,6 +145,17 @@ def _given_driver(mechanism: Mechanism, ground: Mapping[str, Any]) -> Any:  # no
             given_sides = tuple(given(f"link_length.{link}", side) for link, side in zip(links, sides, strict=True))
             return replace(driver, sides=given_sides, angle=_stated(f"line_angle.{driver.link}", driver.angle, ""))
     return driver
+
+
+def _geared(crank: GearedCrank, places: Mapping[str, Point], ground: Mapping[str, Any]) -> GearedCrank:
+    pivot = next((name for name, at in places.items() if at == crank.pivot), "")
+    path, name = f"geared.{crank.link}", crank.link
+    return replace(
+        crank,
+        ratio=_untyped(given(f"gear_ratio.{name}", crank.ratio, f"{path}.ratio")),
+        pivot=ground[pivot] if pivot else _point(f"{name}_pivot", crank.pivot, f"{path}.pivot"),
+        start=_stated(f"line_angle.{name}", crank.start, f"{path}.start"),
+    )
 
 
 def _stated(key: str, value: float, path: str) -> Any:  # noqa: ANN401 - a known where a number is typed

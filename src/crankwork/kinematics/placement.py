@@ -23,6 +23,7 @@ from crankwork.kinematics.dyads import (
     crank_motion,
     fixed_guide,
     fixed_point,
+    geared_motion,
     guide_on_link,
     is_nothing,
     named_link,
@@ -116,6 +117,7 @@ def _place_driver(driver: Driver, placed: Placed) -> None:
         arm = crank_motion(driver, grid)
         placed.points[driver.pin] = named_point(pin_on_crank(driver, arm), driver.pin)
         placed.links[driver.link] = arm if is_nothing(driver.start) else named_link(arm, driver.link)
+        placed.links.update({one.link: named_link(geared_motion(one, driver, grid), one.link) for one in driver.geared})
         return
     if is_known(grid.angle):
         way = Transfer(grid.angle, absent("driver_rate", 1.0), absent("driver_rate_1"))

@@ -31,7 +31,8 @@ def mechanism_of(linkage: Linkage, solved: Mapping[str, Point] | None = None) ->
     if order.problems:
         return None, order.problems
     order.points += [LinkPoint(name, linkage.driver.link, *place) for name, place in linkage.driving.points.items()]
-    massive = (one for one in (linkage.driving, *linkage.members) if one.centre)
+    order.points += [LinkPoint(name, one.name, *place) for one in linkage.geared for name, place in one.points.items()]
+    massive = (one for one in (linkage.driving, *linkage.geared, *linkage.members) if one.centre)
     bodies = tuple(body_at(one.name, one.mass, one.inertia, one.centre) for one in massive)
     return Mechanism(linkage.driver, tuple(groups), bodies, dict(linkage.ground), tuple(order.points)), []
 
@@ -180,7 +181,7 @@ class _Order:
     def _drawn_angle(self, link: str, stated: Mapping[str, Point] | None = None) -> float:
         """Return the direction of the drawn frame of a member at the beginning, from stated or solved places. [rad]"""
         if not link or link in self.linkage.base:
-            return self.linkage.driving_frame[1] if link else 0.0
+            return self.linkage.base_frame(link)[1] if link else 0.0
         member, at = self.linkage.member(link), self.at if stated is None else stated
         if member.guide:
             guide = self.linkage.guides[member.guide]

@@ -11,7 +11,7 @@ from typing import Any
 from crankwork.errors import Problem
 from crankwork.locale import Refusal
 from crankwork.mechanism.decomposition import mechanism_of
-from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, GearedCrank, Law, LinkMotor
 from crankwork.mechanism.dyads import Branch, Guide, Point
 from crankwork.mechanism.linkage import GROUND, Linkage, Member
 from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
@@ -19,7 +19,7 @@ from crankwork.mechanism.structure import structure
 
 Table = Mapping[str, Any]
 
-_TABLES = ("fixed_points", "crank", "driver", "links", "guides", "sliders", "branch", "positions")
+_TABLES = ("fixed_points", "crank", "geared", "driver", "links", "guides", "sliders", "branch", "positions")
 _MASS = ("mass", "inertia", "centre")
 _CRANK = ("pivot", "pin", "radius", "start", "direction", "points", *_MASS)
 _LINK = ("joins", "length", "points", *_MASS)
@@ -28,6 +28,7 @@ _GUIDE = ("through", "angle", "link")
 _DRIVERS = ("slider", "cylinder", "between")
 _DRIVER = (*_DRIVERS, "law")
 _SAME = 1e-12
+_GEARED = ("pivot", "ratio", "start", "points", *_MASS)
 _DIRECTIONS: dict[str, Branch] = {"anticlockwise": 1, "clockwise": -1}
 
 
@@ -95,10 +96,16 @@ class _Reader:
             driver, driving = self._driving_slider(sliders, guides, law)
         else:
             driver, driving = self._crank(ground, law)
-        drawn = Linkage(driver, ground, (), positions=positions, driving=driving).at_zero()
+        geared: tuple[Member, ...] = ()
+        if isinstance(driver, Crank):
+            cranks, geared = self._geared(ground)
+            driver = replace(driver, geared=cranks)
+        elif "geared" in self.tables:
+            self._problem("geared", Refusal("geared_alone"))
+        drawn = Linkage(driver, ground, (), positions=positions, driving=driving, geared=geared).at_zero()
         links = tuple(self._links(drawn))
         members = (*links, *(one for one in sliders if one.name != driving.name))
-        linkage = Linkage(driver, ground, members, guides, self._branches(), positions, driving)
+        linkage = Linkage(driver, ground, members, guides, self._branches(), positions, driving, geared)
         self._names(linkage)
         if self.problems or not named:
             return linkage
@@ -261,28 +268,51 @@ class _Reader:
         sense = _DIRECTIONS.get(str(direction), 1)
         pivoted = ground.get(pivot, (0.0, 0.0))
         crank = Crank(radius, pivoted, start, sense, pin, law=law)
-        return crank, self._massive_crank(Member(crank.link, self._points("crank", table)), table, crank, pivot)
+        points = self._points("crank", table)
+        places = {pivot: (0.0, 0.0), pin: (radius, 0.0), **points}
+        return crank, self._turning("crank", Member(crank.link, points), table, places)
 
-    def _massive_crank(self, member: Member, table: Table, crank: Crank, pivot: str) -> Member:
-        """Return a crank with its mass; its moment of inertia is that about its axis, all of it included."""
+    def _geared(self, ground: Mapping[str, Point]) -> tuple[tuple[GearedCrank, ...], tuple[Member, ...]]:
+        """Return the cranks that gears turn with the driving one, and what they are as members."""
+        cranks, members = [], []
+        for name, table in self._named("geared", _GEARED):
+            key = f"geared.{name}"
+            pivot = self._word(f"{key}.pivot", table.get("pivot"))
+            if pivot and pivot not in ground:
+                self._problem(f"{key}.pivot", Refusal("pivot_unknown", name=pivot))
+            ratio, start = (self._number(f"{key}.{one}", table.get(one, 0.0)) for one in ("ratio", "start"))
+            if not ratio:
+                self._problem(f"{key}.ratio", Refusal("ratio_zero"))
+            crank = GearedCrank(name, ground.get(pivot, (0.0, 0.0)), ratio, start)
+            points = self._points(key, table)
+            if not points:
+                self._problem(f"{key}.points", Refusal("geared_points"))
+            cranks.append(crank)
+            members.append(self._turning(key, Member(name, points), table, {pivot: (0.0, 0.0), **points}))
+        return tuple(cranks), tuple(members)
+
+    def _turning(self, key: str, member: Member, table: Table, places: Mapping[str, Point]) -> Member:
+        """Return a crank with its mass; its moment of inertia is that about its axis, all of it included.
+
+        `places`: where its points are in its frame, the pivot first.
+        """
         if not any(name in table for name in _MASS):
             return member
-        mass = self._number("crank.mass", table.get("mass", 0.0))
-        whole = self._number("crank.inertia", table.get("inertia", 0.0))
-        centre = table.get("centre", pivot)
-        places = {pivot: (0.0, 0.0), crank.pin: (crank.radius, 0.0), **member.points}
-        points = dict(member.points)
+        mass = self._number(f"{key}.mass", table.get("mass", 0.0))
+        whole = self._number(f"{key}.inertia", table.get("inertia", 0.0))
+        centre = table.get("centre", next(iter(places)))
+        points, places = dict(member.points), dict(places)
         if not isinstance(centre, str):
             name = f"{member.name}.centre"
-            points[name] = places[name] = self._point("crank.centre", centre)
+            points[name] = places[name] = self._point(f"{key}.centre", centre)
             centre = name
         elif centre not in places:
             known = ", ".join(places)
-            self._problem("crank.centre", Refusal("centre_unknown", centre=centre, link=member.name, known=known))
+            self._problem(f"{key}.centre", Refusal("centre_unknown", centre=centre, link=member.name, known=known))
             return member
         turning = mass * math.hypot(*places[centre]) ** 2
         if "inertia" in table and whole < turning * (1 - _SAME):
-            self._problem("crank.inertia", Refusal("crank_inertia_small", least=turning))
+            self._problem(f"{key}.inertia", Refusal("crank_inertia_small", least=turning))
         own = max(whole - turning, 0.0) if "inertia" in table else 0.0
         return _replaced(member, points, mass, own, centre)
 

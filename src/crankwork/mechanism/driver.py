@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from crankwork.mechanism.dyads import Guide
+from crankwork.mechanism.dyads import Guide, Point
 
 LawKind = Literal[
     "constant", "parabolic", "trapezoidal", "modified-trapezoidal", "cubic", "3-4-5", "4-5-6-7", "harmonic",
@@ -80,3 +80,13 @@ class LinkMotor:
     link: str = "third_side"  # Name of the third side
 
     turns = True
+
+
+@dataclass(frozen=True)
+class GearedCrank:
+    """A crank that gears turn with the driving one."""
+
+    link: str
+    pivot: Point  # [m]
+    ratio: float  # Its angular velocity over that of the driving crank, negative where it turns the other way round [-]
+    start: float = 0.0  # Direction of its x axis where the driving crank has not turned yet [rad]

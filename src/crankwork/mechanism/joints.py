@@ -45,15 +45,15 @@ def joints(mechanism: Mechanism) -> tuple[Joint, ...]:
     bearer = bearers(mechanism)
     found: list[Joint] = []
     match mechanism.driver:
-        case Crank(link=crank):
-            found.append(Pin(f"{crank}_pivot", crank, GROUND, ""))
+        case Crank(link=crank, geared=geared):
+            found += [Pin(f"{name}_pivot", name, GROUND, "") for name in (crank, *(one.link for one in geared))]
         case DrivingSlider(link=piece):
             found.append(_on_guide(piece, ""))
     for group in mechanism.dyads:
         found += _chain_joints(group, bearer) if isinstance(group, Chain) else _dyad_joints(group, bearer)
     if isinstance(mechanism.driver, LinkMotor):
         found = [one for one in found if mechanism.driver.link not in (one.link, one.other)]
-    count = Counter(one.point for one in found if isinstance(one, Pin))
+    count = Counter(one.point for one in found if isinstance(one, Pin) and one.point)
     return tuple(
         replace(one, name=f"{one.name}_{one.link}") if isinstance(one, Pin) and count[one.point] > 1 else one
         for one in found
@@ -96,6 +96,16 @@ def group_links(group: Dyad | Chain) -> tuple[str, ...]:
             return group.block_a, group.block_b
         case Chain():
             return tuple(link.name for link in group.links)
+
+
+def pivots_of(mechanism: Mechanism) -> dict[str, str]:
+    """Return the fixed points that cranks turn about by link, those that have names."""
+    if not isinstance(mechanism.driver, Crank):
+        return {}
+    named = {at: name for name, at in reversed([*mechanism.ground.items()])}
+    places = {mechanism.driver.link: mechanism.driver.pivot}
+    places |= {one.link: one.pivot for one in mechanism.driver.geared}
+    return {link: named[at] for link, at in places.items() if at in named}
 
 
 def origin_of(mechanism: Mechanism, link: str) -> str:

@@ -42,6 +42,7 @@ class Linkage:
     positions: Mapping[str, Point] = field(default_factory=dict)
     # Points and mass of a driving link; points of a crank are further ones, from the pivot towards the pin, and left
     driving: Member = Member("", {})
+    geared: tuple[Member, ...] = ()  # Points and masses of the cranks that gears turn with the driving one
 
     @property
     def crank(self) -> Crank:
@@ -52,7 +53,8 @@ class Linkage:
     def base(self) -> frozenset[str]:
         """What is placed before any group: the ground, and the link that drives."""
         is_link = isinstance(self.driver, Crank | DrivingSlider)
-        return frozenset({GROUND, self.driver.link} if is_link else {GROUND})
+        geared = (one.name for one in self.geared)
+        return frozenset({GROUND, self.driver.link, *geared} if is_link else {GROUND})
 
     def member(self, name: str) -> Member:
         """Return the member of a name."""
@@ -65,17 +67,20 @@ class Linkage:
         pin = (self.driver.pin,) if isinstance(self.driver, Crank) else ()
         for name in (*pin, *self.driving.points):
             owners.setdefault(name, []).append(self.driver.link)
-        for one in self.members:
+        for one in (*self.geared, *self.members):
             for name in one.points:
                 owners.setdefault(name, []).append(one.name)
         return owners
 
-    @property
-    def driving_frame(self) -> tuple[Point, float]:
-        """Where the frame of a driving link is at the beginning, and its direction. [m], [rad]"""
+    def base_frame(self, link: str) -> tuple[Point, float]:
+        """Where the frame of a link that is placed first is at the beginning, and its direction. [m], [rad]"""
         match self.driver:
-            case Crank(pivot=pivot, start=start, direction=direction, law=law):
-                return pivot, start + (direction * law.start if law else 0.0)
+            case Crank(pivot=pivot, start=start, direction=direction, law=law, geared=geared):
+                turned = direction * law.start if law else 0.0
+                for one in geared:
+                    if one.link == link:
+                        return one.pivot, one.start + one.ratio * turned
+                return pivot, start + turned
             case DrivingSlider(guide=guide, law=law):
                 (x, y), angle = guide.point, guide.angle
                 return (x + law.start * math.cos(angle), y + law.start * math.sin(angle)), angle
@@ -85,9 +90,11 @@ class Linkage:
         """Return where points are at the beginning, as far as it is given. [m]"""
         if self.base == {GROUND}:
             return {**self.positions, **self.ground}
-        ((x, y), angle), points = self.driving_frame, dict(self.driving.points)
-        if isinstance(self.driver, Crank):
-            points[self.driver.pin] = (self.driver.radius, 0.0)
-        cos, sin = math.cos(angle), math.sin(angle)
-        placed = {name: (x + u * cos - v * sin, y + u * sin + v * cos) for name, (u, v) in points.items()}
+        pin = {self.driver.pin: (self.driver.radius, 0.0)} if isinstance(self.driver, Crank) else {}
+        placed: dict[str, Point] = {}
+        for one in (self.driving, *self.geared):
+            (x, y), angle = self.base_frame(one.name)
+            cos, sin = math.cos(angle), math.sin(angle)
+            points = {**one.points, **(pin if one is self.driving else {})}
+            placed |= {name: (x + u * cos - v * sin, y + u * sin + v * cos) for name, (u, v) in points.items()}
         return {**self.positions, **self.ground, **placed}

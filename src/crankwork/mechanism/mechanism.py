@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, GearedCrank, Law, LinkMotor
 from crankwork.mechanism.dyads import RRP
 
 if TYPE_CHECKING:
@@ -28,6 +28,7 @@ class Crank:
     pin: str = "crank_pin"
     link: str = "crank"
     law: Law | None = None  # How it turns; at the angle of the tables without
+    geared: tuple[GearedCrank, ...] = ()  # What gears turn with it
 
     turns = True
 

@@ -8,7 +8,7 @@ from itertools import combinations
 
 from crankwork.errors import Problem
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import Known, given
+from crankwork.formula.known import Known, absent, given
 from crankwork.locale import Refusal
 from crankwork.mechanism.driver import Cylinder, LinkMotor
 from crankwork.mechanism.linkage import GROUND, Linkage, Member
@@ -36,11 +36,12 @@ class Structure:
     joints: int  # Joints of one freedom, p5
     groups: tuple[AssurGroup, ...]  # Groups in the order in which they are solved
     drive: tuple[str, str] = (GROUND, "")  # What the driver moves against each other; the first link by default
+    meshes: int = 0  # Pairs of gears, p4
 
     @property
     def mobility(self) -> int:
         """Degrees of freedom (Chebyshev)."""
-        return int(chain_mobility(len(self.links), self.joints))
+        return int(chain_mobility(len(self.links), self.joints, self.meshes))
 
     @property
     def number(self) -> int:
@@ -66,7 +67,8 @@ def mobility(linkage: Linkage) -> Known:
     2; Chebyshev's formula without higher pairs.
     """
     links, joints = given("moving_links", float(len(links_of(linkage)))), given("lower_pairs", float(_joints(linkage)))
-    found: Known = chain_mobility(links, joints)
+    meshes = given("gear_meshes", float(len(linkage.geared))) if linkage.geared else absent("gear_meshes")
+    found: Known = chain_mobility(links, joints, meshes)
     return found
 
 
@@ -74,7 +76,7 @@ def _joints(linkage: Linkage) -> int:
     pins = sum(len(owners) - 1 for owners in linkage.owners.values())
     # that of the driver: a pivot, a guide, or barrel and rod; a motor sits in a pin, and its third side in none
     own = -2 if isinstance(linkage.driver, LinkMotor) else 1
-    return own + pins + sum(1 for one in linkage.members if one.guide)
+    return own + pins + len(linkage.geared) + sum(1 for one in linkage.members if one.guide)
 
 
 def links_of(linkage: Linkage) -> tuple[str, ...]:
@@ -86,7 +88,7 @@ def links_of(linkage: Linkage) -> tuple[str, ...]:
         case LinkMotor(link=link, links=links):
             names = [*links, *(name for name in names if name != link)]
         case _:
-            names = [linkage.driver.link, *names]
+            names = [linkage.driver.link, *(one.name for one in linkage.geared), *names]
     return tuple(dict.fromkeys(names))
 
 
@@ -120,7 +122,7 @@ def structure(linkage: Linkage) -> tuple[Structure | None, list[Problem]]:
         solved |= set(found)
     links, driver = links_of(linkage), linkage.driver
     drive = links[:2] if isinstance(driver, Cylinder | LinkMotor) else (GROUND, links[0])
-    return Structure(links, _joints(linkage), tuple(groups), (drive[0], drive[1])), []
+    return Structure(links, _joints(linkage), tuple(groups), (drive[0], drive[1]), len(linkage.geared)), []
 
 
 def _only_bearer(linkage: Linkage, some: tuple[str, ...], bodies: dict[str, str]) -> str:
@@ -249,6 +251,6 @@ def _key(linkage: Linkage, name: str) -> str:
 
 
 @formula("mobility", "artobolevsky_1988, ch. 2")
-def chain_mobility(n_i: Value, p_5: Value) -> Value:
-    """Degrees of freedom of a planar chain without higher pairs."""
-    return 3 * n_i - 2 * p_5
+def chain_mobility(n_i: Value, p_5: Value, p_4: Value) -> Value:
+    """Degrees of freedom of a planar chain whose higher pairs are gears."""
+    return 3 * n_i - 2 * p_5 - p_4

@@ -144,6 +144,7 @@ ARGUMENTS: dict[str, Argument] = {
     "dphi": Argument("crank_angle", "Δ{}"),
     "n_i": Argument("moving_links"),
     "p_5": Argument("lower_pairs"),
+    "p_4": Argument("gear_meshes"),
     "J_sum": Argument("whole_inertia"),
     "M_mean": Argument("mean_torque"),
     "k_i": Argument("", "k_i"),

@@ -10,9 +10,8 @@ from crankwork.analysis.stated import StatedLoad, stated_loads
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.driver import Cylinder
 from crankwork.mechanism.dyads import PRP, RRP, RRR, Dyad
-from crankwork.mechanism.joints import Pin, joints
+from crankwork.mechanism.joints import Pin, joints, pivots_of
 from crankwork.mechanism.linkage import GROUND, Member
-from crankwork.mechanism.mechanism import Crank
 from crankwork.mechanism.structure import links_of
 from crankwork.note.chambers import given_chambers
 from crankwork.note.document import Block, ItemList, Runs, Table
@@ -39,6 +38,8 @@ def task(material: Material) -> Iterator[Block]:
         start=words.amount(crank.start, "deg"),
         value=words.amount(material.results.solved.speed, "rad/s"),
     )
+    for one in crank.geared:
+        yield words.paragraph("geared_crank", name=one.link, ratio=words.number(one.ratio))
     if machine.angular_acceleration:
         yield words.paragraph("acceleration", value=words.amount(machine.angular_acceleration, "rad/s2"))
     yield from links_and_places(material)
@@ -79,7 +80,8 @@ def _links(material: Material) -> Table:
     owners = linkage.owners
     rows = []
     numbers = {name: number for number, name in enumerate(links_of(linkage), start=1)}
-    driving = (linkage.driving,) if linkage.driving.centre or linkage.driving.guide else ()
+    is_listed = linkage.driving.centre or linkage.driving.guide
+    driving = (*([linkage.driving] if is_listed else []), *linkage.geared)
     for one in (*driving, *linkage.members):
         if one.name == linkage.driver.link and one not in driving:
             continue
@@ -187,14 +189,12 @@ def _members(dyad: Dyad | Chain) -> frozenset[str]:
 
 def _pairs(material: Material, links: tuple[str, ...]) -> Table:
     """Return the joints with the numbers of the links that they join."""
-    words, driver, pivot = material.words, material.machine.mechanism.driver, ""
-    if isinstance(driver, Crank):
-        ground = material.machine.mechanism.ground
-        pivot = next((name for name, place in ground.items() if place == driver.pivot), "")
+    words, driver = material.words, material.machine.mechanism.driver
+    pivots = pivots_of(material.machine.mechanism)
     rows = []
     for number, one in enumerate(joints(material.machine.mechanism), start=1):
         ends = sorted(0 if name == GROUND else links.index(name) for name in (one.link, one.other))
-        name = (one.point or pivot) if isinstance(one, Pin) else one.link
+        name = (one.point or pivots.get(one.link, "")) if isinstance(one, Pin) else one.link
         kind = words.term("turning" if isinstance(one, Pin) else "sliding")
         rows.append((str(number), name, f"{ends[0]}–{ends[1]}", kind))
     if isinstance(driver, Cylinder):

@@ -9,6 +9,7 @@ ROWS = (
     Quantity("mobility", "", "Independent motions of a planar chain, by the formula of Chebyshev."),
     Quantity("moving_links", "", "Number of links that move, the crank among them."),
     Quantity("lower_pairs", "", "Number of revolute and sliding joints; a pin of k links counts k - 1."),
+    Quantity("gear_meshes", "", "Number of pairs of gears in mesh."),
     # reduction of a linkage to its crank
     Quantity("reduced_inertia", "kg*m2", "Moment of inertia on the crank with the kinetic energy of the mechanism."),
     Quantity("total_reduced_inertia", "kg*m2", "Of all cylinders, with what turns with the crank."),

@@ -23,6 +23,7 @@ from crankwork.report.notices import notice_text
 
 if TYPE_CHECKING:
     from crankwork.machine import Machine
+    from crankwork.mechanism.structure import Structure
 
 
 def summary_data(results: Results, *, per_area: bool = False) -> dict[str, Any]:
@@ -176,10 +177,18 @@ def headline(machine: Machine, language: Language) -> list[str]:
     count, number = len(found.links), "I" * found.number if found.number < 4 else found.number
     return [
         say("check.links", language, count=count, names=numbered),
-        say("check.mobility", language, links=count, joints=found.joints, mobility=found.mobility),
+        _mobility(found, language),
         say("check.structure", language, formula=found.formula, number=number),
         *_grashof_lines(machine, language),
     ]
+
+
+def _mobility(found: Structure, language: Language) -> str:
+    """Return the mobility by the formula, with pairs of gears where there are some."""
+    values = {"links": len(found.links), "joints": found.joints, "mobility": found.mobility}
+    if found.meshes:
+        return say("check.mobility_geared", language, meshes=found.meshes, **values)
+    return say("check.mobility", language, **values)
 
 
 def _grashof_lines(machine: Machine, language: Language) -> list[str]:
