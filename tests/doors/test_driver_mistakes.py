@@ -87,7 +87,7 @@ MISTAKES = {
         "driver.cylinder",
         "one driver",
     ),
-    "nobody drives": (BOOM, 'cylinder = ["A", "B"]\n', "", "driver", "say what drives"),
+    "nobody drives": (BOOM, 'cylinder = ["A", "B"]\n', "", "driver", "nothing drives"),
     "a law and a speed": (
         CRANK,
         'radius = "50 mm"',

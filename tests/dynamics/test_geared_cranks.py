@@ -8,6 +8,8 @@ import pytest
 
 import crankwork
 from crankwork.formula.replay import Program
+from crankwork.kinematics.circuits import circuit_through
+from crankwork.kinematics.coordinates import driver_coordinate, link_angle
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import linkage_motion
@@ -70,6 +72,14 @@ def test_the_memory_replayed_is_the_motion():
     assert found["angle"] == pytest.approx(expected.links["second"].position - 2 * np.pi * np.rint(
         (expected.links["second"].position - found["angle"]) / (2 * np.pi)), rel=1e-12)  # fmt: skip
     assert found["x"] == pytest.approx(expected.points["D"].x.position_2, rel=1e-12)
+
+
+def test_its_circuit_is_the_whole_turn():
+    circuit = circuit_through(RESULTS.machine.mechanism)
+    assert circuit.curve.is_closed
+    assert len(circuit.branches(driver_coordinate(RESULTS.machine.mechanism))) == 1
+    for link in ("left", "right"):
+        assert circuit.extent(link_angle(link)).travel == pytest.approx(RESULTS.summary[f"link_swing.{link}"], rel=1e-9)
 
 
 @pytest.mark.parametrize(

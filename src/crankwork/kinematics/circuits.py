@@ -25,7 +25,7 @@ from crankwork.kinematics.extremes import closed_in
 from crankwork.kinematics.loops import as_chain
 from crankwork.kinematics.placement import Placed, closure_of, place_at
 from crankwork.kinematics.transfer import PointMotion, Transfer
-from crankwork.mechanism.chain import Chain, ChainLink, Slide
+from crankwork.mechanism.chain import Chain, ChainLink, Gear, Slide
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
 from crankwork.mechanism.dyads import RPR, RRP, RRR, Branch, Guide, Point
 from crankwork.mechanism.mechanism import Crank, Mechanism
@@ -197,10 +197,16 @@ def _system(mechanism: Mechanism, placed: Placed) -> tuple[PositionEquations, Ar
     driver, ground = mechanism.driver, dict(mechanism.ground)
     points: dict[str, dict[str, Point]] = {}
     slides: list[Slide] = []
+    gears: list[Gear] = []
     if isinstance(driver, Crank):
         pivot = f"{driver.link}.pivot"
         points[driver.link] = {pivot: (0.0, 0.0), driver.pin: (driver.radius, 0.0)}
         ground[pivot] = driver.pivot
+        for geared in driver.geared:
+            points[geared.link] = {f"{geared.link}.pivot": (0.0, 0.0)}
+            ground[f"{geared.link}.pivot"] = geared.pivot
+            start = geared.start - geared.ratio * driver.start
+            gears.append(Gear(geared.link, driver.link, geared.ratio, start))
     elif isinstance(driver, DrivingSlider):
         points[driver.link] = {}
         slides.append(Slide(driver.link, driver.guide))
@@ -212,7 +218,9 @@ def _system(mechanism: Mechanism, placed: Placed) -> tuple[PositionEquations, Ar
         points[one.link].setdefault(one.name, (one.along, one.across))
     frames = {name: (*_place_of(placed.links[name].origin), _angle_of(placed.links[name])) for name in points}
     if isinstance(driver, Crank):
-        frames[driver.link] = (*frames[driver.link][:2], driver.start + driver.direction * float(placed.grid.angle[0]))
+        turned = driver.direction * float(placed.grid.angle[0])
+        frames[driver.link] = (*frames[driver.link][:2], driver.start + turned)
+        frames |= {one.link: (*frames[one.link][:2], one.start + one.ratio * turned) for one in driver.geared}
     elif isinstance(driver, Cylinder | LinkMotor):
         # barrel and rod: a piece that slides on the link and carries its far end
         far = next(name for name, place in points[driver.link].items() if place != (0.0, 0.0))
@@ -222,7 +230,7 @@ def _system(mechanism: Mechanism, placed: Placed) -> tuple[PositionEquations, Ar
         frames[rod_of(driver.link)] = (*_place_of(placed.points[far]), frames[driver.link][2])
     named = {name for own in points.values() for name in own}
     links = tuple(ChainLink(name, frames[name][:2], frames[name][2], own) for name, own in points.items())
-    whole = Chain(links, tuple(slides), frozenset(named & ground.keys()))
+    whole = Chain(links, tuple(slides), frozenset(named & ground.keys()), gears=tuple(gears))
     around = Placed(placed.grid, {name: fixed_point(point) for name, point in ground.items()})
     return PositionEquations(ClosingEquations(whole, 1), around), np.array(
         [one for name in points for one in frames[name]]

@@ -13,7 +13,7 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.dyads import LinkMotion, guide_on_link, point_on_guide, point_on_link, seen_from
 from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.locale import Refusal
-from crankwork.mechanism.chain import Chain, ChainLink
+from crankwork.mechanism.chain import Chain, ChainLink, Gear
 from crankwork.mechanism.dyads import Guide
 
 Positions = NDArray[np.intp]
@@ -62,14 +62,15 @@ class ClosingEquations:
             for name, links in owners.items()
             for other in (links if name in self.chain.known else links[1:])
         ]
-        count = 2 * len(self.pins) + 2 * len(self.chain.slides)
+        count = 2 * len(self.pins) + 2 * len(self.chain.slides) + len(self.chain.gears)
         if count != 3 * len(self.index) - self.freedom:
             raise GeometryError(
                 Refusal("chain_count", links=self.names, equations=count, coordinates=3 * len(self.index))
             )
         size = max(np.hypot(*point) for link in self.chain.links for point in link.points.values()) or 1.0
         self.scale = np.tile([size, size, 1.0], len(self.index))
-        self.row_scale = np.array([size] * 2 * len(self.pins) + [size, 1.0] * len(self.chain.slides))
+        turning = [1.0] * len(self.chain.gears)
+        self.row_scale = np.array([size] * 2 * len(self.pins) + [size, 1.0] * len(self.chain.slides) + turning)
 
     def frames(self, q: Array, q_1: Array | None, q_2: Array | None) -> dict[str, LinkMotion]:
         """Return the frames of the links from their coordinates."""
@@ -98,7 +99,16 @@ class ClosingEquations:
                 rows += _pin(end, start, [column], [against])
         for slide in self.chain.slides:
             rows += self._slide(slide.link, slide.guide, q, frames, around, at)
-        return rows
+        return [*rows, *(self._gear(gear, q, frames) for gear in self.chain.gears)]
+
+    def _gear(self, gear: Gear, q: Array, frames: dict[str, LinkMotion]) -> Row:
+        """Return the equation of two links that gears turn together."""
+        k, j = self.index[gear.link], self.index[gear.other]
+        zero, one, other = np.zeros(len(q)), frames[gear.link], frames[gear.other]
+        open_ = q[:, k + 2] - gear.start - gear.ratio * q[:, j + 2]
+        rates = (a - gear.ratio * b for a, b in ((one.angle_1, other.angle_1), (one.angle_2, other.angle_2)))
+        columns = [(k, zero, zero, zero + 1.0), (j, zero, zero, zero - gear.ratio)]
+        return Row(Transfer(open_, *rates), columns)
 
     def _point(
         self, link: str, name: str, frames: dict[str, LinkMotion], around: Surroundings, at: Positions

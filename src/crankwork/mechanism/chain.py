@@ -27,6 +27,16 @@ class Slide:
 
 
 @dataclass(frozen=True)
+class Gear:
+    """Two links about fixed axes that gears turn together."""
+
+    link: str
+    other: str
+    ratio: float  # Angle of the first over that of the other [-]
+    start: float  # Angle of the first where that of the other is zero [rad]
+
+
+@dataclass(frozen=True)
 class Chain:
     """Links that have to be solved together.
 
@@ -41,3 +51,4 @@ class Chain:
     start: float = 0.0  # Coordinate of the driver at the stated start [rad] or [m]
     # What of the driver's coordinate moves links about as far as a radian does: of one that is a length, a length
     radian: float = 1.0
+    gears: tuple[Gear, ...] = ()
