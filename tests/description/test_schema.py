@@ -10,9 +10,7 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from crankwork.description.keys import MACHINE_FILE
-from crankwork.description.linkage_keys import LINKAGE_FILE, TRANSFER_FILE
-from crankwork.description.machine_file import json_schema, read_machine, template, template_names
+from crankwork.description.machine_file import file_keys, json_schema, read_machine, template, template_names
 from crankwork.description.schema import ListOf, Named, NameOr, Nested, Table
 from crankwork.errors import CrankworkError
 
@@ -51,8 +49,7 @@ def test_what_the_reader_refuses_the_schema_refuses_too(wrong) -> None:
 @pytest.mark.parametrize("text", TEXTS.values(), ids=TEXTS)
 def test_templates_and_examples_use_documented_keys_only(text) -> None:
     values = tomllib.loads(text)
-    of_linkage = LINKAGE_FILE if "fixed_points" in values else MACHINE_FILE
-    assert list(_undocumented(values, TRANSFER_FILE if "transfer" in values else of_linkage, "")) == []
+    assert list(_undocumented(values, file_keys(values), "")) == []
 
 
 @pytest.mark.parametrize("key", ["two kinds", "nothing"])
