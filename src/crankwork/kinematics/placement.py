@@ -16,6 +16,7 @@ from crankwork.kinematics.assembly import refusal, singular_between, unassembled
 from crankwork.kinematics.bridges import over_bridges, passed_branch
 from crankwork.kinematics.chain_memory import remembered_chain
 from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.driving import geared_motion, third_side_motion
 from crankwork.kinematics.dyads import (
     Closure,
     LinkMotion,
@@ -23,7 +24,6 @@ from crankwork.kinematics.dyads import (
     crank_motion,
     fixed_guide,
     fixed_point,
-    geared_motion,
     guide_on_link,
     is_nothing,
     named_link,
@@ -34,7 +34,6 @@ from crankwork.kinematics.dyads import (
     rrp_motion,
     rrr_motion,
     straight,
-    third_side_motion,
 )
 from crankwork.kinematics.loops import ChainPath
 from crankwork.kinematics.motion_laws import law_at
