@@ -180,6 +180,7 @@ def headline(machine: Machine, language: Language) -> list[str]:
         _mobility(found, language),
         say("check.structure", language, formula=found.formula, number=number),
         *_grashof_lines(machine, language),
+        *([say("check.chambers", language, names=", ".join(machine.chambers))] if machine.chambers else []),
     ]
 
 
