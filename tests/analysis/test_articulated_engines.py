@@ -57,3 +57,9 @@ def test_orders_are_those_of_the_inertia_forces_where_a_document_has_its_own_rod
     method = replace(RADIAL.method, kinematics="textbook", inertia_rod_ratio=0.34)
     results = crankwork.analyse(replace(RADIAL, method=method))
     assert results.checks["free_forces"] < 1e-13
+
+
+def test_a_valve_may_close_at_dead_centre_but_for_rounding():
+    text = (ROOT / "examples/radial-five.toml").read_text("utf-8")
+    shut = crankwork.read_machine(text.replace('intake_closes = "50 deg"', 'intake_closes = "0.000001 deg"'))
+    assert not crankwork.analyse(shut).unmet

@@ -29,6 +29,8 @@ Law = Literal["constant", "polytropic", "rounded"]
 VolumeAt = Callable[[Array], Array]
 
 _CLOSING = 1e-3
+# pieces that end nearer than this to where the next begins leave no gap [deg]
+_SAME_ANGLE = 1e-5
 # share of the stroke by which a volume may miss that of a dead centre
 _SAME_PLACE = 1e-12
 # share of the largest volume that is as good as none
@@ -393,7 +395,7 @@ def _check_chain(segments: list[Segment], cycle: float, named: Mapping[str, tupl
     """Raise unless every segment starts where the one before ends, from 0 to the end of the cycle."""
     end = 0.0
     for number, segment in enumerate(segments, start=1):
-        if abs(segment.start - end) > 1e-6:
+        if abs(segment.start - end) > _SAME_ANGLE:
             name = "piece_gap" if segment.start > end else "piece_overlap"
             raise DiagramError(f"{path}.pieces[{number}]", Refusal(name, start=segment.start, end=end))
         if segment.end < segment.start:
@@ -402,7 +404,7 @@ def _check_chain(segments: list[Segment], cycle: float, named: Mapping[str, tupl
                 Refusal("piece_backwards", start=segment.start, end=segment.end),
             )
         end = segment.end
-    if abs(end - cycle) > 1e-6:
+    if abs(end - cycle) > _SAME_ANGLE:
         last = max(named, key=lambda name: named[name][0])
         raise DiagramError(f"{path}.pieces", Refusal("pieces_end", end=end, name=last, cycle=cycle))
 
