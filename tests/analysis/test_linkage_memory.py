@@ -46,7 +46,8 @@ def test_columns_and_single_values_are_those_of_the_memory(name):
     assert set(results.memory) - {"mobility"} == {*results.columns, *results.summary}
     again = Program({key: results.memory[key] for key in results.columns})(results.grid)
     for key, column in results.columns.items():
-        assert np.array_equal(again[key], column), key
+        there = ~np.isnan(column) if key.startswith("instant_centre") else slice(None)
+        assert np.array_equal(again[key][there], column[there]), key
     assert {key: results.memory[key].value for key in results.summary} == dict(results.summary)
 
 

@@ -104,9 +104,11 @@ def _not_finite(results: Results) -> list[str]:
     values: dict[str, Any] = {**results.columns, **results.summary, **results.checks}
     for name, listing in results.listings.items():
         values |= {f"{name} {key}": column for key, column in listing.columns.items()}
-    # a bearing whose size is not given has no pressure
+    # a bearing whose size is not given has no pressure, a link that does not turn no instant centre
     return [
-        key for key, one in values.items() if not np.all(np.isfinite(one) | (np.isnan(one) & (" bearing_pr" in key)))
+        key
+        for key, one in values.items()
+        if not np.all(np.isfinite(one) | (np.isnan(one) & (" bearing_pr" in key or key.startswith("instant_centre"))))
     ]
 
 

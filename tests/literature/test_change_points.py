@@ -13,7 +13,6 @@ import pytest
 
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
-from crankwork.kinematics.quality import limits, time_ratio, transmission_extremes
 from crankwork.kinematics.travel import passing
 from crankwork.mechanism.catalog import four_bar
 
@@ -47,12 +46,3 @@ def test_the_kite_of_an_examination():
     rocker = linkage_motion(kite, CrankGrid.from_degrees([90.0])).links["rocker"]
     assert np.degrees(rocker.position) == pytest.approx([75.0], abs=1e-11)
     assert rocker.position_1 == pytest.approx([0.7886751345948129], rel=1e-12)
-
-
-def test_a_crank_rocker_made_for_swing_and_time_ratio():
-    mechanism = four_bar(60, 103.1970349892125, 93.9646098959277, 120)
-    assert math.degrees(limits(mechanism, "rocker").travel) == pytest.approx(80, abs=1e-9)
-    assert time_ratio(mechanism, "rocker") == pytest.approx(10 / 9, rel=1e-10)
-    assert transmission_extremes(mechanism, [0])[0].least == pytest.approx(35.03832591706699, abs=1e-8)
-    # as printed, rounded to whole numbers
-    assert limits(four_bar(60, 103, 94, 120), "rocker").travel == pytest.approx(math.radians(80), rel=0.008)

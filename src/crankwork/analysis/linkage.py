@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from crankwork.analysis.chambers import gas_check, gas_summary, solve_linkage
 from crankwork.analysis.linkage_memory import efficiency_of, linkage_memory, speed_of
 from crankwork.analysis.linkage_speed import transient_summary, turn_of
+from crankwork.analysis.quality import FOLLOWED, quality_of, rocks, smooth_transmissions, time_ratios
 from crankwork.analysis.reach import (
     Reached,
     clear_of_changes,
@@ -33,19 +34,21 @@ from crankwork.formula.known import Found, Known, given
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.instant_centres import absent_where_still
 from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import Motion, linkage_motion
-from crankwork.kinematics.quality import FourBarType, grashof, limits_of_all, stroke_ratio, transmission_extremes
+from crankwork.kinematics.quality import FourBarType, grashof
 from crankwork.kinematics.travel import Travel, passing
 from crankwork.loads.load import applied_loads
 from crankwork.locale import Refusal
 from crankwork.machine import Machine
 from crankwork.mechanism.driver import Law, LinkMotor
-from crankwork.mechanism.dyads import RRP, RRR
+from crankwork.mechanism.dyads import RRR
 from crankwork.mechanism.mechanism import Crank, Driver
 from crankwork.mechanism.structure import mobility
 
 _DENSE_STEP = 1.0
+_TRAVEL = {"slider_displacement": "slider_stroke", "link_angle": "link_swing"}
 _MOST_COEFFICIENTS = 10_000_000
 _OF_DRIVER = (
     "driver_displacement", "driver_velocity", "driver_acceleration", "driver_angle", "driver_speed",
@@ -93,7 +96,7 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
     solved = solve_linkage(machine, motion)
     notices = reached.notices + tuple(Notice(*one) for one in solved.filling.notices)
     memory = linkage_memory(solved, motion)
-    followed = {key: memory[key] for key in _followed(memory)}
+    followed = _followed(memory) | dict(smooth_transmissions(machine.mechanism, motion))
     start, end = (0.0, machine.cycle) if found is None else machine.working_range or open_range(found)
     ends = _where_unbounded(machine, found)
     if machine.working_range is None or found is None:
@@ -103,7 +106,10 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
     else:
         notices += (Notice("working_range", {"from": start, "to": end}),)
     over = OverCycle(followed, CrankGrid.from_degrees, end - start, start)
-    summary = _summary(solved, over, memory, is_whole=found is None)
+    quality, unusual = quality_of(over)
+    # where links pass through a line, that is told already
+    notices += () if machine.mechanism.passages else unusual
+    summary = _summary(solved, over, quality, is_whole=found is None)
     if found is not None:
         summary |= limits_of(found, memory)
     checks = _checks(solved, clear_of_changes(machine.mechanism, reached.motion)) | gas_check(solved, motion)
@@ -120,7 +126,7 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
         notices += (Notice("geared", {}),)
     if machine.mechanism.driver.law is not None:
         notices += (Notice("by_law", {}),)
-    columns = Program(memory)(table)
+    columns = absent_where_still(Program(memory)(table))
     values = {key: one.value for key, one in summary.items()}
     memory |= {**summary, **between}
     return Results(solved, table, columns, values, checks, notices, _groups(columns), memory=memory)
@@ -155,38 +161,40 @@ def _boundless(keys: Iterable[str], angles: Iterable[float]) -> tuple[Notice, ..
     return (Notice("unbounded", {"angles": shown, "quantities": ", ".join(kinds)}),) if kinds else ()
 
 
-def _followed(memory: Mapping[str, Known]) -> list[str]:
+def _followed(memory: Mapping[str, Known]) -> dict[str, Known]:
     """Return the columns that single values are taken from."""
     kinds = (
         "slider_displacement", "link_angle", "joint_force", "slider_velocity", "gas_pressure", "gas_force", *_OF_DRIVER,
     )  # fmt: skip
-    return [key for key in memory if key in DYNAMICS or key.partition(".")[0] in kinds]
+    return {key: one for key, one in memory.items() if key in DYNAMICS or key.partition(".")[0] in kinds}
 
 
 def _summary(
-    solved: SolvedLinkage, over: OverCycle, memory: Mapping[str, Known], *, is_whole: bool
+    solved: SolvedLinkage, over: OverCycle, quality: Mapping[str, Known], *, is_whole: bool
 ) -> dict[str, Known]:
     machine, law = solved.machine, solved.machine.mechanism.driver.law
-    result = _given_values(machine)
-    if is_whole:
-        result |= _quality(machine, memory)
-    keys = [key for key in over.knowns if not over.is_nothing(key)]
+    result = {**_given_values(machine), **quality}
+    keys = [key for key in over.knowns if key.partition(".")[0] not in FOLLOWED and not over.is_nothing(key)]
     extremes = over.extremes(*keys)
     for key in keys:
         kind, dot, name = key.partition(".")
         largest, least = (extremes[f"{kind}_{word}{dot}{name}"] for word in ("max", "min"))
-        if kind in {"slider_displacement", "link_angle"}:
-            if is_whole and kind == "slider_displacement":
-                result[f"slider_stroke.{name}"] = largest - least
-            elif is_whole and (swing := largest - least).value < math.pi:
-                result[f"link_swing.{name}"] = swing
-        else:
-            words = ("max", "min") if key in DYNAMICS or kind == "gas_force" or key in _OF_DRIVER else ("max",)
+        travel, is_place = largest - least, kind in _TRAVEL
+        # of a crank that turns back its limits say so
+        if is_place and not is_whole:
+            continue
+        if is_place and (kind == "slider_displacement" or travel.value < math.pi):
+            result[f"{_TRAVEL[kind]}.{name}"] = travel
+        if not is_place or rocks(machine.mechanism, key, travel.value):
+            both = is_place or key in DYNAMICS or kind == "gas_force" or key in _OF_DRIVER
+            words = ("max", "min") if both else ("max",)
             for word in words:
                 extreme = f"{kind}_{word}{dot}{name}"
                 result[extreme] = extremes[extreme]
                 angle = extremes[f"{kind}_{word}_angle{dot}{name}"]
                 result |= _at_time(extreme, angle, law) if law else {f"{kind}_{word}_angle{dot}{name}": angle}
+    if is_whole and law is None:
+        result |= time_ratios(over, {key: one.named(key) for key, one in result.items()})
     if (machine.loads or machine.chambers) and is_whole and law is None:
         result["mean_torque"] = over.mean("static_torque", "mean_torque")
     result |= gas_summary(solved)
@@ -214,27 +222,6 @@ def _at_time(extreme: str, angle: Known, law: Law) -> dict[str, Known]:
     if not isinstance(node, Found) or node.at is None:
         return {}
     return {key: Known(Found(node.at / 360.0 * law.period, node.word.replace("angle", "time"), node.operands, node.at))}
-
-
-def _quality(machine: Machine, memory: Mapping[str, Known]) -> dict[str, Known]:
-    """Return time ratios and the least transmission angles of a linkage that turns fully."""
-    mechanism, result = machine.mechanism, {}
-    if mechanism.driver.law is not None:
-        return {}
-    groups = [index for index, dyad in enumerate(mechanism.dyads) if isinstance(dyad, RRR | RRP)]
-    pieces = [dyad.piece for dyad in mechanism.dyads if isinstance(dyad, RRP)]
-    found = dict(zip(pieces, limits_of_all(mechanism, pieces), strict=True)) if pieces else {}
-    extremes = dict(zip(groups, transmission_extremes(mechanism, groups), strict=True)) if groups else {}
-    for index, dyad in enumerate(mechanism.dyads):
-        if isinstance(dyad, RRR | RRP):
-            name = dyad.point if isinstance(dyad, RRR) else dyad.slider
-            key, least = f"transmission_angle_min.{name}", extremes[index]
-            place = (memory[f"point_x.{name}"], memory[f"point_y.{name}"])
-            result[key] = Known(Found(math.radians(least.least), "min", place, least.least_at), key)
-        if isinstance(dyad, RRP) and found[dyad.piece].degrees.size == 2:
-            of = (memory[f"slider_velocity.{dyad.piece}"],)
-            result[f"time_ratio.{dyad.piece}"] = Known(Found(stroke_ratio(found[dyad.piece]), "time_ratio", of))
-    return result
 
 
 def _checks(solved: SolvedLinkage, motion: Motion) -> dict[str, float]:
@@ -307,7 +294,8 @@ def _groups(columns: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
         "points": ("point_x", "point_y", "point_velocity_x", "point_velocity_y", "point_velocity",
                    "point_acceleration_x", "point_acceleration_y", "point_acceleration"),
         "links": ("link_angle", "link_angular_velocity", "link_angular_acceleration",
-                  "slider_displacement", "slider_velocity", "slider_acceleration", "coriolis_acceleration"),
+                  "slider_displacement", "slider_velocity", "slider_acceleration", "coriolis_acceleration",
+                  "transmission_angle", "pressure_angle", "instant_centre_x", "instant_centre_y"),
         "speed": ("crank_speed", "kinetic_energy_change"),
         "chambers": ("cylinder_volume", "diagram_pressure", "gas_pressure", "gas_force"),
         "joint_forces": ("joint_force_x", "joint_force_y", "joint_force", "normal_force", "normal_moment"),

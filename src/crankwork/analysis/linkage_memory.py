@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from crankwork.analysis import origins
+from crankwork.analysis.quality import transmissions
 from crankwork.analysis.solved import SolvedLinkage
 from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor, remembered_efficiency
 from crankwork.dynamics.force_parts import balancing_torque_of_parts
@@ -23,6 +24,7 @@ from crankwork.dynamics.reduction import (
 from crankwork.dynamics.running import Running
 from crankwork.formula.known import Found, Known, Pieces, absent, given
 from crankwork.kinematics import transfer as rates
+from crankwork.kinematics.instant_centres import instant_centres
 from crankwork.kinematics.memory import angle_of, course_of, given_mechanism
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.motion_laws import clock
@@ -124,6 +126,8 @@ def _moving(machine: Machine, motion: Motion, w: Known, eps: Known) -> Iterator[
             velocity = rates.slider_velocity(one.position_1, w).named(f"slider_velocity.{name}")
             carried = rates.link_angular_velocity(turning, w).named(f"link_angular_velocity.{carrier[name]}")
             yield f"coriolis_acceleration.{name}", rates.coriolis_acceleration(carried, velocity)
+    yield from transmissions(machine.mechanism, motion)
+    yield from instant_centres(machine.mechanism, motion)
 
 
 def _rates_of_point(name: str, point: PointMotion, w: Known, eps: Known) -> Iterator[tuple[str, Known]]:

@@ -88,8 +88,9 @@ class Program:
             return [one for one in inputs if type(one) is Known and one.node.value is None and one is not _ANGLES]
 
         order = [one.node for one in in_order((one for one in knowns.values() if one.varies), into=beside)]
-        # what pieces lead over a change point is nought by nought there and used beside it only
-        self._invalid: Literal["ignore", "warn"] = "ignore" if any(map(_is_bridged, order)) else "warn"
+        # what pieces lead over a change point is nought by nought there and used beside it only; a link that stands
+        # still has no instant centre
+        self._invalid: Literal["ignore", "warn"] = "ignore" if any(map(_may_have_no_value, order)) else "warn"
         for cycle in sorted({node.cycle for node in late}):
             together = [node for node in late if node.cycle == cycle]
             earlier = Known(Node(None))
@@ -163,8 +164,10 @@ class Program:
         return slots
 
 
-def _is_bridged(node: Node) -> bool:
-    """Return whether a column follows polynomials about change points."""
+def _may_have_no_value(node: Node) -> bool:
+    """Return whether a column follows polynomials about change points, or is that of an instant centre."""
+    if isinstance(node, Use):
+        return node.formula.quantity in ("instant_centre_x", "instant_centre_y")
     return isinstance(node, Pieces) and any(
         isinstance(law.node, Table) and law.node.word == "change_point" for law in node.operands
     )

@@ -151,4 +151,10 @@ ROWS = (
     Quantity("time_ratio", "", "Time of the slower stroke over that of the faster one."),
     Quantity("transmission_angle", "deg",
              "Angle between the links of a dyad, or between a link and the normal of its guide."),
+    Quantity("transmission_cosine", "", "Cosine of the angle between the links of a dyad."),
+    Quantity("pressure_angle", "deg",
+             "Angle from a guide to the line of the link that moves its piece, positive anticlockwise."),
+    Quantity("pressure_sine", "", "Sine of the angle from a guide to the link that moves its piece."),
+    Quantity("instant_centre_x", "mm", "Coordinate x of the point of a link that stands still at that moment."),
+    Quantity("instant_centre_y", "mm", "Coordinate y of the point of a link that stands still at that moment."),
 )  # fmt: skip

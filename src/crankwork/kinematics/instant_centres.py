@@ -1,0 +1,59 @@
+"""Where links turn about for a moment: their instantaneous centres of velocity against the ground."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import Known
+from crankwork.kinematics.crank_grid import Array
+from crankwork.kinematics.motion import Motion
+from crankwork.mechanism.driver import LinkMotor
+from crankwork.mechanism.joints import Pin, joints
+from crankwork.mechanism.linkage import GROUND
+from crankwork.mechanism.mechanism import Mechanism
+
+_STANDS = 1e-12
+
+
+@formula("instant_centre_x", "khurmi_gupta_2005, ch. 6")
+def instant_centre_x(x_P: Value, y_P1: Value, theta_1: Value) -> Value:
+    """Coordinate x of the point about which a link turns, from one of its points."""
+    return x_P - y_P1 / theta_1
+
+
+@formula("instant_centre_y", "khurmi_gupta_2005, ch. 6")
+def instant_centre_y(y_P: Value, x_P1: Value, theta_1: Value) -> Value:
+    """Coordinate y of the point about which a link turns, from one of its points."""
+    return y_P + x_P1 / theta_1
+
+
+def pivoted_links(mechanism: Mechanism) -> set[str]:
+    """Return the links that turn about a fixed pivot."""
+    return {one.link for one in joints(mechanism) if isinstance(one, Pin) and one.other == GROUND}
+
+
+def instant_centres(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, Known]]:
+    """Yield the instant centres of links that turn, but about no fixed pivot; `motion` is remembered."""
+    # the third side of a triangle whose shape a motor drives is no link
+    pivoted = pivoted_links(mechanism) | ({mechanism.driver.link} if isinstance(mechanism.driver, LinkMotor) else set())
+    for name in motion.links:
+        if name in pivoted or name not in motion.frames or motion.frames[name].angle_1.is_absent:
+            continue
+        (x, y), turning = motion.frames[name].origin, motion.frames[name].angle_1
+        yield f"instant_centre_x.{name}", instant_centre_x(x.position, y.position_1, turning)
+        yield f"instant_centre_y.{name}", instant_centre_y(y.position, x.position_1, turning)
+
+
+def absent_where_still(columns: Mapping[str, Array]) -> dict[str, Array]:
+    """Return columns without the instant centres of links that do not turn at that moment."""
+    rates = {key: np.abs(one) for key, one in columns.items() if key.startswith("link_angular_velocity.")}
+    largest = max((float(np.max(one)) for one in rates.values()), default=0.0)
+    result = dict(columns)
+    for key, values in columns.items():
+        kind, _, name = key.partition(".")
+        if kind in {"instant_centre_x", "instant_centre_y"}:
+            result[key] = np.where(rates[f"link_angular_velocity.{name}"] > _STANDS * largest, values, np.nan)
+    return result

@@ -1,0 +1,59 @@
+"""Instant centres lie where the perpendiculars of the velocities of two points of a link cross."""
+
+import numpy as np
+import pytest
+
+from crankwork import analyse, read_machine, template
+from crankwork.kinematics.crank_grid import CrankGrid
+
+pytestmark = pytest.mark.elsewhere
+
+
+def crossing(columns, one, other):
+    """Return where the lines through two points, across their velocities, cross."""
+    places = [np.stack([columns[f"point_{axis}.{name}"] for axis in "xy"]) for name in (one, other)]
+    ways = [np.stack([columns[f"point_velocity_{axis}.{name}"] for axis in "xy"]) for name in (one, other)]
+    sides = [(place * way).sum(axis=0) for place, way in zip(places, ways, strict=True)]
+    area = ways[0][0] * ways[1][1] - ways[0][1] * ways[1][0]
+    x = (sides[0] * ways[1][1] - sides[1] * ways[0][1]) / area
+    y = (ways[0][0] * sides[1] - ways[1][0] * sides[0]) / area
+    return x, y
+
+
+@pytest.mark.parametrize(
+    ("name", "link", "points"),
+    [("four-bar", "coupler", ("A", "B")), ("slider-crank", "rod", ("A", "B")), ("crank-shaper", "link", ("C", "D"))],
+)
+def test_centres_lie_where_perpendiculars_cross(name, link, points):
+    text = template(name) if name != "slider-crank" else SLIDER_CRANK
+    columns = analyse(read_machine(text), CrankGrid.from_degrees(np.arange(3.0, 360.0, 7.0))).columns
+    x, y = crossing(columns, *points)
+    assert columns[f"instant_centre_x.{link}"] == pytest.approx(x, rel=1e-9)
+    assert columns[f"instant_centre_y.{link}"] == pytest.approx(y, rel=1e-9)
+
+
+SLIDER_CRANK = """
+    [fixed_points]
+    O = ["0 mm", "0 mm"]
+    [crank]
+    pivot = "O"
+    pin = "A"
+    radius = "50 mm"
+    speed = "60 rpm"
+    [links]
+    rod = { joins = ["A", "B"], length = "200 mm" }
+    [guides]
+    bed = { through = "O" }
+    [sliders]
+    piston = { pin = "B", guide = "bed" }
+"""
+
+
+def test_a_rod_that_does_not_turn_has_no_centre_and_one_on_a_pivot_no_column():
+    columns = analyse(read_machine(SLIDER_CRANK), CrankGrid.from_degrees([60.0, 90.0, 120.0])).columns
+    assert np.isnan(columns["instant_centre_y.rod"]).tolist() == [False, True, False]
+    # above the piston, on the line of the crank
+    assert columns["instant_centre_x.rod"][0] == pytest.approx(columns["point_x.B"][0], rel=1e-12)
+    assert columns["instant_centre_y.rod"][0] == pytest.approx(np.sqrt(3) * columns["point_x.B"][0], rel=1e-12)
+    four_bar = analyse(read_machine(template("four-bar"))).columns
+    assert not [key for key in four_bar if key.startswith("instant_centre") and not key.endswith(".coupler")]
