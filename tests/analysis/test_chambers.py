@@ -229,3 +229,54 @@ def test_two_turns_of_a_linkage_are_those_of_an_engine():
     assert other["excess_work"] == pytest.approx(np.ptp(excess), rel=1e-3)
     assert other.value("crank_speed", 500.0) > 0
     assert other.value("work_per_cycle") == pytest.approx(-one["indicated_work"], rel=1e-10)
+
+
+class TestMeasured:
+    """Samples of a smooth pressure beside a slider that moves as a cosine."""
+
+    FILE = """
+        [fixed_points]
+        O = ["0 mm", "0 mm"]
+        [crank]
+        pivot = "O"
+        pin = "A"
+        radius = "40 mm"
+        speed = "600 rpm"
+        [guides]
+        bed = {{ through = "O" }}
+        slot = {{ link = "yoke", angle = "90 deg" }}
+        [sliders]
+        yoke = {{ guide = "bed" }}
+        block = {{ pin = "A", guide = "slot" }}
+        [chambers.gas]
+        slider = "yoke"
+        area = "20 cm2"
+        [chambers.gas.measured]
+        file = "{file}"
+        pressure_unit = "bar"
+    """
+
+    def read(self, folder, step):
+        """Return the machine whose pressure leads its volume by a quarter of a turn, 3 and 1 bar around 4 bar."""
+        angles = np.arange(0.0, 360.0 + step / 2, step)
+        rows = [f"{one:g};{4 - 3 * math.sin(math.radians(one)) + math.cos(math.radians(one)):.12g}" for one in angles]
+        (folder / "samples.csv").write_text("angle;p\n" + "\n".join(rows) + "\n", encoding="utf-8")
+        return crankwork.read_machine(self.FILE.format(file="samples.csv"), folder=folder)
+
+    def test_samples_do_the_work_of_their_curve(self, tmp_path):
+        results = crankwork.analyse(self.read(tmp_path, 1.0), CrankGrid.from_degrees(ANGLES))
+        assert results["gas_pressure.gas"][[0, 1, 3, 4]] == pytest.approx(
+            1e5 * (4 - 3 * np.sin(np.radians(ANGLES)) + np.cos(np.radians(ANGLES)))[[0, 1, 3, 4]], rel=1e-9
+        )
+        # the integral of -3 sin by the volume, whose rate is -sin: 3 pi times half the stroke times the area
+        assert results["indicated_work.gas"] == pytest.approx(3e5 * math.pi * 0.04 * 20e-4, rel=1e-5)
+        assert results["cylinder_volume.gas"].min() >= 0
+        assert not results.unmet
+
+    def test_a_mistake_in_the_file_names_the_chamber(self, tmp_path):
+        (tmp_path / "samples.csv").write_text("angle;p\n0;1\n10;x\n", encoding="utf-8")
+        with pytest.raises(crankwork.InputError, match=r"chambers\.gas\.measured\.file.*samples\.csv"):
+            crankwork.read_machine(self.FILE.format(file="samples.csv"), folder=tmp_path)
+        (tmp_path / "samples.csv").write_text("angle;p\n0;1\n10;2\n", encoding="utf-8")
+        with pytest.raises(crankwork.InputError, match=r"chambers\.gas\.measured: samples\.csv, only 2 samples"):
+            crankwork.read_machine(self.FILE.format(file="samples.csv"), folder=tmp_path)
