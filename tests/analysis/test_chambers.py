@@ -280,3 +280,34 @@ class TestMeasured:
         (tmp_path / "samples.csv").write_text("angle;p\n0;1\n10;2\n", encoding="utf-8")
         with pytest.raises(crankwork.InputError, match=r"chambers\.gas\.measured: samples\.csv, only 2 samples"):
             crankwork.read_machine(self.FILE.format(file="samples.csv"), folder=tmp_path)
+
+
+def test_a_cylinder_needs_a_clearance_only_where_its_pressure_follows_from_the_volume():
+    text = """
+        [crank]
+        radius = "300 mm"
+        speed = "250 rpm"
+        [rod]
+        length = "1.2 m"
+        [cylinder]
+        bore = "0.5 m"
+        [gas]
+        cycle = "360 deg"
+        [gas.points]
+        start = { angle = "0 deg", pressure = "0.35 MPa" }
+        cut = { stroke = 0.5 }
+        low = { stroke = 0.5, pressure = "0.05 MPa" }
+        end = { angle = "360 deg", pressure = "0.35 MPa" }
+        [[gas.pieces]]
+        law = "constant"
+        points = ["start", "cut"]
+        [[gas.pieces]]
+        law = "constant"
+        points = ["low", "end"]
+    """
+    results = crankwork.analyse(crankwork.read_machine(text))
+    assert results["indicated_work"] == pytest.approx(0.3e6 * math.pi * 0.5**2 / 4 * 0.3, rel=1e-12)
+    assert results.value("cylinder_volume", 0.0) == 0
+    assert not results.unmet
+    with pytest.raises(crankwork.InputError, match="cylinder: gas needs its smallest volume"):
+        crankwork.read_machine(text.replace('"constant"', '"polytropic"\n        exponent = 1.2', 1))

@@ -106,7 +106,8 @@ def _geometry(solved: SolvedCylinder) -> dict[str, Known]:
         found["top_dead_centre_angle"] = top(*((e, l, r) if lengths.offset > 0 else (math.pi, e, l, r)))
         found["bottom_dead_centre_angle"] = bottom_dead_centre_angle(math.pi, e, l, r)
     of_cylinder = ("bore", "piston_area", "swept_volume", "clearance_volume", "compression_ratio")
-    return found | {key: memory[key] for key in (*of_cylinder, "reciprocating_mass", "rotating_mass") if key in memory}
+    wanted = (*of_cylinder, "reciprocating_mass", "rotating_mass")
+    return found | {key: memory[key] for key in wanted if key in memory and not memory[key].is_absent}
 
 
 def _motion(solved: SolvedCylinder, over: OverCycle) -> dict[str, Known]:

@@ -22,14 +22,16 @@ def space_memory(solved: SolvedCylinder, moving: MovingCylinder) -> dict[str, Kn
     if space is not None:
         stroke = solved.remembered_stroke(moving.lengths)
         swept = gas.swept_volume(area, stroke)
-        if cylinder.clearance_volume is not None:
-            clearance = given("clearance_volume", space.clearance, "cylinder.clearance_volume")
-        elif cylinder.compression_ratio is not None:
+        found += [stroke, swept]
+        if not space.clearance:
+            found.append(absent("clearance_volume"))
+        elif cylinder.compression_ratio is not None and cylinder.clearance_volume is None:
             ratio = given("compression_ratio", cylinder.compression_ratio, "cylinder.compression_ratio")
             clearance = gas.clearance_volume(swept, ratio)
+            found += [clearance, gas.compression_ratio(swept, clearance)]
         else:
             clearance = given("clearance_volume", space.clearance, "cylinder.clearance_volume")
-        found += [stroke, swept, clearance, gas.compression_ratio(swept, clearance)]
+            found += [clearance, gas.compression_ratio(swept, clearance)]
     return {one.key: one for one in found}
 
 

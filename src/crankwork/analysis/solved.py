@@ -24,7 +24,6 @@ from crankwork.loads import gas as gas_formulas
 from crankwork.loads.filling import NO_GAS, Filling
 from crankwork.loads.indicator import IndicatorDiagram, solve_diagram
 from crankwork.loads.measured import measured_diagram, wrap_is_rough
-from crankwork.locale import Refusal
 from crankwork.machine import Cylinder, Gas, Machine
 from crankwork.method import Method
 
@@ -204,7 +203,7 @@ def _clearance(cylinder: Cylinder, swept: float) -> float:
     if cylinder.clearance_volume is not None:
         return cylinder.clearance_volume
     if cylinder.compression_ratio is None:
-        raise CrankworkError(Refusal("gas_volume_missing"))
+        return 0.0
     return float(gas_formulas.clearance_volume(swept, cylinder.compression_ratio))
 
 

@@ -42,8 +42,10 @@ def _check_gas(values: Mapping[str, Any], cylinder: Cylinder | None, reader: Rea
     if cylinder is None:
         if not reader.doubts("cylinder.bore"):
             reader.complain("gas", Refusal("gas_cylinder"))
-    elif {cylinder.clearance_volume, cylinder.compression_ratio} == {None} and not reader.doubts(
-        "cylinder.clearance_volume", "cylinder.compression_ratio"
+    elif (
+        {cylinder.clearance_volume, cylinder.compression_ratio} == {None}
+        and any(one and one.get("law") == "polytropic" for one in values.get("pieces", []))
+        and not reader.doubts("cylinder.clearance_volume", "cylinder.compression_ratio")
     ):
         reader.complain("cylinder", Refusal("gas_volume"))
     check_ambient(values, "gas", reader)
