@@ -144,3 +144,38 @@ def test_a_drawing_of_a_crank_that_turns_back_swings():
     assert min(shown) < -120
     assert max(shown) > 120
     assert "one revolution in 4 s" in moving_drawing(four_bar(300, 1000, 300, 1000))
+
+
+THIRD = """
+[fixed_points]
+O = ["0 mm", "0 mm"]
+P = ["1000 mm", "0 mm"]
+Q = ["2000 mm", "0 mm"]
+[crank]
+pivot = "O"
+pin = "A"
+radius = "300 mm"
+speed = "60 rpm"
+[links.rod]
+joins = ["A", "B"]
+length = "1000 mm"
+points = { C = ["2000 mm", "0 mm"] }
+[links.second]
+joins = ["P", "B"]
+length = "300 mm"
+[links.third]
+joins = ["Q", "C"]
+length = "THIRD mm"
+"""
+
+
+@pytest.mark.parametrize(
+    ("length", "message"),
+    [
+        ("300", r"links\.third: third is one link too many \(mobility 0\): without it the linkage moves, and it fits"),
+        ("310", r"too many \(mobility 0\) and does not fit: .* 300 to 300 mm apart, and it is 310 mm long"),
+    ],
+)
+def test_the_third_of_coupled_wheels_is_named_and_its_fit_told(length, message):
+    with pytest.raises(CrankworkError, match=message):
+        read_machine(THIRD.replace("THIRD", length))

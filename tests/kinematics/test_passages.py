@@ -37,6 +37,16 @@ def test_a_parallelogram_moves_its_coupler_without_turning_it():
     same(motion.links["coupler"], np.zeros((3, len(GRID))))
 
 
+def test_a_crank_that_goes_on_for_turns_passes_every_time():
+    grid = CrankGrid.from_degrees(np.arange(-725.0, 1500.0, 2.5))
+    motion = linkage_motion(passing(PARALLELOGRAM), grid)
+    same(motion.points["coupler_pin"].x, (1 + 0.3 * grid.cos, -0.3 * grid.sin, -0.3 * grid.cos))
+    kite = passing(four_bar(1.0, math.sqrt(2), math.sqrt(2), 1.0))
+    pin = linkage_motion(kite, grid).points["coupler_pin"]
+    half = grid.angle / 2
+    assert pin.x[0] == pytest.approx((np.cos(half) + np.sqrt(2 - np.sin(half) ** 2)) * np.cos(half), abs=1e-12)
+
+
 def test_what_is_remembered_passes_as_well():
     mechanism = passing(PARALLELOGRAM)
     moved = linkage_motion(mechanism, CrankGrid.steps(1.0, 360.0))

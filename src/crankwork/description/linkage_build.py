@@ -16,7 +16,7 @@ from crankwork.description.build import build_method, crank_speed
 from crankwork.description.chamber_build import build_chambers
 from crankwork.description.driver_build import build_law, check_driver, check_loads
 from crankwork.description.gas_build import ReadMeasured
-from crankwork.description.linkage_reach import checked_motion, passing_if_assembled, with_starts
+from crankwork.description.linkage_reach import checked_motion, passing_if_assembled, told_redundant, with_starts
 from crankwork.description.schema import Measure, Reader
 from crankwork.description.stated import stated_numbers
 from crankwork.dynamics.efficiency import Chain as EfficiencyChain
@@ -70,6 +70,7 @@ def build_linkage(values: Mapping[str, Any], reader: Reader, read_measured: Read
     mechanism = None
     if linkage is not None:
         mechanism, problems = _decomposed(linkage)
+        problems = told_redundant(linkage, problems)
     for problem in problems:
         reader.complain(problem.key or "links", problem.message)
     method = build_method(values.get("method", {}), reader)

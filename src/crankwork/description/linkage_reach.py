@@ -13,9 +13,10 @@ from crankwork.analysis.linkage_speed import transient_summary
 from crankwork.analysis.reach import open_range, reachable
 from crankwork.description.schema import Reader
 from crankwork.dynamics.reduction import reduced_inertia
-from crankwork.errors import CrankworkError, GeometryError
+from crankwork.errors import CrankworkError, GeometryError, Problem
 from crankwork.kinematics.assembly import unassembled
 from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.curves import EQUAL
 from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.placement import place
 from crankwork.kinematics.travel import Travel, has_steady_crank, passing, travel, turns_fully
@@ -24,6 +25,8 @@ from crankwork.loads.process import ProcessForce
 from crankwork.locale import Refusal
 from crankwork.machine import Machine, Transient
 from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.decomposition import mechanism_of
+from crankwork.mechanism.linkage import Linkage
 from crankwork.mechanism.mechanism import Mechanism
 
 _STEP = 1.0
@@ -36,6 +39,41 @@ def passing_if_assembled(mechanism: Mechanism) -> Mechanism:
         return passing(mechanism)
     except GeometryError:
         return mechanism
+
+
+def told_redundant(linkage: Linkage, problems: list[Problem]) -> list[Problem]:
+    """Return problems, of a link that is one too many said whether it fits where the others move."""
+    return [
+        Problem(one.key, _redundant(linkage, one.key.partition(".")[2], one.message) or one.message)
+        if isinstance(one.message, Refusal) and one.message.name == "stiff_one"
+        else one
+        for one in problems
+    ]
+
+
+def _redundant(linkage: Linkage, name: str, told: Refusal) -> Refusal | None:
+    """Return what is to be said of a link without which the linkage moves, None if it does not move."""
+    member = linkage.member(name)
+    joints = [point for point in member.points if len(linkage.owners[point]) > 1]
+    without = replace(linkage, members=tuple(one for one in linkage.members if one is not member))
+    mechanism, problems = mechanism_of(without)
+    if mechanism is None or problems or member.guide or len(joints) != 2 or not has_steady_crank(mechanism):
+        return None
+    try:
+        mechanism = passing(mechanism)
+        found = None if turns_fully(mechanism) else travel(mechanism)
+        ends = (0.0, 360.0) if found is None else open_range(found)
+        points = linkage_motion(mechanism, CrankGrid.from_degrees(np.linspace(*ends, 361))).points
+    except GeometryError:
+        return None
+    (x, y), (u, v) = (points[joint] for joint in joints)
+    apart = np.hypot(u.position - x.position, v.position - y.position)
+    length = math.dist(*(member.points[joint] for joint in joints))
+    values = {"name": name, "mobility": told.values["mobility"]}
+    if np.max(np.abs(apart - length)) <= EQUAL * max(length, float(np.max(apart))):
+        return Refusal("redundant_fits", **values)
+    least, most = (f"{one * 1e3:.6g}" for one in (np.min(apart), np.max(apart)))
+    return Refusal("redundant_misses", **values, least=least, most=most, length=f"{length * 1e3:.6g}")
 
 
 def checked_motion(machine: Machine, crank: Mapping[str, Any], reader: Reader) -> Machine | None:

@@ -304,6 +304,8 @@ class OverCycle:
         begins = self._low[np.searchsorted(self._low, angles, side="right") - 1] == angles
         near = begins & (angles - every[first[rows]] < _AT_EDGE)
         np.minimum.at(edge, rows[near], place[near])
+        # a column of nothing but rounding has its largest anywhere
+        first = np.where(first < every.size, first, np.argmax(values, axis=1))
         return np.where(edge < every.size, edge, first)
 
     def _zeros(self, coefficients: Array, low: Array, high: Array, starts_below: NDArray[np.bool_]) -> Array:

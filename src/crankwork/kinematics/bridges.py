@@ -13,6 +13,7 @@ from crankwork.mechanism.passage import Passage
 
 # beyond every angle, and the beginning of a turn so that no column breaks there
 BEYOND = 360e3
+_BESIDE = 1e-3
 
 
 def passed_branch(passage: Passage, branch: Any, grid: CrankGrid) -> Any:  # noqa: ANN401 - a known or a number
@@ -20,7 +21,9 @@ def passed_branch(passage: Passage, branch: Any, grid: CrankGrid) -> Any:  # noq
     if not is_known(branch):
         return branch * passage.signs(grid.degrees)
     ends = np.array([*passage.changes, BEYOND])
-    signs = passage.signs(ends) * branch.value
+    # each law is that of a place within its stretch
+    signs = passage.signs(np.array([*(one - _BESIDE for one in passage.changes), passage.changes[-1] + _BESIDE]))
+    signs = signs * branch.value
     laws = [absent("branch", 1.0) if sign > 0 else given("branch", -1.0) for sign in signs]
     return Known(Pieces(ends.tolist(), tuple(laws)), "branch")
 
@@ -31,10 +34,10 @@ def over_bridges(passage: Passage, grid: CrankGrid) -> Through:
     def through(key: str, value: Any) -> Any:  # noqa: ANN401 - a known or a number
         if is_known(value):
             return _remembered(passage, key, value)
-        value = np.array(value + np.zeros_like(grid.degrees))
+        value, local = np.array(value + np.zeros_like(grid.degrees)), passage.within(grid.degrees)
         for bridge in passage.bridges:
-            near = np.abs(grid.degrees - bridge.degrees) <= bridge.width
-            value[near] = bridge.columns[key](grid.degrees[near])
+            near = np.abs(local - bridge.degrees) <= bridge.width
+            value[near] = bridge.columns[key](local[near])
         return value
 
     return through

@@ -32,20 +32,25 @@ _ENOUGH, _ROUNDING = 4.0, 5e-14
 
 
 def with_passages(
-    mechanism: Mechanism, changes: Sequence[float], ends: tuple[float, float], stated: float
+    mechanism: Mechanism, changes: Sequence[float], ends: tuple[float, float], stated: float, *, is_whole: bool = True
 ) -> Mechanism:
     """Return a mechanism that passes change points at crank angles between the ends of its motion.
 
-    `stated`: crank angle at which its dyads are on their branches, or just behind which [deg].
+    `stated`: crank angle at which its dyads are on their branches, or just behind which [deg]; `is_whole`: whether the
+    crank turns fully, and all repeats from the end.
     """
+    # a crank that turns fully goes on beyond its table; one that turns back does not
+    period = ends[1] - ends[0] if is_whole else math.inf
     for index, group in enumerate(mechanism.dyads):
         if not isinstance(group, RRR | RRP | RPR):
             continue
         here = tuple(one for one in changes if _touches(mechanism, index, one))
         if here:
-            passed = replace(mechanism, passages={**mechanism.passages, index: Passage(here, stated)})
+            passed = replace(mechanism, passages={**mechanism.passages, index: Passage(here, stated, period)})
             bridges = tuple(_bridge(passed, index, one, changes, ends) for one in here)
-            mechanism = replace(mechanism, passages={**mechanism.passages, index: Passage(here, stated, bridges)})
+            mechanism = replace(
+                mechanism, passages={**mechanism.passages, index: Passage(here, stated, period, bridges)}
+            )
     return mechanism
 
 
@@ -60,11 +65,12 @@ def _bridge(
 ) -> Bridge:
     """Return the polynomials of a dyad about a change point, through what loses the fewest digits."""
     room = [abs(one - degrees) / 2 for one in changes if one != degrees]
-    # a crank that turns fully goes on beyond its table; one that turns back does not
-    room += [abs(one - degrees) for one in ends if one != degrees and ends[1] - ends[0] < 360.0]
+    if not math.isfinite(mechanism.passages[index].period):
+        room += [abs(one - degrees) for one in ends]
     widest = min([_REACHES[0], *room])
     part = replace(mechanism, dyads=mechanism.dyads[: index + 1])
-    fits = [_fitted(part, index, degrees, reach) for reach in map(float, _REACHES) if reach <= widest]
+    reaches = [float(one) for one in _REACHES if one <= widest] or [widest]
+    fits = [_fitted(part, index, degrees, reach) for reach in reaches]
     enough = _ENOUGH * max(min(left for _, _, left in fits), _ROUNDING)
     reach, columns = next((reach, columns) for reach, columns, left in fits if left <= enough)
     return Bridge(degrees, _USED * reach, columns)

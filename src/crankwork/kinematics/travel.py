@@ -161,4 +161,5 @@ def passing(mechanism: Mechanism) -> Mechanism:
     found = travel(mechanism)
     if not found.changes:
         return mechanism
-    return with_passages(mechanism, found.changes, (found.start, found.end), found.stated)
+    ends = (found.start, found.end)
+    return with_passages(mechanism, found.changes, ends, found.stated, is_whole=found.is_whole)

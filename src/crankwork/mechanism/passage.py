@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -40,16 +41,22 @@ class Passage:
 
     changes: tuple[float, ...]  # Crank angles at which its branch changes, ascending [deg]
     stated: float  # Crank angle at which it is on the branch that is its own, or just behind which [deg]
+    period: float = math.inf  # Crank angle after which everything repeats, of a crank that turns fully [deg]
     bridges: tuple[Bridge, ...] = ()
+
+    def within(self, degrees: Array) -> Array:
+        """Return crank angles within the period."""
+        outside = (degrees < 0.0) | (degrees > self.period)
+        return np.where(outside, np.mod(degrees, self.period), degrees) if math.isfinite(self.period) else degrees
 
     def signs(self, degrees: Array) -> Array:
         """Return 1 where the dyad is on its own branch, -1 where it is on the other."""
-        passed = np.searchsorted(self.changes, degrees, side="left")
+        passed = np.searchsorted(self.changes, self.within(degrees), side="left")
         return np.where((passed - np.searchsorted(self.changes, self.stated, side="right")) % 2 == 0, 1.0, -1.0)
 
     def is_bridged(self, degrees: Array) -> NDArray[np.bool_]:
         """Return where polynomials are used."""
-        inside = np.zeros(degrees.shape, dtype=bool)
+        inside, local = np.zeros(degrees.shape, dtype=bool), self.within(degrees)
         for bridge in self.bridges:
-            inside |= np.abs(degrees - bridge.degrees) <= bridge.width
+            inside |= np.abs(local - bridge.degrees) <= bridge.width
         return inside

@@ -32,7 +32,8 @@ def energy_machine(
     """
     if any(spring.preload for spring in springs):
         raise MethodError(Refusal("spring_preload"))
-    state = _compiled(mechanism, springs) if fast else functools.partial(_state, mechanism, springs)
+    compiles = fast and not mechanism.passages
+    state = _compiled(mechanism, springs) if compiles else functools.partial(_state, mechanism, springs)
     return EnergyMachine(_with_inertia(state, inertia) if inertia else state, drive)
 
 
