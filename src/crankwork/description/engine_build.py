@@ -178,7 +178,7 @@ def _offsets(
     values: Mapping[str, Any], layout: Layout, lengths: tuple[float, float, float] | None, reader: Reader
 ) -> tuple[float, ...]:
     """Return the offset of each cylinder where they differ; complain where one cannot turn."""
-    stated = values["engine"].get("offsets", ())
+    stated = values.get("engine", {}).get("offsets", ())
     if not stated or None in stated or lengths is None:
         return ()
     offsets, count = [one.value for one in stated], len(layout.places)
