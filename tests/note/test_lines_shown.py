@@ -171,6 +171,7 @@ NO_FORMULA = {
 SOLVED_KINDS = (
     "joint_force", "normal_force", "normal_moment", "link_angle", "link_swing", "slider_stroke", "slider_displacement",
     "point_x", "point_y", "transmission_angle", "time_ratio", "instant_centre",
+    "shaking", "free_force", "counterweight",
 )  # fmt: skip
 
 

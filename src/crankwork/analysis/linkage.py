@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crankwork.analysis.chambers import gas_check, gas_summary, solve_linkage
+from crankwork.analysis.linkage_balance import balance_of
 from crankwork.analysis.linkage_memory import efficiency_of, linkage_memory, speed_of
 from crankwork.analysis.linkage_speed import transient_summary, turn_of
 from crankwork.analysis.quality import FOLLOWED, quality_of, rocks, smooth_transmissions, time_ratios
@@ -121,6 +122,9 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
         summary |= turn.summary
         between |= turn.between
         notices += turn.notices
+    driver = machine.mechanism.driver
+    if found is None and "shaking_force" in memory and isinstance(driver, Crank) and driver.law is None:
+        summary |= {key: one.named(key) for key, one in balance_of(driver, memory | summary)}
     summary |= transient_summary(machine)
     if machine.drawn.geared:
         notices += (Notice("geared", {}),)
@@ -165,6 +169,7 @@ def _followed(memory: Mapping[str, Known]) -> dict[str, Known]:
     """Return the columns that single values are taken from."""
     kinds = (
         "slider_displacement", "link_angle", "joint_force", "slider_velocity", "gas_pressure", "gas_force", *_OF_DRIVER,
+        "shaking_force",
     )  # fmt: skip
     return {key: one for key, one in memory.items() if key in DYNAMICS or key.partition(".")[0] in kinds}
 
@@ -296,6 +301,7 @@ def _groups(columns: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
         "links": ("link_angle", "link_angular_velocity", "link_angular_acceleration",
                   "slider_displacement", "slider_velocity", "slider_acceleration", "coriolis_acceleration",
                   "transmission_angle", "pressure_angle", "instant_centre_x", "instant_centre_y"),
+        "balance": ("shaking_force_x", "shaking_force_y", "shaking_force", "shaking_moment"),
         "speed": ("crank_speed", "kinetic_energy_change"),
         "chambers": ("cylinder_volume", "diagram_pressure", "gas_pressure", "gas_force"),
         "joint_forces": ("joint_force_x", "joint_force_y", "joint_force", "normal_force", "normal_moment"),

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from crankwork.analysis import origins
+from crankwork.analysis.linkage_balance import shaking
 from crankwork.analysis.quality import transmissions
 from crankwork.analysis.solved import SolvedLinkage
 from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor, remembered_efficiency
@@ -24,6 +25,7 @@ from crankwork.dynamics.reduction import (
 from crankwork.dynamics.running import Running
 from crankwork.formula.known import Found, Known, Pieces, absent, given
 from crankwork.kinematics import transfer as rates
+from crankwork.kinematics.dyads import is_nothing
 from crankwork.kinematics.instant_centres import instant_centres
 from crankwork.kinematics.memory import angle_of, course_of, given_mechanism
 from crankwork.kinematics.motion import Motion
@@ -164,6 +166,8 @@ def _at_work(solved: SolvedLinkage, motion: Motion, w: Known, eps: Known) -> dic
         "driving_torque": _driving(static, dynamic, balancing, machine.drive, motion),
         **dict(_forces(machine, joint_forces(Running(mechanism, motion, w, loads, eps)))),
     }
+    if any(not is_nothing(one.mass) for one in mechanism.bodies):
+        columns |= shaking(Running(mechanism, motion, w, loads, eps))
     return columns if reduced.is_absent else columns | {"reduced_torque": reduced}
 
 

@@ -24,6 +24,12 @@ def joint_force(R_x: Value, R_y: Value) -> Value:
     return np.sqrt(R_x**2 + R_y**2)
 
 
+@formula("shaking_force", "den_hartog_1956, ch. 5")
+def shaking_force(F_sx: Value, F_sy: Value) -> Value:
+    """Magnitude of the sum of the inertia forces of all moving masses."""
+    return np.sqrt(F_sx**2 + F_sy**2)
+
+
 class PinForce(NamedTuple):
     """Force of a pin on the link it holds, along the fixed axes, arrays of shape (n,). [N]"""
 

@@ -16,7 +16,15 @@ ROWS = (
     Quantity("free_force_direction", "deg",
              "Direction of the largest free force of one order, from the reference direction of the engine."),
     Quantity("free_moment", "N*m", "Largest moment of the inertia forces of one order along the shaft."),
+    Quantity("shaking_force", "N", "Magnitude of the sum of the inertia forces of all moving masses."),
+    Quantity("shaking_force_x", "N", "Sum of the inertia forces of all moving masses along the fixed x axis."),
+    Quantity("shaking_force_y", "N", "Sum of the inertia forces of all moving masses along the fixed y axis."),
+    Quantity("shaking_moment", "N*m",
+             "Moment of the inertia of all moving masses about the pivot of the crank, positive anticlockwise."),
     # counterweights
+    Quantity("counterweight_angle", "deg",
+             "Direction of a counterweight from the crank, positive anticlockwise, that takes what turns with the crank"
+             " of the first order."),
     Quantity("balanced_share", "",
              "Share of the reciprocating mass that counterweights balance as if it turned with the crankpin."),
     Quantity("counterweight_moment", "kg*m",

@@ -1,0 +1,55 @@
+"""What the moving masses of a linkage do to its foundation, its orders, and the best counterweight on the crank."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from crankwork.dynamics.link_loads import arm, inertia_loads, moment_of
+from crankwork.dynamics.reaction import shaking_force
+from crankwork.dynamics.running import Running
+from crankwork.formula.known import Found, Known, total
+from crankwork.formula.replay import Program
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.mechanism.mechanism import Crank
+
+_ORDERS = (1, 2, 4)
+_SAMPLES = 1440
+
+
+def shaking(running: Running) -> Iterator[tuple[str, Known]]:
+    """Yield force and moment of all moving masses on the ground, the moment about the pivot of the crank."""
+    driver, loads = running.mechanism.driver, inertia_loads(running)
+    x = total("shaking_force_x", [one.x for one in loads.forces])
+    y = total("shaking_force_y", [one.y for one in loads.forces])
+    yield from ((one.key, one) for one in (x, y, shaking_force(x, y).named("shaking_force")))
+    if isinstance(driver, Crank):
+        pivot = running.motion.frames[driver.link].origin
+        moments = [moment_of(arm(pivot, one.at), (one.x, one.y), f"{one.link}.shaking") for one in loads.forces]
+        turning = [one.torque for one in loads.torques]
+        stated = [one for one in (*moments, *turning) if not one.is_absent]
+        if stated:
+            yield "shaking_moment", total("shaking_moment", stated)
+
+
+def balance_of(driver: Crank, memory: Mapping[str, Known]) -> Iterator[tuple[str, Known]]:
+    """Yield the largest force of each order, and the counterweight on the crank that takes the part that turns with it.
+
+    That counterweight makes the mean square of the shaking force least.
+    """
+    of = memory["shaking_force_x"], memory["shaking_force_y"]
+    grid = CrankGrid.from_degrees(np.arange(_SAMPLES) * 360.0 / _SAMPLES)
+    columns = Program(dict(zip("xy", of, strict=True)))(grid)
+    force = columns["x"] + 1j * columns["y"]
+    coefficients = np.fft.fft(force) / _SAMPLES
+    for order in _ORDERS:
+        both = abs(coefficients[order]) + abs(coefficients[-order])
+        yield f"free_force.{order}", Known(Found(float(both), "harmonic", of))
+    forward = complex(coefficients[driver.direction])
+    moment = Known(Found(abs(forward) / memory["speed"].value ** 2, "fourier", of))
+    yield "counterweight_moment", moment
+    angle = math.remainder(cmath.phase(-forward) - driver.start, math.tau)
+    yield "counterweight_angle", Known(Found(angle, "fourier", of))
