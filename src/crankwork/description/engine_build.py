@@ -187,7 +187,7 @@ def _offsets(
         return ()
     if "offset" in values.get("cylinder", {}):
         reader.complain("engine.offsets", Refusal("same", others=["cylinder.offset"]))
-    if "articulated" in values["engine"]:
+    if "articulated" in values.get("engine", {}):
         reader.complain("engine.offsets", Refusal("offsets_articulated"))
     for number, offset in enumerate(offsets, start=1):
         if not turns_fully(SliderCrank(*lengths[:2], offset)):

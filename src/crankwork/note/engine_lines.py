@@ -38,7 +38,7 @@ _FORCES = (
     "side_factor", "rod_factor", "radial_factor", "tangential_factor",
     "correction_couple", "rod_transverse_force", "side_force.couple", "side_force", "rod_force", "radial_force",
     "tangential_force", "rotating_inertia_force", "rotating_torque", "crank_torque", "pin_distance",
-    "overturning_moment",
+    "overturning_moment", "reduced_inertia", "reduced_inertia_1",
 )  # fmt: skip
 _FORCE_EXTREMES = tuple(
     f"{key}_{end}"
@@ -49,7 +49,10 @@ _POWER = ("indicated_work", "indicated_mean_pressure", "indicated_power", "mean_
 
 # of the whole engine
 _FIRING = ("swept_volume.", "displacement", "firing_interval", "firing_interval.")
-_TORQUES = ("crank_torque.", "throw_torque.", "total_torque", "crankpin_torque.", "journal_torque.")
+_TORQUES = (
+    "crank_torque.", "throw_torque.", "total_torque", "crankpin_torque.", "journal_torque.", "total_reduced_inertia",
+    "total_reduced_inertia_1",
+)  # fmt: skip
 _OF_SLAVE = (
     "piston_displacement", "piston_velocity", "piston_acceleration", "gas_force", "inertia_force", "piston_force",
     "side_force", "rod_force", "radial_force", "tangential_force", "knuckle_couple", "knuckle_side_force",
