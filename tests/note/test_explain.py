@@ -22,6 +22,7 @@ ENGINE = "examples/spark-engine.toml"
 def test_every_kind_of_value_is_explained(file, way, results_of):
     results = results_of(file, way)
     at = float(results.grid.degrees[len(results.grid) // 3])
+    at = at * results.period / 360 if results.period else at
     unknown, wrong, seen = [], [], set()
     for key in (*results.columns, *results.summary):
         if key not in results.memory:
@@ -51,6 +52,8 @@ def english_words(told: str, file: Path | str, language: str) -> set[str]:
     text = file.read_text("utf-8") if isinstance(file, Path) else crankwork.template(file)
     known = set(re.findall(r"\w+", " ".join([text, *texts("symbols", language).values()]).replace("_", " ")))
     known |= set(texts("marks", language).values()) | {"max", "min", "sin", "cos", "tan", "exp", "abs"}
+    # phase of a harmonic, with the letter that the crank angle has
+    known |= {"kφ₀", "kα₀"}
     lines = [one for one in told.splitlines() if one.startswith("  ") and " = " in one]
     shown = {one for line in lines for one in re.findall(r"[^\W\d_]{3,}", line.split(" = ")[0])}
     return set() if language == "en" else shown - known

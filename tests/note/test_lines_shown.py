@@ -183,7 +183,8 @@ def test_what_has_no_step_is_given_or_solved_for(machine, method, groups_of):
     left = {key for key in left if not key.partition(".")[0].startswith(SOLVED_KINDS)}
     left -= {key for key, known in results.memory.items() if isinstance(known.node, Given)}
     # extremes over the revolution, where they stand, and the error of a method
-    left = {key for key in left if not key.partition(".")[0].endswith(("_angle", "_error", "_max", "_min"))}
+    left = {key for key in left if not key.partition(".")[0].endswith(("_angle", "_time", "_error", "_max", "_min"))}
+    left -= {"time"}
     left = {key for key in left if not isinstance(results.memory[key].node, Given)}
     if not getattr(machine, "loads", True):
         left -= {"static_torque"}

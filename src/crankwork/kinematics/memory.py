@@ -142,8 +142,13 @@ def _given_driver(mechanism: Mechanism, ground: Mapping[str, Any]) -> Any:  # no
         case DrivingSlider(link=piece, guide=guide):
             return replace(driver, guide=_guide(piece, guide, f"guides.{piece}"))
         case LinkMotor(links=links, sides=sides):
-            given_sides = tuple(given(f"link_length.{link}", side) for link, side in zip(links, sides, strict=True))
-            return replace(driver, sides=given_sides, angle=_stated(f"line_angle.{driver.link}", driver.angle, ""))
+            given_sides = tuple(
+                given(f"link_length.{link}", side, f"links.{link}.length")
+                for link, side in zip(links, sides, strict=True)
+            )
+            return replace(
+                driver, sides=given_sides, angle=_stated(f"line_angle.{driver.link}", driver.angle, "driver.between")
+            )
     return driver
 
 

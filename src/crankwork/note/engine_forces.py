@@ -36,6 +36,7 @@ def dynamics(material: Material) -> Iterator[Block]:
     yield words.heading("forces", 2)
     yield from material.worked_at("forces")
     yield from material.equations("forces")
+    yield from material.equations("reduction")
     yield from per_area(material)
     method = material.results.method
     keys = any_nonzero(_ALONG, material.columns)
@@ -110,6 +111,7 @@ def across(material: Material) -> Iterator[Block]:
     yield material.words.heading("forces")
     yield from material.worked_at("forces")
     yield from material.equations("forces")
+    yield from material.equations("reduction")
     shown = [key for key in _ACROSS if key != "rod_transverse_force" or any_nonzero((key,), material.columns)]
     figures = ("rod_forces", "crankpin_forces", "torque")
     yield from material.presented([angle_table(material, "forces", shown)], figures)

@@ -38,13 +38,14 @@ _FORCES = (
     "side_factor", "rod_factor", "radial_factor", "tangential_factor",
     "correction_couple", "rod_transverse_force", "side_force.couple", "side_force", "rod_force", "radial_force",
     "tangential_force", "rotating_inertia_force", "rotating_torque", "crank_torque", "pin_distance",
-    "overturning_moment", "reduced_inertia", "reduced_inertia_1",
+    "overturning_moment",
 )  # fmt: skip
 _FORCE_EXTREMES = tuple(
     f"{key}_{end}"
     for key in ("inertia_force", "piston_force", "side_force", "tangential_force", "crank_torque")
     for end in ("max", "min")
 )
+_REDUCTION = tuple(one for kind in ("reduced_inertia", "reduced_inertia_1") for one in (f"{kind}.", kind))
 _POWER = ("indicated_work", "indicated_mean_pressure", "indicated_power", "mean_torque")
 
 # of the whole engine
@@ -110,6 +111,7 @@ def engine_lines(results: Results, degrees: float = _DEGREES, force_degrees: flo
         Group("masses", _followed(moving, results, _MASSES)),
         Group("gas", _own(loaded, results, (*_SPACE, *_points(results)))),
         Group("forces", _followed(loaded, results, _FORCES if has_forces else ()), there),
+        Group("reduction", _own(loaded, results, _REDUCTION if has_forces else ()), there),
         Group("force_extremes", _own(loaded, results, _FORCE_EXTREMES)),
         Group("power", _own(loaded, results, _POWER if results.solved.space is not None else ())),
     ]
