@@ -17,6 +17,7 @@ from crankwork.units import from_si
 _PARTS = frozenset(
     (
         "guide",
+        "weight",
         "arm",
         "arms",
         "place",
