@@ -125,6 +125,11 @@ def test_crank_rocker_for_a_swing_and_a_time_ratio():
         (lengths["coupler"] ** 2 + lengths["rocker"] ** 2 - 180**2) / (2 * lengths["coupler"] * lengths["rocker"])
     )
     assert summary["transmission_angle_max.C"] == pytest.approx(greatest, rel=1e-12)
+    # and with the crank across the ground
+    across = analysed(FOUR_BAR.format(speed=60, **lengths), 90.0).columns["transmission_angle.C"][0]
+    squares = lengths["coupler"] ** 2 + lengths["rocker"] ** 2 - 60**2 - 120**2
+    expected = math.acos(squares / (2 * lengths["coupler"] * lengths["rocker"]))
+    assert across == pytest.approx(expected, rel=1e-12)
     told = [one.values["angle"] for one in results.notices if one.code == "transmission"]
     assert told == pytest.approx([35.03832591706699])
 

@@ -16,7 +16,6 @@ from crankwork.shaft.fluctuation import excess_work, true_speed
 from crankwork.shaft.flywheel import flywheel, flywheels
 from crankwork.shaft.motor import LinearMotor
 from crankwork.shaft.motor_choice import motor_need
-from crankwork.shaft.motor_flywheel import flywheel_by_simulation
 from crankwork.shaft.speed import ReducedMachine, steady_speed
 from crankwork.shaft.transient import run
 
@@ -110,19 +109,6 @@ def test_steady_motion_repeats_and_balances(inertia, torque, speed, stiffness):
     assert found.multiplier < 1
     once_more = run(machine, speed=float(found.speed[0]), cycles=2, until_steady=False)
     assert once_more.speed[-1] == pytest.approx(found.speed[0], rel=1e-10)
-
-
-@settings(max_examples=10)
-@given(inertias(), torques(), st.floats(0.005, 0.05))
-def test_the_simulated_flywheel_gives_the_fluctuation_asked_for(inertia, torque, delta):
-    speed, stiffness = 15.0, 5.0
-    motor = LinearMotor(stiffness, speed - torque.mean / stiffness)
-    guess = max(flywheel(inertia, torque, speed, delta).inertia, 0.1)
-    found = flywheel_by_simulation(
-        lambda size: ReducedMachine.of_curves(inertia, torque, motor, flywheel=size), speed, delta, guess
-    )
-    assume(not found.message)
-    assert abs(found.run.fluctuation - delta) < 1e-6
 
 
 @settings(max_examples=25)

@@ -12,7 +12,6 @@ from crankwork.shaft.collocation import integrate, integrate_periodic
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import true_speed
 from crankwork.shaft.motor import AsynchronousMotor, GearedMotor, LinearMotor
-from crankwork.shaft.motor_flywheel import flywheel_by_simulation
 from crankwork.shaft.speed import ReducedMachine, steady_speed
 from crankwork.shaft.transient import run
 
@@ -141,15 +140,3 @@ class TestFailure:
     def test_backwards(self):
         with pytest.raises(MethodError, match="against it"):
             run(machine(), speed=-1.0)
-
-
-class TestFlywheel:
-    def test_the_simulated_speed_has_the_fluctuation_asked_for(self):
-        found = flywheel_by_simulation(machine, 11.0, 0.03, 5.0)
-        assert abs(found.residual) < 1e-9
-        assert abs(steady_speed(machine(found.inertia), 11.0).fluctuation - 0.03) < 1e-6
-
-    def test_none_is_needed(self):
-        found = flywheel_by_simulation(machine, 11.0, 1.9, 5.0)
-        assert math.isnan(found.inertia)
-        assert found.message

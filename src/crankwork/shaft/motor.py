@@ -111,77 +111,12 @@ class LinearMotor:
     stiffness: float  # Torque per speed below that without load [N m s/rad]
     no_load_speed: float  # Speed without load [rad/s]
 
-    @classmethod
-    def of_rating(cls, rated_power: float, rated_speed: float, no_load_speed: float) -> Self:
-        """Return the line through the rated point.
-
-        `rated_power`, `rated_speed` and `no_load_speed`: power on the shaft, speed at that power, speed without load
-        [W], [rad/s], [rad/s].
-        """
-        return cls(rated_power / rated_speed / (no_load_speed - rated_speed), no_load_speed)
-
-    @classmethod
-    def of_direct_current(cls, voltage: float, resistance: float, flux: float) -> Self:
-        """Return a direct-current motor with constant flux (chilikin_sandler_1981, ch. 2).
-
-        `flux`: torque per current, which is also voltage per speed [N m/A].
-        """
-        return cls(flux**2 / resistance, voltage / flux)
-
     def torque(self, speed: ArrayLike) -> Array:
         """Return the torque on its own shaft.
 
         `speed`: speed of its shaft [rad/s], shape (..., n).
         """
         return np.asarray(self.stiffness * (self.no_load_speed - np.asarray(speed)))
-
-
-@dataclass(frozen=True)
-class SeriesMotor:
-    """A direct-current motor whose field carries the current of its armature, unsaturated."""
-
-    # Voltage, resistance of armature and field [V], [ohm]
-    voltage: float
-    resistance: float
-    flux_per_current: float  # Torque per square of the current [N m/A2]
-
-    def torque(self, speed: ArrayLike) -> Array:
-        """Return the torque on its own shaft (chilikin_sandler_1981, ch. 2).
-
-        `speed`: speed of its shaft [rad/s], shape (..., n).
-        """
-        current = self.voltage / (self.resistance + self.flux_per_current * np.asarray(speed))
-        return np.asarray(self.flux_per_current * current**2)
-
-
-@dataclass(frozen=True)
-class ConstantMotor:
-    """A motor that gives the same torque at every speed."""
-
-    value: float  # The torque [N m]
-
-    def torque(self, speed: ArrayLike) -> Array:
-        """Return the torque on its own shaft.
-
-        `speed`: speed of its shaft [rad/s], shape (..., n).
-        """
-        return np.full_like(np.asarray(speed, dtype=float), self.value)
-
-
-@dataclass(frozen=True)
-class TableMotor:
-    """A motor or engine given as a table, straight between its rows and level beyond them."""
-
-    # Ascending speeds of its shaft, torques there, shape (n,) [rad/s], [N m]
-    speeds: Array
-    torques: Array
-
-    def torque(self, speed: ArrayLike) -> Array:
-        """Return the torque on its own shaft.
-
-        `speed`: speed of its shaft [rad/s], shape (..., n).
-        """
-        return np.asarray(np.interp(np.asarray(speed, dtype=float), self.speeds, self.torques))
 
 
 @dataclass(frozen=True)

@@ -1,14 +1,11 @@
-"""Which motor a machine needs: power from the mean torque, heating from its rms, overload from its greatest."""
+"""What a machine needs of its motor: power from the mean torque, heating from its rms, overload from its greatest."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
-from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
 from crankwork.shaft.curve import Curve
 
@@ -51,75 +48,6 @@ def motor_need(load: Curve, speed: float, *, efficiency: float = 1.0, safety: fl
         float(needed_power(safety, mean, speed, efficiency)),
         float(needed_power(safety, rms, speed, efficiency)),
     )
-
-
-@dataclass(frozen=True)
-class CatalogueMotor:
-    """A line of a catalogue."""
-
-    name: str  # Its designation
-    # Rated power and speed [W], [rad/s]
-    power: float
-    speed: float
-    overload: float  # Greatest torque over rated torque [-]
-    inertia: float = 0.0  # Moment of inertia of the rotor [kg m2]
-
-    @property
-    def rated_torque(self) -> float:
-        """Torque at rated power. [N m]"""
-        return self.power / self.speed
-
-
-@dataclass(frozen=True)
-class MotorCheck:
-    """Whether a motor does for a machine, and why not."""
-
-    motor: CatalogueMotor
-    ratio: float  # Speed of the motor over that of the crank [-]
-    load_share: float  # Power that is needed over rated power; at most one [-]
-    overload_share: float  # Greatest torque on the shaft of the motor over its greatest; at most one [-]
-    message: str  # Empty if it does; else what is too weak, by how much, and where
-
-    @property
-    def ok(self) -> bool:
-        """Whether it does."""
-        return not self.message
-
-
-def check_motor(need: MotorNeed, motor: CatalogueMotor, *, efficiency: float = 1.0, heating: bool = True) -> MotorCheck:
-    """Return whether a motor bears the load: its power, its heating, its greatest torque.
-
-    The efficiency is that from motor to crank. Heating is by the rms torque, as without a flywheel, or by the mean.
-    """
-    ratio = motor.speed / need.speed
-    power = max(need.mean_power, need.rms_power) if heating else need.mean_power
-    share = power / motor.power
-    overload = need.largest_torque / (ratio * efficiency) / (motor.overload * motor.rated_torque)
-    faults = []
-    if share > 1:
-        faults.append(f"it has {motor.power / 1e3:.4g} kW, the load needs {power / 1e3:.4g} kW")
-    if overload > 1:
-        faults.append(
-            f"its greatest torque at the crank is {need.largest_torque / overload:.4g} N m, and at "
-            f"{math.degrees(need.at_largest):.1f} deg the load needs {need.largest_torque:.4g} N m, where it stalls "
-            "unless a flywheel helps"
-        )
-    message = f"{motor.name} is too weak: {'; '.join(faults)}" if faults else ""
-    return MotorCheck(motor, ratio, share, overload, message)
-
-
-def choose_motor(
-    need: MotorNeed, catalogue: Iterable[CatalogueMotor], *, efficiency: float = 1.0, heating: bool = True
-) -> MotorCheck:
-    """Return the smallest motor of a catalogue that does; the efficiency is that from motor to crank."""
-    checks = [check_motor(need, one, efficiency=efficiency, heating=heating) for one in catalogue]
-    if not checks:
-        raise MethodError("the catalogue of motors is empty")
-    strong = [one for one in checks if one.ok]
-    if strong:
-        return min(strong, key=lambda one: (one.motor.power, one.motor.speed))
-    best = min(checks, key=lambda one: max(one.load_share, one.overload_share))
-    raise MethodError(f"no motor of the catalogue does; {best.message}")
 
 
 def first_angle_beyond(load: Curve, torque: float) -> float | None:
