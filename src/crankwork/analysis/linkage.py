@@ -108,8 +108,6 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
         notices += (Notice("working_range", {"from": start, "to": end}),)
     over = OverCycle(followed, CrankGrid.from_degrees, end - start, start)
     quality, unusual = quality_of(over)
-    # where links pass through a line, that is told already
-    notices += () if machine.mechanism.passages else unusual
     summary = _summary(solved, over, quality, is_whole=found is None)
     if found is not None:
         summary |= limits_of(found, memory)
@@ -130,6 +128,8 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
         notices += (Notice("geared", {}),)
     if machine.mechanism.driver.law is not None:
         notices += (Notice("by_law", {}),)
+    # where links pass through a line, that is told already
+    notices += () if machine.mechanism.passages else unusual
     columns = absent_where_still(Program(memory)(table))
     values = {key: one.value for key, one in summary.items()}
     memory |= {**summary, **between}
