@@ -36,7 +36,7 @@ def weight(load: Weight, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
     forces = []
     for body in mechanism.bodies:
         x, y = (weight_along(body.mass, gravity, part) for part in (math.cos(load.direction), math.sin(load.direction)))
-        x, y = named(x, f"load_x.{body.link}_weight"), named(y, f"load_y.{body.link}_weight")
+        x, y = named(x, f"load_x.{body.link}.weight"), named(y, f"load_y.{body.link}.weight")
         forces.append(
             AppliedForce(
                 body.link, centre_of_mass(body, motion), everywhere(x, motion.grid), everywhere(y, motion.grid)
