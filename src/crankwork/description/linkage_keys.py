@@ -73,7 +73,7 @@ _DRIVER = Table({
     "cylinder": Key(ListOf(_NAME, fewest=2, most=2), "the two points that a driving cylinder joins"),
     "between": Key(ListOf(_NAME, fewest=2, most=2), "the two moving links that a motor in their pin turns"),
     "start": Key(_COORDINATE_OF_DRIVER, "its coordinate at the beginning; that of the end without"),
-    "law": Key(ListOf(_SEGMENT, fewest=1, most=100), "how its coordinate changes, segment after segment", required=True),
+    "law": Key(ListOf(_SEGMENT, fewest=1, most=100), "how its coordinate changes, segment by segment", required=True),
     "period": Key(_TIME, "time of the whole law, where segments are shares of it"),
 })  # fmt: skip
 
