@@ -35,7 +35,7 @@ MISTAKES = {
     "joint as a point": ("four-bar", "points = { P =", 'points = { B = ["1 mm", "2 mm"], P =',
                          "links.coupler.points.B", "leave it out"),
     "over-constrained": ("four-bar", "[branch]", 'z = { joins = ["P", "C"], length = "150 mm" }\n[branch]', "links.z",
-                         "(mobility 0); take away a joint or a link"),
+                         "(mobility 0) and does not fit: where the others move"),
     "mobility 2": ("four-bar", DYAD, f'z = {{ joins = ["B", "D"], length = "1 m" }}\n{DYAD.replace("B", "D")}',
                    "links", "2 degrees of freedom with one crank: coupler, z, rocker can move on their own; add"),
     "locked slider": ("scotch-yoke", '{ through = "O", angle = "0 deg" }', '{ link = "crank", angle = "90 deg" }',
