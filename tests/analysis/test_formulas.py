@@ -93,4 +93,5 @@ def test_differences_are_those_of_the_table(scheme):
 @pytest.mark.parametrize(("links", "joints", "freedom"), [(3, 4, 1), (5, 7, 1), (1, 1, 1), (4, 5, 2), (2, 3, 0)])
 def test_mobility_of_known_chains(links, joints, freedom):
     """Artobolevsky, ch. 2: four-bar and six-bar linkages, crank, five-bar linkage, triangle."""
-    assert chain_mobility(links, joints) == freedom
+    assert chain_mobility(links, joints, 0) == freedom
+    assert chain_mobility(links, joints, 1) == freedom - 1

@@ -17,6 +17,7 @@ from crankwork.units import from_si
 _PARTS = frozenset(
     (
         "guide",
+        "shaking",
         "weight",
         "arm",
         "arms",
