@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Mapping
 from typing import NamedTuple
 
@@ -59,6 +60,18 @@ def turns_fully(mechanism: Mechanism) -> bool:
 
 def travel(mechanism: Mechanism) -> Travel:
     """Return how far the crank gets from the position at an angle of zero, or from the first that can be assembled."""
+    found = next((found for one, found in tuple(_RECENT) if one == mechanism), None)
+    if found is None:
+        found = _travel(mechanism)
+        _RECENT.append((mechanism, found))
+    return found
+
+
+# what is read is looked at several times before it is analysed
+_RECENT: deque[tuple[Mechanism, Travel]] = deque(maxlen=4)
+
+
+def _travel(mechanism: Mechanism) -> Travel:
     stated = _stated(mechanism)
     circuit = circuit_through(mechanism, stated)
     driver = driver_coordinate(mechanism)
