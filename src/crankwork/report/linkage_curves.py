@@ -39,6 +39,8 @@ if TYPE_CHECKING:
 
 _STYLES = (SOLID, DASHED, DASH_DOT, DOTTED)
 _PANEL, _GAP, _LEGEND_ROW = 1.75, 0.2, 0.185
+# what a page of a note holds with its caption [in]
+_TALLEST = 8.4
 # characters of a name that still fit beside a panel
 _LONG = 20
 
@@ -59,7 +61,8 @@ def curves(
     if not sets:
         raise CrankworkError("curves need at least one key")
     legends = [_LEGEND_ROW * len(one) + 0.06 if _has_legend(one, style) else 0.0 for one in sets]
-    tall = 3.0 if len(sets) == 1 else _PANEL
+    room = (_TALLEST - BOTTOM - sum(legends)) / len(sets) - _GAP
+    tall = 3.0 if len(sets) == 1 else min(_PANEL, room)
     with figure_look():
         figure = new_figure(BOTTOM + len(sets) * (tall + _GAP) + sum(legends))
         foot = BOTTOM
