@@ -140,12 +140,15 @@ def appendix(material: Material) -> Iterator[Block]:
     if len(degrees) == len(material.positions) and np.allclose(degrees, material.positions):
         # the sections before have the same tables
         return
-    yield words.heading("linkage_appendix")
+    yield words.heading("driver_appendix" if words.period else "linkage_appendix")
     for caption, keys in (
         ("torques_all", any_nonzero(_DYNAMICS, columns)),
         ("driver_all", [key for key in columns if key.startswith("driver_")]),
         ("motion_all", named(columns, *_MOTION)),
-        ("reactions_all", any_nonzero(named(columns, "joint_force", "normal_force", "normal_moment"), columns)),
+        (
+            "reactions_period" if words.period else "reactions_all",
+            any_nonzero(named(columns, "joint_force", "normal_force", "normal_moment"), columns),
+        ),
     ):
         shown = quantity_columns(keys, columns, words)
         yield from position_tables(caption, degrees, shown, words, first=None)

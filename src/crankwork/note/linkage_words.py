@@ -52,7 +52,9 @@ class Words(NoteWords):
 
     def heading(self, key: str, level: int = 1, label: str = "") -> Heading:
         """Return a heading of a section; those of bibliography and appendix have no number."""
-        return Heading(level, self.title(key), numbered=key not in ("sources", "linkage_appendix"), label=label)
+        return Heading(
+            level, self.title(key), numbered=key not in ("sources", "linkage_appendix", "driver_appendix"), label=label
+        )
 
     def caption(self, key: str, part: int = 1) -> str:
         """Return the caption of a table; from the second part on it says that it goes on."""
