@@ -35,8 +35,8 @@ class TestExample7:
         found = flywheel(self.machine, self.torque, _speed(100), 0.015)
         assert round(100 * excess.coefficient) == 18
         assert round(found.inertia / 1.75**2, 1) == 197.3
-        assert round(math.degrees(excess.at_least)) == 35
-        assert round(math.degrees(excess.at_largest)) == 136
+        assert round(math.degrees(excess.extremes.at_least)) == 35
+        assert round(math.degrees(excess.extremes.at_largest)) == 136
 
     def test_the_recomputed_values(self) -> None:
         excess = excess_work(self.torque)
@@ -45,8 +45,8 @@ class TestExample7:
         assert excess.work == pytest.approx(994.0195, abs=1e-4)
         assert 100 * excess.coefficient == pytest.approx(18.08036, abs=1e-5)
         assert found.inertia / 1.75**2 == pytest.approx(197.3197, abs=1e-4)
-        assert math.degrees(excess.at_least) == pytest.approx(35, abs=1e-9)
-        assert math.degrees(excess.at_largest) == pytest.approx(136.25, abs=1e-9)
+        assert math.degrees(excess.extremes.at_least) == pytest.approx(35, abs=1e-9)
+        assert math.degrees(excess.extremes.at_largest) == pytest.approx(136.25, abs=1e-9)
 
     def test_all_ways_agree(self) -> None:
         found = flywheels(self.machine, self.torque, _speed(100), 0.015)

@@ -28,7 +28,7 @@ def test_all_crossings_count():
     torque = Curve.linear([0, 1, 1, 2, 2, 3, 3, 4], [3.0, 3.0, -1.0, -1.0, 3.0, 3.0, -5.0, -5.0])
     excess = excess_work(torque)
     assert excess.work == pytest.approx(5.0)
-    assert (excess.at_least, excess.at_largest) == (0.0, 3.0)
+    assert (excess.extremes.at_least, excess.extremes.at_largest) == (0.0, 3.0)
     assert excess.coefficient == math.inf
 
 

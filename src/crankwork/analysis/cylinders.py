@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -46,9 +47,12 @@ class WholeEngine:
 
     def each(self, key: str, degrees: ArrayLike) -> Array:
         """Return a column of every cylinder at crank angles of cylinder 1, shape (cylinders, n). [SI]"""
-        numbers = range(1, len(self.cylinders) + 1)
-        found = Program({str(one): self.of(one, key) for one in numbers})(CrankGrid.from_degrees(degrees))
-        return np.stack([found[str(one)] for one in numbers])
+        knowns = [self.of(number, key) for number in range(1, len(self.cylinders) + 1)]
+        return self.each_of(key, Program({one.key: one for one in knowns})(CrankGrid.from_degrees(degrees)))
+
+    def each_of(self, key: str, columns: Mapping[str, Array]) -> Array:
+        """Return a column of every cylinder, shape (cylinders, n), out of columns of the whole engine. [SI]"""
+        return np.stack([columns[self.of(number, key).key] for number in range(1, len(self.cylinders) + 1)])
 
     @property
     def is_uniform(self) -> bool:

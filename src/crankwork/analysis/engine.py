@@ -10,13 +10,14 @@ from typing import TypeVar
 import numpy as np
 
 from crankwork.analysis import origins
-from crankwork.analysis.forces import COLUMNS, FORCES, columns
+from crankwork.analysis.forces import COLUMNS, FORCES
 from crankwork.analysis.motion import HARMONICS, KINEMATICS
 from crankwork.analysis.reduction import REDUCTION
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import SolvedCylinder, apart, solve
 from crankwork.formula.known import Found, Known, given
 from crankwork.formula.over_cycle import OverCycle
+from crankwork.formula.replay import Program, Samples
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.slider_crank import (
     bottom_dead_centre_angle,
@@ -49,14 +50,18 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
     if grid is None:
         grid = CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
     followed, wrong = _followed(solved)
+    own = {key: solved.memory[key] for key in (*COLUMNS, *HARMONICS) if key in solved.memory}
     if machine.engine is None or "crank_torque" not in solved.memory:
-        whole, over = None, OverCycle(followed, CrankGrid.from_degrees, machine.cycle, size_of=wrong)
+        program = Program(own | followed)
+        samples = Samples(program, CrankGrid.from_degrees, machine.cycle)
+        whole = None
+        over = OverCycle(followed, CrankGrid.from_degrees, machine.cycle, size_of=wrong, program=program)
     else:
         from crankwork.analysis.whole_engine import WholeMemory  # noqa: PLC0415 - loaded where it is needed
 
         # what one cylinder does is followed together with what all do
-        whole = WholeMemory.of(solved, followed, wrong)
-        over = whole.over
+        whole = WholeMemory.of(solved, followed, wrong, own)
+        samples, over = whole.samples, whole.over
     found = {**_geometry(solved), **_motion(solved, over), **_forces(solved, over)}
     calculated = solved.space.calculated if solved.space is not None else None
     summary = {key: known.value for key, known in found.items()}
@@ -65,9 +70,9 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
     results = Results(
         solved,
         grid,
-        columns(solved, grid, (*COLUMNS, *HARMONICS)),
+        _only(own, samples(grid)),
         summary,
-        _checks(solved, summary),
+        _checks(solved, summary, samples),
         solved.notices,
         GROUPS,
         allowed=_allowed(solved, summary),
@@ -78,6 +83,10 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
     from crankwork.analysis.whole_engine import with_whole_engine  # noqa: PLC0415 - loaded where it is needed
 
     return with_whole_engine(results, whole)
+
+
+def _only(knowns: Mapping[str, Known], columns: Mapping[str, Array]) -> dict[str, Array]:
+    return {key: columns[key] for key in knowns if key in columns}
 
 
 def _followed(solved: SolvedCylinder) -> tuple[dict[str, Known], dict[str, str]]:
@@ -157,11 +166,11 @@ def _cycle_values(values: Mapping[str, _Value]) -> dict[str, _Value]:
     return {f"{key}.cycle" if key in own else key: value for key, value in shown.items()}
 
 
-def _checks(solved: SolvedCylinder, summary: Mapping[str, float]) -> dict[str, float]:
+def _checks(solved: SolvedCylinder, summary: Mapping[str, float], samples: Samples) -> dict[str, float]:
     """Return the residuals of identities between the results, relative to the largest term."""
     if "piston_force" not in solved.memory:
         return {}
-    dense = columns(solved, CrankGrid.steps(_CHECK_STEP, solved.machine.cycle))
+    dense = _only(solved.memory, samples(CrankGrid.steps(_CHECK_STEP, solved.machine.cycle)))
     T, K, S, N = (dense[key] for key in ("tangential_force", "radial_force", "rod_force", "side_force"))
     P, r, l = dense["piston_force"], solved.lengths.crank_radius, solved.lengths.rod_length  # noqa: E741
     across = dense.get("rod_transverse_force", np.zeros_like(S))
@@ -177,7 +186,7 @@ def _checks(solved: SolvedCylinder, summary: Mapping[str, float]) -> dict[str, f
     if solved.method.is_exact:
         from crankwork.analysis.engine_routes import joint_force_residuals  # noqa: PLC0415 - loaded where it is needed
 
-        result |= joint_force_residuals(solved)
+        result |= joint_force_residuals(solved, samples)
         if "reduced_inertia" in dense:
             result["torque_of_energy"] = apart(dense["crank_torque"], _torque_of_energy(solved, dense))
     if solved.space is not None and not solved.machine.angular_acceleration:

@@ -34,7 +34,7 @@ from crankwork.cylinders.ellipse import Ellipse, OrderBalance, balance_sum, unit
 from crankwork.cylinders.journal_loads import unbalance_force
 from crankwork.cylinders.layout import Layout
 from crankwork.formula.known import Found, Known, given, in_order
-from crankwork.formula.replay import replay
+from crankwork.formula.replay import Samples, replay
 from crankwork.kinematics.crank_grid import CrankGrid
 
 _SAMPLES = 720
@@ -247,12 +247,12 @@ def balance_listing(whole: WholeEngine, balance: EngineBalance, memory: Mapping[
     return Listing({kind: np.array([memory[f"{kind}.{name}"].value for name in rows]) for kind in kinds}, rows)
 
 
-def balance_checks(whole: WholeEngine, balance: EngineBalance) -> dict[str, float]:
+def balance_checks(whole: WholeEngine, balance: EngineBalance, samples: Samples) -> dict[str, float]:
     """Return how far the orders are from the Fourier transform of the summed inertia forces."""
     if whole.machine.masses is None or whole.machine.angular_acceleration:
         return {}
     degrees = np.arange(_SAMPLES) * 360 / _SAMPLES
-    force = whole.each("inertia_force", degrees)
+    force = whole.each_of("inertia_force", samples(CrankGrid.from_degrees(degrees)))
     # the inertia force is positive towards the crankshaft, the axis points to the head
     vectors = -force.T @ unit_vectors([one.axis for one in whole.layout.places])
     spectrum = np.fft.fft(vectors) / _SAMPLES

@@ -9,7 +9,6 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from crankwork.analysis import origins
 from crankwork.analysis.cylinders import WholeEngine
@@ -22,9 +21,9 @@ from crankwork.cylinders.load_statistics import reversal
 from crankwork.cylinders.load_vectors import BearingLoad
 from crankwork.cylinders.wear import oil_hole, ray_angles, wear_sums
 from crankwork.dynamics.piston_forces import transverse_weight, weight_force
-from crankwork.formula.known import Found, Known, Table, absent, given, in_order, total
+from crankwork.formula.known import Delayed, Found, Known, Node, Table, Use, absent, given, in_order, total
 from crankwork.formula.over_cycle import OverCycle
-from crankwork.formula.replay import Program
+from crankwork.formula.replay import Samples
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.slider_crank import RodSwing
 
@@ -32,6 +31,7 @@ from crankwork.kinematics.slider_crank import RodSwing
 _WEAR_STEP = 10.0
 _X, _Y = "bearing_force_x", "bearing_force_y"
 _ON_SHAFT = ("shaft_unbalance", "counterweight_moment", "unbalance_force", "journal_share", "bearing_force_")
+_OF_ROD = ("crankpin_radial_force", "crankpin_tangential_force", "tangential_force")
 _SWING = ("rod_sine", "rod_cosine", "crank_rod_sine", "crank_rod_cosine")
 
 
@@ -74,7 +74,13 @@ def bearing_memory(whole: WholeEngine) -> dict[str, Known]:
     for at, load in enumerate(mains, start=1):
         found |= {one.key: one for one in (*load, load.resultant.named(f"main_journal_load.{at}"))}
     ends = [part for load in mains for part in load]
-    return {one.key: one for one in in_order(ends) if one.key.startswith(_ON_SHAFT)} | found
+    return {one.key: one for one in in_order(ends, into=_of_shaft) if one.key.startswith(_ON_SHAFT)} | found
+
+
+def _of_shaft(node: Node) -> tuple[Known, ...]:
+    """Return what loads of main journals are made of, up to those of the rods."""
+    is_of_rod = isinstance(node, Use) and node.formula.quantity in _OF_ROD
+    return () if is_of_rod or isinstance(node, Delayed) else node.operands
 
 
 def _of_rod(whole: WholeEngine, place: Place, inertia: Known) -> tuple[Known, Known]:
@@ -138,20 +144,26 @@ def _small_end(whole: WholeEngine) -> Iterator[Known]:
     yield size
 
 
-def bearing_loads(whole: WholeEngine, memory: Mapping[str, Known], degrees: ArrayLike) -> BearingLoads:
-    """Return the loads of the bearings at crank angles of cylinder 1."""
-    pins = unlike_pins(whole)
-    along = [f"crankpin_radial_force.{pin}" for pin in pins]
-    mains = [f"main_journal.{at}" for at in range(1, 1 + sum(key.startswith("main_journal_load.") for key in memory))]
-    framed = ["big_end", "small_end", *mains]
-    keys = [*along, *(f"crankpin_tangential_force.{pin}" for pin in pins)]
-    keys += [f"{kind}.{name}" for name in framed for kind in (_X, _Y)]
-    found = Program({key: memory[key] for key in keys})(CrankGrid.from_degrees(degrees))
+def bearing_components(whole: WholeEngine, memory: Mapping[str, Known]) -> dict[str, Known]:
+    """Return the components of the loads of all bearings."""
+    keys = [f"crankpin_{way}_force.{pin}" for pin in unlike_pins(whole) for way in ("radial", "tangential")]
+    keys += [f"{kind}.{name}" for name in _framed(whole) for kind in (_X, _Y)]
+    return {key: memory[key] for key in keys}
+
+
+def _framed(whole: WholeEngine) -> list[str]:
+    """Return the bearings whose loads have components in a frame of their own."""
+    journals = max(place.throw for place in whole.layout.places) + 2
+    return ["big_end", "small_end", *(f"main_journal.{at}" for at in range(1, journals + 1))]
+
+
+def bearing_loads(whole: WholeEngine, columns: Mapping[str, Array]) -> BearingLoads:
+    """Return the loads of the bearings from columns at crank angles of cylinder 1."""
     crankpins = {
-        pin: BearingLoad(-found[key], found[f"crankpin_tangential_force.{pin}"])
-        for pin, key in zip(pins, along, strict=True)
+        pin: BearingLoad(-columns[f"crankpin_radial_force.{pin}"], columns[f"crankpin_tangential_force.{pin}"])
+        for pin in unlike_pins(whole)
     }
-    big, small, *others = (BearingLoad(found[f"{_X}.{name}"], found[f"{_Y}.{name}"]) for name in framed)
+    big, small, *others = (BearingLoad(columns[f"{_X}.{name}"], columns[f"{_Y}.{name}"]) for name in _framed(whole))
     return BearingLoads(crankpins, big, small, tuple(others))
 
 
@@ -332,10 +344,13 @@ class OnRays:
         return np.asarray(self.sums[np.rint(degrees * self.sums.size / 360).astype(int) % self.sums.size])
 
 
-def wear_memory(whole: WholeEngine, memory: Mapping[str, Known]) -> dict[str, Known]:
-    """Return the wear of crankpins and main journals, over the directions of their rays, and the oil holes."""
+def wear_memory(whole: WholeEngine, memory: Mapping[str, Known], samples: Samples) -> dict[str, Known]:
+    """Return the wear of crankpins and main journals, over the directions of their rays, and the oil holes.
+
+    `samples`: the components of the loads.
+    """
     rays, found = whole.engine.bearings.rays, dict[str, Known]()
-    loads = bearing_loads(whole, memory, np.arange(0.0, whole.layout.cycle, _WEAR_STEP))
+    loads = bearing_loads(whole, samples(CrankGrid.from_degrees(np.arange(0.0, whole.layout.cycle, _WEAR_STEP))))
     for pin, load in loads.crankpins.items():
         of = memory[f"crankpin_radial_force.{pin}"], memory[f"crankpin_tangential_force.{pin}"]
         sums = wear_sums(load, rays=rays)

@@ -11,7 +11,7 @@ import numpy as np
 
 from crankwork.analysis.cylinders import WholeEngine, whole_engine
 from crankwork.analysis.engine_balance import EngineBalance, engine_balance
-from crankwork.analysis.engine_bearings import BearingLoads, bearing_loads
+from crankwork.analysis.engine_bearings import BearingLoads, bearing_components, bearing_loads
 from crankwork.analysis.engine_torque import EngineTorque, engine_torque
 from crankwork.analysis.results import Results
 from crankwork.analysis.whole_engine import WholeMemory
@@ -23,7 +23,8 @@ from crankwork.cylinders.torque import torques_along_shaft
 from crankwork.cylinders.torque_harmonics import PhaseStar, phase_star
 from crankwork.cylinders.wear import OilHole, oil_hole
 from crankwork.formula.known import Found, breaks_of
-from crankwork.kinematics.crank_grid import Array
+from crankwork.formula.replay import Program
+from crankwork.kinematics.crank_grid import Array, CrankGrid
 
 __all__ = ["CrankpinLoad", "EngineDiagrams", "Locus", "PolarDiagram", "WearRing", "crankpin_of_one", "wear_rings"]
 
@@ -114,7 +115,8 @@ class EngineDiagrams:
     @cached_property
     def torque(self) -> EngineTorque:
         """Torque of one cylinder and of all, excess work and speed."""
-        return engine_torque(*WholeMemory.of(self.whole.master))
+        found = WholeMemory.of(self.whole.master)
+        return engine_torque(found.whole, found.memory, found.over, found.extremes)
 
     @cached_property
     def degrees(self) -> Array:
@@ -143,7 +145,11 @@ class EngineDiagrams:
             if key.startswith("bearing_load_m") and isinstance(one.node, Found) and one.node.at is not None
         ]
         degrees = np.unique(np.concatenate([self.degrees[:-1], np.mod(extremes, self.cycle)]))
-        return degrees, bearing_loads(self.whole, memory, degrees)
+        return degrees, self._loads_at(degrees)
+
+    def _loads_at(self, degrees: Array) -> BearingLoads:
+        parts = Program(bearing_components(self.whole, self.results.memory))
+        return bearing_loads(self.whole, parts(CrankGrid.from_degrees(degrees)))
 
     def crankpin(self, pin: int, degrees: Array | None = None) -> CrankpinLoad:
         """Return the load of all rods on a crankpin.
@@ -151,9 +157,7 @@ class EngineDiagrams:
         `pin`: its number, one of those in `loads`; `degrees`: crank angles over the cycle; those of `loads` otherwise
         [deg].
         """
-        degrees, loads = (
-            self.loads if degrees is None else (degrees, bearing_loads(self.whole, self.results.memory, degrees))
-        )
+        degrees, loads = self.loads if degrees is None else (degrees, self._loads_at(degrees))
         load, rods = loads.crankpins[pin], len(self.whole.on_pin[pin - 1])
         inertia = rods * _rod_inertia(self.results)
         return CrankpinLoad(load.resultant, polar_diagram(load, degrees, self.cycle, inertia), inertia, rods)

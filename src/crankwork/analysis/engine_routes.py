@@ -9,7 +9,6 @@ from dataclasses import replace
 import numpy as np
 
 from crankwork.analysis.cylinders import WholeEngine
-from crankwork.analysis.forces import columns
 from crankwork.analysis.solved import SolvedCylinder, apart
 from crankwork.cylinders.throw import throw_mechanism
 from crankwork.dynamics.force_system import system_joint_forces
@@ -17,7 +16,7 @@ from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.dynamics.reaction import JointForces
 from crankwork.dynamics.running import Running
 from crankwork.formula.known import Known
-from crankwork.formula.replay import Program
+from crankwork.formula.replay import Program, Samples
 from crankwork.kinematics.bodies import body_motions
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import linkage_motion
@@ -30,7 +29,7 @@ from crankwork.mechanism.mechanism import Body, Mechanism, body_at
 _STEP, _FIRST = 30.0, 7.0
 
 
-def joint_force_residuals(solved: SolvedCylinder) -> dict[str, float]:
+def joint_force_residuals(solved: SolvedCylinder, samples: Samples) -> dict[str, float]:
     """Return how far torque and side force are from those of the linkage, as a share of the largest or of joint forces.
 
     Nothing for a method that only comes near the motion, and for a rod that hangs on another.
@@ -41,7 +40,7 @@ def joint_force_residuals(solved: SolvedCylinder) -> dict[str, float]:
     if rod is None or not method.is_exact or solved.slave is not None or not as_rigid:
         return {}
     grid = CrankGrid.from_degrees(np.arange(_FIRST, solved.machine.cycle, _STEP))
-    own = columns(solved, grid, ("crank_torque", "side_force", "gas_force"))
+    own = samples(grid)
     mechanism, masses = solved.machine.mechanism, solved.machine.masses or CrankGearMasses()
     bodies = (body_at(mechanism.crank.link, masses.crank, 0.0, mechanism.crank.pin), *_bodies(rod, masses))
     gas = {rod.slider: own["gas_force"]} if "gas_force" in own else {}

@@ -20,7 +20,7 @@ from crankwork.cylinders.torque_harmonics import (
     amplitude_of_harmonic,
     amplitude_of_total,
     curve_harmonics,
-    phase_star,
+    phase_sums,
     torque_harmonics,
     total_harmonics,
 )
@@ -28,7 +28,8 @@ from crankwork.dynamics.piston_forces import crank_torque
 from crankwork.errors import MethodError
 from crankwork.formula.known import Found, Known, Table, absent, given, total
 from crankwork.formula.over_cycle import OverCycle
-from crankwork.kinematics.crank_grid import Array
+from crankwork.formula.replay import Samples
+from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.shaft.curve import AtDegrees, Curve
 from crankwork.shaft.fluctuation import (
     ExcessWork,
@@ -141,7 +142,7 @@ def engine_torque(
     columns["kinetic_energy_change"] = Known(change, "kinetic_energy_change")
     if whole_inertia.value > 0:
         try:
-            speed = true_speed(Curve.constant(whole_inertia.value, all_.cycle), all_, w.value)
+            speed = true_speed(Curve.constant(whole_inertia.value, all_.cycle), all_, w.value, found)
         except MethodError as error:
             notices.append(Notice("no_steady_speed", {"message": error.args[0]}))
     if speed is not None:
@@ -172,12 +173,13 @@ def harmonics_memory(whole: WholeEngine, torque: EngineTorque, memory: Mapping[s
     count, of = round(_ORDERS * layout.cycle / 360), (whole.of(1, "crank_torque"),)
     one = curve_harmonics(torque.one, count)
     all_ = None if whole.is_uniform else curve_harmonics(torque.total, count).amplitude
+    stars = phase_sums(layout, one.orders.tolist())
     for at, order in enumerate(one.orders.tolist()):
         parts = {"harmonic_cosine": one.cosine, "harmonic_sine": one.sine}
         cosine, sine = (Known(Found(float(part[at]), "fourier", of), f"{key}.{order:g}") for key, part in parts.items())
         phase = Known(Found(float(one.phase[at]), "fourier", (cosine, sine)), f"harmonic_phase.{order:g}")
         amplitude = amplitude_of_harmonic(cosine, sine).named(f"harmonic_amplitude.{order:g}")
-        star = Known(Found(abs(phase_star(layout, order).sum), "phase_star"), f"phase_sum.{order:g}")
+        star = Known(Found(abs(stars[at]), "phase_star"), f"phase_sum.{order:g}")
         if all_ is None:
             of_all = amplitude_of_total(amplitude, star)
         else:
@@ -198,7 +200,7 @@ def harmonics_listing(harmonics: Mapping[str, Known]) -> Listing:
     return Listing({key: np.array(values) for key, values in columns.items()})
 
 
-def torque_checks(whole: WholeEngine, torque: EngineTorque) -> dict[str, float]:
+def torque_checks(whole: WholeEngine, torque: EngineTorque, samples: Samples) -> dict[str, float]:
     """Return the residuals between sums over cylinders, phase stars and the total."""
     works = [one.space.work for one in whole.cylinders if one.space is not None]
     result = {}
@@ -208,10 +210,10 @@ def torque_checks(whole: WholeEngine, torque: EngineTorque) -> dict[str, float]:
         angle = np.linspace(0.0, torque.one.cycle, _SAMPLES)
         moved = len(works) * torque.one.cycle * float(np.mean(np.abs(torque.one(angle)))) or 1.0
         result["engine_work"] = abs(work - sum(works)) / moved
-    samples = _common_samples(whole.layout)
-    if whole.is_uniform and len(whole.cylinders) > 1 and samples:
-        degrees: Array = np.arange(float(samples)) * (whole.layout.cycle / samples)
-        each = whole.each("crank_torque", degrees)
+    count = _common_samples(whole.layout)
+    if whole.is_uniform and len(whole.cylinders) > 1 and count:
+        degrees: Array = np.arange(float(count)) * (whole.layout.cycle / count)
+        each = whole.each_of("crank_torque", samples(CrankGrid.from_degrees(degrees)))
         count = round(_ORDERS * whole.layout.cycle / 360)
         one = torque_harmonics(each[0], whole.layout.cycle, count)
         stars, direct = (

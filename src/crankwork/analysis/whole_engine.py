@@ -12,6 +12,7 @@ from crankwork.analysis.engine import analyse_engine
 from crankwork.analysis.engine_balance import balance_checks, balance_listing, balance_memory, engine_balance
 from crankwork.analysis.engine_bearings import (
     bearing_columns,
+    bearing_components,
     bearing_listings,
     bearing_memory,
     bearing_summary,
@@ -33,11 +34,12 @@ from crankwork.analysis.solved import Notice, SolvedCylinder
 from crankwork.cylinders.engines import inline
 from crankwork.formula.known import Known
 from crankwork.formula.over_cycle import OverCycle
-from crankwork.formula.replay import Program
+from crankwork.formula.replay import Program, Samples
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.machine import Engine
 
 _TORQUES = ("crank_torque.", "total_torque", "journal_torque.", "crankpin_torque.")
+_REDUCTION = ("total_reduced_inertia", "total_reduced_inertia_1")
 _WHOLE_VALUES = ("cylinder_count", "displacement", "engine_indicated_power")
 _TABLES = {
     "engine_torque": ("crank_torque.", "total_torque"),
@@ -49,12 +51,13 @@ _TABLES = {
 
 
 class WholeMemory(NamedTuple):
-    """Torques and bearing loads of an engine by key, what they are over the cycle, and their extremes."""
+    """Torques and bearing loads of an engine by key, what they are over the cycle, their extremes, and samples."""
 
     whole: WholeEngine
     memory: dict[str, Known]
     over: OverCycle
     extremes: Mapping[str, Known]
+    samples: Samples
 
     @classmethod
     def of(
@@ -62,15 +65,26 @@ class WholeMemory(NamedTuple):
         solved: SolvedCylinder,
         beside: Mapping[str, Known] = MappingProxyType({}),
         size_of: Mapping[str, str] = MappingProxyType({}),
+        own: Mapping[str, Known] = MappingProxyType({}),
     ) -> WholeMemory:
-        """Return those of the engine that a cylinder belongs to; other columns are followed beside them."""
+        """Return those of the engine that a cylinder belongs to; other columns are followed and sampled beside them."""
         whole = whole_engine(solved)
-        memory = torque_memory(whole) | bearing_memory(whole)
+        memory = torque_memory(whole) | bearing_memory(whole) | engine_reduction(whole)
         first = whole.of(1, "crank_torque")
         keys = ("total_torque", *load_columns(memory).values(), "bearing_force_x.small_end")
         followed = {first.key: first, **{key: memory[key] for key in keys}, **beside}
-        over = OverCycle(followed, CrankGrid.from_degrees, whole.layout.cycle, size_of=size_of)
-        return cls(whole, memory, over, over.extremes(*keys))
+        inertia = [whole.of(number, "inertia_force") for number in whole.has("inertia_force")]
+        sampled = {key: memory[key] for key in (*_table_keys(memory), *bearing_components(whole, memory))}
+        program = Program({**own, **sampled, **{one.key: one for one in inertia}, **followed})
+        over = OverCycle(followed, CrankGrid.from_degrees, whole.layout.cycle, size_of=size_of, program=program)
+        samples = Samples(program, CrankGrid.from_degrees, whole.layout.cycle)
+        return cls(whole, memory, over, over.extremes(*keys), samples)
+
+
+def _table_keys(memory: Mapping[str, Known]) -> tuple[str, ...]:
+    """Return which torques, loads and inertias of an engine stand in its tables."""
+    torques = [key for key in memory if key.startswith(_TORQUES)]
+    return (*torques, *bearing_columns(memory), *(key for key in _REDUCTION if key in memory))
 
 
 def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
@@ -88,19 +102,17 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
     if found is None:
         notices.append(Notice("motion_only", {}))
         return replace(results, notices=(*results.notices, *notices), memory={**results.memory, **firing})
-    _, memory, over, extremes = found
-    torque = engine_torque(*found)
-    loads = load_values(whole, memory, over, extremes) | wear_memory(whole, memory)
+    _, memory, over, extremes, samples = found
+    torque = engine_torque(whole, memory, over, extremes)
+    loads = load_values(whole, memory, over, extremes) | wear_memory(whole, memory, samples)
     works, harmonics = work_memory(whole, firing), harmonics_memory(whole, torque, memory)
-    torques = [key for key in memory if key.startswith(_TORQUES)]
-    reduced = engine_reduction(whole)
-    keys = [*torques, *torque.columns, *bearing_columns(memory), *reduced]
-    memory |= {**torque.columns, **reduced}
-    columns = Program({key: memory[key] for key in keys})(results.grid)
+    sampled = samples(results.grid)
+    columns = {key: sampled[key] for key in _table_keys(memory)} | Program(torque.columns)(results.grid)
+    memory |= torque.columns
     groups = {
         name: tuple(key for key in columns if key.startswith(starts) and _belongs(name, key))
         for name, starts in _TABLES.items()
-    } | {"dynamics": (*results.groups["dynamics"], *reduced)}
+    } | {"dynamics": (*results.groups["dynamics"], *(key for key in _REDUCTION if key in columns))}
     listings: dict[str, Listing] = {
         "firing": firing_listing(whole, firing),
         "torque_harmonics": harmonics_listing(harmonics),
@@ -123,7 +135,12 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
         results,
         columns={**results.columns, **columns},
         summary={**results.summary, **summary},
-        checks={**results.checks, **torque_checks(whole, torque), **balance_checks(whole, balance), **thrown},
+        checks={
+            **results.checks,
+            **torque_checks(whole, torque, samples),
+            **balance_checks(whole, balance, samples),
+            **thrown,
+        },
         allowed=_allowed(results),
         notices=(*results.notices, *notices, *told),
         groups={**results.groups, **groups},

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -18,7 +18,7 @@ from crankwork.shaft.curve import Curve
 
 Phasors = NDArray[np.complex128]
 
-_GAUSS_POINTS = 12
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 
 
 @formula("harmonic_amplitude", "den_hartog_1956, ch. 5")
@@ -78,10 +78,9 @@ def curve_harmonics(curve: Curve, count: int) -> TorqueHarmonics:
     parts = np.ceil(width * orders[-1]).astype(int)
     within = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
     edges = np.append(np.repeat(curve.angle[:-1], parts) + within * np.repeat(width / parts, parts), curve.angle[-1])
-    points, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
     half = np.diff(edges) / 2
-    angle = (edges[:-1] + half)[:, None] + half[:, None] * points
-    weighted = curve(angle) * half[:, None] * weights * (2 / cycle)
+    angle = (edges[:-1] + half)[:, None] + half[:, None] * _NODES
+    weighted = curve(angle) * half[:, None] * _WEIGHTS * (2 / cycle)
     first, turned = np.exp(1j * orders[0] * angle), np.ones_like(angle, dtype=complex)
     sums = np.empty(count, dtype=complex)
     for at in range(count):
@@ -105,9 +104,19 @@ def phase_star(layout: Layout, order: float) -> PhaseStar:
 
     Unit vectors by number of the cylinder, and their sum [-]. Source: den_hartog_1956, ch. 5.
     """
-    firing = CrankGrid.from_degrees([wrapped(order * place.firing_angle) for place in layout.places])
-    vectors = firing.cos - 1j * firing.sin
+    (vectors,) = _unit_vectors(layout, [order])
     return PhaseStar(order, vectors, complex(np.sum(vectors)))
+
+
+def phase_sums(layout: Layout, orders: Iterable[float]) -> Phasors:
+    """Return the sum of the phase star of each order, shape (k,). [-]"""
+    return np.asarray(_unit_vectors(layout, orders).sum(axis=1))
+
+
+def _unit_vectors(layout: Layout, orders: Iterable[float]) -> Phasors:
+    firing = [place.firing_angle for place in layout.places]
+    grid = CrankGrid.from_degrees([[wrapped(order * one) for one in firing] for order in orders])
+    return np.asarray(grid.cos - 1j * grid.sin)
 
 
 def total_harmonics(harmonics: TorqueHarmonics, layout: Layout) -> TorqueHarmonics:
@@ -115,13 +124,9 @@ def total_harmonics(harmonics: TorqueHarmonics, layout: Layout) -> TorqueHarmoni
 
     Source: den_hartog_1956, ch. 5.
     """
-    sums = _star_sums(layout, harmonics.orders.tolist())
+    sums = phase_sums(layout, harmonics.orders.tolist())
     total = (harmonics.cosine - 1j * harmonics.sine) * sums
     amplitude = np.asarray(amplitude_of_total(harmonics.amplitude, np.abs(sums)))
     phase = np.arctan2(-total.imag, total.real)
     mean = harmonics.mean * len(layout.places)
     return TorqueHarmonics(mean, harmonics.orders, total.real, -total.imag, amplitude, phase)
-
-
-def _star_sums(layout: Layout, orders: Sequence[float]) -> Phasors:
-    return np.array([phase_star(layout, order).sum for order in orders])

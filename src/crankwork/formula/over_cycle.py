@@ -70,6 +70,7 @@ class OverCycle:
     """Columns over one cycle, by key, at angles in degrees.
 
     `size_of` names the column whose size says what counts in another: that of an error is the column it is an error of.
+    `program` replays these columns among others.
     `error` is the largest coefficient left out, relative to the largest value of its column: what integrals and the
     places of extremes may be wrong by.
     """
@@ -82,8 +83,9 @@ class OverCycle:
         start: float = 0.0,
         *,
         size_of: Mapping[str, str] = MappingProxyType({}),
+        program: Program | None = None,
     ) -> None:
-        self._program, self._angles_at = Program(knowns), angles_at
+        self._program, self._angles_at = program or Program(knowns), angles_at
         self._row = {key: at for at, key in enumerate(knowns)}
         self.knowns = dict(knowns)
         self.breaks = breaks_of(knowns.values(), cycle, start)
@@ -128,7 +130,7 @@ class OverCycle:
     def _fit(self, low: Array, high: Array) -> Array:
         """Return Legendre coefficients, shape (columns, intervals, degrees)."""
         degrees = (low + high)[:, None] / 2 + (high - low)[:, None] / 2 * _NODES
-        values = self._program.rows(self._angles_at(degrees.ravel())).reshape(-1, _NODES.size)
+        values = self._program.rows(self._angles_at(degrees.ravel()), self._row).reshape(-1, _NODES.size)
         return np.asarray((values @ _FROM_VALUES.T).reshape(len(self._row), low.size, _NODES.size))
 
     def _cuts(self, coefficients: Array, low: Array, high: Array) -> Array:
@@ -175,7 +177,7 @@ class OverCycle:
 
     def at(self, key: str, degrees: Array) -> Array:
         """Return a column at crank angles. [deg]"""
-        return self._program(self._angles_at(degrees))[key]
+        return np.asarray(self._program.rows(self._angles_at(degrees), (key,))[0])
 
     def crossings(self, key: str, level: float = 0.0) -> Array:
         """Return the crank angles where a column passes a level, ascending. [deg]"""
@@ -196,7 +198,11 @@ class OverCycle:
         start, end = float(self._low[0]), float(self._high[-1])
         inner = [one for one in self.crossings(key).tolist() if start + _AT_EDGE < one < end - _AT_EDGE]
         edges = np.array([start, *inner, end])
-        values = self.at(key, (edges[1:] + edges[:-1]) / 2)
+        middle = (edges[1:] + edges[:-1]) / 2
+        interval = np.searchsorted(self._low, middle, side="right") - 1
+        low, high = self._low[interval], self._high[interval]
+        u = (2 * middle - low - high) / (high - low)
+        values = legendre.legval(u, self._coefficients[self._row[key], interval].T, tensor=False)
         ends: list[float] = []
         signs: list[bool] = []
         for at, negative in zip(edges[1:].tolist(), (values < 0).tolist(), strict=True):
@@ -235,7 +241,7 @@ class OverCycle:
         # where one may stand counts for the other too, so that no largest is below its least
         rows, angles = (np.concatenate([one[at] for one in places]) for at in (0, 1))
         every = distinct(angles)
-        values = self._program.rows(self._angles_at(every))
+        values = self._program.rows(self._angles_at(every), self._row)
         largest, least = (
             self._first_of_equal(_Places(rows, angles, place.equal), every, sign * values)
             for place, sign in zip(places, (1.0, -1.0), strict=True)

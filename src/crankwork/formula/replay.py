@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from functools import partial
+from functools import cached_property, partial
 from operator import itemgetter
 from typing import Any, Literal, Protocol, Self
 
@@ -137,12 +137,12 @@ class Program:
         """Return the columns at crank angles, by key; what does not vary with the angle is repeated. [SI]"""
         return dict(zip(self.knowns, self.rows(angles), strict=True))
 
-    def rows(self, angles: Angles) -> Array:
-        """Return the columns at crank angles, each a row. [SI]"""
-        count = len(angles)
-        rows = np.empty((len(self.knowns), count))
+    def rows(self, angles: Angles, keys: Iterable[str] | None = None) -> Array:
+        """Return the columns at crank angles, or those of some keys, each a row. [SI]"""
+        count, kept = len(angles), self.knowns.values() if keys is None else [self.knowns[key] for key in keys]
+        rows = np.empty((len(kept), count))
         wanted = []
-        for row, known in zip(rows, self.knowns.values(), strict=True):
+        for row, known in zip(rows, kept, strict=True):
             if known.varies:
                 wanted.append((row, self._slot_of[id(known.node)]))
             else:
@@ -162,6 +162,25 @@ class Program:
         for slot, function, operands in self._steps:
             slots[slot] = function(*operands(slots))
         return slots
+
+
+class Samples:
+    """Columns at crank angles; those at half degrees of the cycle are replayed together, once. [deg]"""
+
+    def __init__(self, program: Program, angles_at: Callable[[Any], Angles], cycle: float) -> None:
+        self.program, self._angles_at, self._cycle = program, angles_at, cycle
+
+    @cached_property
+    def _halves(self) -> dict[str, Array]:
+        return self.program(self._angles_at(np.arange(2 * self._cycle + 1) / 2))
+
+    def __call__(self, angles: Angles) -> dict[str, Array]:
+        """Return all columns at crank angles, by key. [SI]"""
+        twice = 2 * angles.degrees
+        rows = np.rint(twice).astype(np.intp)
+        if np.array_equal(rows, twice) and rows.min() >= 0 and rows.max() <= 2 * self._cycle:
+            return {key: column[rows] for key, column in self._halves.items()}
+        return self.program(angles)
 
 
 def _may_have_no_value(node: Node) -> bool:

@@ -48,13 +48,16 @@ class ExcessWork:
     """What the torque does beyond its mean."""
 
     curve: Curve  # Integral of torque less mean torque, zero at the start of the cycle [J]
-    work: float  # Difference of its extremes [J]
-    # Crank angles of the extremes: of least and greatest speed if the moment of inertia is constant [rad]
-    at_least: float
-    at_largest: float
+    # Where the speed is least and greatest if the moment of inertia is constant [J], [rad]
+    extremes: Extremes
     # Mean of the torque, and what it does in a cycle [N m], [J]
     mean_torque: float
     work_per_cycle: float
+
+    @property
+    def work(self) -> float:
+        """Difference of the extremes. [J]"""
+        return self.extremes.largest - self.extremes.least
 
     @property
     def coefficient(self) -> float:
@@ -83,15 +86,7 @@ def excess_work(torque: Curve) -> ExcessWork:
     mean = torque.mean
     curve = (torque - mean).integral
     closed = Curve(curve.angle, curve.coefficients)
-    extremes = closed.extremes()
-    return ExcessWork(
-        closed,
-        extremes.largest - extremes.least,
-        extremes.at_least,
-        extremes.at_largest,
-        mean,
-        mean * torque.cycle,
-    )
+    return ExcessWork(closed, closed.extremes(), mean, mean * torque.cycle)
 
 
 @dataclass(frozen=True)
@@ -127,23 +122,26 @@ class TrueSpeed:
         return np.asarray(acceleration_of_crank(self.torque(angle), self.speed(angle), J, J_1))
 
 
-def true_speed(inertia: Curve, torque: Curve, mean_speed: float) -> TrueSpeed:
+def true_speed(inertia: Curve, torque: Curve, mean_speed: float, excess_of: ExcessWork | None = None) -> TrueSpeed:
     """Return the speed over one cycle of steady motion, where all torques depend on the angle alone.
 
     w = sqrt(2 (T_0 + A) / J), with T_0 found from the mean speed. `inertia`: moment of inertia reduced to the crank,
-    flywheel included [kg m2]; `torque`: torque over the angle, balanced by a constant one [N m]. Source:
-    artobolevsky_1988, ch. 16.
+    flywheel included [kg m2]; `torque`: torque over the angle, balanced by a constant one [N m]; `excess_of`: its
+    excess work, where that is known already. Source: artobolevsky_1988, ch. 16.
     """
-    excess = excess_work(torque).curve
-    balanced = torque - torque.mean
+    found = excess_of or excess_work(torque)
+    excess, reach, balanced = found.curve, found.extremes, torque - found.mean_torque
     inertia_1 = inertia.derivative
-    reach = excess.extremes()
     floor = -reach.least
     # what it is with a constant moment of inertia, where the extremes of speed are those of the excess work
     greatest = mean_speed + (reach.largest - reach.least) / (2 * inertia.mean * mean_speed)
     energy = max(float(kinetic_energy(inertia.mean, greatest)) - reach.largest, floor * (1 + 1e-6))
     for _ in range(_STEPS):
-        extremes = _speed_extremes(inertia, inertia_1, excess, balanced, energy)
+        if np.any(inertia_1.coefficients):
+            extremes = _speed_extremes(inertia, inertia_1, excess, balanced, energy)
+        else:
+            low, high = (float(speed_of_energy(energy + one, inertia.mean)) for one in (reach.least, reach.largest))
+            extremes = Extremes(low, reach.at_least, high, reach.at_largest)
         miss = (extremes.largest + extremes.least) / 2 - mean_speed
         # the derivative of each extreme speed by the energy is 1 / (J w)
         slope = sum(

@@ -136,7 +136,7 @@ def flywheel(
     check_fluctuation(fluctuation, mean_speed)
     excess = excess_work(torque)
     if way == "energy":
-        found, upper, lower = excess.work, excess.at_largest, excess.at_least
+        found, upper, lower = excess.work, excess.extremes.at_largest, excess.extremes.at_least
         less = inertia.mean
     else:
         diagram = mass_energy_curve(inertia, excess.curve, *_slopes(way, mean_speed, fluctuation))
