@@ -50,6 +50,27 @@ def test_motion_force_and_power_are_those_by_hand(time):
     assert found == pytest.approx(by_hand(time), rel=1e-12)
 
 
+def test_a_driven_piece_alone_follows_its_law():
+    machine = crankwork.read_machine("""
+[driver]
+slider = "ram"
+start = "10 mm"
+law = [{ kind = "harmonic", to = "50 mm", over = "2 s" }]
+[guides.bed]
+through = ["0 mm", "0 mm"]
+[sliders.ram]
+guide = "bed"
+pin = "A"
+mass = "2 kg"
+""")
+    results = crankwork.analyse(machine)
+    time = 0.7
+    found = [results.value(key, at=time) for key in ("driver_velocity", "driver_force")]
+    w = math.pi / 2
+    assert found == pytest.approx([0.02 * w * math.sin(w * time), 2 * 0.02 * w**2 * math.cos(w * time)], rel=1e-12)
+    assert not results.unmet
+
+
 def test_single_values_are_at_their_times():
     summary = RESULTS.summary
     time = summary["driver_power_max_time"]

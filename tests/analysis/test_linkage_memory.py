@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from crankwork import analyse, read_machine, template
+from crankwork import analyse, figures, read_machine, template
 from crankwork.analysis.linkage import running_at
 from crankwork.dynamics.routes import ROUTES, by_groups
 from crankwork.formula.expression import FORMULAS
@@ -19,6 +19,9 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.loads.process import TorqueOnLink
 from crankwork.loads.table import Table
+from crankwork.note.linkage_note import linkage_note
+from crankwork.note.options import NoteOptions
+from crankwork.note.web import web
 
 NAMES = ("four-bar", "crank-shaper", "toggle-press", "scotch-yoke", "whitworth", "press", "stephenson-six-bar")
 FLYWHEEL = """[flywheel]
@@ -102,6 +105,38 @@ def test_no_flywheel_is_told_of_a_machine_that_needs_none():
     assert own < 0.04
     assert results.summary["speed_fluctuation"] == pytest.approx(own, rel=1e-5)
     assert results.checks["flywheel"] == 0.0
+
+
+@pytest.mark.parametrize("load", ["", '[[loads]]\nkind = "force"\npoint = "B"\nx = "40 N"\n'])
+def test_a_crank_whose_mass_lies_on_its_axis_needs_no_flywheel(load):
+    """Nothing that moves has a mass, though the crank has one."""
+    text = """
+[fixed_points]
+O = ["0 mm", "0 mm"]
+C = ["180 mm", "0 mm"]
+[crank]
+pivot = "O"
+pin = "A"
+radius = "50 mm"
+speed = "60 rpm"
+mass = "3 kg"
+[links.coupler]
+joins = ["A", "B"]
+length = "200 mm"
+[links.rocker]
+joins = ["C", "B"]
+length = "120 mm"
+[flywheel]
+fluctuation = 0.04
+"""
+    results = analyse(read_machine(text + load))
+    assert [one.code for one in results.notices if one.code == "no_flywheel"] == ([] if load else ["no_flywheel"])
+    if load:
+        assert results.summary["flywheel_inertia.exact"] > 0
+        assert results.summary["speed_fluctuation"] == pytest.approx(0.04, rel=1e-9)
+    drawn = figures(results)
+    assert "wittenbauer" not in drawn
+    assert "(0; 0)" in web(linkage_note(results, NoteOptions(figures=False))).decode()
 
 
 def test_a_joint_force_is_followed_down_to_masses_and_lengths():

@@ -1,4 +1,4 @@
-"""Reads and analyses hostile machine files by the thousand, and counts how they end.
+"""Reads and analyses machine files by the thousand, hostile ones or plausible ones, and counts how they end.
 
 `scripts/hostile` runs many of them, `test_campaign.py` a few.
 """
@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import collections
+import json
 import multiprocessing
 import re
 import resource
@@ -25,12 +26,18 @@ import numpy as np
 from crankwork.analysis import Results, analyse
 from crankwork.description.machine_file import read_machine
 from crankwork.errors import CrankworkError, InputError
-from crankwork.report.summary import description_text, summary_text
+from crankwork.note.contents import note_of, sheets_of, written_note
+from crankwork.note.options import NoteOptions
+from crankwork.report.results_folder import results_folder
+from crankwork.report.summary import description_text, summary_data, summary_text
 
 hostile_file = runpy.run_path(str(Path(__file__).with_name("mutations.py")))["hostile_file"]
+plausible_file = runpy.run_path(str(Path(__file__).with_name("plausible.py")))["plausible_file"]
 NAME = "my.toml"
 SECONDS, MEGABYTES = 10.0, 1000
-FAULTS = ("traceback", "warning", "hang", "memory", "silent", "message")
+FAULTS = ("traceback", "warning", "hang", "memory", "silent", "message", "untold")
+# of plausible files, every so many are written too: tables, figures, moving drawing, note
+WRITTEN = 100
 # what to write instead comes after a semicolon, or is said by an example
 _FIX = re.compile(r"; |must (?:be|hold) .*(?:, for example|, like|in quotes|true or false)")
 _ODD = re.compile(r"\b(?:nan|inf|None|NoneType|numpy|np\.|array)\b")
@@ -47,7 +54,7 @@ class Hang(BaseException):
     """More processor time than a file may take; as with KeyboardInterrupt, nothing may catch it."""
 
 
-def outcome(text: str) -> Outcome:
+def outcome(text: str, *, writes: bool = False) -> Outcome:
     """Read and analyse a machine file as the commands do, with warnings as errors and the clock running."""
     began = _peak()
     old = signal.signal(signal.SIGPROF, _alarm)
@@ -56,6 +63,8 @@ def outcome(text: str) -> Outcome:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             found = _analysed(text)
+            if writes and found.kind == "accepted":
+                _write(text)
     except CrankworkError as error:
         found = _refused(error, text)
     except Hang as error:
@@ -84,6 +93,22 @@ def _alarm(*_: object) -> None:
     raise Hang
 
 
+def plausible_outcome(seed: int, number: int) -> Outcome:
+    """Read and analyse a plausible file; of one that locks or floats a part that does so must be told."""
+    text, wrong, parts = plausible_file(seed, number)
+    found = outcome(text, writes=number % WRITTEN == 0)
+    if not wrong or found.kind in FAULTS:
+        return found
+    if found.kind != "refused":
+        return Outcome("untold", f"{wrong}, and is {found.kind}")
+    try:
+        read_machine(text, NAME)
+    except InputError as error:
+        if not any(re.search(rf"\b{re.escape(part)}\b", line) for line in error.lines() for part in parts):
+            return Outcome("untold", f"{wrong}: {_shape(error.lines()[0])}")
+    return Outcome("refused", wrong)
+
+
 def _analysed(text: str) -> Outcome:
     machine = read_machine(text, NAME)
     if machine.transfer is None:
@@ -91,6 +116,7 @@ def _analysed(text: str) -> Outcome:
     results = analyse(machine)
     description_text(machine, results)
     summary_text(results)
+    json.dumps(summary_data(results), allow_nan=False)
     wild = _not_finite(results)
     if wild and not results.notices:
         return Outcome("silent", f"not finite: {wild[0].partition('.')[0]}")
@@ -98,6 +124,20 @@ def _analysed(text: str) -> Outcome:
     if unmet:
         return Outcome("not met", ", ".join(unmet))
     return Outcome("accepted")
+
+
+def _write(text: str) -> None:
+    """Write everything that there is of a machine, the slow drawings of a library not counted."""
+    signal.setitimer(signal.ITIMER_PROF, 6 * SECONDS)
+    results = analyse(read_machine(text, NAME))
+    for _ in results_folder(results):
+        pass
+    for language in ("en", "ru"):
+        options = NoteOptions(language=language)
+        written_note(note_of(results, options), "note.html")
+        # sheets show a turn of a crank
+        if results.machine.mechanism.driver.law is None:
+            sheets_of(results, replace(options, sheets=True))
 
 
 def _not_finite(results: Results) -> list[str]:
@@ -150,15 +190,16 @@ def _limited() -> None:
     resource.setrlimit(resource.RLIMIT_DATA, ((MEGABYTES + 500) << 20, resource.RLIM_INFINITY))
 
 
-def _case(seed_and_number: tuple[int, int]) -> tuple[int, Outcome, float]:
-    started = time.process_time()
-    found = outcome(hostile_file(*seed_and_number))
-    return seed_and_number[1], found, time.process_time() - started
+def _case(which: tuple[bool, int, int]) -> tuple[int, Outcome, float]:
+    started, (is_plausible, seed, number) = time.process_time(), which
+    found = plausible_outcome(seed, number) if is_plausible else outcome(hostile_file(seed, number))
+    return number, found, time.process_time() - started
 
 
 def main() -> None:
     """Run many files, and keep the first of each class of fault."""
     parser = argparse.ArgumentParser(description="Read and analyse hostile machine files.")
+    parser.add_argument("--plausible", action="store_true", help="random machines instead of mistakes")
     parser.add_argument("--count", type=int, default=1000)
     parser.add_argument("--first", type=int, default=0, help="number of the first file")
     parser.add_argument("--seed", type=int, default=0)
@@ -168,7 +209,8 @@ def main() -> None:
     counts: collections.Counter[str] = collections.Counter()
     classes: collections.Counter[Outcome] = collections.Counter()
     slowest = (0.0, 0)
-    cases = [(wanted.seed, number) for number in range(wanted.first, wanted.first + wanted.count)]
+    started = time.monotonic()
+    cases = [(wanted.plausible, wanted.seed, number) for number in range(wanted.first, wanted.first + wanted.count)]
     with multiprocessing.get_context("fork").Pool(wanted.workers, _limited, maxtasksperchild=500) as pool:
         for number, found, seconds in pool.imap_unordered(_case, cases, chunksize=10):
             counts[found.kind] += 1
@@ -181,11 +223,16 @@ def main() -> None:
                 sys.stdout.flush()
                 if wanted.keep:
                     wanted.keep.mkdir(parents=True, exist_ok=True)
-                    text = hostile_file(wanted.seed, number).encode("utf-8", "surrogatepass")
-                    (wanted.keep / f"{found.kind.replace(' ', '-')}-{number}.toml").write_bytes(text)
+                    made = (
+                        plausible_file(wanted.seed, number)[0]
+                        if wanted.plausible
+                        else hostile_file(wanted.seed, number)
+                    )
+                    name = f"{found.kind.replace(' ', '-')}-{number}.toml"
+                    (wanted.keep / name).write_bytes(made.encode("utf-8", "surrogatepass"))
     sys.stdout.write("\nclasses\n" + "".join(f"{n:6} {one.kind}: {one.detail}\n" for one, n in classes.most_common()))
     sys.stdout.write("\noutcomes\n" + "".join(f"{n:6} {kind}\n" for kind, n in counts.most_common()))
-    sys.stdout.write(f"slowest: file {slowest[1]}, {slowest[0]:.1f} s\n")
+    sys.stdout.write(f"slowest: file {slowest[1]}, {slowest[0]:.1f} s; all {time.monotonic() - started:.0f} s\n")
     sys.exit(any(counts[kind] for kind in FAULTS))
 
 

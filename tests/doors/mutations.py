@@ -135,14 +135,14 @@ def hostile_file(seed: int, number: int) -> str:
         values = tomllib.loads(sources()[name])
         old = _at(values, place)
         _put(values, place, _in_unit(value, old))
-        return _written(values)
+        return written(values)
     draw = random.Random(f"{seed}:{number}")  # noqa: S311 - the same file every time
     name = draw.choice(sorted(sources()))
     values = tomllib.loads(sources()[name])
     for _ in range(draw.choice((1, 1, 1, 2, 2, 3, 5))):
         draw.choice(_MUTATIONS)(draw, values)
         values = _unshared(values)
-    text = _written(values)
+    text = written(values)
     for _ in range(draw.choice((0, 0, 0, 0, 1, 2))):
         text = draw.choice(_TEXT_MUTATIONS)(draw, text)
     return text
@@ -353,7 +353,7 @@ def _insert(draw: random.Random, text: str) -> str:
 _TEXT_MUTATIONS: tuple[Callable[[random.Random, str], str], ...] = (_twice, _dotted, _cut, _insert)
 
 
-def _written(values: Values) -> str:
+def written(values: Values) -> str:
     """Return values as TOML: tables by headers as far as they go, the rest inline."""
     tables = {name: one for name, one in values.items() if isinstance(one, dict)}
     lines = [*_lines({name: one for name, one in values.items() if name not in tables}, "")]

@@ -1,4 +1,4 @@
-"""A small part of the campaign of hostile files (`scripts/hostile`), and that it would notice each kind of fault."""
+"""A small part of the campaigns of hostile and plausible files, and that they notice each kind of fault."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from crankwork.errors import CrankworkError
 
 CAMPAIGN = runpy.run_path(str(Path(__file__).with_name("campaign.py")))
 FAULTS, hostile_file, outcome = (CAMPAIGN[name] for name in ("FAULTS", "hostile_file", "outcome"))
+plausible_file, plausible_outcome = (CAMPAIGN[name] for name in ("plausible_file", "plausible_outcome"))
 RUNS = 10
 
 
@@ -51,9 +52,25 @@ def test_hostile_files_are_refused_with_place_and_fix_or_computed(part) -> None:
     assert {one.kind for one in found.values()} >= {"accepted", "refused"}
 
 
+@pytest.mark.parametrize("part", range(4))
+def test_plausible_machines_are_computed_or_refused_with_the_part(part) -> None:
+    found = {number: plausible_outcome(1, number) for number in range(1 + part, 49, 4)}
+    assert {number: one for number, one in found.items() if one.kind in FAULTS} == {}
+    assert "accepted" in {one.kind for one in found.values()}
+
+
+def test_a_linkage_that_is_held_or_loose_must_be_told_with_a_part(monkeypatch) -> None:
+    spoilt = [number for number in range(300) if plausible_file(1, number).wrong]
+    assert {plausible_file(1, number).wrong for number in spoilt} == {"locks", "floats"}
+    monkeypatch.setitem(CAMPAIGN["_refused"].__globals__, "outcome", lambda *_, **__: CAMPAIGN["Outcome"]("accepted"))
+    assert plausible_outcome(1, spoilt[0]).kind == "untold"
+
+
 def test_a_file_of_a_number_is_always_the_same() -> None:
     again = runpy.run_path(str(Path(__file__).with_name("mutations.py")))["hostile_file"]
     assert [hostile_file(3, number) for number in range(20)] == [again(3, number) for number in range(20)]
+    again = runpy.run_path(str(Path(__file__).with_name("plausible.py")))["plausible_file"]
+    assert [plausible_file(3, number) for number in range(20)] == [again(3, number) for number in range(20)]
 
 
 def test_no_list_of_a_file_gets_into_itself() -> None:

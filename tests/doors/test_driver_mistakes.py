@@ -115,6 +115,13 @@ MISTAKES = {
     "one point twice": (BOOM, '["A", "B"]', '["A", "A"]', "driver.cylinder", "two different"),
     "one point": (BOOM, '["A", "B"]', '["A"]', "driver.cylinder", "write 2 of them"),
     "a cylinder on one link": (BOOM, '["A", "B"]', '["O", "B"]', "driver.cylinder", "different links"),
+    "held links": (
+        ELBOW,
+        "[positions]",
+        '[links.strut]\njoins = ["E", "C"]\n[positions]',
+        "driver.between",
+        "lower, rocker, strut and upper are held without the driver",
+    ),
     "no length left": (BOOM, 'start = "1.3 m"', 'start = "-1.3 m"', "driver.law", "above zero"),
     "an angle for a length": (BOOM, '"1.3 m"', '"13 deg"', "driver.start", '"0.5 m"'),
     "a length for an angle": (ELBOW, '"25 deg"', '"25 mm"', "driver.law[1].to", '"90 deg"'),
@@ -172,6 +179,35 @@ def test_a_mistake_is_told_at_its_line(text, old, new, key, advice):
     assert advice in str(problem.message), problem.message
     for language in LANGUAGES:
         assert not re.search(r"[{}]", told(problem.message, language))
+
+
+def test_a_group_without_positions_asks_for_those_of_its_joints():
+    text = SLIDER.replace(
+        "[links.rod]",
+        """
+[guides.other]
+through = ["300 mm", "250 mm"]
+angle = "40 deg"
+[sliders.piece]
+pin = "D"
+guide = "other"
+[links.plate]
+joins = ["C", "E"]
+points = { D = ["40 mm", "30 mm"] }
+[links.first]
+joins = ["B", "C"]
+length = "90 mm"
+mass = "1 kg"
+centre = ["3 mm", "2 mm"]
+[links.last]
+joins = ["O", "E"]
+length = "200 mm"
+[links.rod]""",
+    ).replace('joins = ["C", "E"]', 'joins = ["C", "E"]\nlength = "80 mm"')
+    with pytest.raises(crankwork.errors.InputError) as caught:
+        crankwork.read_machine(text)
+    wanted = {"first": "B, C", "plate": "C, E, D", "last": "O, E", "piece": "D"}
+    assert {one.key.partition(".")[2]: one.message.values["joints"] for one in caught.value.problems} == wanted
 
 
 def test_times_and_shares_must_agree():

@@ -37,7 +37,7 @@ MISTAKES = {
     "over-constrained": ("four-bar", "[branch]", 'z = { joins = ["P", "C"], length = "150 mm" }\n[branch]', "links.z",
                          "(mobility 0) and does not fit: where the others move"),
     "mobility 2": ("four-bar", DYAD, f'z = {{ joins = ["B", "D"], length = "1 m" }}\n{DYAD.replace("B", "D")}',
-                   "links", "2 degrees of freedom with one crank: coupler, z, rocker can move on their own; add"),
+                   "links", "2 degrees of freedom with one driver: coupler, z, rocker can move on their own; add"),
     "locked slider": ("scotch-yoke", '{ through = "O", angle = "0 deg" }', '{ link = "crank", angle = "90 deg" }',
                       "sliders.yoke", "cannot slide, because yoke and block are held by crank alone; join one of them"),
     "zero length": ("four-bar", "175 mm", "0 mm", "links.coupler.length", 'write at least "0.001 mm"'),

@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 
 from crankwork.errors import GeometryError
+from crankwork.kinematics.coordinates import driver_coordinate
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.loops import as_chain
 from crankwork.kinematics.motion import linkage_motion
+from crankwork.kinematics.placement import place
+from crankwork.kinematics.travel import travel
 from crankwork.mechanism.chain import Chain, ChainLink
 from crankwork.mechanism.description import mechanism_from
 
@@ -43,6 +46,35 @@ def test_every_dyad_moves_as_newton_finds(linkage):
         for link, angle in solved.links.items():
             if order:
                 assert angle[order] == pytest.approx(other.links[link][order], abs=1e-12)
+
+
+NEARLY_DEAD = {
+    "fixed_points": {"O": (0, 0), "E": (0.029775615, -0.005602487)},
+    "crank": {"pivot": "O", "pin": "A", "radius": 0.081995565},
+    "positions": {"B": (0.090128309, 0.070686406), "C": (0.166003812, 0.072204015), "D": (0.129969345, 0.046042581)},
+    "links": {
+        "plate": {"joins": ["B", "C"], "length": 0.075890678, "points": {"D": (0.039340259, -0.025435610)}},
+        "rod": {"joins": ["A", "B"], "length": 0.071152719},
+        "arm": {"joins": ["E", "D"], "length": 0.112720878},
+    },
+    "guides": {"line": {"through": (0.166003812, 0.072204015), "angle": -2.25226}},
+    "sliders": {"piece": {"pin": "C", "guide": "line"}},
+}
+
+
+def test_a_group_of_class_iii_keeps_its_branch_up_to_its_dead_positions():
+    """Positions follow the circuit, which goes by its arc and knows no dead position."""
+    mechanism, problems = mechanism_from(NEARLY_DEAD)
+    assert problems == []
+    found = travel(mechanism)
+    arc = np.linspace(found.branch.start, found.branch.end, 402)[1:-1]
+    there = found.circuit.stretch(arc)
+    cranks = found.circuit.values(driver_coordinate(mechanism), arc)
+    solved = place(mechanism, CrankGrid.from_radians(cranks)).links
+    for link in ("plate", "rod", "arm"):
+        # what is lost near a dead position is the square root of the rounding
+        assert solved[link].cos == pytest.approx(np.cos(there.angles[link].position), abs=1e-6)
+        assert solved[link].sin == pytest.approx(np.sin(there.angles[link].position), abs=1e-6)
 
 
 @pytest.fixture(scope="module")

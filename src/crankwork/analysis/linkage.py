@@ -290,7 +290,7 @@ def differences(routes: list[Array]) -> Array:
 
 def _every(grid: CrankGrid, links: int) -> slice:
     """Return which angles the system of all links is solved at: all, or of many links as many as memory is good for."""
-    return slice(None, None, math.ceil(len(grid) * (3 * links) ** 2 / _MOST_COEFFICIENTS))
+    return slice(None, None, math.ceil(len(grid) * (3 * max(links, 1)) ** 2 / _MOST_COEFFICIENTS))
 
 
 def _groups(columns: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:

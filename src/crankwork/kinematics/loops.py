@@ -81,7 +81,8 @@ class ChainPath:
         guess[np.abs(step[:, 0]) > 1.001 * _STEP * self._equations.chain.radian] = np.nan
         at = np.arange(len(grid))
         q, _ = _newton(self._equations, guess, surroundings, at)
-        return _derivatives(self._equations, q, surroundings, at)
+        with np.errstate(invalid="ignore"):
+            return _derivatives(self._equations, q, surroundings, at)
 
     def coordinates(self, grid: CrankGrid) -> Array:
         """Return the coordinates of all links, then their derivatives, shape (9 links, n). [m], [rad]"""
@@ -182,6 +183,10 @@ def _continued(
     if not np.max(np.abs(q - guess) / equations.scale) < _FARTHEST:
         return None
     found = _derivatives(equations, q, surroundings, here)
+    # what lies between is foretold from either end
+    back = found.q - step * (found.q_1 - 0.5 * step * found.q_2)
+    if not np.max(np.abs(back - at.q) / equations.scale) < _FARTHEST:
+        return None
     return found if found.determinant[0] * at.determinant[0] > 0 else None
 
 

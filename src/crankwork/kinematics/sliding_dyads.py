@@ -127,7 +127,9 @@ def rpr_motion(dyad: RPR, joint: PointMotion, pivot: PointMotion, through: Throu
     block = LinkMotion(joint, cos, sin, rate, rate_1)
     angle = dyad.slot.angle
     link = turned(block._replace(origin=pivot), angle if is_nothing(angle) else -angle, name)
-    closure = None if is_known(square) else Closure(square - e * e, float(np.nanmax(square.real)), square)
+    closure = (
+        None if is_known(square) else Closure(square - e * e, float(np.fmax.reduce(square.real, initial=0.0)), square)
+    )
     place = s if is_nothing(along) else s - along
     return RPRMotion(named_slide(Transfer(place, s_1, s_2), block_), link, block, closure)
 

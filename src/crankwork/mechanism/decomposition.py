@@ -159,6 +159,10 @@ class _Order:
         """Return the direction of the solved frame of a link at a crank angle of zero. [rad]"""
         return self._drawn_angle(link) + self.frames.get(link, ((0.0, 0.0), 0.0))[1]
 
+    def _joints(self, member: Member) -> list[str]:
+        """Return the points of a member that something else is joined at."""
+        return [name for name in member.points if len(self.linkage.owners[name]) > 1] or list(member.points)
+
     def _drawn_ends(self, cylinder: Member) -> dict[str, Point]:
         """Return where the ends of a cylinder are drawn, as points of links that are."""
         at, found = self.linkage.at_zero(), {}
@@ -203,7 +207,7 @@ class _Order:
             if anchor is None or (not one.guide and sum(name in at for name in one.points) < 2):
                 key = f"{'sliders' if one.guide else 'links'}.{one.name}"
                 self.problems.append(
-                    Problem(key, Refusal("positions_needed", name=one.name, joints=", ".join(one.points)))
+                    Problem(key, Refusal("positions_needed", name=one.name, joints=", ".join(self._joints(one))))
                 )
                 continue
             angle, (u, v) = self._drawn_angle(one.name, at), one.points[anchor]
@@ -216,12 +220,8 @@ class _Order:
         law = self.linkage.driver.law
         start, radian = (law.start if law else 0.0), 1.0
         if not self.linkage.driver.turns:
-            radian = max(
-                math.dist(one, other)
-                for part in links
-                for one in part.points.values()
-                for other in part.points.values()
-            )
+            points = [tuple(part.points.values()) for part in links]
+            radian = max((math.dist(one, other) for own in points for one in own for other in own), default=1.0)
         return Chain(tuple(links), tuple(slides), frozenset(joints & known), start, radian)
 
 

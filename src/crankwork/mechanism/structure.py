@@ -111,7 +111,7 @@ def structure(linkage: Linkage) -> tuple[Structure | None, list[Problem]]:
         if found is None:
             return None, [Problem("", _too_free(linkage, rest))]
         if equations.excess(found) > 0:
-            return None, [Problem(_key(linkage, found[0]), _too_stiff(linkage, found))]
+            return None, [_too_stiff(linkage, found, solved)]
         # a link of changing length moves its group, whatever bears it
         bearer = "" if linkage.driver.link in found else _only_bearer(linkage, found, bodies)
         stuck = next((name for name in found if bearer and linkage.member(name).guide), None)
@@ -233,13 +233,22 @@ def _loose(one: Member, joints: list[str], owners: Mapping[str, Sequence[str]]) 
 
 
 def _too_free(linkage: Linkage, rest: list[str]) -> Refusal:
-    freedom = float(mobility(linkage).value)
+    freedom, rest = float(mobility(linkage).value), _described(linkage, rest)
     return Refusal("free_some" if len(rest) > 1 else "free_one", mobility=freedom, names=", ".join(rest))
 
 
-def _too_stiff(linkage: Linkage, some: tuple[str, ...]) -> Refusal:
-    freedom = float(mobility(linkage).value)
-    return Refusal("stiff_some" if len(some) > 1 else "stiff_one", names=list(some), mobility=freedom)
+def _too_stiff(linkage: Linkage, some: tuple[str, ...], solved: Iterable[str]) -> Problem:
+    freedom, names = float(mobility(linkage).value), _described(linkage, some)
+    if not names:
+        key = "driver.cylinder" if isinstance(linkage.driver, Cylinder) else "driver.between"
+        return Problem(key, Refusal("driver_held", names=_described(linkage, sorted(solved)), mobility=freedom))
+    told = Refusal("stiff_some" if len(names) > 1 else "stiff_one", names=names, mobility=freedom)
+    return Problem(_key(linkage, names[0]), told)
+
+
+def _described(linkage: Linkage, some: Iterable[str]) -> list[str]:
+    """Return members as far as they are described as such: a length that drives is not."""
+    return [name for name in some if name != linkage.driver.link]
 
 
 def _too_still(slider: str, some: tuple[str, ...], bearer: str) -> Refusal:

@@ -112,7 +112,8 @@ def _length(member: Member, shared: list[str], words: Words) -> str:
 def _centre(member: Member, words: Words) -> str:
     if not member.centre:
         return "–"
-    x, y = (words.number(one * 1e3) for one in member.points[member.centre])
+    # the centre of a crank may be its pivot
+    x, y = (words.number(one * 1e3) for one in member.points.get(member.centre, (0.0, 0.0)))
     named = "" if "." in member.centre or "_" in member.centre else f"{member.centre} "
     return f"{named}({x}; {y})"
 

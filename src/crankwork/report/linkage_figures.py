@@ -101,8 +101,7 @@ def _evenness(
     if "crank_speed" not in known or machine.drive.fluctuation is None:
         return {}
     wanted = Fluctuation(speed, machine.drive.fluctuation)
-    energy = known["kinetic_energy_change"]
-    return {
-        "wittenbauer": wittenbauer(known["reduced_inertia"], energy, wanted, degrees, style),
-        "speed": speed_curve(degrees, known["crank_speed"], style),
-    }
+    energy, inertia = known["kinetic_energy_change"], known["reduced_inertia"]
+    # without masses the energy stands over one point
+    drawn = {"wittenbauer": wittenbauer(inertia, energy, wanted, degrees, style)} if np.any(inertia) else {}
+    return {**drawn, "speed": speed_curve(degrees, known["crank_speed"], style)}

@@ -132,6 +132,8 @@ def true_speed(inertia: Curve, torque: Curve, mean_speed: float, excess_of: Exce
     found = excess_of or excess_work(torque)
     excess, reach, balanced = found.curve, found.extremes, torque - found.mean_torque
     inertia_1 = inertia.derivative
+    if not inertia.mean > 0:
+        raise MethodError(Refusal("masses_missing"))
     floor = -reach.least
     # what it is with a constant moment of inertia, where the extremes of speed are those of the excess work
     greatest = mean_speed + (reach.largest - reach.least) / (2 * inertia.mean * mean_speed)
