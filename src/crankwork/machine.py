@@ -78,6 +78,10 @@ class Gas:
         Gauge pressure on the crank side of a double-acting piston. [Pa]
     calculated : CalculatedPressure or None
         A calculation of the working cycle instead of points and pieces.
+    factor, factor_path : float and str
+        Of the gauge pressure, and where the description gives it. [-]
+    path : str
+        Where the description gives the diagram.
     """
 
     cycle: float = 720.0
@@ -91,6 +95,9 @@ class Gas:
     names_ambient: bool = False
     back_pressure: float = 0.0
     calculated: CalculatedPressure | None = None
+    factor: float = 1.0
+    factor_path: str = ""
+    path: str = "gas"
 
 
 @dataclass(frozen=True)
@@ -129,6 +136,10 @@ class Engine:
     offsets : tuple of float
         Of each cylinder axis from the crankshaft axis, by number, positive towards the crankpin at 90 degrees; empty
         if all have that of the crank gear. [m]
+    gases : tuple of Gas
+        The gas of each cylinder by number, alike ones the same object; empty if all have that of the crank gear.
+    misfires : tuple of int
+        Numbers of the cylinders in which nothing burns.
     bearings : Bearings
         Their sizes.
     counterweight : float
@@ -145,6 +156,8 @@ class Engine:
     slaves: tuple[ArticulatedRod | None, ...] = ()
     slave_rod: CrankGearMasses | None = None
     offsets: tuple[float, ...] = ()
+    gases: tuple[Gas, ...] = ()
+    misfires: tuple[int, ...] = ()
     bearings: Bearings = field(default_factory=Bearings)
     counterweight: float = 0.0
     rotating_share: float = 0.0

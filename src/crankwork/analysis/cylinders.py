@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -97,36 +98,51 @@ def whole_engine(solved: SolvedCylinder) -> WholeEngine:
     engine = machine.engine
     if engine is None:
         raise TypeError("this machine is one crank gear only")
-    kinds: dict[object, SolvedCylinder] = {}
+    kinds, each = dict[_Kind, SolvedCylinder](), list[SolvedCylinder]()
     for at in range(len(engine.layout.places)):
         kind = _kind(machine, engine, at)
         if kind not in kinds:
-            slave, offset, lean, is_first = kind
-            own = _own_machine(machine, lean, slave, is_first=is_first)
-            if offset not in (None, solved.lengths.offset):
-                sizes = solved.lengths._replace(offset=offset)
-                kinds[kind] = solve(replace(own, mechanism=slider_crank(*sizes)), solved.method)
-                continue
-            alike = replace(solved, machine=own)
-            kinds[kind] = alike if slave is None else solve_slave(alike, slave)
-            if at == 0:
-                kinds[kind] = solved
-    cylinders = tuple(kinds[_kind(machine, engine, at)] for at in range(len(engine.layout.places)))
-    return WholeEngine(machine, engine, cylinders)
+            kinds[kind] = solved if at == 0 else _of_kind(solved, engine, kind)
+        each.append(kinds[kind])
+    return WholeEngine(machine, engine, tuple(each))
 
 
-def _kind(machine: Machine, engine: Engine, at: int) -> tuple[ArticulatedRod | None, float | None, float, bool]:
-    """Return what tells a cylinder from the others: rod, offset and, where they matter, lean and share of a throw.
+class _Kind(NamedTuple):
+    """What tells a cylinder from the others: rod, offset, gas and, where they matter, lean and share of a throw."""
+
+    slave: ArticulatedRod | None
+    offset: float | None
+    gas: int  # Where among the gases of the engine it stands first
+    lean: float = 0.0
+    is_first: bool = True
+
+
+def _of_kind(solved: SolvedCylinder, engine: Engine, kind: _Kind) -> SolvedCylinder:
+    """Return a cylinder of an engine, made ready from its first."""
+    machine = _own_machine(solved.machine, kind.lean, kind.slave, is_first=kind.is_first)
+    if kind.gas:
+        machine = replace(machine, gas=engine.gases[kind.gas])
+    if kind.slave is not None:
+        return solve_slave(replace(solved, machine=machine), kind.slave)
+    if kind.offset not in (None, solved.lengths.offset):
+        sizes = solved.lengths._replace(offset=kind.offset)
+        return solve(replace(machine, mechanism=slider_crank(*sizes)), solved.method)
+    return solve(machine, solved.method) if kind.gas else replace(solved, machine=machine)
+
+
+def _kind(machine: Machine, engine: Engine, at: int) -> _Kind:
+    """Return the kind of a cylinder.
 
     With weight or a changing speed a bank leans by its own angle, and the mass of a throw counts for the first
     cylinder on it only.
     """
     places, slave = engine.layout.places, engine.slaves[at] if engine.slaves else None
     offset = engine.offsets[at] if engine.offsets else None
+    gas = next((one for one, gas in enumerate(engine.gases) if gas is engine.gases[at]), 0)
     if not (machine.has_gravity or machine.angular_acceleration):
-        return slave, offset, 0.0, True
+        return _Kind(slave, offset, gas)
     first = next(one for one in places if one.crankpin == places[at].crankpin)
-    return slave, offset, places[at].axis - places[0].axis, places[at] is first
+    return _Kind(slave, offset, gas, places[at].axis - places[0].axis, places[at] is first)
 
 
 def _own_machine(machine: Machine, lean: float, slave: ArticulatedRod | None, *, is_first: bool) -> Machine:

@@ -11,11 +11,12 @@ import numpy as np
 
 from crankwork.analysis import origins
 from crankwork.analysis.forces import COLUMNS, FORCES
+from crankwork.analysis.gas import work_of_gas
 from crankwork.analysis.motion import HARMONICS, KINEMATICS
 from crankwork.analysis.reduction import REDUCTION
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import SolvedCylinder, apart, solve
-from crankwork.formula.known import Found, Known, given
+from crankwork.formula.known import Known, given
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program, Samples
 from crankwork.kinematics.crank_grid import Array, CrankGrid
@@ -147,8 +148,7 @@ def _forces(solved: SolvedCylinder, over: OverCycle) -> dict[str, Known]:
         found["rotating_inertia_force"] = memory["rotating_inertia_force"]
     found["mean_torque"] = over.mean("crank_torque", "mean_torque")
     if solved.space is not None:
-        of = (memory["diagram_pressure"], memory["cylinder_volume"])
-        work = found["indicated_work"] = Known(Found(solved.space.work, "work", of), "indicated_work")
+        work = found["indicated_work"] = work_of_gas(solved, solved.space)
         found["indicated_mean_pressure"] = gas_formulas.indicated_mean_pressure(work, memory["swept_volume"])
         found["indicated_power"] = gas_formulas.indicated_power(work, memory["speed"], cycle)
     return found

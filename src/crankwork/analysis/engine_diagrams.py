@@ -151,6 +151,16 @@ class EngineDiagrams:
         parts = Program(bearing_components(self.whole, self.results.memory))
         return bearing_loads(self.whole, parts(CrankGrid.from_degrees(degrees)))
 
+    def other_pressures(self, degrees: Array) -> dict[int, Array]:
+        """Return the gas pressure of the first cylinder of every gas that is not that of cylinder 1, by number. [Pa]
+
+        `degrees`: its own crank angles.
+        """
+        gases = self.whole.engine.gases
+        firsts = [at for at, gas in enumerate(gases) if at and all(gas is not one for one in gases[:at])]
+        found = Program({str(at): self.whole.cylinders[at].memory["gas_pressure"] for at in firsts})
+        return {int(at) + 1: one for at, one in found(CrankGrid.from_degrees(degrees)).items()}
+
     def crankpin(self, pin: int, degrees: Array | None = None) -> CrankpinLoad:
         """Return the load of all rods on a crankpin.
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from crankwork.analysis import origins
 from crankwork.analysis.cylinders import WholeEngine
+from crankwork.analysis.gas import work_of_gas
 from crankwork.analysis.results import Listing
 from crankwork.cylinders.firing import is_even
 from crankwork.cylinders.torque import even_firing_interval, firing_intervals, mean_torque_of_work
@@ -60,7 +61,7 @@ def _sizes(whole: WholeEngine, found: Mapping[str, Known]) -> dict[str, Known]:
             result[f"stroke.{number}"] = one.remembered_stroke(lengths)
     if all(one.space is not None for one in whole.cylinders):
         volumes = [one.memory["swept_volume"] for one in whole.cylinders]
-        if whole.is_uniform:
+        if whole.moves_alike:
             result["displacement"] = displacement(volumes[0], found["cylinder_count"])
         else:
             each = {f"swept_volume.{number}": one for number, one in enumerate(volumes, start=1)}
@@ -71,11 +72,7 @@ def _sizes(whole: WholeEngine, found: Mapping[str, Known]) -> dict[str, Known]:
 
 def work_memory(whole: WholeEngine, firing: Mapping[str, Known]) -> dict[str, Known]:
     """Return the works of all cylinders, and the power and the mean torque that follow; nothing without gas in each."""
-    works = [
-        Known(Found(one.space.work, "work", (one.memory["diagram_pressure"], one.memory["cylinder_volume"])))
-        for one in whole.cylinders
-        if one.space is not None
-    ]
+    works = [work_of_gas(one, one.space) for one in whole.cylinders if one.space is not None]
     if len(works) < len(whole.cylinders):
         return {}
     cycle, several = origins.cycle_angle(whole.machine), len(works) > 1
@@ -94,10 +91,14 @@ def work_memory(whole: WholeEngine, firing: Mapping[str, Known]) -> dict[str, Kn
 
 
 def firing_listing(whole: WholeEngine, firing: Mapping[str, Known]) -> Listing:
-    """Return where each cylinder stands and fires; of pistons that move differently also stroke and dead centre."""
+    """Return where each cylinder stands and fires; where they differ, also stroke and dead centre, or the work.
+
+    `firing`: number, volume, firing and work of the cylinders.
+    """
     numbers = [one.number for one in whole.layout.places]
     columns = {"cylinder_number": np.array(numbers, dtype=float)}
-    for kind in (*_LISTED, *(_OF_SLAVES if "stroke.1" in firing else ())):
+    unlike = (*(_OF_SLAVES if "stroke.1" in firing else ()), *(("indicated_work",) if whole.engine.gases else ()))
+    for kind in (*_LISTED, *unlike):
         each = [firing.get(f"{kind}.{number}", firing.get(kind)) for number in numbers]
         if all(one is not None for one in each):
             columns[kind] = np.array([one.value for one in each if one is not None])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from crankwork.analysis import origins
 from crankwork.analysis.motion import MovingCylinder
 from crankwork.analysis.solved import SolvedCylinder, WorkingSpace
-from crankwork.formula.known import Known, absent, given
+from crankwork.formula.known import Found, Known, absent, given
 from crankwork.loads import gas
 from crankwork.loads.gas import gauge_pressure
 from crankwork.loads.pressure import at_angle, polytrope_origin, remembered_pressure
@@ -43,10 +43,13 @@ def gas_memory(solved: SolvedCylinder, space: WorkingSpace, moving: MovingCylind
     memory = moving.memory
     area = memory["piston_area"]
     volume = gas.cylinder_volume(memory["clearance_volume"], area, memory["piston_displacement"])
-    read = remembered_pressure(space.diagram, volume)
+    read = remembered_pressure(space.diagram, volume, _path(solved))
     pressure = read.named("gas_pressure")
     if space.ambient:
         pressure = gauge_pressure(read, given("ambient_pressure", space.ambient, _ambient(solved)))
+    if space.factor != 1:
+        path = solved.machine.gas.factor_path if solved.machine.gas is not None else ""
+        pressure = (pressure * given("pressure_factor", space.factor, path)).named("gas_pressure")
     back, rod_area = absent(""), absent("")
     if space.rod_area:
         diameter = given("piston_rod_diameter", _rod_diameter(solved), "cylinder.piston_rod_diameter")
@@ -62,6 +65,17 @@ def _ambient(solved: SolvedCylinder) -> str:
     return "cycle.ambient_pressure" if is_calculated else "gas.ambient"
 
 
+def work_of_gas(solved: SolvedCylinder, space: WorkingSpace) -> Known:
+    """Return the work that the gas does in a cycle: the area of the diagram."""
+    pressure = solved.memory["diagram_pressure" if space.factor == 1 else "gas_pressure"]
+    return Known(Found(space.work, "work", (pressure, solved.memory["cylinder_volume"])), "indicated_work")
+
+
+def _path(solved: SolvedCylinder) -> str:
+    """Return where the diagram is stated."""
+    return solved.machine.gas.path if solved.machine.gas is not None else ""
+
+
 def _rod_diameter(solved: SolvedCylinder) -> float:
     return solved.machine.cylinder.piston_rod_diameter if solved.machine.cylinder is not None else 0.0
 
@@ -74,7 +88,7 @@ def _ends_of_polytropes(solved: SolvedCylinder, space: WorkingSpace, volume: Kno
     for segment in space.diagram.segments:
         if segment.law != "polytropic" or not segment.origin:
             continue
-        p_1, V_1, exponent = polytrope_origin(space.diagram, segment, volume)
+        p_1, V_1, exponent = polytrope_origin(space.diagram, segment, volume, given_gas.path)
         found |= {p_1.key: p_1, V_1.key: V_1}
         for name, (degrees, _) in space.diagram.named.items():
             if name != segment.origin and degrees in (segment.start, segment.end):

@@ -51,11 +51,16 @@ class WorkingSpace(NamedTuple):
     rod_area: float = 0.0
     back_pressure: float = 0.0
     calculated: Calculated | None = None
+    factor: float = 1.0
 
     @property
     def theoretical(self) -> IndicatorDiagram | None:
         """The diagram of a calculated cycle before its corners were rounded."""
         return self.calculated.theoretical if self.calculated is not None else None
+
+    def gauge(self, pressure: Array) -> Array:
+        """Return the gauge pressure on the piston where that of the diagram is known. [Pa]"""
+        return (pressure - self.ambient) * self.factor
 
 
 @dataclass(frozen=True)
@@ -178,8 +183,8 @@ def _with_space(solved: SolvedCylinder, notices: list[Notice]) -> SolvedCylinder
     else:
         diagram = _given_diagram(gas, volume_at, (top, bottom), notices)
     rod_area = float(gas_formulas.piston_area(method.pi, cylinder.piston_rod_diameter))
-    work = diagram.work(volume_at)
-    space = WorkingSpace(area, clearance, swept, diagram, ambient, work, rod_area, gas.back_pressure, calculated)
+    work, of_rod = gas.factor * diagram.work(volume_at), (rod_area, gas.back_pressure)
+    space = WorkingSpace(area, clearance, swept, diagram, ambient, work, *of_rod, calculated, gas.factor)
     return replace(solved, space=space, notices=tuple(notices))
 
 
@@ -188,13 +193,15 @@ def _given_diagram(
 ) -> IndicatorDiagram:
     """Return the diagram that the description or a measurement gives."""
     if gas.measured is not None:
-        diagram, cycles, wrap = measured_diagram(gas.measured, gas.cycle, shift=gas.angle_shift, step=gas.resample)
+        diagram, cycles, wrap = measured_diagram(
+            gas.measured, gas.cycle, shift=gas.angle_shift, step=gas.resample, path=gas.path
+        )
         if cycles > 1:
             notices.append(Notice("cycles_averaged", {"cycles": cycles}))
         if wrap_is_rough(diagram, wrap):
             notices.append(Notice("wrap", {"step": wrap}))
         return diagram
-    diagram = solve_diagram(gas.points, gas.pieces, gas.cycle, volume_at, dead_centres=centres)
+    diagram = solve_diagram(gas.points, gas.pieces, gas.cycle, volume_at, dead_centres=centres, path=gas.path)
     notices += [Notice("jump", {"point": name, "angle": angle, "step": step}) for name, angle, step in diagram.jumps]
     return diagram
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 from typing import NamedTuple
@@ -114,7 +114,7 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
         for name, starts in _TABLES.items()
     } | {"dynamics": (*results.groups["dynamics"], *(key for key in _REDUCTION if key in columns))}
     listings: dict[str, Listing] = {
-        "firing": firing_listing(whole, firing),
+        "firing": firing_listing(whole, firing | works),
         "torque_harmonics": harmonics_listing(harmonics),
         **bearing_listings(whole, loads),
     }
@@ -130,7 +130,8 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
         from crankwork.analysis.engine_routes import throw_residuals  # noqa: PLC0415 - few engines have such rods
 
         thrown = throw_residuals(whole, memory)
-    told = (*torque.notices, *_torque_against_cycle(results.summary, summary))
+    told = [*torque.notices, *(() if whole.engine.gases else _torque_against_cycle(results.summary, summary))]
+    told += _of_gases(whole, results.notices)
     return replace(
         results,
         columns={**results.columns, **columns},
@@ -150,7 +151,7 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
             **firing,
             **works,
             **memory,
-            **{key: one for key, one in _of_slaves(whole).items() if key not in memory},
+            **{key: one for key, one in _of_unlike(whole).items() if key not in memory},
             **loads,
             **harmonics,
             **balanced,
@@ -160,11 +161,28 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
     )
 
 
-def _of_slaves(whole: WholeEngine) -> dict[str, Known]:
-    """Return the columns of the cylinders whose rods are articulated, at the crank angle of cylinder 1."""
-    slaves = [(number, one) for number, one in enumerate(whole.cylinders, start=1) if one.slave is not None]
-    found = (whole.of(number, key) for number, one in slaves for key, known in one.memory.items() if known.varies)
+def _of_unlike(whole: WholeEngine) -> dict[str, Known]:
+    """Return the columns of the cylinders with articulated rods or other gas, at the crank angle of cylinder 1."""
+    first = whole.master.machine.gas
+    unlike = [
+        (number, one)
+        for number, one in enumerate(whole.cylinders, start=1)
+        if one.slave is not None or one.machine.gas is not first
+    ]
+    found = (whole.of(number, key) for number, one in unlike for key, known in one.memory.items() if known.varies)
     return {one.key: one for one in found}
+
+
+def _of_gases(whole: WholeEngine, told: Sequence[Notice]) -> Iterator[Notice]:
+    """Yield which cylinders misfire, and what is to be known of the diagrams of those that have their own."""
+    if whole.engine.misfires:
+        yield Notice("misfire", {"numbers": ", ".join(map(str, whole.engine.misfires))})
+    seen = list(told)
+    for one in whole.cylinders if whole.engine.gases else ():
+        for notice in one.notices:
+            if notice not in seen:
+                seen.append(notice)
+                yield notice
 
 
 def _allowed(results: Results) -> dict[str, float]:

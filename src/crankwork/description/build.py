@@ -15,13 +15,14 @@ from crankwork.errors import MethodError
 from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
 from crankwork.loads.gas import piston_area
 from crankwork.locale import Refusal
-from crankwork.machine import Cylinder, Drive, Machine
+from crankwork.machine import Cylinder, Drive, Engine, Gas, Machine
 from crankwork.mechanism.mechanism import slider_crank
 from crankwork.method import EXACT, STANDARD_GRAVITY, Method
 from crankwork.units import UNITS
 
 _LEAST_RISE = 1e-3
 _RADIANS = [name for name, unit in UNITS.items() if unit.dimension == "speed" and unit.factor == 1.0]
+_OWN_GAS = {"misfire", "pressure_factors"}
 _ENGINE_TABLES = {"engine", "bearings", "balance", "flywheel"}
 
 
@@ -56,6 +57,8 @@ def build_machine(values: Mapping[str, Any], reader: Reader, read_measured: Read
         from crankwork.description.engine_build import build_engine  # noqa: PLC0415 - most files have one crank gear
 
         engine = build_engine(values, lengths, cycle, reader)
+    if not _OWN_GAS.isdisjoint(values.get("engine", {})) or "cylinders" in values.get("gas", {}):
+        engine, gas = _with_own_gas(values, engine, gas, reader, read_measured)
     if reader.problems or lengths is None:
         return None
     if engine is not None and engine.offsets:
@@ -76,6 +79,20 @@ def build_machine(values: Mapping[str, Any], reader: Reader, read_measured: Read
         drive=Drive(inertia=_value(flywheel, "inertia"), fluctuation=flywheel.get("fluctuation")),
         stated=stated,
     )
+
+
+def _with_own_gas(
+    values: Mapping[str, Any], engine: Engine | None, gas: Gas | None, reader: Reader, read_measured: ReadMeasured
+) -> tuple[Engine | None, Gas | None]:
+    """Return an engine whose cylinders differ by their gas, and that of the first."""
+    from crankwork.description.cylinder_gas import with_own_gas  # noqa: PLC0415 - few engines have such cylinders
+
+    if engine is None:
+        if "engine" not in values and "cylinders" in values.get("gas", {}):
+            reader.complain("gas.cylinders", Refusal("cylinders_engine"))
+        return None, gas
+    engine = with_own_gas(values, engine, gas, reader, read_measured)
+    return engine, engine.gases[0] if engine.gases else gas
 
 
 def crank_speed(given: Measure, method: Method) -> float:

@@ -28,7 +28,7 @@ from crankwork.working_cycle.rounding import Rounding, Timing
 
 _IDEAL = ("otto", "ideal-diesel", "dual")
 _CORNERS = {"corners", "school", "timing", "filling", "peak_level"}
-_COMMON = {"kind", "cycle", "source", "ambient_pressure"}
+_COMMON = {"kind", "cycle", "source", "ambient_pressure", "motored"}
 _OF_REAL = {
     "fuel", "excess_air", "ambient_temperature", "charge_pressure", "charge_temperature", "intake_pressure",
     "intake_loss_factor", "intake_speed",

@@ -53,6 +53,10 @@ ENGINE = Table({
                    "of each cylinder axis from the crankshaft axis, towards the crankpin at 90 degrees; "
                    "by default that of the cylinder"),
     "articulated": Key(_ARTICULATED, "rods of a radial or V engine that turn on the master rod"),
+    "misfire": Key(ListOf(Number(1, 28, whole=True), fewest=1, most=28),
+                   "numbers of the cylinders in which nothing burns"),
+    "pressure_factors": Key(ListOf(Number(0.0, 10.0), fewest=1, most=28),
+                            "of each cylinder, by which its gauge pressure differs; by default 1"),
 })  # fmt: skip
 
 BEARINGS = Table({
@@ -144,5 +148,8 @@ CYCLE = Table({
     "heating_value": Key(Quantity(("specific_energy",), 1e6, 2e8), "lower one of the fuel, with fuel_mass"),
     "burning_efficiency": Key(Number(0.1, 1.0), "share of the heating value that is released; by default 1"),
     "wall_temperature": Key(_TEMPERATURE, "of the walls, for Woschni; without it there is no heat loss"),
+    "motored": Key(Choice(("compressed", "ambient")),
+                   "gas of a cylinder that misfires: compressed and expanded, or open to the surroundings; "
+                   "by default compressed"),
     "source": Key(Text(), "where the data come from"),
 })  # fmt: skip

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 from crankwork.description.schema import Reader, nearest_name
@@ -44,12 +44,26 @@ def _check_gas(values: Mapping[str, Any], cylinder: Cylinder | None, reader: Rea
             reader.complain("gas", Refusal("gas_cylinder"))
     elif (
         {cylinder.clearance_volume, cylinder.compression_ratio} == {None}
-        and any(one and one.get("law") == "polytropic" for one in values.get("pieces", []))
+        and any(one and one.get("law") == "polytropic" for table in _tables(values) for one in table.get("pieces", []))
         and not reader.doubts("cylinder.clearance_volume", "cylinder.compression_ratio")
     ):
         reader.complain("cylinder", Refusal("gas_volume"))
     check_ambient(values, "gas", reader)
-    check_parts(values, "gas", reader)
+    if has_diagram(values) or "cylinders" not in values:
+        check_parts(values, "gas", reader)
+
+
+def has_diagram(values: Mapping[str, Any]) -> bool:
+    """Return whether a table has a diagram, or a part of one."""
+    return not {"points", "pieces", "measured"}.isdisjoint(values)
+
+
+def _tables(values: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
+    """Yield the tables of the gas that may have a diagram: its own, and those of cylinders that differ."""
+    yield values
+    for one in (values.get("motored"), *values.get("cylinders", {}).values()):
+        if isinstance(one, Mapping):
+            yield one
 
 
 def _check_rod(values: Mapping[str, Any], cylinder: Cylinder | None, reader: Reader) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from crankwork.description.engine_keys import BALANCE, BEARINGS, CYCLE, ENGINE, FLYWHEEL
-from crankwork.description.schema import Choice, Flag, Key, ListOf, Named, Number, Quantity, Table, Text
+from crankwork.description.schema import Choice, Flag, Key, ListOf, Named, NameOr, Number, Quantity, Table, Text
 
 _LENGTH = Quantity(("length",), 1e-6, 100.0)
 _MASS = Quantity(("mass", "mass_per_area"), 0.0, 1e6)
@@ -96,6 +96,12 @@ MEASURED = Table(
     }
 )
 
+_DIAGRAM = {
+    "points": Key(Named(POINT), "named points of the indicator diagram"),
+    "pieces": Key(ListOf(PIECE, fewest=1, most=500), "laws between the points, in the order of the crank angle"),
+    "measured": Key(MEASURED, "measured pressure instead of points and pieces", instead_of=("points", "pieces")),
+}
+
 _GAS = Table(
     {
         "cycle": Key(Choice(("720 deg", "360 deg")), "crank angle of one working cycle", required=True),
@@ -104,9 +110,13 @@ _GAS = Table(
             Quantity(("pressure",), 0.0, 1e7), "absolute pressure on the crankcase side, for absolute pressures"
         ),
         "back_pressure": Key(_PRESSURE, "gauge pressure on the crank side of a double-acting piston"),
-        "points": Key(Named(POINT), "named points of the indicator diagram"),
-        "pieces": Key(ListOf(PIECE, fewest=1, most=500), "laws between the points, in the order of the crank angle"),
-        "measured": Key(MEASURED, "measured pressure instead of points and pieces", instead_of=("points", "pieces")),
+        **_DIAGRAM,
+        "cylinders": Key(
+            Named(Table(_DIAGRAM), most=28), "diagrams of cylinders that have their own, by their numbers"
+        ),
+        "motored": Key(
+            NameOr(Table(_DIAGRAM)), 'diagram of the cylinders that misfire, or "ambient" where they stay open'
+        ),
     }
 )
 
@@ -136,7 +146,7 @@ _MACHINE = {
     "cylinder": Key(_CYLINDER, "the cylinder"),
     "gas": Key(_GAS, "the pressure in the cylinder", instead_of=("cycle",)),
     "cycle": Key(CYCLE, "a calculation of the working cycle, which gives that pressure", instead_of=("gas",)),
-    "engine": Key(ENGINE, "the cylinders of an engine, all like the one described"),
+    "engine": Key(ENGINE, "the cylinders of an engine, like the one described"),
     "bearings": Key(BEARINGS, "sizes of its bearings"),
     "balance": Key(BALANCE, "counterweights and balance shafts"),
     "flywheel": Key(FLYWHEEL, "how evenly it shall run"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 import json
 import re
@@ -103,11 +104,15 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
     machine = build_machine(read_values, reader, read_samples)
     if machine is not None:
         try:
-            solve(machine, machine.method)
+            solved = solve(machine, machine.method)
+            if machine.engine is not None and machine.engine.gases:
+                from crankwork.analysis.cylinders import whole_engine  # noqa: PLC0415 - few engines have them
+
+                whole_engine(solved)
         except DiagramError as error:
-            measured = read_values.get("gas", {}).get("measured", {})
             mistake = error.args[0]
-            if measured:
+            if error.key.endswith(".measured"):
+                measured = functools.reduce(dict.__getitem__, error.key.split("."), read_values)
                 mistake = Refusal("in_file", file=measured["file"], mistake=mistake)
             reader.complain(error.key, mistake)
         except CrankworkError as error:

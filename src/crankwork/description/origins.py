@@ -19,7 +19,8 @@ _SAME = 1e-9
 _FOLLOWS = (
     (r"engine\.bank_angle", ("engine.bank_angles", "engine.layout")),
     (r"engine\.(throws|firing_order)", ("engine.firing_order", "engine.layout")),
-    (r"(gas|chambers\.[^.]+)\.points\..*", (r"\1.pieces",)),
+    (r"(gas|gas\.motored|gas\.cylinders\.\d+|chambers\.[^.]+)\.points\..*", (r"\1.pieces",)),
+    (r"gas\.motored\.points\..*", ("gas.motored",)),
     # a chamber with one face may have its keys beside the others
     (r"(chambers\.[^.]+)\.faces\[1\]\.(\w+)", (r"\1.\2",)),
     # the second joint of a link lies as far along it as it is long

@@ -21,7 +21,8 @@ _SAME_VOLUME = 1e-12
 def remembered_pressure(diagram: IndicatorDiagram, volume: Known, path: str = "gas") -> Known:
     """Return the pressure of a diagram as the laws that follow one another.
 
-    `path`: where a description states the diagram, `chambers.NAME` that of a chamber.
+    `path`: where a description states the diagram, `chambers.NAME` that of a chamber, `gas` and what follows of a
+    cylinder.
     """
     laws = tuple(_law(diagram, segment, volume, path) for segment in diagram.segments)
     ends = [segment.end for segment in diagram.segments]
@@ -30,7 +31,8 @@ def remembered_pressure(diagram: IndicatorDiagram, volume: Known, path: str = "g
 
 def _of(key: str, path: str, name: str = "") -> str:
     """Return the key of a column, or of its value at a named point, with the chamber it belongs to."""
-    return ".".join((key, *(one for one in (path.partition(".")[2], name) if one)))
+    owner = path.removeprefix("chambers.") if path.startswith("chambers.") else ""
+    return ".".join((key, *(one for one in (owner, name) if one)))
 
 
 def at_angle(column: Known, degrees: float, key: str) -> Known:

@@ -96,6 +96,7 @@ ROWS = (
              "Pressure in the cylinder, absolute or above that in the crankcase, as the diagram is given."),
     Quantity("polytropic_exponent", "", "Exponent of the volume in the equation of a polytrope."),
     Quantity("ambient_pressure", "MPa", "Absolute pressure under the piston."),
+    Quantity("pressure_factor", "", "Gauge pressure in a cylinder over that of the diagram."),
     Quantity("back_pressure", "MPa", "Gauge pressure on the crank side of a double-acting piston."),
     Quantity("indicated_work", "J", "Area of the indicator diagram."),
     Quantity("indicated_mean_pressure", "MPa", "Indicated work over swept volume."),

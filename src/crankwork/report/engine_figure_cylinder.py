@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from crankwork.analysis import Array
+from crankwork.locale import say
 from crankwork.quantities import QUANTITIES
 from crankwork.report.engine_figure_axes import (
     BOTTOM,
@@ -27,6 +29,7 @@ from crankwork.report.engine_figure_labels import label_marks, spread
 from crankwork.report.engine_figure_paper import Paper, has_letter
 from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED, SOLID, Style
 
+_STYLES = (SOLID, DASHED, DASH_DOT, DOTTED)
 _HEIGHT, _PANEL, _PANEL_GAP = 216.0, 126.0, 38.0
 _LONGEST = 16
 
@@ -69,10 +72,15 @@ def kinematics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
 
 
 def pressure(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
-    """Return the gas pressure over the cycle with the named points of the diagram."""
+    """Return the gas pressure over the cycle with the named points, and that of cylinders that differ."""
     degrees, values = engine.drawn.degrees, engine.drawn.values("gas_pressure")
-    paper, box = sheet(_HEIGHT)
-    graph = over_cycle(paper, box, limits(values), engine.cycle, engine.language)
+    others = engine.other_pressures
+    names = [say("drawing.cylinder", engine.language, number=number) for number in (1, *others)]
+    rows = [Row(name, style) for name, style in zip(names, itertools.cycle(_STYLES), strict=False)]
+    paper, box = sheet(_HEIGHT, rows if others else ())
+    graph = over_cycle(paper, box, limits(values, *others.values()), engine.cycle, engine.language)
+    for (number, other), row in zip(others.items(), rows[1:], strict=True):
+        graph.curve(f"gas_pressure.{number}", degrees, other, row.style)
     graph.curve("gas_pressure", degrees, values)
     graph.x_title(engine.title("crank_angle"))
     graph.y_title(engine.title("gas_pressure"))
@@ -84,7 +92,7 @@ def named_points(engine: EngineDrawn) -> list[tuple[str, float, float]]:
     """Return the named points of the diagram: name, crank angle [deg] and gauge pressure [display unit]."""
     space = engine.drawn.results.solved.space
     return [
-        (_short(name), angle, float(engine.shown("gas_pressure", value - space.ambient)))
+        (_short(name), angle, float(engine.shown("gas_pressure", space.gauge(value))))
         for name, (angle, value) in space.diagram.named.items()
     ]
 

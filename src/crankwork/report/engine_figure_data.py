@@ -38,6 +38,15 @@ class EngineDrawn:
         """Curves and diagrams of all cylinders."""
         return EngineDiagrams(self.drawn.results)
 
+    @property
+    def other_pressures(self) -> dict[int, Array]:
+        """Gas pressure of cylinders whose gas is not that of the first, by number, at their own crank angle. [MPa]"""
+        machine, degrees = self.drawn.results.machine, self.drawn.degrees
+        if machine.engine is None or not machine.engine.gases:
+            return {}
+        found = self.diagrams.other_pressures(degrees)
+        return {number: self.shown("gas_pressure", one) for number, one in found.items()}
+
     def shown(self, key: str, values: Array | float) -> Array:
         """Return SI values in the display unit of a quantity. [display unit]"""
         return np.asarray(values) * displayed(key, 1.0, per_area=self.drawn.area)

@@ -26,7 +26,7 @@ def indicator(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     pressures = [values]
     if sharp is not None:
         absolute = sharp.pressure(drawn.degrees, drawn.columns["cylinder_volume"])
-        pressures.append(engine.shown("gas_pressure", absolute - space.ambient))
+        pressures.append(engine.shown("gas_pressure", space.gauge(absolute)))
     rows = [Row(engine.named("gas_pressure")), Row(say("drawing.sharp", engine.language), DASHED, 0.9)]
     paper, box = sheet(_HEIGHT + _ABOVE, rows if sharp is not None else ())
     box = box._replace(top=box.top + _ABOVE, height=_HEIGHT)

@@ -1,4 +1,4 @@
-"""Working cycles waiting for a cylinder: calculated corners, sharp or rounded, and heat release."""
+"""Working cycles waiting for a cylinder: calculated corners, sharp or rounded, heat release, and one that misfires."""
 
 from __future__ import annotations
 
@@ -6,12 +6,13 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from crankwork.formula.known import Found, Known
+from crankwork.formula.known import Found, Known, absent
 from crankwork.loads.indicator import IndicatorDiagram, Segment, VolumeAt, solve_diagram
 from crankwork.working_cycle.calculated_cycle import Calculated, CalculatedCycle, Corners
+from crankwork.working_cycle.gas_exchange import constant_pressure
 from crankwork.working_cycle.heat_data import HeatReleaseData
 from crankwork.working_cycle.heat_release import HeatReleaseResult, heat_release
-from crankwork.working_cycle.rounding import Rounding, Timing, rounded_diagram
+from crankwork.working_cycle.rounding import Rounding, Timing, motored_diagram, rounded_diagram
 from crankwork.working_cycle.theoretical_diagram import theoretical_diagram
 
 # A cylinder is known by its volume at a few crank angles. [deg]
@@ -39,12 +40,31 @@ class CornerPressure:
         notices = (*cycle.notices, ("cycle_speed", {}))
         if self.timing is None:
             return Calculated(sharp, cycle.memory, notices, sharp)
-        theory = {name: one.value for name, one in cycle.corners._asdict().items() if name != "rho" or one.value > 1}
-        found = rounded_diagram(theory, self.timing, self.rounding, volume_at, dead_centres)
+        found = rounded_diagram(_theory(cycle.corners), self.timing, self.rounding, volume_at, dead_centres)
         key = "filling_factor.diagram"
         memory = {**cycle.memory, key: Known(Found(found.filling_factor, "integral", cycle.corners), key)}
         rounded = _remembering(found.diagram, cycle.corners)
         return Calculated(rounded, memory, (*notices, *found.notices), sharp)
+
+    def motored(
+        self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
+    ) -> IndicatorDiagram:
+        """Return the diagram of a cylinder in which nothing burns: expansion goes back along the compression line."""
+        del volume_rate_at
+        one = self.cycle.corners
+        corners = one._replace(p_z=one.p_c, p_b=one.p_a, n2=one.n1, rho=absent("cut_off", 1.0))
+        if self.timing is not None:
+            theory = _theory(corners)
+            diagram = motored_diagram(theory, self.timing, self.rounding, volume_at, dead_centres)
+        else:
+            drawn = theoretical_diagram(corners, self.cycle.angle, volume_at, dead_centres)
+            diagram = solve_diagram(*drawn, self.cycle.angle, volume_at, dead_centres=dead_centres)
+        return _remembering(diagram, corners)
+
+
+def _theory(corners: Corners) -> dict[str, float]:
+    """Return the corners in numbers, without a burning at constant pressure where there is none. [SI]"""
+    return {name: one.value for name, one in corners._asdict().items() if name != "rho" or one.value > 1}
 
 
 def _remembering(diagram: IndicatorDiagram, corners: Corners) -> IndicatorDiagram:
@@ -76,6 +96,13 @@ class HeatReleasePressure:
         """Return the diagram in a cylinder."""
         return self._solved(volume_at, volume_rate_at, dead_centres).calculated
 
+    def motored(
+        self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
+    ) -> IndicatorDiagram:
+        """Return the diagram of a cylinder in which nothing burns: no heat is released, and walls take theirs."""
+        cold = replace(self.data, heat=0.0, fuel_per_cycle=0.0)
+        return HeatReleasePressure(cold).pressure(volume_at, volume_rate_at, dead_centres).diagram
+
     def _solved(
         self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
     ) -> HeatReleaseResult:
@@ -87,3 +114,26 @@ class HeatReleasePressure:
                 _KNOWN.clear()
             _KNOWN[key] = heat_release(self.data, volume_at, volume_rate_at, dead_centres)
         return _KNOWN[key]
+
+
+@dataclass(frozen=True)
+class MisfirePressure:
+    """The pressure in a cylinder in which nothing burns, of an engine whose cycle is calculated."""
+
+    of: CornerPressure | HeatReleasePressure  # The cycle of those that fire
+    angle: float  # Of the cycle [deg]
+    ambient: Known | None = None  # Pressure in it where its valves stay open [Pa]
+
+    @property
+    def cycle(self) -> CalculatedCycle | None:
+        """What was calculated for those that fire."""
+        return self.of.cycle if isinstance(self.of, CornerPressure) else None
+
+    def pressure(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
+        """Return the diagram in a cylinder, and the values of the cycle of those that fire."""
+        found = self.of.pressure(volume_at, volume_rate_at, dead_centres)
+        if self.ambient is not None:
+            diagram = IndicatorDiagram((constant_pressure(0.0, self.angle, self.ambient),), {})
+        else:
+            diagram = self.of.motored(volume_at, volume_rate_at, dead_centres)
+        return found._replace(diagram=diagram, theoretical=None)

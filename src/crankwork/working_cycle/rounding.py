@@ -68,6 +68,21 @@ def rounded_diagram(
     return RoundedDiagram(points, pieces, without_auxiliary(diagram), filling, level, notices)
 
 
+def motored_diagram(
+    theory: Mapping[str, float],
+    timing: Timing,
+    rounding: Rounding,
+    volume_at: VolumeAt,
+    dead_centres: tuple[float, float],
+) -> IndicatorDiagram:
+    """Return the diagram of a cylinder in which nothing burns, the exchange of gas as where it does.
+
+    `theory`: that of the rounded diagram, its expansion along the line of compression [SI].
+    """
+    corners = corners_of(theory, replace(timing, ignition_advance=0.0), rounding, volume_at, dead_centres)
+    return without_auxiliary(_drawn(corners._replace(kind="motored"), 1.0)[2])
+
+
 def _peak_level(corners: RoundedCorners) -> tuple[float, tuple[Notice, ...]]:
     """Return the peak over p_z: given, usual, or solved for so that the filling factor is the wanted one."""
     rounding = corners.rounding
@@ -92,6 +107,14 @@ def _at_level(
     corners: RoundedCorners, level: float
 ) -> tuple[dict[str, DiagramPoint], tuple[Piece, ...], IndicatorDiagram, float]:
     """Return the diagram with a peak at a share of p_z, and its filling factor."""
+    points, pieces, diagram = _drawn(corners, level)
+    return points, pieces, diagram, _filling(corners, diagram)
+
+
+def _drawn(
+    corners: RoundedCorners, level: float
+) -> tuple[dict[str, DiagramPoint], tuple[Piece, ...], IndicatorDiagram]:
+    """Return the diagram with a peak at a share of p_z."""
     theory = corners.theory
     references = {
         "~start": DiagramPoint(None, theory["p_a"], corners.start_volume),
@@ -100,7 +123,7 @@ def _at_level(
     parts = [*compression_parts(corners), *burning_parts(corners, level), *exchange_parts(corners)]
     points, pieces = written(parts, corners.timing.cycle, references)
     diagram = solve_diagram(points, pieces, corners.timing.cycle, corners.volume_at, dead_centres=corners.dead_centres)
-    return points, pieces, diagram, _filling(corners, diagram)
+    return points, pieces, diagram
 
 
 def _filling(corners: RoundedCorners, diagram: IndicatorDiagram) -> float:

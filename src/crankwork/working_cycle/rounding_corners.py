@@ -34,7 +34,7 @@ class RoundedCorners(NamedTuple):
     volume_at: VolumeAt
     volume_of: Callable[[float], float]
     dead_centres: tuple[float, float]
-    kind: Literal["petrol", "diesel"]
+    kind: Literal["petrol", "diesel", "motored"]
     start: float
     top: float
     bottom: float
@@ -219,10 +219,13 @@ def exchange_parts(corners: RoundedCorners) -> list[Part]:
 
 
 def _blow_down(corners: RoundedCorners, points: tuple[Named, ...]) -> list[Part]:
+    if corners.kind == "motored":
+        # nothing blows: the pressure may rise to that of the exhaust
+        points = (points[0], points[-1])
     pressures = [one.pressure for one in points]
     if points[-1].angle <= points[0].angle:
         return []
-    if any(after >= before for before, after in pairwise(pressures)):
+    if corners.kind != "motored" and any(after >= before for before, after in pairwise(pressures)):
         raise CrankworkError(Refusal("blow_down_rising", pressures=[one / 1e6 for one in pressures]))
     return [Part("rounded", points, (corners.slope("expansion", points[0].angle), 0.0))]
 

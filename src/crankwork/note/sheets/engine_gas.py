@@ -103,7 +103,7 @@ def angle_side(drawn: Drawn, words: Words, end: float | None = None) -> Side:
 
 def _named_pressures(drawn: Drawn) -> list[float]:
     space = drawn.results.solved.space
-    return [displayed("gas_pressure", value - space.ambient) for _, value in space.diagram.named.values()]
+    return [displayed("gas_pressure", space.gauge(value)) for _, value in space.diagram.named.values()]
 
 
 def _room(shown: Graph) -> Box:

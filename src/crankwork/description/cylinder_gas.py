@@ -1,0 +1,128 @@
+"""From the values of a machine file to the gas of cylinders that differ: misfire, own diagrams, factors."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any, cast
+
+from crankwork.description.gas_build import ReadMeasured, build_diagram, check_parts, has_diagram
+from crankwork.description.schema import Reader
+from crankwork.formula.known import given
+from crankwork.loads.indicator import DiagramPoint, Piece
+from crankwork.locale import Refusal
+from crankwork.machine import Engine, Gas
+from crankwork.working_cycle.pressures import CornerPressure, HeatReleasePressure, MisfirePressure
+
+_AMBIENT = "ambient"
+
+
+def with_own_gas(
+    values: Mapping[str, Any], engine: Engine, gas: Gas | None, reader: Reader, read_measured: ReadMeasured
+) -> Engine:
+    """Return an engine with the gas of each cylinder where they differ; complain of what does not fit."""
+    table, count = values.get("engine", {}), len(engine.layout.places)
+    asked = [f"engine.{key}" for key in ("misfire", "pressure_factors") if key in table]
+    own = values.get("gas", {}).get("cylinders", {})
+    if gas is None:
+        for key in asked:
+            if not reader.doubts("gas", "cycle", "cylinder"):
+                reader.complain(key, Refusal("cylinder_gas_none"))
+        return engine
+    if not asked and not own:
+        return engine
+    diagrams = _own_diagrams(values["gas"], gas, count, reader, read_measured) if own else {}
+    misfires = _misfires(table, own, count, reader)
+    factors = _factors(table, misfires, count, reader)
+    motored = _motored(values, gas, reader, read_measured) if misfires else None
+    if reader.problems:
+        return engine
+    left = [number for number in range(1, count + 1) if number not in diagrams and number not in misfires]
+    if left and not (gas.calculated or has_diagram(values["gas"])):
+        reader.complain("gas.points", Refusal("cylinder_gas", numbers=", ".join(map(str, left)), first=left[0]))
+        return engine
+    gases, known = list[Gas](), dict[tuple[int, float], Gas]()
+    for number, factor in enumerate(factors, start=1):
+        one = motored if motored is not None and number in misfires else diagrams.get(number, gas)
+        if factor != 1:
+            path = f"engine.pressure_factors[{number}]"
+            one = known.setdefault((id(one), factor), replace(one, factor=factor, factor_path=path))
+        gases.append(one)
+    return replace(engine, gases=tuple(gases), misfires=tuple(sorted(misfires)))
+
+
+def _own_diagrams(
+    table: Mapping[str, Any], gas: Gas, count: int, reader: Reader, read_measured: ReadMeasured
+) -> dict[int, Gas]:
+    """Return the gas of the cylinders that have a diagram of their own, by number."""
+    found = {}
+    for name, one in table["cylinders"].items():
+        path = f"gas.cylinders.{name}"
+        if name not in map(str, range(1, count + 1)):
+            reader.complain(path, Refusal("cylinder_name", count=count))
+        elif one is not None:
+            found[int(name)] = _with_diagram(gas, one, path, table, reader, read_measured)
+    return found
+
+
+def _with_diagram(
+    gas: Gas, values: Mapping[str, Any], path: str, table: Mapping[str, Any], reader: Reader, read: ReadMeasured
+) -> Gas:
+    """Return the gas with another diagram; pressures count from where those of the table of the gas do."""
+    check_parts(values, path, reader)
+    counted = {"pressures": table["pressures"]} if "pressures" in table else {}
+    diagram = build_diagram({**values, **counted}, path, reader, read)
+    return replace(gas, **diagram._asdict(), path=path)
+
+
+def _misfires(table: Mapping[str, Any], own: Mapping[str, Any], count: int, reader: Reader) -> set[int]:
+    """Return the numbers of the cylinders in which nothing burns."""
+    found = set[int]()
+    for at, one in enumerate(table.get("misfire", ()), start=1):
+        if one is None:
+            continue
+        number, place = int(one), f"engine.misfire[{at}]"
+        if number > count:
+            reader.complain(place, Refusal("misfire_absent", number=number, count=count))
+        elif number in found:
+            reader.complain(place, Refusal("misfire_twice", number=number))
+        elif str(number) in own:
+            reader.complain(place, Refusal("misfire_own", number=number))
+        found.add(number)
+    return found
+
+
+def _factors(table: Mapping[str, Any], misfires: set[int], count: int, reader: Reader) -> list[float]:
+    """Return by what the gauge pressure of each cylinder is multiplied."""
+    factors = table.get("pressure_factors")
+    if factors is None or None in factors:
+        return [1.0] * count
+    if len(factors) != count:
+        reader.complain("engine.pressure_factors", Refusal("offsets_count", count=len(factors), cylinders=count))
+    for number in misfires:
+        if number <= len(factors) and factors[number - 1] != 1:
+            reader.complain(f"engine.pressure_factors[{number}]", Refusal("misfire_factor", number=number))
+    return [float(one) for one in factors]
+
+
+def _motored(values: Mapping[str, Any], gas: Gas, reader: Reader, read_measured: ReadMeasured) -> Gas | None:
+    """Return the gas of a cylinder in which nothing burns."""
+    if gas.calculated is not None:
+        of = cast("CornerPressure | HeatReleasePressure", gas.calculated)
+        is_open = values.get("cycle", {}).get("motored") == _AMBIENT
+        around = given("ambient_pressure", gas.ambient, "cycle.ambient_pressure") if is_open else None
+        return replace(gas, calculated=MisfirePressure(of, gas.cycle, around))
+    table = values["gas"]
+    motored = table.get("motored")
+    if motored is None:
+        if not reader.doubts("gas.motored"):
+            reader.complain("engine.misfire", Refusal("motored_missing"))
+        return None
+    if isinstance(motored, str):
+        if motored != _AMBIENT:
+            reader.complain("gas.motored", Refusal("motored_word"))
+        pressure = gas.ambient if gas.is_absolute else 0.0
+        points = {"o": DiagramPoint(0.0, pressure), "o'": DiagramPoint(gas.cycle, pressure)}
+        level = replace(gas, points=points, pieces=(Piece("constant", ("o", "o'")),), measured=None)
+        return replace(level, path="gas.motored")
+    return _with_diagram(gas, motored, "gas.motored", table, reader, read_measured)
