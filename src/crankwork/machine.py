@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from crankwork.cylinders.layout import Layout
@@ -17,6 +17,7 @@ from crankwork.method import EXACT, Method
 if TYPE_CHECKING:
     from crankwork.cylinders.articulated import ArticulatedRod
     from crankwork.dynamics.efficiency import Series
+    from crankwork.dynamics.redundant import RedundantLink
     from crankwork.dynamics.tabulated import Differences, TabulatedBody
     from crankwork.loads.load import Load
     from crankwork.mechanism.linkage import Linkage
@@ -254,6 +255,8 @@ class Machine:
         Whether its weights count; those of a linkage are loads.
     loads : tuple of Load
         What pushes a linkage.
+    redundant : tuple of RedundantLink
+        Links too many that fit, and what each of them bears; `linkage` is without them.
     chambers, charges : mapping of str to Chamber and to Charge
         The gas between sliding pieces of a linkage, and that which is sealed in several chambers, by name.
     drive : Drive
@@ -281,6 +284,7 @@ class Machine:
     gas: Gas | None = None
     has_gravity: bool = False
     loads: tuple[Load, ...] = ()
+    redundant: tuple[RedundantLink, ...] = ()
     chambers: Mapping[str, Chamber] = field(default_factory=dict)
     charges: Mapping[str, Charge] = field(default_factory=dict)
     drive: Drive = Drive()
@@ -304,6 +308,12 @@ class Machine:
         if self.linkage is None:
             raise TypeError("this machine was not drawn as a linkage")
         return self.linkage
+
+    @property
+    def whole(self) -> Linkage:
+        """The linkage as it was drawn, with the links too many that `drawn` is without."""
+        extra = tuple(one.member for one in self.redundant)
+        return replace(self.drawn, members=(*self.drawn.members, *extra)) if extra else self.drawn
 
     @property
     def cycle(self) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Literal, NamedTuple
 
@@ -25,11 +25,11 @@ from crankwork.analysis.reach import (
     unbounded,
 )
 from crankwork.analysis.results import Results
+from crankwork.analysis.running import running_at
 from crankwork.analysis.solved import Notice, SolvedLinkage
 from crankwork.analysis.tabulated import DYNAMICS
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.routes import ROUTES, by_groups
-from crankwork.dynamics.running import Running
 from crankwork.errors import CrankworkError
 from crankwork.formula.known import Found, Known, given
 from crankwork.formula.over_cycle import OverCycle
@@ -40,7 +40,6 @@ from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.quality import FourBarType, grashof
 from crankwork.kinematics.travel import Travel, passing
-from crankwork.loads.load import applied_loads
 from crankwork.locale import Refusal
 from crankwork.machine import Machine
 from crankwork.mechanism.driver import Law, LinkMotor
@@ -73,17 +72,6 @@ def four_bar_type(machine: Machine) -> FourBarType | Literal[""]:
     return ""
 
 
-def running_at(solved: SolvedLinkage, motion: Motion) -> Running:
-    """Return the linkage at work, with its loads."""
-    machine = solved.machine
-    loads = applied_loads(machine.mechanism, motion, machine.loads)
-    loads = loads.also(solved.filling.loads(machine.mechanism, motion))
-    w, eps = solved.speed, machine.angular_acceleration
-    if motion.driver is not None:
-        _, w, eps = motion.driver
-    return Running(machine.mechanism, motion, w, loads, eps)
-
-
 def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
     """Return everything a linkage does over one cycle: a revolution, or two of some gas.
 
@@ -112,7 +100,7 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
     if found is not None:
         summary |= limits_of(found, memory)
     checks = _checks(solved, clear_of_changes(machine.mechanism, reached.motion)) | gas_check(solved, motion)
-    between = {"mobility": mobility(machine.drawn)}
+    between = {"mobility": mobility(machine.whole)}
     if found is None and "reduced_inertia" in memory:
         turn = turn_of(machine, over, {**memory, **summary})
         memory |= turn.columns
@@ -124,6 +112,7 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
     if found is None and "shaking_force" in memory and isinstance(driver, Crank) and driver.law is None:
         summary |= {key: one.named(key) for key, one in balance_of(driver, memory | summary)}
     summary |= transient_summary(machine)
+    notices += tuple(_of_redundant(machine))
     if machine.drawn.geared:
         notices += (Notice("geared", {}),)
     if machine.mechanism.driver.law is not None:
@@ -134,6 +123,13 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
     values = {key: one.value for key, one in summary.items()}
     memory |= {**summary, **between}
     return Results(solved, table, columns, values, checks, notices, _groups(columns), memory=memory)
+
+
+def _of_redundant(machine: Machine) -> Iterator[Notice]:
+    """Yield notices of links too many whose part in what is borne is stated."""
+    for one in machine.redundant:
+        freedom = float(mobility(machine.whole).value)
+        yield Notice("redundant", {"name": one.member.name, "mobility": freedom, "share": one.share, "other": one.of})
 
 
 def _table(machine: Machine, reached: Reached, grid: CrankGrid | None) -> CrankGrid:
@@ -168,8 +164,8 @@ def _boundless(keys: Iterable[str], angles: Iterable[float]) -> tuple[Notice, ..
 def _followed(memory: Mapping[str, Known]) -> dict[str, Known]:
     """Return the columns that single values are taken from."""
     kinds = (
-        "slider_displacement", "link_angle", "joint_force", "slider_velocity", "gas_pressure", "gas_force", *_OF_DRIVER,
-        "shaking_force",
+        "slider_displacement", "link_angle", "joint_force", "axial_force", "slider_velocity", "gas_pressure",
+        "gas_force", *_OF_DRIVER, "shaking_force",
     )  # fmt: skip
     return {key: one for key, one in memory.items() if key in DYNAMICS or key.partition(".")[0] in kinds}
 
@@ -304,7 +300,8 @@ def _groups(columns: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
         "balance": ("shaking_force_x", "shaking_force_y", "shaking_force", "shaking_moment"),
         "speed": ("crank_speed", "kinetic_energy_change"),
         "chambers": ("cylinder_volume", "diagram_pressure", "gas_pressure", "gas_force"),
-        "joint_forces": ("joint_force_x", "joint_force_y", "joint_force", "normal_force", "normal_moment"),
+        "joint_forces": ("joint_force_x", "joint_force_y", "joint_force", "axial_force", "normal_force",
+                         "normal_moment"),
     }  # fmt: skip
     groups = {name: tuple(key for key in columns if key.partition(".")[0] in keys) for name, keys in kinds.items()}
     return {"driver": _OF_DRIVER, "dynamics": DYNAMICS, **groups}

@@ -8,12 +8,11 @@ from collections.abc import Iterator
 from crankwork.analysis import origins
 from crankwork.analysis.linkage_balance import shaking
 from crankwork.analysis.quality import transmissions
+from crankwork.analysis.running import remembered_forces
 from crankwork.analysis.solved import SolvedLinkage
 from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor, remembered_efficiency
 from crankwork.dynamics.force_parts import balancing_torque_of_parts
-from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.link_loads import link_angular_acceleration
-from crankwork.dynamics.reaction import JointForces
 from crankwork.dynamics.reduction import (
     driver_power,
     dynamic_torque,
@@ -50,7 +49,7 @@ def linkage_memory(solved: SolvedLinkage, motion: Motion) -> dict[str, Known]:
     """
     machine = solved.machine
     if motion.driver is not None and machine.mechanism.driver.law is not None:
-        return {key: one.named(key) for key, one in _by_law(machine, motion, machine.mechanism.driver.law).items()}
+        return {key: one.named(key) for key, one in _by_law(solved, motion, machine.mechanism.driver.law).items()}
     w, eps = (
         speed_of(machine),
         _stated("angular_acceleration", machine.angular_acceleration, "crank.angular_acceleration"),
@@ -62,17 +61,18 @@ def linkage_memory(solved: SolvedLinkage, motion: Motion) -> dict[str, Known]:
     return {key: one.named(key) for key, one in columns.items()}
 
 
-def _by_law(machine: Machine, motion: Motion, law: Law) -> dict[str, Known]:
+def _by_law(solved: SolvedLinkage, motion: Motion, law: Law) -> dict[str, Known]:
     """Return the columns of a linkage whose driver follows a law over time, with what the driver has to give."""
+    machine = solved.machine
     q, rate, second = motion.driver or Transfer(None, None, None)
     columns = {"time": clock(law), **{one.key: one for one in (q, rate, second)}}
     columns |= dict(_moving(machine, motion, rate, second))
     if machine.mechanism.bodies or machine.loads:
         mechanism = given_mechanism(machine.mechanism, machine.linkage)
         loads = applied_loads(mechanism, motion, machine.loads)
-        found = joint_forces(Running(mechanism, motion, rate, loads, second))
-        driven = found.balancing_torque.named(DRIVEN[machine.mechanism.driver.turns])
-        columns |= {driven.key: driven, "driver_power": driver_power(driven, rate), **dict(_forces(machine, found))}
+        torque, forces = _forces(solved, Running(mechanism, motion, rate, loads, second))
+        driven = torque.named(DRIVEN[machine.mechanism.driver.turns])
+        columns |= {driven.key: driven, "driver_power": driver_power(driven, rate), **forces}
     return columns
 
 
@@ -164,7 +164,7 @@ def _at_work(solved: SolvedLinkage, motion: Motion, w: Known, eps: Known) -> dic
         "dynamic_torque": dynamic,
         "balancing_torque": balancing,
         "driving_torque": _driving(static, dynamic, balancing, machine.drive, motion),
-        **dict(_forces(machine, joint_forces(Running(mechanism, motion, w, loads, eps)))),
+        **_forces(solved, Running(mechanism, motion, w, loads, eps))[1],
     }
     if any(not is_nothing(one.mass) for one in mechanism.bodies):
         columns |= shaking(Running(mechanism, motion, w, loads, eps))
@@ -182,14 +182,21 @@ def _driving(static: Known, dynamic: Known, balancing: Known, drive: Drive, moti
     return Known(Pieces(ends, tuple(brake if one else motor for one in is_brake)), "driving_torque")
 
 
-def _forces(machine: Machine, found: JointForces) -> Iterator[tuple[str, Known]]:
-    """Yield the forces in joints and guides; the joint of crank and ground has the name of its fixed point."""
-    pivots = {f"{link}_pivot": name for link, name in pivots_of(machine.mechanism).items()}
+def _forces(solved: SolvedLinkage, running: Running) -> tuple[Known, dict[str, Known]]:
+    """Return what the driver needs, and the forces in joints and guides.
+
+    The joint of crank and ground has the name of its fixed point.
+    """
+    found, along = remembered_forces(solved, running)
+    pivots = {f"{link}_pivot": name for link, name in pivots_of(solved.machine.mechanism).items()}
+    columns: dict[str, Known] = {}
     for joint, pin in found.pins.items():
         name = pivots.get(joint, joint)
-        yield f"joint_force_x.{name}", pin.x
-        yield f"joint_force_y.{name}", pin.y
-        yield f"joint_force.{name}", pin.resultant
+        columns |= {
+            f"joint_force_x.{name}": pin.x,
+            f"joint_force_y.{name}": pin.y,
+            f"joint_force.{name}": pin.resultant,
+        }
     for name, guide in found.guides.items():
-        yield f"normal_force.{name}", guide.normal
-        yield f"normal_moment.{name}", guide.moment
+        columns |= {f"normal_force.{name}": guide.normal, f"normal_moment.{name}": guide.moment}
+    return found.balancing_torque, columns | along

@@ -17,6 +17,7 @@ from crankwork.description.chamber_build import build_chambers
 from crankwork.description.driver_build import build_law, check_driver, check_loads
 from crankwork.description.gas_build import ReadMeasured
 from crankwork.description.linkage_reach import checked_motion, passing_if_assembled, told_redundant, with_starts
+from crankwork.description.redundant_build import fitting, geometry_of, taken_out
 from crankwork.description.schema import Measure, Reader
 from crankwork.description.stated import stated_numbers
 from crankwork.dynamics.efficiency import Chain as EfficiencyChain
@@ -69,6 +70,7 @@ def build_linkage(values: Mapping[str, Any], reader: Reader, read_measured: Read
     linkage, problems = linkage_from(tables)
     mechanism = None
     if linkage is not None:
+        linkage, carried = taken_out(linkage, values, reader)
         mechanism, problems = _decomposed(linkage)
         problems = told_redundant(linkage, problems)
     for problem in problems:
@@ -85,6 +87,9 @@ def build_linkage(values: Mapping[str, Any], reader: Reader, read_measured: Read
     if reader.problems or mechanism is None or linkage is None:
         return None
     mechanism = passing_if_assembled(mechanism)
+    redundant = fitting(linkage, carried, values, reader)
+    if reader.problems:
+        return None
     loads = with_starts(loads, values, mechanism)
     if values.get("method", {}).get("weights"):
         loads = (*loads, Weight(method.gravity))
@@ -96,6 +101,7 @@ def build_linkage(values: Mapping[str, Any], reader: Reader, read_measured: Read
         angular_acceleration=_value(crank, "angular_acceleration"),
         title=values.get("title", ""),
         loads=loads,
+        redundant=redundant,
         chambers=chambers,
         charges=charges,
         drive=drive if _weighs(values) else replace(drive, inertia=drive.inertia + _value(crank, "inertia")),
@@ -117,6 +123,8 @@ def _weighs(values: Mapping[str, Any]) -> bool:
 def _geometry(values: Mapping[str, Any], reader: Reader) -> dict[str, Any]:
     """Return the tables that describe the linkage, and its driver with its law."""
     tables = {name: _plain(values[name]) for name in _GEOMETRY if name in values}
+    if "links" in tables:
+        tables["links"] = {name: geometry_of(one) for name, one in tables["links"].items()}
     if "crank" in tables:
         # what a crank alone weighs it bears at its pivot; what turns besides does not
         elsewhere = _RATES if _weighs(values) else (*_RATES, "inertia")

@@ -92,6 +92,8 @@ _LINK = Table({
                  required=True),
     "length": Key(_LENGTH, "distance of the first two joints; may follow from positions"),
     "points": Key(Named(_PLACE), "further points of the link: [along, across] its frame"),
+    "share": Key(Number(-1e3, 1e3), "of a link too many that fits, the force along it over that along the link `of`"),
+    "of": Key(_NAME, "the link with which a link too many shares what they bear"),
     **_MASS,
 })  # fmt: skip
 

@@ -26,7 +26,7 @@ from crankwork.locale import Refusal
 from crankwork.machine import Machine, Transient
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.decomposition import mechanism_of
-from crankwork.mechanism.linkage import Linkage
+from crankwork.mechanism.linkage import GROUND, Linkage, Member
 from crankwork.mechanism.mechanism import Mechanism
 
 _STEP = 1.0
@@ -54,11 +54,21 @@ def told_redundant(linkage: Linkage, problems: list[Problem]) -> list[Problem]:
 def _redundant(linkage: Linkage, name: str, told: Refusal) -> Refusal | None:
     """Return what is to be said of a link without which the linkage moves, None if it does not move."""
     member = linkage.member(name)
-    joints = [point for point in member.points if len(linkage.owners[point]) > 1]
-    without = replace(linkage, members=tuple(one for one in linkage.members if one is not member))
+    return fit(
+        replace(linkage, members=tuple(one for one in linkage.members if one is not member)),
+        member,
+        told.values["mobility"],
+    )
+
+
+def fit(without: Linkage, member: Member, freedom: object) -> Refusal | None:
+    """Return whether a link fits where a linkage moves without it, as what is to be said; None if that is unknown."""
+    joints = [point for point in member.points if point in without.owners]
     mechanism, problems = mechanism_of(without)
     if mechanism is None or problems or member.guide or len(joints) != 2 or not has_steady_crank(mechanism):
         return None
+    name = member.name
+    others = [one.name for one in without.members if not one.guide]
     try:
         mechanism = passing(mechanism)
         found = None if turns_fully(mechanism) else travel(mechanism)
@@ -69,11 +79,20 @@ def _redundant(linkage: Linkage, name: str, told: Refusal) -> Refusal | None:
     (x, y), (u, v) = (points[joint] for joint in joints)
     apart = np.hypot(u.position - x.position, v.position - y.position)
     length = math.dist(*(member.points[joint] for joint in joints))
-    values = {"name": name, "mobility": told.values["mobility"]}
+    values = {"name": name, "mobility": freedom}
     if np.max(np.abs(apart - length)) <= EQUAL * max(length, float(np.max(apart))):
-        return Refusal("redundant_fits", **values)
+        # that which hangs on the same link
+        beside = next((one for one in others if _beside(without, without.member(one), joints)), others[-1])
+        return Refusal("redundant_fits", **values, other=beside)
     least, most = (f"{one * 1e3:.6g}" for one in (np.min(apart), np.max(apart)))
     return Refusal("redundant_misses", **values, least=least, most=most, length=f"{length * 1e3:.6g}")
+
+
+def _beside(linkage: Linkage, member: Member, joints: list[str]) -> bool:
+    """Return whether a link of two joints hangs on a link that some joints belong to."""
+    own = [point for point in member.points if len(linkage.owners[point]) > 1]
+    owners = {owner for point in joints for owner in linkage.owners[point]} - {GROUND, member.name}
+    return len(own) == 2 and any(owners & {*linkage.owners[point]} for point in own)
 
 
 def checked_motion(machine: Machine, crank: Mapping[str, Any], reader: Reader) -> Machine | None:

@@ -147,7 +147,7 @@ def appendix(material: Material) -> Iterator[Block]:
         ("motion_all", named(columns, *_MOTION)),
         (
             "reactions_period" if words.period else "reactions_all",
-            any_nonzero(named(columns, "joint_force", "normal_force", "normal_moment"), columns),
+            any_nonzero(named(columns, "joint_force", "axial_force", "normal_force", "normal_moment"), columns),
         ),
     ):
         shown = quantity_columns(keys, columns, words)

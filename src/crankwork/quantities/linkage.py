@@ -39,6 +39,8 @@ ROWS = (
     Quantity("link_inertia_torque", "N*m", "Minus moment of inertia times angular acceleration."),
     Quantity("link_torque", "N*m", "Torque applied to a link, positive anticlockwise."),
     Quantity("joint_force", "N", "Force in a revolute joint on the link that is held."),
+    Quantity("axial_force", "N", "Force along a link at its joints, positive where it presses them apart."),
+    Quantity("force_share", "", "Force along a link too many over that along another link."),
     Quantity("normal_force", "N",
              "Force of a guide on its piece, positive to the left of the direction in which the distance of the piece"
              " counts."),

@@ -1,0 +1,75 @@
+"""A solved linkage at work, in numbers, with what its redundant links bear."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from crankwork.analysis.solved import SolvedLinkage
+from crankwork.dynamics.joint_forces import joint_forces
+from crankwork.dynamics.reaction import JointForces
+from crankwork.dynamics.redundant import (
+    RedundantLink,
+    force_along_other,
+    pressing,
+    redundant_forces,
+    with_redundant,
+)
+from crankwork.dynamics.running import Running
+from crankwork.formula.known import Component, Known, Root, given
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.motion import Motion, linkage_motion
+from crankwork.loads.load import applied_loads
+
+
+def running_at(solved: SolvedLinkage, motion: Motion) -> Running:
+    """Return the linkage at work, with its loads."""
+    return with_redundant(_without(solved, motion), solved.machine.redundant)
+
+
+def _without(solved: SolvedLinkage, motion: Motion) -> Running:
+    machine = solved.machine
+    loads = applied_loads(machine.mechanism, motion, machine.loads)
+    loads = loads.also(solved.filling.loads(machine.mechanism, motion))
+    w, eps = solved.speed, machine.angular_acceleration
+    if motion.driver is not None:
+        _, w, eps = motion.driver
+    return Running(machine.mechanism, motion, w, loads, eps)
+
+
+@dataclass(frozen=True)
+class _Shares:
+    """The forces of redundant links as a function of the crank angle, shape (links, n). [N]"""
+
+    solved: SolvedLinkage
+
+    def __call__(self, grid: CrankGrid) -> Array:
+        machine = self.solved.machine
+        return redundant_forces(_without(self.solved, linkage_motion(machine.mechanism, grid)), machine.redundant)
+
+
+def _left(links: Sequence[RedundantLink], forces: Sequence[Known], others: Sequence[Known]) -> Iterator[Known]:
+    """Yield by how much forces along redundant links differ from their shares."""
+    for one, force, other in zip(links, forces, others, strict=True):
+        share = given(f"force_share.{one.member.name}", one.share, f"links.{one.member.name}.share")
+        yield (force - share * other).named(f"axial_force.{one.member.name}.left")
+
+
+def remembered_forces(solved: SolvedLinkage, running: Running) -> tuple[JointForces, dict[str, Known]]:
+    """Return the joint forces of a mechanism at work with its redundant links, and the forces along links by key.
+
+    What a redundant link bears is found with all others; what is left of its share is noted as an equation.
+    """
+    links = solved.machine.redundant
+    if not links:
+        return joint_forces(running), {}
+    root = Root(_Shares(solved))
+    forces = [Known(Component(root, k), f"axial_force.{one.member.name}") for k, one in enumerate(links)]
+    loads = running.loads
+    for one, force in zip(links, forces, strict=True):
+        loads = loads.also(pressing(running.mechanism, running.motion, one, force))
+    whole = Running(running.mechanism, running.motion, running.speed, loads, running.angular_acceleration)
+    found = joint_forces(whole)
+    others = [force_along_other(running.mechanism, running.motion, found, one) for one in links]
+    root.residuals = tuple(_left(links, forces, others))
+    return found, {one.key: one for one in [*forces, *others]}

@@ -1,0 +1,96 @@
+"""Links too many whose part in what is borne is stated: taken out of the linkage, if they fit where it moves."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from crankwork.description.linkage_reach import fit
+from crankwork.description.schema import Reader
+from crankwork.dynamics.redundant import RedundantLink
+from crankwork.locale import Refusal
+from crankwork.mechanism.decomposition import mechanism_of
+from crankwork.mechanism.linkage import GROUND, Linkage, Member
+from crankwork.mechanism.structure import mobility
+
+_KEYS = ("share", "of")
+
+
+def geometry_of(link: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the keys of a link without those that say what it bears."""
+    return {name: one for name, one in link.items() if name not in _KEYS}
+
+
+def taken_out(linkage: Linkage, values: Mapping[str, Any], reader: Reader) -> tuple[Linkage, tuple[Member, ...]]:
+    """Return a linkage without the links that have a share, and these; complain of what can have none."""
+    links = values.get("links", {})
+    for name, link in links.items():
+        for key, other in (_KEYS, _KEYS[::-1]):
+            if key in link and other not in link:
+                example = next((one for one in links if one != name), "rocker")
+                reader.complain(f"links.{name}.{other}", Refusal(f"{other}_missing", name=name, example=example))
+    shared = tuple(one for one in linkage.members if set(_KEYS) <= set(links.get(one.name, ())))
+    if reader.problems or not shared:
+        return linkage, ()
+    if not mechanism_of(linkage)[1]:
+        for one in shared:
+            reader.complain(f"links.{one.name}.share", Refusal("share_needless", name=one.name))
+        return linkage, ()
+    without = replace(linkage, members=tuple(one for one in linkage.members if one not in shared))
+    for one in shared:
+        _check((linkage, without), one, links[one.name]["of"], reader)
+    return without, shared
+
+
+def _check(both: tuple[Linkage, Linkage], one: Member, other: str, reader: Reader) -> None:
+    """Complain of a link that cannot have a share, and of one that it cannot share with.
+
+    `both`: the linkage with all links, and without those that have a share.
+    """
+    key, (whole, without) = f"links.{one.name}", both
+    if sum(point in without.owners for point in one.points) != 2:
+        reader.complain(f"{key}.share", Refusal("share_joints", name=one.name))
+    if one.mass or one.inertia:
+        reader.complain(f"{key}.mass", Refusal("share_mass", name=one.name))
+    known = [member.name for member in without.members if not member.guide]
+    if other not in known:
+        reader.complain(f"{key}.of", Refusal("absent_link", name=other, known=", ".join(known)))
+    elif len(_joints(whole, whole.member(other))) != 2:
+        reader.complain(f"{key}.of", Refusal("share_joints", name=other))
+
+
+def _joints(linkage: Linkage, member: Member) -> list[str]:
+    return [point for point in member.points if len(linkage.owners[point]) > 1]
+
+
+def fitting(
+    linkage: Linkage, members: tuple[Member, ...], values: Mapping[str, Any], reader: Reader
+) -> tuple[RedundantLink, ...]:
+    """Return links too many that fit where the linkage moves, and complain of those that do not."""
+    found = []
+    for one in members:
+        freedom = float(mobility(replace(linkage, members=(*linkage.members, one))).value)
+        told = fit(linkage, one, freedom)
+        if told is None or told.name != "redundant_fits":
+            reader.complain(f"links.{one.name}", told or Refusal("share_driver", name=one.name))
+            continue
+        start, end = (point for point in one.points if point in linkage.owners)
+        other = linkage.member(values["links"][one.name]["of"])
+        near, far = _counted(linkage, other, (start, end))
+        length, of_length = (
+            math.dist(one.points[start], one.points[end]),
+            math.dist(other.points[near], other.points[far]),
+        )
+        share = values["links"][one.name]["share"]
+        found.append(RedundantLink(one, start, end, length, share, other.name, near, far, of_length))
+    return tuple(found)
+
+
+def _counted(linkage: Linkage, other: Member, ends: tuple[str, str]) -> tuple[str, str]:
+    """Return the joint of a link where the force along it counts, and the other: first where both hang on one link."""
+    beside = {owner for end in ends for owner in linkage.owners[end]} - {GROUND}
+    joints = _joints(linkage, other)
+    near = next((one for one in joints if beside & {*linkage.owners[one]} - {other.name}), joints[0])
+    return near, next(one for one in joints if one != near)
