@@ -327,11 +327,14 @@ def explain(  # noqa: PLR0913 - one argument per option of the command
 
 
 @commands.command()
-def schema() -> None:
+@click.option(
+    "--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the descriptions."
+)
+def schema(language: Language) -> None:
     """Print the JSON Schema of the machine file, for editors."""
     from crankwork.description.machine_file import json_schema
 
-    click.echo(json_schema())
+    click.echo(json_schema(language))
 
 
 def _machine(file: str, settings: tuple[str, ...], step: str | None, method: str | None, *, per_area: bool) -> Machine:

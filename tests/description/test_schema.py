@@ -80,7 +80,7 @@ def _undocumented(value, kind, path):
     match kind:
         case Table() if isinstance(value, dict):
             for name, one in value.items():
-                if name not in kind.keys or not kind.keys[name].meaning:
+                if name not in kind.keys or not kind.meaning(name, "en"):
                     yield f"{path}.{name}"
                 else:
                     yield from _undocumented(one, kind.keys[name].kind, f"{path}.{name}")

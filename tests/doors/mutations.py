@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from crankwork import units
-from crankwork.description import schema
+from crankwork.description import kinds, schema
 from crankwork.description.keys import SIZED_FILE
 from crankwork.description.linkage_keys import LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.machine_file import template, template_names
@@ -69,7 +69,7 @@ def _places(value: Any, place: Place = ()) -> Iterator[tuple[Place, Any]]:
         yield from _places(one, (*place, name))
 
 
-def _keys(table: schema.Table, place: Place) -> Iterator[tuple[Place, schema.Kind]]:
+def _keys(table: schema.Table, place: Place) -> Iterator[tuple[Place, kinds.Kind]]:
     """Every key that a file can have; names of the user's own are `a`."""
     for name, key in table.keys.items():
         here, kind = (*place, name), key.kind
@@ -81,10 +81,10 @@ def _keys(table: schema.Table, place: Place) -> Iterator[tuple[Place, schema.Kin
             yield from _keys(kind, here)
 
 
-def _fitting(kind: schema.Kind | None) -> list[Any]:  # noqa: C901 - one case for each kind
+def _fitting(kind: kinds.Kind | None) -> list[Any]:  # noqa: C901 - one case for each kind
     """Values that a key accepts, its limits first."""
     match kind:
-        case schema.Quantity():
+        case kinds.Quantity():
             found = []
             for dimension in kind.dimensions:
                 unit = units.EXAMPLES[dimension].split()[1]
@@ -99,15 +99,15 @@ def _fitting(kind: schema.Kind | None) -> list[Any]:  # noqa: C901 - one case fo
                     f"{units.from_si(one, unit)!r} {unit}" for one in sorted(inside) if kind.low <= one <= kind.high
                 ]
             return found
-        case schema.Number(low=low, high=high, whole=True):
+        case kinds.Number(low=low, high=high, whole=True):
             return [int(low), int(high), (int(low) + int(high)) // 2]
-        case schema.Number(low=low, high=high):
+        case kinds.Number(low=low, high=high):
             return [low, high, (low + high) / 2, low + 1e-9, high - 1e-9, 0.25]
-        case schema.Choice():
+        case kinds.Choice():
             return list(kind.options)
-        case schema.Flag():
+        case kinds.Flag():
             return [True, False]
-        case schema.Text():
+        case kinds.Text():
             return ["textbook", "series:3", "A", "a"]
         case schema.ListOf():
             return [_fitting(kind.entry)[:count] for count in (1, 2, 3, kind.fewest)] + [
@@ -249,7 +249,7 @@ def _stretch(draw: random.Random, values: Values) -> None:
         _put(values, place, draw.choice(fitting))
 
 
-def _kind_at(kind: schema.Kind, place: Place) -> schema.Kind | None:
+def _kind_at(kind: kinds.Kind, place: Place) -> kinds.Kind | None:
     """What a place of a file holds."""
     for name in place:
         kind = kind.other if isinstance(kind, schema.NameOr) else kind

@@ -126,7 +126,7 @@ MISTAKES = {
         'pressures = "absolute"\n',
         "",
         "chambers.cylinder.ambient",
-        'add pressures = "absolute"',
+        'write pressures = "absolute"',
     ),
     "period": (
         ATKINSON,
@@ -166,7 +166,13 @@ MISTAKES = {
     "no gas": (STIRLING, 'gas_constant = "2077 J/(kg*K)"\n', "", "charges.helium.gas_constant", "of air"),
     "no amount": (STIRLING, MEAN, "", "charges.helium", 'write mean_pressure = "1 MPa", or pressure and angle'),
     "two amounts": (STIRLING, MEAN, f'{MEAN}\nmass = "1 g"', "charges.helium.mass", "says the same as mean_pressure"),
-    "angle alone": (STIRLING, MEAN, f'{MEAN}\nangle = "30 deg"', "charges.helium.angle", "goes with a pressure"),
+    "angle alone": (
+        STIRLING,
+        MEAN,
+        f'{MEAN}\nangle = "30 deg"',
+        "charges.helium.angle",
+        "says nothing without pressure",
+    ),
     "polytrope with a constant": (
         STIRLING,
         MEAN,

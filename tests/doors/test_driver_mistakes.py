@@ -125,7 +125,7 @@ MISTAKES = {
     "no length left": (BOOM, 'start = "1.3 m"', 'start = "-1.3 m"', "driver.law", "above zero"),
     "an angle for a length": (BOOM, '"1.3 m"', '"13 deg"', "driver.start", '"0.5 m"'),
     "a length for an angle": (ELBOW, '"25 deg"', '"25 mm"', "driver.law[1].to", '"90 deg"'),
-    "a dwell that moves": (BOOM, '"dwell", over', '"dwell", to = "2 m", over', "driver.law[2].to", "take to out"),
+    "a dwell that moves": (BOOM, '"dwell", over', '"dwell", to = "2 m", over', "driver.law[2].to", "leave it out"),
     "no end": (BOOM, '"3-4-5", to = "1.9 m"', '"3-4-5"', "driver.law[1].to", 'to = "0.5 m"'),
     "no time": (BOOM, ', over = "4 s"', "", "driver.law[1].over", "over ="),
     "a ramp of another law": (BOOM, '"3-4-5"', '"3-4-5", ramp = 0.2', "driver.law[1].ramp", "trapezoidal"),

@@ -51,7 +51,7 @@ MISTAKES = {
     "unknown carrier": ("toggle-press", 'through = "E"', 'link = "zz"', "guides.bed.link", "neither a link nor"),
     "unknown slider": ("toggle-press", 'slider = "ram"', 'slider = "rm"', "loads[1].slider", "there is ram"),
     "unknown load": ("toggle-press", '"process"', '"proces"', "loads[1].kind", 'write "process", "force"'),
-    "key of another kind": ("toggle-press", '"process"', '"process"\npoint = "D"', "loads[1].point", "it takes slider"),
+    "key of another kind": ("toggle-press", '"process"', '"process"\npoint = "D"', "loads[1].point", "leave it out"),
     "no kind": ("toggle-press", 'kind = "process"', "", "loads[1].kind", 'write kind = "process"'),
     "not rising": ("toggle-press", AT, AT.replace("31", "15"), "loads[1].at", "must rise from value to value"),
     "too few": ("toggle-press", AT, 'at = ["1 mm", "2 mm"]', "loads[1].at", "has 2 values for 3 of force"),

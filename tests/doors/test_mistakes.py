@@ -48,7 +48,7 @@ MISTAKES = {
     "share of nothing": ('mass = "0.90 kg"', "", "rod.small_end_share", 'add mass = "1 kg"'),
     "centre beyond the pin": ("small_end_share = 0.275", 'centre_of_mass = "170 mm"', "rod.centre_of_mass", "160 mm"),
     "cycle as number": ('cycle = "720 deg"', "cycle = 720", "gas.cycle", 'write "720 deg" or "360 deg"'),
-    "ambient of gauge": ('"absolute"', '"gauge"', "gas.ambient", 'add pressures = "absolute", or leave it out'),
+    "ambient of gauge": ('"absolute"', '"gauge"', "gas.ambient", 'leave it out, or write pressures = "absolute"'),
     "method": ('kinematics = "exact"', 'kinematics = "foo"', "method.kinematics", "exact, textbook or series:N"),
     "truth as text": ("# weights = true", 'weights = "yes"', "method.weights", "true or false, without quotes"),
     "date": ('"45 mm"', "1979-05-27", "crank.radius", "must be a number with a unit as text"),

@@ -12,6 +12,8 @@ import pytest
 
 import crankwork
 from crankwork.analysis.results import Notice
+from crankwork.description.machine_file import FILES
+from crankwork.description.schema import Table
 from crankwork.locale import LANGUAGES, Refusal, has_text, say, texts, told
 from crankwork.mechanism import dyads
 from crankwork.notation import ARGUMENTS
@@ -26,14 +28,27 @@ ROOMS = sorted({path.stem for path in (PACKAGE / "locale").glob("*/*.toml")})
 # rooms whose names are put together with their room where they are asked for, and the folder whose constants name them
 NAMED_IN = {
     "captions": "note", "check": "report", "columns": "", "drawing": "report", "explain": "",
-    "figures": "",
+    "fields": "description", "figures": "",
     "headings": "note", "kinds": "",
     "marks": "", "memory": "", "note": "note", "notices": "", "refusals": "", "report": "", "seen": "note",
     "sentences": "", "sheets": "note", "tables": "",
 }  # fmt: skip
+
+
+def texts_of(kind: object) -> set[str]:
+    """Return the names of the texts that say what the keys of a table mean, and of those below."""
+    if isinstance(kind, Table):
+        known = texts("fields", "en")
+        own = {f"{kind.name}.{key}" if f"{kind.name}.{key}" in known else key for key in kind.keys}
+        return own.union(*(texts_of(one.kind) for one in kind.keys.values()))
+    below = getattr(kind, "entry", getattr(kind, "other", None))
+    return texts_of(below) if below is not None else set()
+
+
 # and rooms with one text for each entry of a table
 TABLES = {
     "arguments": ARGUMENTS,
+    "fields": set().union(*map(texts_of, FILES)),
     "kinds": (*vars(dyads), "opposed"),
     "refusals": (*(f"dimension_{one.dimension}" for one in UNITS.values()), "or", "and"),
     "places": re.findall(r"\w{2,}\.?|p\.", _PLACE.pattern.replace("\\", "")),
@@ -130,6 +145,10 @@ def test_what_is_the_same_in_english_is_one_text():
             for name, said in texts(room, "en").items() if room != "refusals" else ():
                 keys[said.casefold()].append(f"{room}.{name}")
     assert {said: some for said, some in keys.items() if len(some) > 1} == {}
+
+
+def test_every_key_of_a_machine_file_says_what_it_means():
+    assert {name for one in FILES for name in texts_of(one)} <= set(texts("fields", "en"))
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

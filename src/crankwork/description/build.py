@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 from crankwork.description.gas_build import ReadMeasured, build_gas
-from crankwork.description.schema import Measure, Reader
+from crankwork.description.kinds import Measure, Reader
+from crankwork.description.schema import Values
 from crankwork.description.stated import stated_numbers
 from crankwork.dynamics.masses import CrankGearMasses, rod_big_end_mass, rod_inertia_excess, rod_small_end_mass
 from crankwork.errors import MethodError
@@ -17,7 +16,7 @@ from crankwork.loads.gas import piston_area
 from crankwork.locale import Refusal
 from crankwork.machine import Cylinder, Drive, Engine, Gas, Machine
 from crankwork.mechanism.mechanism import slider_crank
-from crankwork.method import EXACT, STANDARD_GRAVITY, Method
+from crankwork.method import EXACT, Method
 from crankwork.units import UNITS
 
 _LEAST_RISE = 1e-3
@@ -26,26 +25,26 @@ _OWN_GAS = {"misfire", "pressure_factors"}
 _ENGINE_TABLES = {"engine", "bearings", "balance", "flywheel"}
 
 
-def build_machine(values: Mapping[str, Any], reader: Reader, read_measured: ReadMeasured) -> Machine | None:
+def build_machine(values: Values, reader: Reader, read_measured: ReadMeasured) -> Machine | None:
     """Return the machine, or None after complaints."""
-    method, stated = build_method(values.get("method", {}), reader), stated_numbers(values)
+    method, stated = build_method(values["method"], reader), stated_numbers(values)
     calculated = None
     if "cycle" in values:
         from crankwork.description.cycle_build import build_cycle  # noqa: PLC0415 - few files calculate a cycle
 
         calculated = build_cycle(values, reader, method.pi)
         values = calculated.values if calculated else values
-    crank, rod = values.get("crank", {}), values.get("rod", {})
-    lengths = _lengths(crank, rod, values.get("cylinder", {}), reader)
-    cylinder = _cylinder(values.get("cylinder"))
+    crank, rod = values["crank"], values["rod"]
+    lengths = _lengths(crank, rod, values["cylinder"], reader)
+    cylinder = _cylinder(values["cylinder"])
     _check_clearance(cylinder, lengths, reader)
     _check_inertia_ratio(method, lengths, reader)
     masses = _masses(values, lengths, cylinder, method, reader)
     gas = calculated.gas if calculated else build_gas(values.get("gas"), cylinder, reader, read_measured)
-    table, flywheel = values.get("table", {}), values.get("flywheel", {})
-    special = [math.degrees(angle.value) for angle in table.get("special_angles", []) if angle]
+    table, flywheel = values["table"], values["flywheel"]
+    special = [math.degrees(angle.value) for angle in table["special_angles"] if angle]
     is_whole = not _ENGINE_TABLES.isdisjoint(values)
-    cycle = gas.cycle if gas else 180.0 * values.get("engine", {}).get("strokes", 4) if is_whole else 360.0
+    cycle = gas.cycle if gas else 180.0 * values["engine"]["strokes"] if is_whole else 360.0
     for number, angle in enumerate(special, start=1):
         if angle > cycle + 1e-9 and not reader.doubts("gas.cycle"):
             reader.complain(
@@ -57,7 +56,7 @@ def build_machine(values: Mapping[str, Any], reader: Reader, read_measured: Read
         from crankwork.description.engine_build import build_engine  # noqa: PLC0415 - most files have one crank gear
 
         engine = build_engine(values, lengths, cycle, reader)
-    if not _OWN_GAS.isdisjoint(values.get("engine", {})) or "cylinders" in values.get("gas", {}):
+    if not _OWN_GAS.isdisjoint(values["engine"]) or "cylinders" in values["gas"]:
         engine, gas = _with_own_gas(values, engine, gas, reader, read_measured)
     if reader.problems or lengths is None:
         return None
@@ -66,29 +65,29 @@ def build_machine(values: Mapping[str, Any], reader: Reader, read_measured: Read
     return Machine(
         mechanism=slider_crank(*lengths),
         speed=crank_speed(crank["speed"], method),
-        angular_acceleration=_value(crank, "angular_acceleration"),
-        title=values.get("title", ""),
+        angular_acceleration=crank.si("angular_acceleration"),
+        title=values["title"] or "",
         cylinder=cylinder,
         masses=masses,
         gas=gas,
-        has_gravity=values.get("method", {}).get("weights", False),
+        has_gravity=values["method"]["weights"],
         method=method,
-        table_step=round(math.degrees(_value(table, "step", math.radians(10.0))), 9),
+        table_step=round(math.degrees(table.si("step")), 9),
         table_special=tuple(round(angle, 9) for angle in special),
         engine=engine,
-        drive=Drive(inertia=_value(flywheel, "inertia"), fluctuation=flywheel.get("fluctuation")),
+        drive=Drive(inertia=flywheel.si("inertia"), fluctuation=flywheel["fluctuation"]),
         stated=stated,
     )
 
 
 def _with_own_gas(
-    values: Mapping[str, Any], engine: Engine | None, gas: Gas | None, reader: Reader, read_measured: ReadMeasured
+    values: Values, engine: Engine | None, gas: Gas | None, reader: Reader, read_measured: ReadMeasured
 ) -> tuple[Engine | None, Gas | None]:
     """Return an engine whose cylinders differ by their gas, and that of the first."""
     from crankwork.description.cylinder_gas import with_own_gas  # noqa: PLC0415 - few engines have such cylinders
 
     if engine is None:
-        if "engine" not in values and "cylinders" in values.get("gas", {}):
+        if "engine" not in values and "cylinders" in values["gas"]:
             reader.complain("gas.cylinders", Refusal("cylinders_engine"))
         return None, gas
     engine = with_own_gas(values, engine, gas, reader, read_measured)
@@ -101,33 +100,26 @@ def crank_speed(given: Measure, method: Method) -> float:
     return given.value * math.pi / method.pi if given.unit in _RADIANS else given.value
 
 
-def _value(table: Mapping[str, Any], key: str, default: float = 0.0) -> float:
-    measure = table.get(key)
-    return default if measure is None else float(measure.value)
-
-
-def build_method(values: Mapping[str, Any], reader: Reader) -> Method:
+def build_method(values: Values, reader: Reader) -> Method:
     """Return the method of a machine file; exact after a complaint."""
     method = Method(
-        pi=values.get("pi", math.pi),
-        gravity=_value(values, "gravity", STANDARD_GRAVITY),
-        inertia_rod_ratio=values.get("inertia_rod_ratio"),
+        pi=values["pi"],
+        gravity=values.si("gravity"),
+        inertia_rod_ratio=values["inertia_rod_ratio"],
     )
     try:
-        method = method.named(values.get("kinematics", "exact"))
+        method = method.named(values["kinematics"])
     except MethodError as error:
         reader.complain("method.kinematics", error.args[0])
         return EXACT
-    rod = values.get("rod", method.rod)
+    rod = values["rod"] or method.rod
     return method if rod == method.rod else Method(**{**vars(method), "rod": rod})
 
 
-def _lengths(
-    crank: Mapping[str, Any], rod: Mapping[str, Any], cylinder: Mapping[str, Any], reader: Reader
-) -> tuple[float, float, float] | None:
+def _lengths(crank: Values, rod: Values, cylinder: Values, reader: Reader) -> tuple[float, float, float] | None:
     """Return crank radius, rod length and offset."""
-    ratio = rod.get("ratio")
-    inverse = rod.get("ratio_definition", "r/l") == "l/r"
+    ratio = rod["ratio"]
+    inverse = rod["ratio_definition"] == "l/r"
     if ratio is not None and not inverse and ratio >= 1:
         key = "ratio_inverse" if ratio > 1 else "ratio_of_one"
         reader.complain("rod.ratio", Refusal(key, ratio=f"{ratio:g}", inverse=f"{1 / ratio:.6g}"))
@@ -144,7 +136,7 @@ def _lengths(
         length = rod["length"].value
     else:
         return None
-    offset = _value(cylinder, "offset")
+    offset = cylinder.si("offset")
     if not turns_fully(SliderCrank(radius, length, offset)):
         key = "rod.ratio" if ratio is not None else "rod.length"
         lengths = {"length": length, "radius": radius, "offset": abs(offset), "missing": radius + abs(offset) - length}
@@ -163,16 +155,15 @@ def _check_inertia_ratio(method: Method, lengths: tuple[float, float, float] | N
         reader.complain("method.inertia_rod_ratio", Refusal("inertia_ratio_large", ratio=f"{ratio:g}"))
 
 
-def _cylinder(values: Mapping[str, Any] | None) -> Cylinder | None:
-    if values is None or "bore" not in values:
+def _cylinder(values: Values) -> Cylinder | None:
+    if "bore" not in values:
         return None
-    volume = values.get("clearance_volume")
     return Cylinder(
-        bore=values["bore"].value,
-        clearance_volume=volume.value if volume else None,
-        compression_ratio=values.get("compression_ratio"),
-        piston_rod_diameter=_value(values, "piston_rod_diameter"),
-        inclination=_value(values, "inclination"),
+        bore=values.si("bore"),
+        clearance_volume=values.si("clearance_volume"),
+        compression_ratio=values["compression_ratio"],
+        piston_rod_diameter=values.si("piston_rod_diameter") or 0.0,
+        inclination=values.si("inclination"),
     )
 
 
@@ -189,7 +180,7 @@ def _check_clearance(cylinder: Cylinder | None, lengths: tuple[float, float, flo
 
 
 def _masses(
-    values: Mapping[str, Any],
+    values: Values,
     lengths: tuple[float, float, float] | None,
     cylinder: Cylinder | None,
     method: Method,
@@ -198,23 +189,23 @@ def _masses(
     area = float(piston_area(method.pi, cylinder.bore)) if cylinder else None
     rod_keys = ("mass", "small_end_mass", "big_end_mass")
     wanted = [("piston", "mass"), ("crank", "mass"), *(("rod", key) for key in rod_keys)]
-    given = {(table, key): values[table][key] for table, key in wanted if key in values.get(table, {})}
+    given = {(table, key): values[table][key] for table, key in wanted if key in values[table]}
     if not given:
         return None
     mass = {place: _mass(measure, area, ".".join(place), reader) for place, measure in given.items()}
     piston, crank = mass.get(("piston", "mass"), 0.0), mass.get(("crank", "mass"), 0.0)
-    rod = values.get("rod", {})
+    rod = values["rod"]
     if ("rod", "mass") not in mass:
-        check_rod_mass(rod, "rod", reader)
+        for key in ("inertia", "radius_of_gyration", "centre_of_mass", "small_end_share"):
+            if key in rod and not reader.doubts("rod.mass"):
+                reader.complain(f"rod.{key}", Refusal("only_beside", key="mass", advice='mass = "1 kg"'))
         small, big = (mass.get(("rod", key), 0.0) for key in rod_keys[1:])
         return CrankGearMasses(piston, small, big, crank)
     ends = rod_masses(rod, mass["rod", "mass"], lengths[1], reader, "rod") if lengths else None
     return replace(ends, piston=piston, crank=crank) if ends else None
 
 
-def rod_masses(
-    rod: Mapping[str, Any], mass: float, length: float, reader: Reader, table: str
-) -> CrankGearMasses | None:
+def rod_masses(rod: Values, mass: float, length: float, reader: Reader, table: str) -> CrankGearMasses | None:
     """Return the masses of a rod at its ends and its excess of inertia, or None after complaints.
 
     `table`: the key of the table that describes it.
@@ -229,13 +220,6 @@ def rod_masses(
     )
 
 
-def check_rod_mass(rod: Mapping[str, Any], table: str, reader: Reader) -> None:
-    """Complain of what is said about the mass of a rod where that is not given."""
-    for key in ("inertia", "radius_of_gyration", "centre_of_mass", "small_end_share"):
-        if key in rod and not reader.doubts(f"{table}.mass"):
-            reader.complain(f"{table}.{key}", Refusal("rod_mass_missing"))
-
-
 def _mass(measure: Measure, area: float | None, key: str, reader: Reader) -> float:
     """Return a mass, multiplied by the piston area if it is given per area. [kg]"""
     if measure.dimension == "mass":
@@ -247,7 +231,7 @@ def _mass(measure: Measure, area: float | None, key: str, reader: Reader) -> flo
     return measure.value * area
 
 
-def _centre_of_mass(rod: Mapping[str, Any], length: float, reader: Reader, table: str) -> float | None:
+def _centre_of_mass(rod: Values, length: float, reader: Reader, table: str) -> float | None:
     """Return the distance of the rod's centre of mass from the crankpin."""
     if "small_end_share" in rod:
         return float(rod["small_end_share"] * length)
@@ -262,7 +246,7 @@ def _centre_of_mass(rod: Mapping[str, Any], length: float, reader: Reader, table
     return centre
 
 
-def _inertia_excess(rod: Mapping[str, Any], mass: float, centre: float, length: float) -> float:
+def _inertia_excess(rod: Values, mass: float, centre: float, length: float) -> float:
     if "inertia" in rod:
         inertia = rod["inertia"].value
     elif "radius_of_gyration" in rod:

@@ -4,26 +4,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import Any
 
-from crankwork.description.gas_build import ReadMeasured, build_diagram, check_ambient, check_parts
-from crankwork.description.schema import Reader
+from crankwork.description.gas_build import ReadMeasured, build_diagram, check_parts
+from crankwork.description.kinds import Reader
+from crankwork.description.schema import Values, means_nothing
 from crankwork.loads.chamber import Chamber, Charge, DeadVolume, Face
 from crankwork.locale import Refusal
 from crankwork.mechanism.linkage import Linkage
 
-_STANDARD_AMBIENT = 101325.0
-_OF_FACE = ("slider", "bore", "rod_diameter", "area", "sense")
 _OWN_PRESSURE = ("pressure", "points", "pieces", "measured")
 _AMOUNTS = ("mean_pressure", "pressure", "mass")
 
 
 def build_chambers(
-    values: Mapping[str, Any], linkage: Linkage | None, reader: Reader, read_measured: ReadMeasured
+    values: Values, linkage: Linkage | None, reader: Reader, read_measured: ReadMeasured
 ) -> tuple[dict[str, Chamber], dict[str, Charge]]:
     """Return chambers and charges by name; those with complaints may be left out."""
-    tables = {name: one for name, one in values.get("chambers", {}).items() if one is not None}
-    sealed = {name: one for name, one in values.get("charges", {}).items() if one is not None}
+    tables = {name: one for name, one in values["chambers"].items() if one is not None}
+    sealed = {name: one for name, one in values["charges"].items() if one is not None}
     sliders = {one.name for one in linkage.members if one.guide} if linkage is not None else None
     holder = _holders(sealed, tables, reader)
     for name, one in sealed.items():
@@ -36,36 +34,32 @@ def build_chambers(
         diagram = build_diagram(one, path, reader, read_measured)
         if not faces or any(problem.key.startswith(path) for problem in reader.problems):
             continue
-        is_absolute = one.get("pressures") == "absolute" or name in holder
+        is_absolute = one["pressures"] == "absolute" or name in holder
+        counted = one.but(pressures="absolute") if is_absolute else one
         chambers[name] = Chamber(
             faces=faces,
-            clearance_volume=_value(one, "clearance_volume"),
-            compression_ratio=one.get("compression_ratio"),
-            ambient=_value(one, "ambient", _STANDARD_AMBIENT if is_absolute else 0.0) or 0.0,
+            clearance_volume=one.si("clearance_volume"),
+            compression_ratio=one["compression_ratio"],
+            ambient=counted.si("ambient") or 0.0,
             names_ambient="ambient" in one or not is_absolute,
-            cycle=float(one.get("period", "360 deg").split()[0]),
-            pressure=_value(one, "pressure"),
-            temperature=_value(one, "temperature"),
+            cycle=float(one["period"].split()[0]),
+            pressure=one.si("pressure"),
+            temperature=one.si("temperature"),
             **diagram._asdict(),
         )
     return chambers, {} if reader.problems else {name: _charge(one) for name, one in sealed.items()}
 
 
-def _value(table: Mapping[str, Any], key: str, default: float | None = None) -> float | None:
-    measure = table.get(key)
-    return default if measure is None else float(measure.value)
-
-
-def _faces(path: str, chamber: Mapping[str, Any], sliders: set[str] | None, reader: Reader) -> Iterator[Face]:
+def _faces(path: str, chamber: Values, sliders: set[str] | None, reader: Reader) -> Iterator[Face]:
     """Yield the faces of a chamber; complain of what is not one."""
-    listed = chamber.get("faces")
-    written = [{key: chamber[key] for key in _OF_FACE if key in chamber}] if listed is None else listed
+    listed = chamber["faces"]
+    written = listed or [chamber]
     taken: set[str] = set()
     for number, face in enumerate(written, start=1):
-        place = path if listed is None else f"{path}.faces[{number}]"
+        place = f"{path}.faces[{number}]" if listed else path
         if face is None or reader.doubts(place):
             continue
-        slider, bore, rod = face.get("slider", ""), _value(face, "bore"), _value(face, "rod_diameter", 0.0) or 0.0
+        slider, bore, rod = face["slider"] or "", face.si("bore"), face.si("rod_diameter") or 0.0
         if not slider and not reader.doubts(f"{place}.slider"):
             reader.complain(f"{place}.slider", Refusal("face_slider"))
         elif slider and sliders is not None and slider not in sliders:
@@ -78,10 +72,10 @@ def _faces(path: str, chamber: Mapping[str, Any], sliders: set[str] | None, read
         if rod and not rod < (bore or 0.0) and not reader.doubts(f"{place}.bore"):
             reader.complain(f"{place}.rod_diameter", Refusal("face_rod"))
         taken.add(slider)
-        yield Face(slider, bore, rod, _value(face, "area"), -1 if face.get("sense") == -1 else 1)
+        yield Face(slider, bore, rod, face.si("area"), -1 if face["sense"] == -1 else 1)
 
 
-def _check_pressure(path: str, chamber: Mapping[str, Any], charge: Mapping[str, Any] | None, reader: Reader) -> None:
+def _check_pressure(path: str, chamber: Values, charge: Values | None, reader: Reader) -> None:
     """Complain of a chamber without a pressure, with more than one, and of what belongs to another kind of it."""
     own = [key for key in _OWN_PRESSURE if key in chamber]
     if charge is not None:
@@ -89,7 +83,8 @@ def _check_pressure(path: str, chamber: Mapping[str, Any], charge: Mapping[str, 
             if key in chamber:
                 reader.complain(f"{path}.{key}", Refusal("chamber_sealed"))
     else:
-        check_ambient(chamber, path, reader)
+        if chamber["pressures"] != "absolute" and "ambient" in chamber and not reader.doubts(f"{path}.pressures"):
+            reader.complain(f"{path}.ambient", means_nothing("pressures", "gauge", ("absolute",)))
         if not own and not reader.doubts(*(f"{path}.{key}" for key in _OWN_PRESSURE), "charges"):
             reader.complain(path, Refusal("chamber_pressure", path=path))
         elif own and "pressure" not in own:
@@ -105,11 +100,11 @@ def _miss(path: str, key: str, reader: Reader) -> None:
         reader.complain(f"{path}.{key}", Refusal(f"charge_{key}"))
 
 
-def _holders(sealed: Mapping[str, Any], chambers: Mapping[str, Any], reader: Reader) -> dict[str, str]:
+def _holders(sealed: Mapping[str, Values], chambers: Mapping[str, Values], reader: Reader) -> dict[str, str]:
     """Return which charge each chamber belongs to; complain of names of none, and of chambers of two charges."""
     holder: dict[str, str] = {}
     for charge, one in sealed.items():
-        for number, name in enumerate(one.get("chambers", []), start=1):
+        for number, name in enumerate(one["chambers"], start=1):
             place = f"charges.{charge}.chambers[{number}]"
             if name is not None and name not in chambers and not reader.doubts(f"chambers.{name}"):
                 known = ", ".join(sorted(chambers)) or "–"
@@ -121,14 +116,12 @@ def _holders(sealed: Mapping[str, Any], chambers: Mapping[str, Any], reader: Rea
     return holder
 
 
-def _check_charge(path: str, charge: Mapping[str, Any], reader: Reader) -> None:
+def _check_charge(path: str, charge: Values, reader: Reader) -> None:
     """Complain of what the state of a charge lacks, and of what it does not need."""
     amounts = [key for key in _AMOUNTS if key in charge]
     if not amounts and not reader.doubts(*(f"{path}.{key}" for key in _AMOUNTS)):
         reader.complain(path, Refusal("charge_amount"))
-    if "angle" in charge and "pressure" not in charge and not reader.doubts(f"{path}.pressure"):
-        reader.complain(f"{path}.angle", Refusal("charge_angle"))
-    parts = [(f"{path}.dead_volumes[{k}]", one) for k, one in enumerate(charge.get("dead_volumes", []), start=1)]
+    parts = [(f"{path}.dead_volumes[{k}]", one) for k, one in enumerate(charge["dead_volumes"], start=1)]
     if "exponent" in charge:
         unused = [f"{path}.{key}" for key in ("gas_constant", "mass") if key in charge]
         unused += [f"{place}.temperature" for place, one in parts if one and "temperature" in one]
@@ -142,17 +135,16 @@ def _check_charge(path: str, charge: Mapping[str, Any], reader: Reader) -> None:
             _miss(place, "temperature", reader)
 
 
-def _charge(values: Mapping[str, Any]) -> Charge:
-    dead = tuple(
-        DeadVolume(one["volume"].value, _value(one, "temperature")) for one in values.get("dead_volumes", []) if one
-    )
+def _charge(values: Values) -> Charge:
     return Charge(
         chambers=tuple(values["chambers"]),
-        dead_volumes=dead,
-        exponent=values.get("exponent"),
-        mean_pressure=_value(values, "mean_pressure"),
-        pressure=_value(values, "pressure"),
-        angle=math.degrees(_value(values, "angle", 0.0) or 0.0),
-        mass=_value(values, "mass"),
-        gas_constant=_value(values, "gas_constant"),
+        dead_volumes=tuple(
+            DeadVolume(one.si("volume"), one.si("temperature")) for one in values["dead_volumes"] if one
+        ),
+        exponent=values["exponent"],
+        mean_pressure=values.si("mean_pressure"),
+        pressure=values.si("pressure"),
+        angle=math.degrees(values.si("angle") or 0.0),
+        mass=values.si("mass"),
+        gas_constant=values.si("gas_constant"),
     )

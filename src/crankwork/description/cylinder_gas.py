@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any, cast
+from typing import cast
 
 from crankwork.description.gas_build import ReadMeasured, build_diagram, check_parts, has_diagram
-from crankwork.description.schema import Reader
+from crankwork.description.kinds import Reader
+from crankwork.description.schema import Values
 from crankwork.formula.known import given
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.locale import Refusal
@@ -18,12 +18,12 @@ _AMBIENT = "ambient"
 
 
 def with_own_gas(
-    values: Mapping[str, Any], engine: Engine, gas: Gas | None, reader: Reader, read_measured: ReadMeasured
+    values: Values, engine: Engine, gas: Gas | None, reader: Reader, read_measured: ReadMeasured
 ) -> Engine:
     """Return an engine with the gas of each cylinder where they differ; complain of what does not fit."""
-    table, count = values.get("engine", {}), len(engine.layout.places)
+    table, count = values["engine"], len(engine.layout.places)
     asked = [f"engine.{key}" for key in ("misfire", "pressure_factors") if key in table]
-    own = values.get("gas", {}).get("cylinders", {})
+    own = values["gas"]["cylinders"]
     if gas is None:
         for key in asked:
             if not reader.doubts("gas", "cycle", "cylinder"):
@@ -51,9 +51,7 @@ def with_own_gas(
     return replace(engine, gases=tuple(gases), misfires=tuple(sorted(misfires)))
 
 
-def _own_diagrams(
-    table: Mapping[str, Any], gas: Gas, count: int, reader: Reader, read_measured: ReadMeasured
-) -> dict[int, Gas]:
+def _own_diagrams(table: Values, gas: Gas, count: int, reader: Reader, read_measured: ReadMeasured) -> dict[int, Gas]:
     """Return the gas of the cylinders that have a diagram of their own, by number."""
     found = {}
     for name, one in table["cylinders"].items():
@@ -65,20 +63,17 @@ def _own_diagrams(
     return found
 
 
-def _with_diagram(
-    gas: Gas, values: Mapping[str, Any], path: str, table: Mapping[str, Any], reader: Reader, read: ReadMeasured
-) -> Gas:
+def _with_diagram(gas: Gas, values: Values, path: str, table: Values, reader: Reader, read: ReadMeasured) -> Gas:
     """Return the gas with another diagram; pressures count from where those of the table of the gas do."""
     check_parts(values, path, reader)
-    counted = {"pressures": table["pressures"]} if "pressures" in table else {}
-    diagram = build_diagram({**values, **counted}, path, reader, read)
+    diagram = build_diagram(values.but(pressures=table["pressures"]), path, reader, read)
     return replace(gas, **diagram._asdict(), path=path)
 
 
-def _misfires(table: Mapping[str, Any], own: Mapping[str, Any], count: int, reader: Reader) -> set[int]:
+def _misfires(table: Values, own: dict[str, Values | None], count: int, reader: Reader) -> set[int]:
     """Return the numbers of the cylinders in which nothing burns."""
     found = set[int]()
-    for at, one in enumerate(table.get("misfire", ()), start=1):
+    for at, one in enumerate(table["misfire"], start=1):
         if one is None:
             continue
         number, place = int(one), f"engine.misfire[{at}]"
@@ -92,10 +87,10 @@ def _misfires(table: Mapping[str, Any], own: Mapping[str, Any], count: int, read
     return found
 
 
-def _factors(table: Mapping[str, Any], misfires: set[int], count: int, reader: Reader) -> list[float]:
+def _factors(table: Values, misfires: set[int], count: int, reader: Reader) -> list[float]:
     """Return by what the gauge pressure of each cylinder is multiplied."""
-    factors = table.get("pressure_factors")
-    if factors is None or None in factors:
+    factors = table["pressure_factors"]
+    if not factors or None in factors:
         return [1.0] * count
     if len(factors) != count:
         reader.complain("engine.pressure_factors", Refusal("offsets_count", count=len(factors), cylinders=count))
@@ -105,15 +100,15 @@ def _factors(table: Mapping[str, Any], misfires: set[int], count: int, reader: R
     return [float(one) for one in factors]
 
 
-def _motored(values: Mapping[str, Any], gas: Gas, reader: Reader, read_measured: ReadMeasured) -> Gas | None:
+def _motored(values: Values, gas: Gas, reader: Reader, read_measured: ReadMeasured) -> Gas | None:
     """Return the gas of a cylinder in which nothing burns."""
     if gas.calculated is not None:
         of = cast("CornerPressure | HeatReleasePressure", gas.calculated)
-        is_open = values.get("cycle", {}).get("motored") == _AMBIENT
+        is_open = values["cycle"]["motored"] == _AMBIENT
         around = given("ambient_pressure", gas.ambient, "cycle.ambient_pressure") if is_open else None
         return replace(gas, calculated=MisfirePressure(of, gas.cycle, around))
     table = values["gas"]
-    motored = table.get("motored")
+    motored = table["motored"]
     if motored is None:
         if not reader.doubts("gas.motored"):
             reader.complain("engine.misfire", Refusal("motored_missing"))

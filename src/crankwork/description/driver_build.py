@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Mapping
-from typing import Any
 
-from crankwork.description.schema import Measure, Reader
+from crankwork.description.kinds import Measure, Reader
+from crankwork.description.schema import Values
 from crankwork.locale import Refusal
 from crankwork.mechanism.driver import Law, Segment
 
@@ -15,10 +14,9 @@ from crankwork.mechanism.driver import Law, Segment
 _TURNING = ("efficiency", "motor", "flywheel", "transient", "chambers", "charges")
 _WITHOUT_DRIVER = ("speed", "angular_acceleration")
 _SUM = 1e-9
-_OF_KIND = {"ramp": "trapezoidal", "at": "table", "values": "table"}
 
 
-def check_driver(values: Mapping[str, Any], reader: Reader) -> None:
+def check_driver(values: Values, reader: Reader) -> None:
     """Complain of what a machine with a driver cannot have, or lacks."""
     driver, crank = values["driver"], values.get("crank")
     for name in _TURNING:
@@ -36,22 +34,22 @@ def check_driver(values: Mapping[str, Any], reader: Reader) -> None:
             reader.complain(f"crank.{name}", Refusal("missing", advice=(f'{name} = "{example}"',)))
 
 
-def check_loads(values: Mapping[str, Any], reader: Reader) -> None:
+def check_loads(values: Values, reader: Reader) -> None:
     """Complain of loads that count by a crank angle which nothing has."""
-    for number, load in enumerate(values.get("loads", []), start=1):
-        if load and ((load.get("kind") == "torque" and "at" in load) or load.get("against") == "angle"):
+    for number, load in enumerate(values["loads"], start=1):
+        if load and ((load["kind"] == "torque" and "at" in load) or load["against"] == "angle"):
             reader.complain(f"loads[{number}]", Refusal("load_by_angle"))
 
 
-def build_law(values: Mapping[str, Any], reader: Reader) -> Law | None:
+def build_law(values: Values, reader: Reader) -> Law | None:
     """Return the law of a driver, or None after complaints."""
     driver = values["driver"]
     wanted = "length" if {"slider", "cylinder"} & set(driver) else "angle"
     places = [_place(driver, "start", "driver.start", wanted, reader)]
-    segments = list(enumerate(driver.get("law", []), start=1))
+    segments = [(number, one) for number, one in enumerate(driver["law"], start=1) if one is not None]
     for number, one in segments:
-        places.append(_end(one or {}, number, places, wanted, reader))
-        _check_kind(one or {}, f"driver.law[{number}]", wanted, reader)
+        places.append(_end(one, number, places, wanted, reader))
+        _check_kind(one, f"driver.law[{number}]", wanted, reader)
     if reader.problems:
         return None
     if places[0] is None:
@@ -71,52 +69,43 @@ def build_law(values: Mapping[str, Any], reader: Reader) -> Law | None:
     period = math.fsum(times)
     made = tuple(
         Segment(
-            one["kind"], to, time / period, one.get("ramp", 1 / 3),
-            tuple(zip(one.get("at", ()), (place.value for place in one.get("values", ())), strict=True)),
+            one["kind"], to, time / period, one["ramp"] or Segment.ramp,
+            tuple(zip(one["at"], (place.value for place in one["values"]), strict=True)),
         )
         for (_, one), to, time in zip(segments, filled[1:], times, strict=True)
     )  # fmt: skip
     return Law(made, period, filled[0])
 
 
-def _place(table: Mapping[str, Any], key: str, path: str, wanted: str, reader: Reader) -> float | None:
+def _place(table: Values, key: str, path: str, wanted: str, reader: Reader) -> float | None:
     """Return a value of the coordinate in SI; complain where it is an angle and should be a length."""
-    one: Measure | None = table.get(key)
+    one: Measure | None = table[key]
     if one is not None and one.dimension != wanted:
         reader.complain(path, Refusal(f"driver_{wanted}"))
     return None if one is None else one.value
 
 
-def _end(one: Mapping[str, Any], number: int, before: list[float | None], wanted: str, reader: Reader) -> float | None:
+def _end(one: Values, number: int, before: list[float | None], wanted: str, reader: Reader) -> float | None:
     """Return where a segment ends, None for where it began."""
     path = f"driver.law[{number}]"
-    if one.get("kind") == "dwell":
-        if "to" in one:
-            reader.complain(f"{path}.to", Refusal("dwell_moves"))
+    if one["kind"] == "dwell":
         return before[-1]
     if "to" not in one:
         reader.complain(f"{path}.to", Refusal("law_to", example="0.5 m" if wanted == "length" else "90 deg"))
     return _place(one, "to", f"{path}.to", wanted, reader)
 
 
-def _check_kind(one: Mapping[str, Any], path: str, wanted: str, reader: Reader) -> None:
-    """Complain of keys that belong to another kind of segment, and of a rate that is none of the coordinate."""
-    kind = one.get("kind")
-    for name, owner in _OF_KIND.items():
-        if name in one and kind != owner:
-            reader.complain(f"{path}.{name}", Refusal("law_key", key=name, kind=owner))
-    if "speed" in one:
-        if kind != "constant":
-            reader.complain(f"{path}.speed", Refusal("law_key", key="speed", kind="constant"))
-        elif one["speed"].dimension != ("velocity" if wanted == "length" else "speed"):
-            reader.complain(f"{path}.speed", Refusal(f"driver_speed_{wanted}"))
-    if kind == "table":
+def _check_kind(one: Values, path: str, wanted: str, reader: Reader) -> None:
+    """Complain of a rate that is none of the coordinate, and of a table that is none."""
+    if "speed" in one and one["speed"].dimension != ("velocity" if wanted == "length" else "speed"):
+        reader.complain(f"{path}.speed", Refusal(f"driver_speed_{wanted}"))
+    if one["kind"] == "table":
         _check_table(one, path, wanted, reader)
 
 
-def _check_table(one: Mapping[str, Any], path: str, wanted: str, reader: Reader) -> None:
+def _check_table(one: Values, path: str, wanted: str, reader: Reader) -> None:
     """Complain of a table that does not rise, or whose columns do not match."""
-    at, values = one.get("at", []), one.get("values", [])
+    at, values = one["at"], one["values"]
     if len(at) != len(values) or not at:
         reader.complain(f"{path}.at", Refusal("law_table"))
     elif None not in at and any(b <= a for a, b in itertools.pairwise([0.0, *at, 1.0])):
@@ -126,11 +115,9 @@ def _check_table(one: Mapping[str, Any], path: str, wanted: str, reader: Reader)
             reader.complain(f"{path}.values[{number}]", Refusal(f"driver_{wanted}"))
 
 
-def _times(
-    driver: Mapping[str, Any], segments: list[Mapping[str, Any]], places: list[float], reader: Reader
-) -> list[float] | None:
+def _times(driver: Values, segments: list[Values], places: list[float], reader: Reader) -> list[float] | None:
     """Return the time of each segment. [s]"""
-    period = driver["period"].value if "period" in driver else None
+    period = driver.si("period")
     times, shares = [], []
     for number, (one, (low, high)) in enumerate(zip(segments, itertools.pairwise(places), strict=True), start=1):
         if "speed" in one:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from crankwork.cylinders.arrangement import arranged
@@ -13,23 +13,15 @@ from crankwork.cylinders.firing import LayoutError, LayoutNotice
 from crankwork.cylinders.journal_loads import check_journals
 from crankwork.cylinders.layout import Banks, Layout
 from crankwork.cylinders.standard_orders import StandardOrder, standard_orders
-from crankwork.description.build import check_rod_mass, rod_masses
-from crankwork.description.schema import Reader
+from crankwork.description.build import rod_masses
+from crankwork.description.kinds import Reader
+from crankwork.description.schema import Values
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.errors import CrankworkError, GeometryError
 from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
 from crankwork.locale import Refusal
 from crankwork.machine import Bearings, Engine
 
-_ONLY_FOR = {
-    "bank_angle": ("V",),
-    "bank_angles": ("W",),
-    "pin_offset": ("V",),
-    "numbering": ("V", "boxer", "W"),
-    "bank_stagger": ("V", "boxer", "W"),
-    "articulated": ("V", "radial"),
-    "own_throws": ("V",),
-}
 _SIZES: tuple[str, ...] = (
     "crankpin_diameter",
     "crankpin_length",
@@ -41,7 +33,7 @@ _SIZES: tuple[str, ...] = (
 
 
 def build_engine(
-    values: Mapping[str, Any], lengths: tuple[float, float, float] | None, cycle: float, reader: Reader
+    values: Values, lengths: tuple[float, float, float] | None, cycle: float, reader: Reader
 ) -> Engine | None:
     """Return the whole engine of a machine file, or None if it describes one crank gear only or after complaints.
 
@@ -49,8 +41,9 @@ def build_engine(
     """
     if not {"engine", "bearings", "balance", "flywheel"} & set(values):
         return None
-    table = values.get("engine", {"layout": "inline", "cylinders": 1})
-    _check_keys(table, reader)
+    table = values["engine"]
+    if "engine" not in values:
+        table = table.but(layout="inline", cylinders=1)
     doubtful = ("layout", "cylinders", "firing_order", "bank_angle", "bank_angles", "throws")
     if reader.doubts(*(f"engine.{key}" for key in doubtful)) or len(table) < 2:
         return None
@@ -61,40 +54,34 @@ def build_engine(
         return None
     _check_places(layout, table, reader)
     slaves = _slaves(table, layout, lengths, reader)
-    sizes = values.get("bearings", {})
-    balance = values.get("balance", {})
-    if sizes.get("counterweight") and sizes["counterweight"].value and balance.get("rotating_share"):
+    sizes, balance = values["bearings"], values["balance"]
+    if sizes.si("counterweight") and balance["rotating_share"]:
         reader.complain("bearings.counterweight", Refusal("counterweight_twice"))
     return Engine(
         layout=layout,
         slaves=slaves,
         offsets=_offsets(values, layout, lengths, reader),
-        slave_rod=_slave_rod(table.get("articulated", {}), slaves, reader),
-        bearings=Bearings(**{key: _value(sizes, key) for key in _SIZES}, rays=sizes.get("rays", 12)),
-        counterweight=_value(sizes, "counterweight") or 0.0,
-        rotating_share=balance.get("rotating_share", 0.0),
-        reciprocating_share=balance.get("reciprocating_share", 0.0),
-        balance_shafts=tuple(dict.fromkeys(balance.get("shafts", ()))),
+        slave_rod=_slave_rod(table["articulated"], slaves, reader),
+        bearings=Bearings(**{key: sizes.si(key) for key in _SIZES}, rays=sizes["rays"]),
+        counterweight=sizes.si("counterweight"),
+        rotating_share=balance["rotating_share"],
+        reciprocating_share=balance["reciprocating_share"],
+        balance_shafts=tuple(dict.fromkeys(balance["shafts"])),
         notices=tuple((one.code, one.values) for one in notices),
     )
 
 
-def _check_places(layout: Layout, table: Mapping[str, Any], reader: Reader) -> None:
+def _check_places(layout: Layout, table: Values, reader: Reader) -> None:
     """Complain of cylinders that stand outside the main journals of their throw."""
-    if _value(table, "spacing"):
+    if table.si("spacing"):
         try:
             check_journals(layout)
         except CrankworkError as error:
             reader.complain("engine.bank_stagger" if "bank_stagger" in table else "engine.spacing", error.args[0])
 
 
-def _value(table: Mapping[str, Any], key: str) -> float | None:
-    measure = table.get(key)
-    return None if measure is None else float(measure.value)
-
-
-def _degrees(table: Mapping[str, Any], key: str) -> float:
-    return _clean(math.degrees(_value(table, key) or 0.0))
+def _degrees(table: Values, key: str) -> float:
+    return _clean(math.degrees(table.si(key) or 0.0))
 
 
 def _clean(degrees: float) -> float:
@@ -102,33 +89,19 @@ def _clean(degrees: float) -> float:
     return round(degrees, 9)
 
 
-def _check_keys(table: Mapping[str, Any], reader: Reader) -> None:
-    """Complain of keys that belong to another layout, and of a V without its angle."""
-    layout = table.get("layout", "")
-    for key, layouts in _ONLY_FOR.items():
-        if key in table and layout not in layouts:
-            reader.complain(f"engine.{key}", Refusal("of_layout", layout=layouts[0]))
-    if layout == "radial" and "throws" in table:
-        reader.complain("engine.throws", Refusal("radial_throws"))
-    if layout == "V" and "bank_angle" not in table:
-        reader.complain("engine.bank_angle", Refusal("missing", advice='bank_angle = "90 deg"'))
-    if layout == "W" and "bank_angles" not in table:
-        reader.complain("engine.bank_angles", Refusal("missing", advice='bank_angles = ["-60 deg", "0 deg", "60 deg"]'))
-
-
-def _layout(table: Mapping[str, Any], strokes: int) -> tuple[Layout, tuple[LayoutNotice, ...]]:
+def _layout(table: Values, strokes: int) -> tuple[Layout, tuple[LayoutNotice, ...]]:
     """Return the layout that the keys describe."""
     kind, cylinders = table["layout"], int(table["cylinders"])
     throws = [_clean(math.degrees(one.value)) for one in table["throws"] if one] if "throws" in table else None
     usual = _usual(table, strokes)
-    order = [int(one) for one in table.get("firing_order", ()) if one]
+    order = [int(one) for one in table["firing_order"] if one]
     if not order and kind != "radial":
         if usual is None:
             raise LayoutError("engine.firing_order", _no_order(table, strokes))
         order = list(usual.order)
         throws = throws or list(usual.throws)
     options: dict[str, Any] = {
-        "spacing": _value(table, "spacing") or 0.0, "strokes": strokes, "uneven": table.get("uneven", False),
+        "spacing": table.si("spacing") or 0.0, "strokes": strokes, "uneven": table["uneven"],
     }  # fmt: skip
     articulated = "articulated" in table
     match kind:
@@ -138,14 +111,14 @@ def _layout(table: Mapping[str, Any], strokes: int) -> tuple[Layout, tuple[Layou
             options["span"] = options.pop("spacing")
             return radial(cylinders, order or None, master=int(articulated), **options)
     options |= {
-        "numbering": table.get("numbering", usual.numbering if usual and "firing_order" not in table else "banks")
+        "numbering": table["numbering"] or (usual.numbering if usual and "firing_order" not in table else "banks")
     }
-    stagger = _value(table, "bank_stagger")
+    stagger = table.si("bank_stagger")
     match kind:
         case "V":
             options |= {"bank_stagger": stagger or 0.0, "pin_offset": _degrees(table, "pin_offset")}
             angle = _degrees(table, "bank_angle")
-            options["own_throws"] = table.get("own_throws", False)
+            options["own_throws"] = table["own_throws"]
             return vee(cylinders, order, angle, throws=throws, articulated=articulated, **options)
         case "boxer":
             return boxer(cylinders, order, bank_stagger=stagger, throws=throws, **options)
@@ -154,7 +127,7 @@ def _layout(table: Mapping[str, Any], strokes: int) -> tuple[Layout, tuple[Layou
     return arranged(banks, order, throws=throws, **options)
 
 
-def _no_order(table: Mapping[str, Any], strokes: int) -> Refusal:
+def _no_order(table: Values, strokes: int) -> Refusal:
     """Return what to write where no order is customary, or with which split of the pins one would be."""
     asked = {"kind": table["layout"], "cylinders": int(table["cylinders"]), "strokes": strokes}
     axes = (-_degrees(table, "bank_angle") / 2, _degrees(table, "bank_angle") / 2)
@@ -164,30 +137,30 @@ def _no_order(table: Mapping[str, Any], strokes: int) -> Refusal:
     return Refusal("order_unusual", **asked)
 
 
-def _usual(table: Mapping[str, Any], strokes: int) -> StandardOrder | None:
+def _usual(table: Values, strokes: int) -> StandardOrder | None:
     """Return the customary engine with these keys."""
     axes = (-_degrees(table, "bank_angle") / 2, _degrees(table, "bank_angle") / 2)
     for one in standard_orders(table["layout"], int(table["cylinders"]), strokes):
         fits = table["layout"] != "V" or (one.axes == axes and one.pin_offset == _degrees(table, "pin_offset"))
-        if fits and table.get("numbering", one.numbering) == one.numbering:
+        if fits and table["numbering"] in (None, one.numbering):
             return one
     return None
 
 
 def _offsets(
-    values: Mapping[str, Any], layout: Layout, lengths: tuple[float, float, float] | None, reader: Reader
+    values: Values, layout: Layout, lengths: tuple[float, float, float] | None, reader: Reader
 ) -> tuple[float, ...]:
     """Return the offset of each cylinder where they differ; complain where one cannot turn."""
-    stated = values.get("engine", {}).get("offsets", ())
+    stated = values["engine"]["offsets"]
     if not stated or None in stated or lengths is None:
         return ()
     offsets, count = [one.value for one in stated], len(layout.places)
     if len(offsets) != count:
         reader.complain("engine.offsets", Refusal("offsets_count", count=len(offsets), cylinders=count))
         return ()
-    if "offset" in values.get("cylinder", {}):
+    if "offset" in values["cylinder"]:
         reader.complain("engine.offsets", Refusal("same", others=["cylinder.offset"]))
-    if "articulated" in values.get("engine", {}):
+    if "articulated" in values["engine"]:
         reader.complain("engine.offsets", Refusal("offsets_articulated"))
     for number, offset in enumerate(offsets, start=1):
         if not turns_fully(SliderCrank(*lengths[:2], offset)):
@@ -198,27 +171,23 @@ def _offsets(
     return tuple(offsets)
 
 
-def _slave_rod(
-    table: Mapping[str, Any], slaves: tuple[ArticulatedRod | None, ...], reader: Reader
-) -> CrankGearMasses | None:
+def _slave_rod(table: Values, slaves: tuple[ArticulatedRod | None, ...], reader: Reader) -> CrankGearMasses | None:
     """Return the masses of the articulated rods where they have their own."""
     rod = next((one for one in slaves if one is not None), None)
-    if "mass" not in table:
-        check_rod_mass(table, "engine.articulated", reader)
     if "mass" not in table or rod is None:
         return None
     return rod_masses(table, table["mass"].value, rod.length, reader, "engine.articulated")
 
 
 def _slaves(
-    table: Mapping[str, Any], layout: Layout, lengths: tuple[float, float, float] | None, reader: Reader
+    table: Values, layout: Layout, lengths: tuple[float, float, float] | None, reader: Reader
 ) -> tuple[ArticulatedRod | None, ...]:
     """Return the articulated rod of every cylinder that has one."""
-    values = table.get("articulated")
-    if values is None or lengths is None or "knuckle_radius" not in values:
+    values = table["articulated"]
+    if lengths is None or "knuckle_radius" not in values:
         return ()
     radius = values["knuckle_radius"].value
-    length = _value(values, "rod_length") or lengths[1] - radius
+    length = values.si("rod_length") or lengths[1] - radius
     slaves = [one for one in layout.places if one.master]
     between = {one.number: one.axis - layout.places[one.master - 1].axis for one in slaves}
     angles: Sequence[float] = list(between.values())

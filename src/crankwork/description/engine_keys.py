@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import math
 
-from crankwork.description.schema import Choice, Flag, Key, ListOf, NameOr, Number, Quantity, Table, Text
+from crankwork.description.kinds import Choice, Flag, Number, Quantity, Text
+from crankwork.description.schema import By, Key, ListOf, NameOr, Table
 
 _LENGTH = Quantity(("length",), 1e-4, 100.0)
 _SPACING = Quantity(("length",), 0.0, 100.0)
+_MASS = Quantity(("mass",), 0.0, 1e6)
+_INERTIA = Quantity(("inertia",), 0.0, 1e6)
 _ANGLE = Quantity(("angle",), -4 * math.pi - 1e-9, 4 * math.pi + 1e-9)
 _EVENT = Quantity(("angle",), 0.0, 0.75 * math.pi)
 _BEFORE = Quantity(("angle",), math.radians(0.1), math.pi / 2)
@@ -17,139 +20,127 @@ _RISE = Quantity(("temperature",), -100.0, 1000.0)
 _EXPONENT = Number(0.5, 3.0)
 _SHARE = Number(0.0, 1.0)
 
-_ARTICULATED = Table({
-    "knuckle_radius": Key(_LENGTH, "distance of the knuckle pins from the crankpin", required=True),
-    "rod_length": Key(_LENGTH, "of the articulated rods; by default the master rod less the knuckle radius"),
-    "knuckle_angles": Key(ListOf(_ANGLE, fewest=1),
-                          "of the knuckle pins from the master rod, by cylinder after the master; "
-                          "by default the angles between the cylinders"),
-    "mass": Key(Quantity(("mass",), 0.0, 1e6), "mass of an articulated rod; by default its ends are those of the rod"),
-    "small_end_share": Key(Number(0.0, 1.0), "share of that mass at the piston pin",
-                           instead_of=("centre_of_mass",)),
-    "centre_of_mass": Key(_LENGTH, "distance of its centre of mass from the knuckle pin axis",
-                          instead_of=("small_end_share",)),
-    "inertia": Key(Quantity(("inertia",), 0.0, 1e6), "its moment of inertia about the centre of mass",
-                   instead_of=("radius_of_gyration",)),
-    "radius_of_gyration": Key(_LENGTH, "its radius of gyration about the centre of mass", instead_of=("inertia",)),
+_OF_MASS = {"mass": ()}
+_ARTICULATED = Table("articulated", {
+    "knuckle_radius": Key(_LENGTH, required=True),
+    "rod_length": Key(_LENGTH),
+    "knuckle_angles": Key(ListOf(_ANGLE, fewest=1)),
+    "mass": Key(_MASS),
+    "small_end_share": Key(_SHARE, instead_of=("centre_of_mass",), only=_OF_MASS),
+    "centre_of_mass": Key(_LENGTH, instead_of=("small_end_share",), only=_OF_MASS),
+    "inertia": Key(_INERTIA, instead_of=("radius_of_gyration",), only=_OF_MASS),
+    "radius_of_gyration": Key(_LENGTH, instead_of=("inertia",), only=_OF_MASS),
 })  # fmt: skip
 
-ENGINE = Table({
-    "layout": Key(Choice(("inline", "V", "boxer", "W", "radial")), "how the cylinders stand", required=True),
-    "cylinders": Key(Number(1, 28, whole=True), "how many there are", required=True),
-    "strokes": Key(Choice((4, 2)), "of a cycle, where no gas says it; by default 4"),
-    "firing_order": Key(ListOf(Number(1, 28, whole=True), fewest=1, most=28),
-                        "numbers of the cylinders as they fire; by default a usual order"),
-    "bank_angle": Key(_ANGLE, "between the banks of a V"),
-    "bank_angles": Key(ListOf(_ANGLE, fewest=2, most=8), "directions of the banks of a W from the upward vertical"),
-    "throws": Key(ListOf(_ANGLE, fewest=1, most=28),
-                  "angles of the crank throws from the first, with the rotation; by default from the firing order"),
-    "pin_offset": Key(_ANGLE, "between the two pins of a split crankpin of a V"),
-    "numbering": Key(Choice(("banks", "pairs")), "of a V: one bank after the other, or throw by throw"),
-    "spacing": Key(_LENGTH, "between neighbouring crank throws along the shaft"),
-    "bank_stagger": Key(_SPACING, "between the rods of one throw along the shaft"),
-    "uneven": Key(Flag(), "say true where uneven firing intervals are meant"),
-    "own_throws": Key(Flag(), "say true where every cylinder of a V has a throw of its own, as in a narrow one"),
-    "offsets": Key(ListOf(Quantity(("length",), -100.0, 100.0), fewest=1, most=28),
-                   "of each cylinder axis from the crankshaft axis, towards the crankpin at 90 degrees; "
-                   "by default that of the cylinder"),
-    "articulated": Key(_ARTICULATED, "rods of a radial or V engine that turn on the master rod"),
-    "misfire": Key(ListOf(Number(1, 28, whole=True), fewest=1, most=28),
-                   "numbers of the cylinders in which nothing burns"),
-    "pressure_factors": Key(ListOf(Number(0.0, 10.0), fewest=1, most=28),
-                            "of each cylinder, by which its gauge pressure differs; by default 1"),
+_V, _W, _BANKS = {"layout": ("V",)}, {"layout": ("W",)}, {"layout": ("V", "boxer", "W")}
+ENGINE = Table("engine", {
+    "layout": Key(Choice(("inline", "V", "boxer", "W", "radial")), required=True),
+    "cylinders": Key(Number(1, 28, whole=True), required=True),
+    "strokes": Key(Choice((4, 2)), default=4),
+    "firing_order": Key(ListOf(Number(1, 28, whole=True), fewest=1, most=28)),
+    "bank_angle": Key(_ANGLE, required=True, only=_V),
+    "bank_angles": Key(ListOf(_ANGLE, fewest=2, most=8), required=True, only=_W),
+    "throws": Key(ListOf(_ANGLE, fewest=1, most=28), only={"layout": ("inline", "V", "boxer", "W")}),
+    "pin_offset": Key(_ANGLE, default="0 deg", only=_V),
+    "numbering": Key(Choice(("banks", "pairs")), only=_BANKS),
+    "spacing": Key(_LENGTH),
+    "bank_stagger": Key(_SPACING, only=_BANKS),
+    "uneven": Key(Flag(), default=False),
+    "own_throws": Key(Flag(), default=False, only=_V),
+    "offsets": Key(ListOf(Quantity(("length",), -100.0, 100.0), fewest=1, most=28)),
+    "articulated": Key(_ARTICULATED, only={"layout": ("V", "radial")}),
+    "misfire": Key(ListOf(Number(1, 28, whole=True), fewest=1, most=28)),
+    "pressure_factors": Key(ListOf(Number(0.0, 10.0), fewest=1, most=28)),
 })  # fmt: skip
 
-BEARINGS = Table({
-    "crankpin_diameter": Key(_LENGTH, "of the crankpin"),
-    "crankpin_length": Key(_LENGTH, "working length of the crankpin bearing"),
-    "main_diameter": Key(_LENGTH, "of the main journals"),
-    "main_length": Key(_LENGTH, "working length of the main bearings"),
-    "pin_diameter": Key(_LENGTH, "of the piston pin"),
-    "pin_length": Key(_LENGTH, "working length of the small-end bearing"),
-    "rays": Key(Choice((12, 24)), "rays of the wear diagram; by default 12"),
-    "counterweight": Key(Quantity(("mass_moment",), 0.0, 1e6),
-                         "mass times radius opposite each throw; by default none"),
+BEARINGS = Table("bearings", {
+    **dict.fromkeys(
+        ("crankpin_diameter", "crankpin_length", "main_diameter", "main_length", "pin_diameter", "pin_length"),
+        Key(_LENGTH),
+    ),
+    "rays": Key(Choice((12, 24)), default=12),
+    "counterweight": Key(Quantity(("mass_moment",), 0.0, 1e6), default="0 kg*m"),
 })  # fmt: skip
 
-BALANCE = Table({
-    "rotating_share": Key(Number(0.0, 2.0), "share of the rotating mass balanced by counterweights; by default 0"),
-    "reciprocating_share": Key(Number(0.0, 2.0), "share of the reciprocating mass balanced as well; by default 0"),
-    "shafts": Key(ListOf(Choice((1, 2)), fewest=1, most=2), "orders that pairs of balance shafts take out"),
+BALANCE = Table("balance", {
+    "rotating_share": Key(Number(0.0, 2.0), default=0.0),
+    "reciprocating_share": Key(Number(0.0, 2.0), default=0.0),
+    "shafts": Key(ListOf(Choice((1, 2)), fewest=1, most=2)),
 })  # fmt: skip
 
-FLYWHEEL = Table({
-    "fluctuation": Key(Number(1e-6, 1.0), "wanted: largest less least speed over the mean"),
-    "inertia": Key(Quantity(("inertia",), 0.0, 1e9),
-                   "of everything that turns with the crankshaft, without the flywheel to be found"),
+FLYWHEEL = Table("flywheel", {
+    "fluctuation": Key(Number(1e-6, 1.0)),
+    "inertia": Key(Quantity(("inertia",), 0.0, 1e9), default="0 kg*m2"),
 })  # fmt: skip
 
-_FUEL = Table({
-    "carbon": Key(_SHARE, "mass of carbon in 1 kg", required=True),
-    "hydrogen": Key(_SHARE, "mass of hydrogen in 1 kg", required=True),
-    "oxygen": Key(_SHARE, "mass of oxygen in 1 kg"),
-    "molar_mass": Key(Number(1.0, 1000.0), "of the vapour, in kg/kmol; petrol needs it"),
-    "heating_value": Key(Quantity(("specific_energy",), 1e6, 2e8), "lower heating value", required=True),
+_FUEL = Table("fuel", {
+    "carbon": Key(_SHARE, required=True),
+    "hydrogen": Key(_SHARE, required=True),
+    "oxygen": Key(_SHARE, default=0.0),
+    "molar_mass": Key(Number(1.0, 1000.0)),
+    "heating_value": Key(Quantity(("specific_energy",), 1e6, 2e8), required=True),
 })  # fmt: skip
 
-_TIMING = Table({
-    "intake_opens": Key(_EVENT, "before the top dead centre of gas exchange"),
-    "intake_closes": Key(_EVENT, "after the bottom dead centre"),
-    "exhaust_opens": Key(_EVENT, "before the bottom dead centre"),
-    "exhaust_closes": Key(_EVENT, "after the top dead centre of gas exchange"),
-    "ignition": Key(_BEFORE, "before the top dead centre of firing"),
-    "ignition_delay": Key(_EVENT, "from ignition to the rise of pressure"),
-    "peak": Key(_BEFORE, "of the greatest pressure after the top dead centre, 10 to 15 degrees as a rule"),
+_TIMING = Table("timing", {
+    "intake_opens": Key(_EVENT),
+    "intake_closes": Key(_EVENT),
+    "exhaust_opens": Key(_EVENT),
+    "exhaust_closes": Key(_EVENT),
+    "ignition": Key(_BEFORE),
+    "ignition_delay": Key(_EVENT),
+    "peak": Key(_BEFORE, default="12 deg"),
 })  # fmt: skip
 
-CYCLE = Table({
-    "kind": Key(Choice(("petrol", "diesel", "otto", "ideal-diesel", "dual", "wiebe")),
-                "calculation by Grinevetsky and Mazing for petrol or diesel, an ideal cycle, or heat release by Wiebe",
-                required=True),
-    "cycle": Key(Choice(("720 deg", "360 deg")), "four strokes or two; by default 720 deg"),
-    "fuel": Key(NameOr(_FUEL), "petrol, diesel, or its composition"),
-    "excess_air": Key(Number(0.2, 20.0), "air over what the fuel needs"),
-    "ambient_pressure": Key(_PRESSURE, "of the surroundings and under the piston"),
-    "ambient_temperature": Key(_TEMPERATURE, "of the surroundings"),
-    "charge_pressure": Key(_PRESSURE, "behind the compressor of a charged engine"),
-    "charge_temperature": Key(_TEMPERATURE, "behind the compressor and cooler"),
-    "intake_pressure": Key(_PRESSURE, "at the end of intake"),
-    "intake_temperature": Key(_TEMPERATURE, "at the start of compression, of ideal cycles and Wiebe"),
-    "intake_loss_factor": Key(Number(0.0, 50.0), "of the intake, where its end pressure is not given"),
-    "intake_speed": Key(Quantity(("velocity",), 0.0, 1000.0), "in the narrowest section of the intake"),
-    "residual_pressure": Key(_PRESSURE, "of the residual gas"),
-    "residual_temperature": Key(_TEMPERATURE, "of the residual gas"),
-    "heating": Key(_RISE, "of the fresh charge on its way in"),
-    "charge_up": Key(Number(0.5, 1.5), "factor of charging after the bottom dead centre"),
-    "scavenging": Key(Number(0.0, 1.5), "factor of scavenging the residual gas"),
-    "compression_exponent": Key(_EXPONENT, "n1 of the polytrope"),
-    "expansion_exponent": Key(_EXPONENT, "n2 of the polytrope"),
-    "heat_use": Key(Number(0.2, 1.2), "heat used up to the point z over that of the fuel"),
-    "pressure_ratio": Key(Number(1.0, 5.0), "rise of pressure at constant volume, of diesel and dual cycles"),
-    "cut_off": Key(Number(1.0, 10.0), "rise of volume at constant pressure, of ideal cycles"),
-    "heat": Key(Quantity(("specific_energy",), 0.0, 1e8), "added to 1 kg of gas, of ideal cycles"),
-    "peak_temperature": Key(_TEMPERATURE, "of an ideal cycle"),
-    "adiabatic_exponent": Key(Number(1.01, 2.0), "of ideal cycles and Wiebe; by default 1.4 and 1.35"),
-    "filling": Key(Number(0.5, 1.0), "of the rounded diagram: mean pressure over that of the sharp one"),
-    "mechanical_loss": Key(ListOf(Number(0.0, 1.0), fewest=2, most=2),
-                           "a and b of p_m = a + b v_p in MPa and MPa s/m; by default from the kind of engine"),
-    "heat_capacities": Key(Choice(("kolchin", "vietnamese", "linear")), "law of the mean molar heats"),
-    "power": Key(Quantity(("power",), 1.0, 1e9), "wanted effective power; bore and stroke follow"),
-    "stroke_bore_ratio": Key(Number(0.2, 5.0), "stroke over bore, where they follow from the power"),
-    "lost_stroke": Key(Number(0.0, 0.6), "share of the stroke that the ports of a two-stroke engine take"),
-    "corners": Key(Choice(("rounded", "sharp")), "of the diagram; by default rounded"),
-    "peak_level": Key(Number(0.5, 1.0), "greatest pressure of the rounded diagram over that of the sharp one"),
-    "school": Key(Choice(("ru", "vi")), "whose construction rounds the corners"),
-    "timing": Key(_TIMING, "of valves or ports and ignition"),
-    "combustion_start": Key(Quantity(("angle",), -math.pi / 2, math.pi / 2), "before the top dead centre, for Wiebe"),
-    "combustion_duration": Key(Quantity(("angle",), math.radians(1), math.pi), "for Wiebe"),
-    "shape": Key(Number(0.0, 10.0), "exponent m of Wiebe"),
-    "cycle_heat": Key(Quantity(("energy",), 1e-6, 1e9), "of the fuel, per cycle and cylinder, for Wiebe"),
-    "fuel_mass": Key(Quantity(("mass",), 1e-12, 1e3), "burnt per cycle and cylinder, for Wiebe, instead of cycle_heat"),
-    "heating_value": Key(Quantity(("specific_energy",), 1e6, 2e8), "lower one of the fuel, with fuel_mass"),
-    "burning_efficiency": Key(Number(0.1, 1.0), "share of the heating value that is released; by default 1"),
-    "wall_temperature": Key(_TEMPERATURE, "of the walls, for Woschni; without it there is no heat loss"),
-    "motored": Key(Choice(("compressed", "ambient")),
-                   "gas of a cylinder that misfires: compressed and expanded, or open to the surroundings; "
-                   "by default compressed"),
-    "source": Key(Text(), "where the data come from"),
+_REAL, _IDEAL = ("petrol", "diesel"), ("otto", "ideal-diesel", "dual")
+_OF_REAL, _OF_IDEAL, _OF_WIEBE = {"kind": _REAL}, {"kind": _IDEAL}, {"kind": ("wiebe",)}
+_RATIOS = By("kind", dict.fromkeys(_IDEAL, 1.4) | {"wiebe": 1.33})
+_INTAKE = By("kind", dict.fromkeys(_IDEAL, "0.1 MPa") | {"wiebe": "0.09 MPa"})
+_WARM = By("kind", dict.fromkeys(_IDEAL, "300 K") | {"wiebe": "340 K"})
+_CORNERS, _CLOSED = {"kind": _REAL + _IDEAL}, {"kind": (*_IDEAL, "wiebe")}
+CYCLE = Table("cycle", {
+    "kind": Key(Choice((*_REAL, *_IDEAL, "wiebe")), required=True),
+    "cycle": Key(Choice(("720 deg", "360 deg")), default="720 deg"),
+    "fuel": Key(NameOr(_FUEL), only=_OF_REAL),
+    "excess_air": Key(Number(0.2, 20.0), only=_OF_REAL),
+    "ambient_pressure": Key(_PRESSURE, default="0.1 MPa"),
+    "ambient_temperature": Key(_TEMPERATURE, default="293 K", only=_OF_REAL),
+    "charge_pressure": Key(_PRESSURE, only=_OF_REAL),
+    "charge_temperature": Key(_TEMPERATURE, only=_OF_REAL),
+    "intake_pressure": Key(_PRESSURE, default=_INTAKE),
+    "intake_temperature": Key(_TEMPERATURE, default=_WARM, only=_CLOSED),
+    "intake_loss_factor": Key(Number(0.0, 50.0), only=_OF_REAL),
+    "intake_speed": Key(Quantity(("velocity",), 0.0, 1000.0), only=_OF_REAL),
+    "residual_pressure": Key(_PRESSURE, only={"kind": (*_REAL, "wiebe")}),
+    "residual_temperature": Key(_TEMPERATURE, only=_OF_REAL),
+    "heating": Key(_RISE, only=_OF_REAL),
+    "charge_up": Key(Number(0.5, 1.5), default=1.0, only=_OF_REAL),
+    "scavenging": Key(Number(0.0, 1.5), default=1.0, only=_OF_REAL),
+    "compression_exponent": Key(_EXPONENT, only=_OF_REAL),
+    "expansion_exponent": Key(_EXPONENT, only=_OF_REAL),
+    "heat_use": Key(Number(0.2, 1.2), only=_OF_REAL),
+    "pressure_ratio": Key(Number(1.0, 5.0), only={"kind": ("diesel", *_IDEAL)}),
+    "cut_off": Key(Number(1.0, 10.0), only=_OF_IDEAL),
+    "heat": Key(Quantity(("specific_energy",), 0.0, 1e8), only=_OF_IDEAL),
+    "peak_temperature": Key(_TEMPERATURE, only=_OF_IDEAL),
+    "adiabatic_exponent": Key(Number(1.01, 2.0), default=_RATIOS, only=_CLOSED),
+    "filling": Key(Number(0.5, 1.0), only=_CORNERS),
+    "mechanical_loss": Key(ListOf(_SHARE, fewest=2, most=2), only=_OF_REAL),
+    "heat_capacities": Key(Choice(("kolchin", "vietnamese", "linear")), default="kolchin", only=_OF_REAL),
+    "power": Key(Quantity(("power",), 1.0, 1e9), only=_OF_REAL),
+    "stroke_bore_ratio": Key(Number(0.2, 5.0), default=1.0, only=_OF_REAL),
+    "lost_stroke": Key(Number(0.0, 0.6), only=_OF_REAL),
+    "corners": Key(Choice(("rounded", "sharp")), only=_CORNERS),
+    "peak_level": Key(Number(0.5, 1.0), only=_CORNERS),
+    "school": Key(Choice(("ru", "vi")), default="ru", only=_CORNERS),
+    "timing": Key(_TIMING),
+    "combustion_start": Key(Quantity(("angle",), -math.pi / 2, math.pi / 2), default="20 deg", only=_OF_WIEBE),
+    "combustion_duration": Key(Quantity(("angle",), math.radians(1), math.pi), default="50 deg", only=_OF_WIEBE),
+    "shape": Key(Number(0.0, 10.0), default=2.0, only=_OF_WIEBE),
+    "cycle_heat": Key(Quantity(("energy",), 1e-6, 1e9), only=_OF_WIEBE),
+    "fuel_mass": Key(Quantity(("mass",), 1e-12, 1e3), only=_OF_WIEBE),
+    "heating_value": Key(Quantity(("specific_energy",), 1e6, 2e8), only=_OF_WIEBE),
+    "burning_efficiency": Key(Number(0.1, 1.0), default=1.0, only=_OF_WIEBE),
+    "wall_temperature": Key(_TEMPERATURE, only=_OF_WIEBE),
+    "motored": Key(Choice(("compressed", "ambient")), default="compressed"),
+    "source": Key(Text()),
 })  # fmt: skip

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from crankwork.description.schema import Reader, nearest_name
+from crankwork.description.kinds import Reader
+from crankwork.description.schema import Values, nearest_name
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.loads.measured import MeasuredPressure
 from crankwork.locale import Refusal
 from crankwork.machine import Cylinder, Gas
 
 # reads the table of a file with samples, and complains under the path of what it belongs to
-ReadMeasured = Callable[[Mapping[str, Any], Reader, str], MeasuredPressure | None]
+ReadMeasured = Callable[[Values, Reader, str], MeasuredPressure | None]
 
 
 def build_gas(
-    values: Mapping[str, Any] | None, cylinder: Cylinder | None, reader: Reader, read_measured: ReadMeasured
+    values: Values | None, cylinder: Cylinder | None, reader: Reader, read_measured: ReadMeasured
 ) -> Gas | None:
     """Return the gas in a cylinder, or None after complaints."""
     if values is None:
@@ -30,43 +31,42 @@ def build_gas(
     return Gas(
         cycle=float(values["cycle"].split()[0]),
         **diagram._asdict(),
-        is_absolute=values.get("pressures") == "absolute",
-        ambient=_value(values, "ambient", 101325.0),
+        is_absolute=values["pressures"] == "absolute",
+        ambient=values.si("ambient") or 0.0,
         names_ambient="ambient" in values,
-        back_pressure=_value(values, "back_pressure"),
+        back_pressure=values.si("back_pressure") or 0.0,
     )
 
 
-def _check_gas(values: Mapping[str, Any], cylinder: Cylinder | None, reader: Reader) -> None:
+def _check_gas(values: Values, cylinder: Cylinder | None, reader: Reader) -> None:
     """Complain of what the gas needs and has not."""
     if cylinder is None:
         if not reader.doubts("cylinder.bore"):
             reader.complain("gas", Refusal("gas_cylinder"))
     elif (
         {cylinder.clearance_volume, cylinder.compression_ratio} == {None}
-        and any(one and one.get("law") == "polytropic" for table in _tables(values) for one in table.get("pieces", []))
+        and any(one and one.get("law") == "polytropic" for table in _tables(values) for one in table["pieces"])
         and not reader.doubts("cylinder.clearance_volume", "cylinder.compression_ratio")
     ):
         reader.complain("cylinder", Refusal("gas_volume"))
-    check_ambient(values, "gas", reader)
     if has_diagram(values) or "cylinders" not in values:
         check_parts(values, "gas", reader)
 
 
-def has_diagram(values: Mapping[str, Any]) -> bool:
+def has_diagram(values: Values) -> bool:
     """Return whether a table has a diagram, or a part of one."""
     return not {"points", "pieces", "measured"}.isdisjoint(values)
 
 
-def _tables(values: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
+def _tables(values: Values) -> Iterator[Values]:
     """Yield the tables of the gas that may have a diagram: its own, and those of cylinders that differ."""
     yield values
-    for one in (values.get("motored"), *values.get("cylinders", {}).values()):
-        if isinstance(one, Mapping):
+    for one in (values["motored"], *values["cylinders"].values()):
+        if isinstance(one, Values):
             yield one
 
 
-def _check_rod(values: Mapping[str, Any], cylinder: Cylinder | None, reader: Reader) -> None:
+def _check_rod(values: Values, cylinder: Cylinder | None, reader: Reader) -> None:
     """Complain of a piston rod without pressure beside it, and of a pressure without a rod."""
     has_rod, has_pressure = cylinder is not None and cylinder.piston_rod_diameter > 0, "back_pressure" in values
     if has_pressure and not has_rod and not reader.doubts("cylinder.piston_rod_diameter", "cylinder"):
@@ -75,13 +75,7 @@ def _check_rod(values: Mapping[str, Any], cylinder: Cylinder | None, reader: Rea
         reader.complain("cylinder.piston_rod_diameter", Refusal("piston_rod_alone"))
 
 
-def check_ambient(values: Mapping[str, Any], path: str, reader: Reader) -> None:
-    """Complain of a pressure around that nothing is counted from."""
-    if values.get("pressures") != "absolute" and "ambient" in values and not reader.doubts(f"{path}.pressures"):
-        reader.complain(f"{path}.ambient", Refusal("ambient_unused"))
-
-
-def check_parts(values: Mapping[str, Any], path: str, reader: Reader) -> None:
+def check_parts(values: Values, path: str, reader: Reader) -> None:
     """Complain of points without laws, and of laws without points."""
     for key in ("points", "pieces") if "measured" not in values else ():
         if key not in values and not reader.doubts(f"{path}.{key}", f"{path}.measured"):
@@ -98,38 +92,38 @@ class Diagram(NamedTuple):
     resample: float | None
 
 
-def build_diagram(values: Mapping[str, Any], path: str, reader: Reader, read_measured: ReadMeasured) -> Diagram:
+def build_diagram(values: Values, path: str, reader: Reader, read_measured: ReadMeasured) -> Diagram:
     """Return points and laws, or measured samples; complain of what does not fit together.
 
     `path`: where the description states them.
     """
     _check_points(values, path, reader)
     measured = read_measured(values["measured"], reader, path) if "measured" in values else None
-    source = values.get("measured", {})
-    resample = source.get("resample")
-    if values.get("pressures") == "absolute":
-        for name, point in values.get("points", {}).items():
-            pressure = (point or {}).get("pressure")
-            if pressure is not None and pressure.value < 0:
+    source = values["measured"]
+    resample = source.si("resample")
+    if values["pressures"] == "absolute":
+        for name, point in values["points"].items():
+            pressure = None if point is None else point.si("pressure")
+            if pressure is not None and pressure < 0:
                 reader.complain(f"{path}.points.{name}.pressure", Refusal("point_vacuum"))
         if measured is not None and float(measured.pressure.min()) < 0:
             row = measured.rows[int(measured.pressure.argmin())]
             reader.complain(f"{path}.measured.file", Refusal("measured_vacuum", line=row))
     return Diagram(
-        points={name: _point(one) for name, one in values.get("points", {}).items() if one is not None},
-        pieces=tuple(_piece(one) for one in values.get("pieces", []) if one and {"law", "points"} <= set(one)),
+        points={name: _point(one) for name, one in values["points"].items() if one is not None},
+        pieces=tuple(_piece(one) for one in values["pieces"] if one and {"law", "points"} <= set(one)),
         measured=measured,
-        angle_shift=math.degrees(_value(source, "shift")),
-        resample=math.degrees(resample.value) if resample else None,
+        angle_shift=math.degrees(source.si("shift")),
+        resample=math.degrees(resample) if resample else None,
     )
 
 
-def _check_points(values: Mapping[str, Any], path: str, reader: Reader) -> None:
+def _check_points(values: Values, path: str, reader: Reader) -> None:
     """Complain of every point that a piece names and the table of points does not know."""
     known = values.get("points")
     if known is None:
         return
-    for number, piece in enumerate(values.get("pieces", []), start=1):
+    for number, piece in enumerate(values["pieces"], start=1):
         key = f"{path}.pieces[{number}]"
         names = [(f"{key}.points[{i}]", name) for i, name in enumerate((piece or {}).get("points", []), start=1)]
         names.append((f"{key}.reference", (piece or {}).get("reference")))
@@ -142,21 +136,16 @@ def _check_points(values: Mapping[str, Any], path: str, reader: Reader) -> None:
                 )
 
 
-def _point(values: Mapping[str, Any]) -> DiagramPoint:
-    angle, pressure, volume = (values.get(key) for key in ("angle", "pressure", "volume"))
+def _point(values: Values) -> DiagramPoint:
+    angle = values.si("angle")
     return DiagramPoint(
-        angle=None if angle is None else round(math.degrees(angle.value), 9),
-        pressure=None if pressure is None else pressure.value,
-        volume=None if volume is None else volume.value,
-        stroke=values.get("stroke"),
+        angle=None if angle is None else round(math.degrees(angle), 9),
+        pressure=values.si("pressure"),
+        volume=values.si("volume"),
+        stroke=values["stroke"],
     )
 
 
-def _piece(values: Mapping[str, Any]) -> Piece:
+def _piece(values: Values) -> Piece:
     points = tuple(name for name in values["points"] if name)
-    return Piece(values["law"], points, values.get("exponent"), values.get("reference"))
-
-
-def _value(table: Mapping[str, Any], key: str, default: float = 0.0) -> float:
-    measure = table.get(key)
-    return default if measure is None else float(measure.value)
+    return Piece(values["law"], points, values["exponent"], values["reference"])

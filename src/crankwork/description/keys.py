@@ -1,171 +1,140 @@
-"""The keys of the machine file: what each means, its kind and its range. The schema and the reader come from here."""
+"""The keys of the machine file: kind, range and default of each, and when it applies.
+
+Reader, refusals, schema and settings come from here; what a key means is a text of the room `fields`.
+"""
 
 from __future__ import annotations
 
 import math
 
 from crankwork.description.engine_keys import BALANCE, BEARINGS, CYCLE, ENGINE, FLYWHEEL
-from crankwork.description.schema import Choice, Flag, Key, ListOf, Named, NameOr, Number, Quantity, Table, Text
+from crankwork.description.kinds import Choice, Flag, Number, Quantity, Text
+from crankwork.description.schema import By, Key, ListOf, Named, NameOr, Table
+from crankwork.method import STANDARD_GRAVITY
 
 _LENGTH = Quantity(("length",), 1e-6, 100.0)
 _MASS = Quantity(("mass", "mass_per_area"), 0.0, 1e6)
 _ANGLE = Quantity(("angle",), -4 * math.pi - 1e-9, 4 * math.pi + 1e-9)
 _PRESSURE = Quantity(("pressure",), -1e8, 1e10)
 _VOLUME = Quantity(("volume",), 1e-15, 1e3)
+AMBIENT = By("pressures", {"absolute": "101325 Pa"})
+NO_ACCELERATION = Key(Quantity(("angular_acceleration",), -1e6, 1e6), default="0 rad/s2")
 
-_CRANK = Table({
-    "radius": Key(_LENGTH, "distance from crankshaft axis to crankpin axis", required=True, instead_of=("stroke",)),
-    "stroke": Key(_LENGTH, "twice the crank radius", instead_of=("radius",)),
-    "speed": Key(Quantity(("speed",), 1e-6, 3e4), "rotational speed", required=True),
-    "angular_acceleration": Key(Quantity(("angular_acceleration",), -1e6, 1e6), "change of the angular speed"),
-    "mass": Key(_MASS, "unbalanced mass of one crank throw, placed at the crankpin"),
+_CRANK = Table("crank", {
+    "radius": Key(_LENGTH, required=True, instead_of=("stroke",)),
+    "stroke": Key(_LENGTH, instead_of=("radius",)),
+    "speed": Key(Quantity(("speed",), 1e-6, 3e4), required=True),
+    "angular_acceleration": NO_ACCELERATION,
+    "mass": Key(_MASS),
 })  # fmt: skip
 
-_ROD = Table({
-    "ratio": Key(Number(1e-6, 1e6), "crank-to-rod ratio, by default r/l", required=True,
-                 instead_of=("length",)),
-    "length": Key(_LENGTH, "distance between the pin axes", instead_of=("ratio",)),
-    "ratio_definition": Key(Choice(("r/l", "l/r")), "what ratio means; books use both"),
-    "mass": Key(_MASS, "mass of the connecting rod"),
-    "small_end_share": Key(Number(0.0, 1.0), "share of the rod mass at the piston pin, 0.2 to 0.35 as a rule",
-                           instead_of=("centre_of_mass", "small_end_mass", "big_end_mass")),
-    "centre_of_mass": Key(_LENGTH, "distance of the centre of mass from the crankpin axis",
-                          instead_of=("small_end_share", "small_end_mass", "big_end_mass")),
-    "small_end_mass": Key(_MASS, "rod mass placed at the piston pin, as a document prints it",
-                          instead_of=("mass", "small_end_share", "centre_of_mass")),
-    "big_end_mass": Key(_MASS, "rod mass placed at the crankpin, as a document prints it",
-                        instead_of=("mass", "small_end_share", "centre_of_mass")),
-    "inertia": Key(Quantity(("inertia",), 0.0, 1e6), "moment of inertia about the centre of mass",
-                   instead_of=("radius_of_gyration",)),
-    "radius_of_gyration": Key(_LENGTH, "radius of gyration about the centre of mass", instead_of=("inertia",)),
+_ENDS = ("small_end_mass", "big_end_mass")
+_ROD = Table("rod", {
+    "ratio": Key(Number(1e-6, 1e6), required=True, instead_of=("length",)),
+    "length": Key(_LENGTH, instead_of=("ratio",)),
+    "ratio_definition": Key(Choice(("r/l", "l/r")), default="r/l"),
+    "mass": Key(_MASS),
+    "small_end_share": Key(Number(0.0, 1.0), instead_of=("centre_of_mass", *_ENDS)),
+    "centre_of_mass": Key(_LENGTH, instead_of=("small_end_share", *_ENDS)),
+    "small_end_mass": Key(_MASS, instead_of=("mass", "small_end_share", "centre_of_mass")),
+    "big_end_mass": Key(_MASS, instead_of=("mass", "small_end_share", "centre_of_mass")),
+    "inertia": Key(Quantity(("inertia",), 0.0, 1e6), instead_of=("radius_of_gyration",)),
+    "radius_of_gyration": Key(_LENGTH, instead_of=("inertia",)),
 })  # fmt: skip
 
-_PISTON = Table({"mass": Key(_MASS, "mass of piston, rings and pin (and crosshead, if there is one)")})
+_PISTON = Table("piston", {"mass": Key(_MASS)})
 
-_CYLINDER = Table({
-    "bore": Key(Quantity(("length",), 1e-4, 100.0), "diameter", required=True),
-    "clearance_volume": Key(_VOLUME, "volume at top dead centre", instead_of=("compression_ratio",)),
-    "compression_ratio": Key(Number(1.001, 100.0), "total over clearance volume",
-                             instead_of=("clearance_volume",)),
-    "offset": Key(Quantity(("length",), -100.0, 100.0),
-                  "distance of the cylinder axis from the crankshaft axis, towards the crankpin at 90 degrees"),
-    "inclination": Key(_ANGLE, "from the upward vertical to the head, leaning towards the crankpin at 90 degrees"),
-    "piston_rod_diameter": Key(_LENGTH, "of a double-acting piston"),
+_CYLINDER = Table("cylinder", {
+    "bore": Key(Quantity(("length",), 1e-4, 100.0), required=True),
+    "clearance_volume": Key(_VOLUME, instead_of=("compression_ratio",)),
+    "compression_ratio": Key(Number(1.001, 100.0), instead_of=("clearance_volume",)),
+    "offset": Key(Quantity(("length",), -100.0, 100.0), default="0 mm"),
+    "inclination": Key(_ANGLE, default="0 deg"),
+    "piston_rod_diameter": Key(_LENGTH),
 })  # fmt: skip
 
-POINT = Table(
-    {
-        "angle": Key(
-            Quantity(("angle",), 0.0, 4 * math.pi + 1e-9),
-            "crank angle; without one, where a polytrope ends, or by stroke or volume",
-            instead_of=("stroke",),
-        ),
-        "stroke": Key(
-            Number(0.0, 1.0),
-            "share of the stroke that the next passage of the piston has come to",
-            instead_of=("angle",),
-        ),
-        "pressure": Key(_PRESSURE, "pressure; may be left out where a law that ends here gives it"),
-        "volume": Key(
-            _VOLUME, "volume to use for a polytrope through this point, where a document prints its own; or where it is"
-        ),
-    }
-)
-
-PIECE = Table({
-    "law": Key(Choice(("constant", "polytropic", "rounded")), "what happens between the points", required=True),
-    "points": Key(ListOf(Text(60), fewest=2), "names of the points, in the order of the crank angle", required=True),
-    "exponent": Key(Number(0.0, 5.0), "polytropic exponent"),
-    "reference": Key(Text(60), "the point whose pressure and volume the polytrope passes through, "
-                               "by default the first"),
+POINT = Table("point", {
+    "angle": Key(Quantity(("angle",), 0.0, 4 * math.pi + 1e-9), instead_of=("stroke",)),
+    "stroke": Key(Number(0.0, 1.0), instead_of=("angle",)),
+    "pressure": Key(_PRESSURE),
+    "volume": Key(_VOLUME),
 })  # fmt: skip
 
-MEASURED = Table(
-    {
-        "file": Key(Text(1000), "CSV file with a column of crank angle and one of pressure", required=True),
-        "angle_column": Key(Text(), "heading of the angle column; by default the first column"),
-        "pressure_column": Key(Text(), "heading of the pressure column; by default the second column"),
-        "angle_unit": Key(Choice(("deg", "rad")), "unit of the angles; by default deg"),
-        "pressure_unit": Key(
-            Choice(("MPa", "kPa", "Pa", "bar", "kgf/cm2", "psi")), "unit of the pressures", required=True
-        ),
-        "shift": Key(_ANGLE, "added to every angle, so that zero is top dead centre"),
-        "resample": Key(
-            Quantity(("angle",), math.radians(0.01), math.radians(30)), "step at which samples are resampled"
-        ),
-    }
-)
+PIECE = Table("piece", {
+    "law": Key(Choice(("constant", "polytropic", "rounded")), required=True),
+    "points": Key(ListOf(Text(60), fewest=2), required=True),
+    "exponent": Key(Number(0.0, 5.0)),
+    "reference": Key(Text(60)),
+})  # fmt: skip
 
-_DIAGRAM = {
-    "points": Key(Named(POINT), "named points of the indicator diagram"),
-    "pieces": Key(ListOf(PIECE, fewest=1, most=500), "laws between the points, in the order of the crank angle"),
-    "measured": Key(MEASURED, "measured pressure instead of points and pieces", instead_of=("points", "pieces")),
+MEASURED = Table("measured", {
+    "file": Key(Text(1000), required=True),
+    "angle_column": Key(Text()),
+    "pressure_column": Key(Text()),
+    "angle_unit": Key(Choice(("deg", "rad")), default="deg"),
+    "pressure_unit": Key(Choice(("MPa", "kPa", "Pa", "bar", "kgf/cm2", "psi")), required=True),
+    "shift": Key(_ANGLE, default="0 deg"),
+    "resample": Key(Quantity(("angle",), math.radians(0.01), math.radians(30))),
+})  # fmt: skip
+
+# what the pressure of a cylinder or chamber is made of
+PRESSURES = Key(Choice(("gauge", "absolute")), default="gauge")
+DIAGRAM = {
+    "points": Key(Named(POINT)),
+    "pieces": Key(ListOf(PIECE, fewest=1, most=500)),
+    "measured": Key(MEASURED, instead_of=("points", "pieces")),
 }
-
-_GAS = Table(
-    {
-        "cycle": Key(Choice(("720 deg", "360 deg")), "crank angle of one working cycle", required=True),
-        "pressures": Key(Choice(("gauge", "absolute")), "what the pressures count from; by default gauge"),
-        "ambient": Key(
-            Quantity(("pressure",), 0.0, 1e7), "absolute pressure on the crankcase side, for absolute pressures"
-        ),
-        "back_pressure": Key(_PRESSURE, "gauge pressure on the crank side of a double-acting piston"),
-        **_DIAGRAM,
-        "cylinders": Key(
-            Named(Table(_DIAGRAM), most=28), "diagrams of cylinders that have their own, by their numbers"
-        ),
-        "motored": Key(
-            NameOr(Table(_DIAGRAM)), 'diagram of the cylinders that misfire, or "ambient" where they stay open'
-        ),
-    }
-)
-
-METHOD = Table({
-    "kinematics": Key(Text(20), "exact, textbook or series:N"),
-    "rod": Key(Choice(("rigid", "two-mass")), "rigid rod, or two masses without the correction couple"),
-    "pi": Key(Number(3.0, 3.2), "the value of pi that a document used, for example 3.14"),
-    "gravity": Key(Quantity(("acceleration",), 0.0, 100.0), "acceleration of free fall"),
-    "weights": Key(Flag(), "whether weights count; by default false"),
-    "inertia_rod_ratio": Key(Number(1e-6, 1.0),
-                             "another r/l for the inertia force alone, where a document mixes two"),
+_GAS = Table("gas", {
+    "cycle": Key(Choice(("720 deg", "360 deg")), required=True),
+    "ambient": Key(Quantity(("pressure",), 0.0, 1e7), default=AMBIENT, only={"pressures": ("absolute",)}),
+    "back_pressure": Key(_PRESSURE),
+    "pressures": PRESSURES,
+    **DIAGRAM,
+    "cylinders": Key(Named(Table("gas", DIAGRAM), most=28)),
+    "motored": Key(NameOr(Table("gas", DIAGRAM))),
 })  # fmt: skip
 
-TABLE = Table(
-    {
-        "step": Key(Quantity(("angle",), math.radians(0.01), math.radians(180)), "step of the tables"),
-        "special_angles": Key(ListOf(Quantity(("angle",), 0.0, 4 * math.pi + 1e-9)), "further angles of the tables"),
-    }
-)
+METHOD = Table("method", {
+    "kinematics": Key(Text(20), default="exact"),
+    "rod": Key(Choice(("rigid", "two-mass"))),
+    "pi": Key(Number(3.0, 3.2), default=math.pi),
+    "gravity": Key(Quantity(("acceleration",), 0.0, 100.0), default=f"{STANDARD_GRAVITY} m/s2"),
+    "weights": Key(Flag(), default=False),
+    "inertia_rod_ratio": Key(Number(1e-6, 1.0)),
+})  # fmt: skip
 
-_MACHINE = {
-    "title": Key(Text(), "what the machine is called"),
-    "decimal_mark": Key(Choice((".", ",")), 'put "," here to write 1,1 kg'),
-    "crank": Key(_CRANK, "the crank", required=True),
-    "rod": Key(_ROD, "the connecting rod", required=True),
-    "piston": Key(_PISTON, "the piston"),
-    "cylinder": Key(_CYLINDER, "the cylinder"),
-    "gas": Key(_GAS, "the pressure in the cylinder", instead_of=("cycle",)),
-    "cycle": Key(CYCLE, "a calculation of the working cycle, which gives that pressure", instead_of=("gas",)),
-    "engine": Key(ENGINE, "the cylinders of an engine, like the one described"),
-    "bearings": Key(BEARINGS, "sizes of its bearings"),
-    "balance": Key(BALANCE, "counterweights and balance shafts"),
-    "flywheel": Key(FLYWHEEL, "how evenly it shall run"),
-    "method": Key(METHOD, "how to compute, and the constants of a document to reproduce"),
-    "table": Key(TABLE, "the rows of the tables"),
-}  # fmt: skip
+TABLE = Table("table", {
+    "step": Key(Quantity(("angle",), math.radians(0.01), math.radians(180)), default="10 deg"),
+    "special_angles": Key(ListOf(Quantity(("angle",), 0.0, 4 * math.pi + 1e-9))),
+})  # fmt: skip
 
-MACHINE_FILE = Table(_MACHINE)
+TITLE = {"title": Key(Text()), "decimal_mark": Key(Choice((".", ",")), default=".")}
+
+MACHINE_FILE = Table("file", {
+    **TITLE,
+    "crank": Key(_CRANK, required=True),
+    "rod": Key(_ROD, required=True),
+    "piston": Key(_PISTON),
+    "cylinder": Key(_CYLINDER),
+    "gas": Key(_GAS, instead_of=("cycle",)),
+    "cycle": Key(CYCLE, instead_of=("gas",)),
+    "engine": Key(ENGINE),
+    "bearings": Key(BEARINGS),
+    "balance": Key(BALANCE),
+    "flywheel": Key(FLYWHEEL),
+    "method": Key(METHOD),
+    "table": Key(TABLE),
+})  # fmt: skip
 
 
 def _optional(table: Table, *names: str) -> Table:
-    return Table({key: one._replace(required=one.required and key not in names) for key, one in table.keys.items()})
+    keys = {key: one._replace(required=one.required and key not in names) for key, one in table.keys.items()}
+    return table._replace(keys=keys)
 
 
 # where a wanted power gives bore and stroke
-SIZED_FILE = Table(
-    {
-        **_MACHINE,
-        "crank": _MACHINE["crank"]._replace(kind=_optional(_CRANK, "radius")),
-        "cylinder": _MACHINE["cylinder"]._replace(kind=_optional(_CYLINDER, "bore")),
-    }
-)
+SIZED_FILE = MACHINE_FILE._replace(keys={
+    **MACHINE_FILE.keys,
+    "crank": Key(_optional(_CRANK, "radius"), required=True),
+    "cylinder": Key(_optional(_CYLINDER, "bore")),
+})  # fmt: skip

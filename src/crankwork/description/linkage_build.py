@@ -16,9 +16,10 @@ from crankwork.description.build import build_method, crank_speed
 from crankwork.description.chamber_build import build_chambers
 from crankwork.description.driver_build import build_law, check_driver, check_loads
 from crankwork.description.gas_build import ReadMeasured
+from crankwork.description.kinds import Measure, Reader
 from crankwork.description.linkage_reach import checked_motion, passing_if_assembled, told_redundant, with_starts
 from crankwork.description.redundant_build import fitting, geometry_of, taken_out
-from crankwork.description.schema import Measure, Reader
+from crankwork.description.schema import Values
 from crankwork.description.stated import stated_numbers
 from crankwork.dynamics.efficiency import Chain as EfficiencyChain
 from crankwork.dynamics.efficiency import Parallel, Series, efficiency
@@ -50,17 +51,11 @@ _LEAST_EFFICIENCY = 1e-4
 _REVOLUTION = math.tau + 1e-9
 # share of the size of a linkage by which a stated position may be rough
 _ROUGHLY = 0.25
+_OF_SPRING = ("stiffness", "free_length", "preload")
 _RATES = ("speed", "angular_acceleration", "from", "to")
-# what each kind of load needs, and what it may have besides
-_LOAD_KEYS = {
-    "process": (("slider", "force"), ("at", "against", "curve", "stroke", "start", "acts")),
-    "force": (("point",), ("x", "y", "link")),
-    "torque": (("link", "torque"), ("at", "curve")),
-    "spring": (("stiffness",), ("between", "slider", "free_length", "preload")),
-}
 
 
-def build_linkage(values: Mapping[str, Any], reader: Reader, read_measured: ReadMeasured) -> Machine | None:
+def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -> Machine | None:
     """Return the linkage machine, or None after complaints."""
     if reader.problems:
         return None
@@ -75,7 +70,7 @@ def build_linkage(values: Mapping[str, Any], reader: Reader, read_measured: Read
         problems = told_redundant(linkage, problems)
     for problem in problems:
         reader.complain(problem.key or "links", problem.message)
-    method = build_method(values.get("method", {}), reader)
+    method = build_method(values["method"], reader)
     if not method.is_exact:
         reader.complain("method.kinematics", Refusal("linkage_exact"))
     loads = _loads(values, linkage, reader)
@@ -91,36 +86,36 @@ def build_linkage(values: Mapping[str, Any], reader: Reader, read_measured: Read
     if reader.problems:
         return None
     loads = with_starts(loads, values, mechanism)
-    if values.get("method", {}).get("weights"):
+    if values["method"]["weights"]:
         loads = (*loads, Weight(method.gravity))
-    crank, table = values.get("crank", {}), values.get("table", {})
+    crank, table = values["crank"], values["table"]
     machine = Machine(
         mechanism=mechanism,
         linkage=linkage,
         speed=crank_speed(crank["speed"], method) if "speed" in crank else 0.0,
-        angular_acceleration=_value(crank, "angular_acceleration"),
-        title=values.get("title", ""),
+        angular_acceleration=crank.si("angular_acceleration"),
+        title=values["title"] or "",
         loads=loads,
         redundant=redundant,
         chambers=chambers,
         charges=charges,
-        drive=drive if _weighs(values) else replace(drive, inertia=drive.inertia + _value(crank, "inertia")),
+        drive=drive if _weighs(values) else replace(drive, inertia=drive.inertia + crank.si("inertia")),
         transient=transient,
         method=method,
-        table_step=_table_step(_value(table, "step"), mechanism.driver.law),
-        table_special=tuple(round(math.degrees(one.value), 9) for one in table.get("special_angles", []) if one),
+        table_step=_table_step(table.si("step"), mechanism.driver.law),
+        table_special=tuple(round(math.degrees(one.value), 9) for one in table["special_angles"] or () if one),
         stated=stated_numbers(values),
     )
     moving = checked_motion(machine, crank, reader)
     return moving if moving is not None and _is_filled(moving, values, reader) else None
 
 
-def _weighs(values: Mapping[str, Any]) -> bool:
+def _weighs(values: Values) -> bool:
     """Return whether the inertia of the crank is that of a body among the others."""
-    return "driver" in values or not {"mass", "centre"}.isdisjoint(values.get("crank", {}))
+    return "driver" in values or not {"mass", "centre"}.isdisjoint(values["crank"])
 
 
-def _geometry(values: Mapping[str, Any], reader: Reader) -> dict[str, Any]:
+def _geometry(values: Values, reader: Reader) -> dict[str, Any]:
     """Return the tables that describe the linkage, and its driver with its law."""
     tables = {name: _plain(values[name]) for name in _GEOMETRY if name in values}
     if "links" in tables:
@@ -136,11 +131,11 @@ def _geometry(values: Mapping[str, Any], reader: Reader) -> dict[str, Any]:
     return tables
 
 
-def _table_step(given: float, law: Law | None) -> float:
+def _table_step(given: float | None, law: Law | None) -> float:
     """Return the step of the tables [deg], given as an angle, or as a part of the period of a law."""
-    if not given:
-        return 10.0
-    return round(math.degrees(given), 9) if law is None else min(360.0 * given / law.period, 360.0)
+    if law is None:
+        return round(math.degrees(given or 0.0), 9)
+    return 10.0 if given is None else min(360.0 * given / law.period, 360.0)
 
 
 def _decomposed(linkage: Linkage) -> tuple[Mechanism | None, list[Problem]]:
@@ -193,7 +188,7 @@ def _settling(linkage: Linkage, mechanism: Mechanism) -> set[str]:
     return found
 
 
-def _is_filled(machine: Machine, values: Mapping[str, Any], reader: Reader) -> bool:
+def _is_filled(machine: Machine, values: Values, reader: Reader) -> bool:
     """Complain of gas that does not suit the volumes of its chambers."""
     if not machine.chambers:
         return True
@@ -217,9 +212,9 @@ def _is_filled(machine: Machine, values: Mapping[str, Any], reader: Reader) -> b
     return True
 
 
-def build_tabulated(values: Mapping[str, Any], reader: Reader) -> Machine | None:
+def build_tabulated(values: Values, reader: Reader) -> Machine | None:
     """Return the machine of a table of transfer functions, or None after complaints."""
-    method = build_method(values.get("method", {}), reader)
+    method = build_method(values["method"], reader)
     if not method.is_exact:
         reader.complain("method.kinematics", Refusal("table_exact"))
     drive = _drive(values, reader)
@@ -241,11 +236,11 @@ def build_tabulated(values: Mapping[str, Any], reader: Reader) -> Machine | None
         optional[key] = column
     if reader.problems:
         return None
-    table = TransferTable(tuple(angles), tuple(bodies), differences=transfer.get("differences", "central"), **optional)
+    table = TransferTable(tuple(angles), tuple(bodies), differences=transfer["differences"] or "central", **optional)
     return Machine(
         Mechanism(Crank(radius=0.0), ()),
         speed=crank_speed(values["crank"]["speed"], method),
-        title=values.get("title", ""),
+        title=values["title"] or "",
         transfer=table,
         drive=drive,
         method=method,
@@ -253,7 +248,7 @@ def build_tabulated(values: Mapping[str, Any], reader: Reader) -> Machine | None
     )
 
 
-def _body(name: str, body: Mapping[str, Any], count: int, reader: Reader) -> TabulatedBody:
+def _body(name: str, body: Values, count: int, reader: Reader) -> TabulatedBody:
     """Return a body of a table of transfer functions; complain where it has not a value for each position."""
     columns = {key: tuple(_plain(body[key])) for key in ("velocity", "rotation") if key in body}
     for key, column in columns.items():
@@ -265,7 +260,7 @@ def _body(name: str, body: Mapping[str, Any], count: int, reader: Reader) -> Tab
         )
     still = (0.0,) * count
     return TabulatedBody(
-        name, _value(body, "mass"), _value(body, "inertia"),
+        name, body.si("mass"), body.si("inertia"),
         columns.get("velocity", still), columns.get("rotation", still),
     )  # fmt: skip
 
@@ -280,10 +275,10 @@ def _is_whole(part: object) -> bool:
     return bool(part) and None not in part if isinstance(part, list) else part is not None
 
 
-def _drive(values: Mapping[str, Any], reader: Reader) -> Drive:
+def _drive(values: Values, reader: Reader) -> Drive:
     """Return efficiency, motor and flywheel."""
     drive = Drive(fluctuation=values.get("flywheel", {}).get("fluctuation"))
-    chain = values.get("efficiency", {}).get("chain")
+    chain = values["efficiency"]["chain"]
     # what could not be read has been told already
     if chain and all(_is_whole(one) for one in chain):
         table = values["efficiency"]
@@ -301,7 +296,7 @@ def _drive(values: Mapping[str, Any], reader: Reader) -> Drive:
                 reader.complain("efficiency.decimals", Refusal("efficiency_rounded", whole=whole))
     motor = values.get("motor")
     if motor and {"rated_power", "rated_speed", "overload", "pole_pairs"} <= set(motor):
-        frequency = _value(motor, "frequency", 2 * math.pi * 50) / (2 * math.pi)
+        frequency = motor.si("frequency") / (2 * math.pi)
         try:
             own = AsynchronousMotor.of_catalogue(
                 motor["rated_power"].value, motor["rated_speed"].value, motor["overload"],
@@ -310,27 +305,27 @@ def _drive(values: Mapping[str, Any], reader: Reader) -> Drive:
         except MethodError as error:
             reader.complain("motor.rated_speed", error.args[0])
         else:
-            geared = GearedMotor(own, motor.get("ratio", 1.0), _value(motor, "inertia"), drive.efficiency)
+            geared = GearedMotor(own, motor["ratio"], motor.si("inertia"), drive.efficiency)
             drive = replace(drive, motor=geared, rated_power=motor["rated_power"].value)
     return drive
 
 
-def _transient(values: Mapping[str, Any], loads: tuple[Load, ...], reader: Reader) -> Transient | None:
+def _transient(values: Values, loads: tuple[Load, ...], reader: Reader) -> Transient | None:
     table = values.get("transient")
     if table is None:
         return None
     if (
-        values.get("method", {}).get("weights")
+        values["method"]["weights"]
         or not all(isinstance(one, Spring) and not one.preload for one in loads)
         or values.get("chambers")
     ):
         reader.complain("transient", Refusal("transient_loads"))
-    return Transient(table["torque"].value, table["time"].value, _value(table, "speed"))
+    return Transient(table["torque"].value, table["time"].value, table.si("speed"))
 
 
-def _loads(values: Mapping[str, Any], linkage: Linkage | None, reader: Reader) -> tuple[Load, ...]:
+def _loads(values: Values, linkage: Linkage | None, reader: Reader) -> tuple[Load, ...]:
     made = []
-    for number, one in enumerate(values.get("loads", []), start=1):
+    for number, one in enumerate(values["loads"], start=1):
         if one and "kind" in one and _check_load(f"loads[{number}]", one, linkage, reader):
             try:
                 made.append(_load(one))
@@ -339,17 +334,11 @@ def _loads(values: Mapping[str, Any], linkage: Linkage | None, reader: Reader) -
     return tuple(made)
 
 
-def _check_load(key: str, load: Mapping[str, Any], linkage: Linkage | None, reader: Reader) -> bool:
-    """Complain of keys that this kind of load lacks or does not know, and of names that stand for nothing."""
-    needed, allowed = _LOAD_KEYS[load["kind"]]
-    for name in needed:
-        if name not in load:
-            reader.complain(f"{key}.{name}", Refusal("load_needs", kind=load["kind"]))
-    for name in set(load) - {"kind", *needed, *allowed}:
-        reader.complain(f"{key}.{name}", Refusal("load_key", known=", ".join(needed + allowed)))
+def _check_load(key: str, load: Values, linkage: Linkage | None, reader: Reader) -> bool:
+    """Complain of ends of springs, of tables that are none, and of names that stand for nothing."""
     if load["kind"] == "spring" and ("between" in load) == ("slider" in load):
         reader.complain(f"{key}.between", Refusal("spring_ends"))
-    if len(set(load.get("between", "  x"))) < 2:
+    if len(set(load["between"] or "  x")) < 2:
         reader.complain(f"{key}.between", Refusal("spring_twice", point=load["between"][0]))
     _check_table(key, load, reader)
     if linkage is not None:
@@ -357,7 +346,7 @@ def _check_load(key: str, load: Mapping[str, Any], linkage: Linkage | None, read
     return not any(problem.key.startswith(key) for problem in reader.problems)
 
 
-def _check_names(key: str, load: Mapping[str, Any], linkage: Linkage, reader: Reader) -> None:
+def _check_names(key: str, load: Values, linkage: Linkage, reader: Reader) -> None:
     """Complain of sliders, links and points that are not there, and of a point that is not on the link."""
     names = {"slider": {one.name for one in (*linkage.members, linkage.driving) if one.guide},
              "link": {one.name for one in linkage.members} | linkage.base - {GROUND},
@@ -365,25 +354,25 @@ def _check_names(key: str, load: Mapping[str, Any], linkage: Linkage, reader: Re
     for name, known in names.items():
         if name in load and load[name] not in known:
             reader.complain(f"{key}.{name}", Refusal(f"absent_{name}", name=load[name], known=", ".join(sorted(known))))
-    for point in load.get("between", []):
+    for point in load["between"]:
         if point not in names["point"]:
             reader.complain(
                 f"{key}.between", Refusal("absent_point", name=point, known=", ".join(sorted(names["point"])))
             )
-    owners = linkage.owners.get(load.get("point", ""), [])
-    if load["kind"] == "force" and owners and load.get("link", owners[0]) not in owners:
+    owners = linkage.owners.get(load["point"] or "", [])
+    if load["kind"] == "force" and owners and (load["link"] or owners[0]) not in owners:
         reader.complain(f"{key}.link", Refusal("load_elsewhere", point=load["point"], owners=", ".join(owners)))
 
 
-def _check_table(key: str, load: Mapping[str, Any], reader: Reader) -> None:
+def _check_table(key: str, load: Values, reader: Reader) -> None:
     """Complain of a table of a load whose columns do not match, do not rise, or count by the wrong quantity."""
     column = "torque" if load["kind"] == "torque" else "force"
-    values, at = load.get(column, []), load.get("at")
+    values, at = load[column], load.get("at")
     if None in values or at is None or None in at:
         if at is None and len(values) > 1:
             reader.complain(f"{key}.at", Refusal("load_at_missing", count=len(values), column=column))
         return
-    wanted = "angle" if column == "torque" or load.get("against") == "angle" else "length"
+    wanted = "angle" if column == "torque" or load["against"] == "angle" else "length"
     if any(one.dimension != wanted for one in at):
         reader.complain(f"{key}.at", Refusal(f"load_at_{wanted}"))
     elif any(after.value <= before.value for before, after in itertools.pairwise(at)):
@@ -394,39 +383,31 @@ def _check_table(key: str, load: Mapping[str, Any], reader: Reader) -> None:
         reader.complain(f"{key}.at", Refusal("load_at_count", count=len(at), others=len(values), column=column))
 
 
-def _load(load: Mapping[str, Any]) -> Load:
+def _load(load: Values) -> Load:
     match load["kind"]:
         case "process":
             return ProcessForce(
-                load["slider"], _curve(load, "force"), load.get("against", "stroke"),
-                -1 if load.get("stroke") == "falling" else 1, _value(load, "start"), load.get("acts", "forward"),
+                load["slider"], _curve(load, "force"), load["against"],
+                -1 if load["stroke"] == "falling" else 1, load.si("start") or 0.0, load["acts"],
             )  # fmt: skip
         case "force":
-            return ForceOnPoint(load["point"], _value(load, "x"), _value(load, "y"), load.get("link", ""))
+            return ForceOnPoint(load["point"], load.si("x"), load.si("y"), load["link"] or "")
         case "torque":
             return TorqueOnLink(load["link"], _curve(load, "torque"))
         case _ if "slider" in load:
-            return SliderSpring(
-                load["slider"], load["stiffness"].value, _value(load, "free_length"), _value(load, "preload")
-            )
-    start, end = load["between"]
-    return Spring(start, end, load["stiffness"].value, _value(load, "free_length"), _value(load, "preload"))
+            return SliderSpring(load["slider"], *(load.si(key) for key in _OF_SPRING))
+    return Spring(*load["between"], *(load.si(key) for key in _OF_SPRING))
 
 
-def _curve(load: Mapping[str, Any], key: str) -> LoadTable:
+def _curve(load: Values, key: str) -> LoadTable:
     """Return the table of a load; a single value holds everywhere."""
     values = tuple(_plain(load[key]))
-    smooth = load.get("curve") == "smooth"
+    smooth = load["curve"] == "smooth"
     if "at" not in load:
         return LoadTable((-1e3, 1e3), (values[0], values[0]))
     at = tuple(_plain(load["at"]))
-    period = 2 * math.pi if load.get("against") == "angle" or load["kind"] == "torque" else 0.0
+    period = 2 * math.pi if load["against"] == "angle" or load["kind"] == "torque" else 0.0
     return LoadTable(at, values, "monotone" if smooth else "linear", period)
-
-
-def _value(table: Mapping[str, Any], key: str, default: float = 0.0) -> float:
-    measure = table.get(key)
-    return default if measure is None else float(measure.value)
 
 
 def _plain(value: Any) -> Any:  # noqa: ANN401 - tables, lists and quantities, as the file has them

@@ -5,20 +5,9 @@ from __future__ import annotations
 import math
 from typing import get_args
 
-from crankwork.description.keys import MEASURED, METHOD, PIECE, POINT, TABLE
-from crankwork.description.schema import (
-    Choice,
-    Key,
-    ListOf,
-    Named,
-    NameOr,
-    Nested,
-    Number,
-    NumberOr,
-    Quantity,
-    Table,
-    Text,
-)  # fmt: skip
+from crankwork.description.keys import AMBIENT, DIAGRAM, METHOD, NO_ACCELERATION, PRESSURES, TABLE, TITLE
+from crankwork.description.kinds import Choice, Number, Quantity, Text
+from crankwork.description.schema import Key, ListOf, Named, NameOr, Nested, NumberOr, Table
 from crankwork.mechanism.driver import LawKind
 
 _LENGTH = Quantity(("length",), 1e-6, 100.0)
@@ -27,252 +16,216 @@ _PLACE = ListOf(_COORDINATE, fewest=2, most=2)
 _ANGLE = Quantity(("angle",), -4 * math.pi - 1e-9, 4 * math.pi + 1e-9)
 _TURN = Quantity(("angle",), 0.0, 4 * math.pi + 1e-9)
 _SPEED = Quantity(("speed",), 1e-6, 3e4)
-_INERTIA = Quantity(("inertia",), 0.0, 1e9)
 _TORQUE = Quantity(("torque",), -1e9, 1e9)
 _FORCE = Quantity(("force",), -1e9, 1e9)
 _NAME = Text(60)
-_MASS = {
-    "mass": Key(Quantity(("mass",), 1e-9, 1e6), "its mass"),
-    "inertia": Key(_INERTIA, "moment of inertia about the centre of mass"),
-    "centre": Key(NameOr(_PLACE), "centre of mass: a point of the link, or [along, across]"),
-}
+_NO_ANGLE = Key(_ANGLE, default="0 deg")
+_INERTIA = Key(Quantity(("inertia",), 0.0, 1e9), default="0 kg*m2")
+_MASS = {"mass": Key(Quantity(("mass",), 1e-9, 1e6)), "inertia": _INERTIA, "centre": Key(NameOr(_PLACE))}
 
-_CRANK = Table({
-    "pivot": Key(_NAME, "the fixed point it turns about", required=True),
-    "pin": Key(_NAME, "name of its moving end", required=True),
-    "radius": Key(_LENGTH, "distance from pivot to pin", required=True),
-    "speed": Key(_SPEED, "rotational speed", required=True),
-    "angular_acceleration": Key(Quantity(("angular_acceleration",), -1e6, 1e6), "change of the angular speed"),
-    "start": Key(_ANGLE, "its direction from the x axis at a crank angle of zero"),
-    "direction": Key(Choice(("anticlockwise", "clockwise")), "which way it turns"),
-    "points": Key(Named(_PLACE), "further points: from the pivot towards the pin, and to the left of that"),
-    "inertia": Key(_INERTIA, "moment of inertia about its axis, all that turns with it included"),
-    "mass": Key(Quantity(("mass",), 1e-9, 1e6), "its mass, which its pivot bears"),
-    "centre": Key(NameOr(_PLACE), "centre of mass: a point of it, or [along, across] from the pivot; else the pivot"),
-    "from": Key(_ANGLE, "of a crank that does not turn fully, from where largest values count"),
-    "to": Key(_ANGLE, "of a crank that does not turn fully, up to where largest values count"),
+_CRANK = Table("driving", {
+    "pivot": Key(_NAME, required=True),
+    "pin": Key(_NAME, required=True),
+    "radius": Key(_LENGTH, required=True),
+    "speed": Key(_SPEED, required=True),
+    "angular_acceleration": NO_ACCELERATION,
+    "start": _NO_ANGLE,
+    "direction": Key(Choice(("anticlockwise", "clockwise")), default="anticlockwise"),
+    "points": Key(Named(_PLACE)),
+    **_MASS,
+    "from": Key(_ANGLE),
+    "to": Key(_ANGLE),
 })  # fmt: skip
 
 _COORDINATE_OF_DRIVER = Quantity(("length", "angle"), -1e3, 1e3)
 _TIME = Quantity(("time",), 1e-6, 1e6)
 
-_SEGMENT = Table({
-    "kind": Key(Choice(get_args(LawKind)), "how it moves", required=True),
-    "to": Key(_COORDINATE_OF_DRIVER, "the coordinate at its end; that of the beginning for a dwell"),
-    "over": Key(NumberOr(_TIME, Number(0.0, 1.0, above=True)), "its time, or its share of the period",
-                required=True, instead_of=("speed",)),
-    "speed": Key(Quantity(("velocity", "speed"), 0.0, 3e4, above=True), "rate of a constant one, in place of its time",
-                 instead_of=("over",)),
-    "ramp": Key(Number(0.0, 0.5, above=True), "of a trapezoidal velocity, the part that each ramp takes"),
-    "at": Key(ListOf(Number(0.0, 1.0)), "of a table, shares of the segment, rising between 0 and 1"),
-    "values": Key(ListOf(_COORDINATE_OF_DRIVER), "of a table, the coordinate there"),
+_BY_TABLE, _MOVES = {"kind": ("table",)}, {"kind": tuple(one for one in get_args(LawKind) if one != "dwell")}
+_SEGMENT = Table("segment", {
+    "kind": Key(Choice(get_args(LawKind)), required=True),
+    "to": Key(_COORDINATE_OF_DRIVER, only=_MOVES),
+    "over": Key(NumberOr(_TIME, Number(0.0, 1.0, above=True)), required=True, instead_of=("speed",)),
+    "speed": Key(Quantity(("velocity", "speed"), 0.0, 3e4, above=True), instead_of=("over",),
+                 only={"kind": ("constant",)}),
+    "ramp": Key(Number(0.0, 0.5, above=True), default=1 / 3, only={"kind": ("trapezoidal",)}),
+    "at": Key(ListOf(Number(0.0, 1.0)), only=_BY_TABLE),
+    "values": Key(ListOf(_COORDINATE_OF_DRIVER), only=_BY_TABLE),
 })  # fmt: skip
 
-_DRIVER = Table({
-    "slider": Key(_NAME, "the sliding piece on a fixed guide that drives"),
-    "cylinder": Key(ListOf(_NAME, fewest=2, most=2), "the two points that a driving cylinder joins"),
-    "between": Key(ListOf(_NAME, fewest=2, most=2), "the two moving links that a motor in their pin turns"),
-    "start": Key(_COORDINATE_OF_DRIVER, "its coordinate at the beginning; that of the end without"),
-    "law": Key(ListOf(_SEGMENT, fewest=1, most=100), "how its coordinate changes, segment by segment", required=True),
-    "period": Key(_TIME, "time of the whole law, where segments are shares of it"),
+_DRIVER = Table("driver", {
+    "slider": Key(_NAME),
+    "cylinder": Key(ListOf(_NAME, fewest=2, most=2)),
+    "between": Key(ListOf(_NAME, fewest=2, most=2)),
+    "start": Key(_COORDINATE_OF_DRIVER),
+    "law": Key(ListOf(_SEGMENT, fewest=1, most=100), required=True),
+    "period": Key(_TIME),
 })  # fmt: skip
 
-_GEARED = Table({
-    "pivot": Key(_NAME, "the fixed point it turns about", required=True),
-    "ratio": Key(Number(-1e3, 1e3), "its speed over that of the crank, negative the other way round", required=True),
-    "start": Key(_ANGLE, "direction of its x axis at a crank angle of zero"),
-    "points": Key(Named(_PLACE), "its points: along its x axis, and to the left of that", required=True),
-    "inertia": Key(_INERTIA, "moment of inertia about its axis"),
-    "mass": Key(Quantity(("mass",), 1e-9, 1e6), "its mass, which its pivot bears"),
-    "centre": Key(NameOr(_PLACE), "centre of mass: a point of it, or [along, across] from the pivot; else the pivot"),
-})  # fmt: skip
-
-_LINK = Table({
-    "joins": Key(ListOf(_NAME, fewest=2), "names of its joints; its frame runs from the first to the second",
-                 required=True),
-    "length": Key(_LENGTH, "distance of the first two joints; may follow from positions"),
-    "points": Key(Named(_PLACE), "further points of the link: [along, across] its frame"),
-    "share": Key(Number(-1e3, 1e3), "of a link too many that fits, the force along it over that along the link `of`"),
-    "of": Key(_NAME, "the link with which a link too many shares what they bear"),
+_GEARED = Table("geared", {
+    "pivot": Key(_NAME, required=True),
+    "ratio": Key(Number(-1e3, 1e3), required=True),
+    "start": _NO_ANGLE,
+    "points": Key(Named(_PLACE), required=True),
     **_MASS,
 })  # fmt: skip
 
-_SLIDER = Table({
-    "guide": Key(_NAME, "the guide it slides on", required=True),
-    "pin": Key(_NAME, "its joint on the line of the guide"),
-    "points": Key(Named(_PLACE), "further points: along and across the guide"),
+_LINK = Table("link", {
+    "joins": Key(ListOf(_NAME, fewest=2), required=True),
+    "length": Key(_LENGTH),
+    "points": Key(Named(_PLACE)),
+    "share": Key(Number(-1e3, 1e3)),
+    "of": Key(_NAME),
     **_MASS,
 })  # fmt: skip
 
-_GUIDE = Table(
-    {
-        "through": Key(NameOr(_PLACE), "a fixed point, or [x, y]; in the frame of the link that carries it"),
-        "angle": Key(_ANGLE, "direction in which distances count"),
-        "link": Key(_NAME, "the link that carries it; fixed without"),
-    }
-)
-
-_LOAD = Table({
-    "kind": Key(Choice(("process", "force", "torque", "spring")), "what pushes", required=True),
-    "slider": Key(_NAME, "the sliding piece it acts on"),
-    "point": Key(_NAME, "the point it acts at"),
-    "link": Key(_NAME, "the link it acts on"),
-    "between": Key(ListOf(_NAME, fewest=2, most=2), "the two points a spring joins"),
-    "x": Key(_FORCE, "component of a force"),
-    "y": Key(_FORCE, "component of a force"),
-    "against": Key(Choice(("stroke", "angle")), "what a table counts by; by default the stroke"),
-    "at": Key(ListOf(Quantity(("length", "angle"), -1e3, 1e3), fewest=2), "strokes or crank angles of a table, rising"),
-    "force": Key(ListOf(_FORCE, fewest=1), "forces of the table, positive against the working stroke"),
-    "torque": Key(ListOf(_TORQUE, fewest=1), "torques of the table, positive anticlockwise"),
-    "curve": Key(Choice(("straight", "smooth")), "between the points of the table"),
-    "stroke": Key(Choice(("growing", "falling")), "whether the distance along the guide grows on the working stroke"),
-    "start": Key(_COORDINATE, "distance along the guide where the working stroke begins; by default its end position"),
-    "acts": Key(Choice(("forward", "both")), "on the working stroke only, or on the way back too"),
-    "stiffness": Key(Quantity(("stiffness",), 0.0, 1e12), "of a spring"),
-    "free_length": Key(Quantity(("length",), 0.0, 1e3), "length of a spring that does not pull, or its position"),
-    "preload": Key(_FORCE, "pull of a spring at its free length"),
+_SLIDER = Table("slider", {
+    "guide": Key(_NAME, required=True),
+    "pin": Key(_NAME),
+    "points": Key(Named(_PLACE)),
+    **_MASS,
 })  # fmt: skip
 
-_EFFICIENCY = Table({
-    "chain": Key(Nested(Number(0.001, 1.0)), "efficiencies in series; a list within is in parallel",
-                 required=True),
-    "decimals": Key(Number(1, 6, whole=True), "round the whole to so many decimals, as a document does"),
+_GUIDE = Table("guide", {
+    "through": Key(NameOr(_PLACE), default=["0 mm", "0 mm"]),
+    "angle": _NO_ANGLE,
+    "link": Key(_NAME),
 })  # fmt: skip
 
-_MOTOR = Table(
-    {
-        "rated_power": Key(Quantity(("power",), 1e-3, 1e9), "power on its shaft", required=True),
-        "rated_speed": Key(_SPEED, "speed at that power", required=True),
-        "overload": Key(Number(1.01, 10.0), "greatest torque over rated torque", required=True),
-        "pole_pairs": Key(Number(1, 24, whole=True), "pairs of poles", required=True),
-        "frequency": Key(_SPEED, "of the mains, by default 50 Hz"),
-        "ratio": Key(Number(1e-4, 1e4), "speed of the motor over that of the crank"),
-        "inertia": Key(_INERTIA, "moment of inertia of its rotor"),
-    }
-)
+_PROCESS, _PUSH, _TURNS, _SPRING = ({"kind": (one,)} for one in ("process", "force", "torque", "spring"))
+_BY_COLUMN = {"kind": ("process", "torque")}
+_LOAD = Table("load", {
+    "kind": Key(Choice(("process", "force", "torque", "spring")), required=True),
+    "slider": Key(_NAME, required=("process",), only={"kind": ("process", "spring")}),
+    "point": Key(_NAME, required=True, only=_PUSH),
+    "link": Key(_NAME, required=("torque",), only={"kind": ("force", "torque")}),
+    "between": Key(ListOf(_NAME, fewest=2, most=2), only=_SPRING),
+    "x": Key(_FORCE, default="0 N", only=_PUSH),
+    "y": Key(_FORCE, default="0 N", only=_PUSH),
+    "against": Key(Choice(("stroke", "angle")), default="stroke", only=_PROCESS),
+    "at": Key(ListOf(Quantity(("length", "angle"), -1e3, 1e3), fewest=2), only=_BY_COLUMN),
+    "force": Key(ListOf(_FORCE, fewest=1), required=True, only=_PROCESS),
+    "torque": Key(ListOf(_TORQUE, fewest=1), required=True, only=_TURNS),
+    "curve": Key(Choice(("straight", "smooth")), default="straight", only=_BY_COLUMN),
+    "stroke": Key(Choice(("growing", "falling")), default="growing", only=_PROCESS),
+    "start": Key(_COORDINATE, only=_PROCESS),
+    "acts": Key(Choice(("forward", "both")), default="forward", only=_PROCESS),
+    "stiffness": Key(Quantity(("stiffness",), 0.0, 1e12), required=True, only=_SPRING),
+    "free_length": Key(Quantity(("length",), 0.0, 1e3), default="0 mm", only=_SPRING),
+    "preload": Key(_FORCE, default="0 N", only=_SPRING),
+})  # fmt: skip
 
-_FLYWHEEL = Table(
-    {
-        "fluctuation": Key(Number(1e-6, 1.0), "wanted: largest less least speed over the mean", required=True),
-    }
-)
+_EFFICIENCY = Table("efficiency", {
+    "chain": Key(Nested(Number(0.001, 1.0)), required=True),
+    "decimals": Key(Number(1, 6, whole=True)),
+})  # fmt: skip
 
-_TRANSIENT = Table(
-    {
-        "torque": Key(_TORQUE, "constant torque on the crank", required=True),
-        "time": Key(Quantity(("time",), 1e-6, 1e6), "how long", required=True),
-        "speed": Key(Quantity(("speed",), 0.0, 3e4), "speed of the crank at the start, at rest without"),
-    }
-)
+_MOTOR = Table("motor", {
+    "rated_power": Key(Quantity(("power",), 1e-3, 1e9), required=True),
+    "rated_speed": Key(_SPEED, required=True),
+    "overload": Key(Number(1.01, 10.0), required=True),
+    "pole_pairs": Key(Number(1, 24, whole=True), required=True),
+    "frequency": Key(_SPEED, default="50 Hz"),
+    "ratio": Key(Number(1e-4, 1e4), default=1.0),
+    "inertia": _INERTIA,
+})  # fmt: skip
+
+_TRANSIENT = Table("transient", {
+    "torque": Key(_TORQUE, required=True),
+    "time": Key(Quantity(("time",), 1e-6, 1e6), required=True),
+    "speed": Key(Quantity(("speed",), 0.0, 3e4), default="0 rpm"),
+})  # fmt: skip
 
 _PRESSURE = Quantity(("pressure",), -1e8, 1e10)
 _ABSOLUTE = Quantity(("pressure",), 1.0, 1e10)
-_TEMPERATURE = Quantity(("temperature",), 1.0, 1e4)
+_TEMPERATURE = Key(Quantity(("temperature",), 1.0, 1e4))
 _FACE = {
-    "slider": Key(_NAME, "the sliding piece that is its wall"),
-    "bore": Key(_LENGTH, "diameter of the face", instead_of=("area",)),
-    "rod_diameter": Key(_LENGTH, "of a piston rod that takes its area from the bore"),
-    "area": Key(Quantity(("area",), 1e-12, 1e4), "area of the face", instead_of=("bore",)),
-    "sense": Key(Choice((1, -1)), "1 if the volume grows as the piece moves along its guide, -1 if it shrinks"),
+    "slider": Key(_NAME),
+    "bore": Key(_LENGTH, instead_of=("area",)),
+    "rod_diameter": Key(_LENGTH),
+    "area": Key(Quantity(("area",), 1e-12, 1e4), instead_of=("bore",)),
+    "sense": Key(Choice((1, -1)), default=1),
 }
 _OF_FACE = tuple(_FACE)
 
-_CHAMBER = Table({
+_CHAMBER = Table("chamber", {
     **_FACE,
-    "faces": Key(ListOf(Table(_FACE), fewest=1, most=20), "its walls, where it has more than one", instead_of=_OF_FACE),
-    "clearance_volume": Key(Quantity(("volume",), 0.0, 1e3), "its least volume", instead_of=("compression_ratio",)),
-    "compression_ratio": Key(Number(1.0001, 1e4), "largest over least volume", instead_of=("clearance_volume",)),
-    "period": Key(Choice(("360 deg", "720 deg")), "crank angle after which its pressure repeats; by default 360 deg"),
-    "pressures": Key(Choice(("gauge", "absolute")), "what the pressures count from; by default gauge"),
-    "ambient": Key(Quantity(("pressure",), 0.0, 1e10), "absolute pressure on the other side, for absolute pressures"),
-    "pressure": Key(_PRESSURE, "a pressure that does not change", instead_of=("points", "pieces", "measured")),
-    "points": Key(Named(POINT), "named points of its indicator diagram"),
-    "pieces": Key(ListOf(PIECE, fewest=1, most=500), "laws between the points, in the order of the crank angle"),
-    "measured": Key(MEASURED, "measured pressure instead of points and pieces", instead_of=("points", "pieces")),
-    "temperature": Key(_TEMPERATURE, "absolute temperature of a sealed charge while it is here"),
+    "faces": Key(ListOf(Table("chamber", _FACE), fewest=1, most=20), instead_of=_OF_FACE),
+    "clearance_volume": Key(Quantity(("volume",), 0.0, 1e3), instead_of=("compression_ratio",)),
+    "compression_ratio": Key(Number(1.0001, 1e4), instead_of=("clearance_volume",)),
+    "period": Key(Choice(("360 deg", "720 deg")), default="360 deg"),
+    "ambient": Key(Quantity(("pressure",), 0.0, 1e10), default=AMBIENT),
+    "pressure": Key(_PRESSURE, instead_of=("points", "pieces", "measured")),
+    "pressures": PRESSURES,
+    **DIAGRAM,
+    "temperature": _TEMPERATURE,
 })  # fmt: skip
 
-_DEAD_VOLUME = Table({
-    "volume": Key(Quantity(("volume",), 1e-15, 1e3), "its volume", required=True),
-    "temperature": Key(_TEMPERATURE, "absolute temperature of the gas in it"),
+_DEAD_VOLUME = Table("dead_volume", {
+    "volume": Key(Quantity(("volume",), 1e-15, 1e3), required=True),
+    "temperature": _TEMPERATURE,
 })  # fmt: skip
 
-_CHARGE = Table({
-    "chambers": Key(ListOf(_NAME, fewest=1, most=20), "the chambers that it is sealed in", required=True),
-    "dead_volumes": Key(ListOf(_DEAD_VOLUME, most=50), "volumes between them: exchangers, a regenerator"),
-    "gas_constant": Key(Quantity(("specific_heat",), 1.0, 1e5), "its specific gas constant"),
-    "exponent": Key(Number(0.0, 5.0), "of a polytrope that all of it follows; without one temperatures stay"),
-    "mean_pressure": Key(_ABSOLUTE, "absolute, mean over the crank angle", instead_of=("pressure", "mass")),
-    "pressure": Key(_ABSOLUTE, "absolute, at a crank angle", instead_of=("mean_pressure", "mass")),
-    "angle": Key(_TURN, "that crank angle; by default zero"),
-    "mass": Key(Quantity(("mass",), 1e-12, 1e6), "its mass", instead_of=("mean_pressure", "pressure")),
+_CHARGE = Table("charge", {
+    "chambers": Key(ListOf(_NAME, fewest=1, most=20), required=True),
+    "dead_volumes": Key(ListOf(_DEAD_VOLUME, most=50)),
+    "gas_constant": Key(Quantity(("specific_heat",), 1.0, 1e5)),
+    "exponent": Key(Number(0.0, 5.0)),
+    "mean_pressure": Key(_ABSOLUTE, instead_of=("pressure", "mass")),
+    "pressure": Key(_ABSOLUTE, instead_of=("mean_pressure", "mass")),
+    "angle": Key(_TURN, default="0 deg", only={"pressure": ()}),
+    "mass": Key(Quantity(("mass",), 1e-12, 1e6), instead_of=("mean_pressure", "pressure")),
 })  # fmt: skip
 
-_TITLE = {"title": Key(Text(), "what the machine is called"),
-          "decimal_mark": Key(Choice((".", ",")), 'put "," here to write 1,1 kg')}  # fmt: skip
-
-LINKAGE_FILE = Table(
-    {
-        **_TITLE,
-        "fixed_points": Key(Named(_PLACE), "pivots of the ground: [x, y]"),
-        "crank": Key(_CRANK, "the driving link", required=True),
-        "geared": Key(Named(_GEARED, most=50), "cranks that gears turn with the driving one, by name"),
-        "links": Key(Named(_LINK, most=500), "links by name"),
-        "guides": Key(Named(_GUIDE), "straight guides by name"),
-        "sliders": Key(Named(_SLIDER, most=300), "sliding pieces by name"),
-        "branch": Key(Named(Choice((1, -1))), "which way a group is assembled, 1 or -1, by the joint that it places"),
-        "positions": Key(Named(_PLACE), "roughly where joints are at a crank angle of zero"),
-        "loads": Key(ListOf(_LOAD), "what pushes the linkage"),
-        "chambers": Key(Named(_CHAMBER, most=50), "gas between sliding pieces, by name"),
-        "charges": Key(Named(_CHARGE, most=20), "gas that is sealed in chambers, by name"),
-        "efficiency": Key(_EFFICIENCY, "of the joints between motor and process"),
-        "motor": Key(_MOTOR, "an asynchronous motor on the crank"),
-        "flywheel": Key(_FLYWHEEL, "a flywheel on the crank, to be found"),
-        "transient": Key(_TRANSIENT, "motion from a crank angle of zero under a constant torque and the springs"),
-        "method": Key(METHOD, "how to compute, and the constants of a document to reproduce"),
-        "table": Key(TABLE, "the rows of the tables"),
-    }
-)
+LINKAGE_FILE = Table("file", {
+    **TITLE,
+    "fixed_points": Key(Named(_PLACE)),
+    "crank": Key(_CRANK, required=True),
+    "geared": Key(Named(_GEARED, most=50)),
+    "links": Key(Named(_LINK, most=500)),
+    "guides": Key(Named(_GUIDE)),
+    "sliders": Key(Named(_SLIDER, most=300)),
+    "branch": Key(Named(Choice((1, -1)))),
+    "positions": Key(Named(_PLACE)),
+    "loads": Key(ListOf(_LOAD)),
+    "chambers": Key(Named(_CHAMBER, most=50)),
+    "charges": Key(Named(_CHARGE, most=20)),
+    "efficiency": Key(_EFFICIENCY),
+    "motor": Key(_MOTOR),
+    "flywheel": Key(Table("flywheel", {"fluctuation": Key(Number(1e-6, 1.0), required=True)})),
+    "transient": Key(_TRANSIENT),
+    "method": Key(METHOD),
+    "table": Key(TABLE),
+})  # fmt: skip
 
 # a crank that follows a law has no speed of its own, and other drivers have no crank
-DRIVEN_FILE = Table({
+DRIVEN_FILE = LINKAGE_FILE._replace(keys={
     **LINKAGE_FILE.keys,
-    "crank": Key(Table({name: key._replace(required=False) for name, key in _CRANK.keys.items()}), "the driving link"),
-    "driver": Key(_DRIVER, "what drives, and the law by which it moves", required=True),
-    "table": Key(Table({"step": Key(_TIME, "step of the tables")}), "the rows of the tables"),
+    "crank": Key(_CRANK._replace(keys={name: key._replace(required=False) for name, key in _CRANK.keys.items()})),
+    "driver": Key(_DRIVER, required=True),
+    "table": Key(Table("table", {"step": Key(_TIME)})),
 })  # fmt: skip
 
-_RATIOS = ListOf(Number(-1e3, 1e3), fewest=2)
-_BODY = Table(
-    {
-        "mass": Key(Quantity(("mass",), 0.0, 1e6), "its mass"),
-        "inertia": Key(_INERTIA, "moment of inertia about the point whose velocity is given"),
-        "velocity": Key(ListOf(_COORDINATE, fewest=2), "velocity over the angular speed of the crank, by position"),
-        "rotation": Key(_RATIOS, "angular velocity over that of the crank, by position"),
-    }
-)
-_TRANSFER = Table({
-    "angles": Key(ListOf(_TURN, fewest=2), "crank angles of the positions", required=True),
-    "bodies": Key(Named(_BODY), "moving masses by name", required=True),
-    "reduced_inertia_1": Key(ListOf(Quantity(("inertia",), -1e9, 1e9), fewest=2),
-                             "derivative of the reduced inertia, where a document prints its own",
-                             instead_of=("differences",)),
-    "differences": Key(Choice(("forward", "central", "spectral")), "how the derivative is taken from the positions",
+_BODY = Table("body", {
+    "mass": Key(Quantity(("mass",), 0.0, 1e6), default="0 kg"),
+    "inertia": _INERTIA,
+    "velocity": Key(ListOf(_COORDINATE, fewest=2)),
+    "rotation": Key(ListOf(Number(-1e3, 1e3), fewest=2)),
+})  # fmt: skip
+_TORQUES = ListOf(_TORQUE, fewest=2)
+_TRANSFER = Table("transfer", {
+    "angles": Key(ListOf(_TURN, fewest=2), required=True),
+    "bodies": Key(Named(_BODY), required=True),
+    "reduced_inertia_1": Key(ListOf(Quantity(("inertia",), -1e9, 1e9), fewest=2), instead_of=("differences",)),
+    "differences": Key(Choice(("forward", "central", "spectral")), default="central",
                        instead_of=("reduced_inertia_1",)),
-    "static_torque": Key(ListOf(_TORQUE, fewest=2), "torque that balances the loads, by position",
-                         instead_of=("balancing_torque",)),
-    "balancing_torque": Key(ListOf(_TORQUE, fewest=2), "static and dynamic torque together, by position",
-                            instead_of=("static_torque",)),
+    "static_torque": Key(_TORQUES, instead_of=("balancing_torque",)),
+    "balancing_torque": Key(_TORQUES, instead_of=("static_torque",)),
 })  # fmt: skip
 
-TRANSFER_FILE = Table(
-    {
-        **_TITLE,
-        "crank": Key(
-            Table({"speed": Key(_SPEED, "rotational speed", required=True)}), "the driving link", required=True
-        ),
-        "transfer": Key(_TRANSFER, "transfer functions as numbers", required=True),
-        "efficiency": Key(_EFFICIENCY, "of the joints between motor and process"),
-        "method": Key(METHOD, "the constants of a document to reproduce"),
-    }
-)
+TRANSFER_FILE = Table("file", {
+    **TITLE,
+    "crank": Key(Table("driving", {"speed": Key(_SPEED, required=True)}), required=True),
+    "transfer": Key(_TRANSFER, required=True),
+    "efficiency": Key(_EFFICIENCY),
+    "method": Key(METHOD),
+})  # fmt: skip

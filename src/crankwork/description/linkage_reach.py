@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
 from crankwork.analysis.linkage_speed import transient_summary
 from crankwork.analysis.reach import open_range, reachable
-from crankwork.description.schema import Reader
+from crankwork.description.kinds import Reader
+from crankwork.description.schema import Values
 from crankwork.dynamics.reduction import reduced_inertia
 from crankwork.errors import CrankworkError, GeometryError, Problem
 from crankwork.kinematics.assembly import unassembled
@@ -95,7 +94,7 @@ def _beside(linkage: Linkage, member: Member, joints: list[str]) -> bool:
     return len(own) == 2 and any(owners & {*linkage.owners[point]} for point in own)
 
 
-def checked_motion(machine: Machine, crank: Mapping[str, Any], reader: Reader) -> Machine | None:
+def checked_motion(machine: Machine, crank: Values, reader: Reader) -> Machine | None:
     """Complain of a linkage that can be assembled nowhere, or whose transient does not come to its end."""
     try:
         reached = reachable(machine, _STEP)
@@ -115,7 +114,7 @@ def checked_motion(machine: Machine, crank: Mapping[str, Any], reader: Reader) -
     return None if reader.problems else machine
 
 
-def _working_range(crank: Mapping[str, Any], found: Travel | None, reader: Reader) -> tuple[float, float] | None:
+def _working_range(crank: Values, found: Travel | None, reader: Reader) -> tuple[float, float] | None:
     """Return the crank angles between which largest values count, and complain of what the crank does not reach."""
     given = [key for key in ("from", "to") if key in crank]
     if not given:
@@ -132,11 +131,11 @@ def _working_range(crank: Mapping[str, Any], found: Travel | None, reader: Reade
     return low, high
 
 
-def with_starts(loads: tuple[Load, ...], values: Mapping[str, Any], mechanism: Mechanism) -> tuple[Load, ...]:
+def with_starts(loads: tuple[Load, ...], values: Values, mechanism: Mechanism) -> tuple[Load, ...]:
     """Return the loads, process forces counted from the beginning of the working stroke where no start is given."""
     swept = None
     result = []
-    for load, written in zip(loads, values.get("loads", []), strict=True):
+    for load, written in zip(loads, values["loads"], strict=True):
         if isinstance(load, ProcessForce) and load.against == "stroke" and "start" not in written:
             swept = swept or _swept(mechanism)
             if load.slider in swept:

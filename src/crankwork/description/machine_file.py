@@ -15,13 +15,14 @@ from crankwork import files
 from crankwork.analysis import solve
 from crankwork.description.build import build_machine
 from crankwork.description.keys import MACHINE_FILE, SIZED_FILE
+from crankwork.description.kinds import Reader, is_one_line
 from crankwork.description.linkage_keys import DRIVEN_FILE, LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.locate import locate
 from crankwork.description.measured_file import read_measured
-from crankwork.description.schema import ListOf, Named, Nested, Reader, Table, is_one_line
+from crankwork.description.schema import ListOf, Named, Nested, Table, Values
 from crankwork.errors import CrankworkError, InputError, Problem
 from crankwork.loads.indicator import DiagramError
-from crankwork.locale import Refusal
+from crankwork.locale import Language, Refusal
 from crankwork.resources import read_resource, resource_names
 
 if TYPE_CHECKING:
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from crankwork.machine import Machine
 
 TEMPLATES = "description/templates"
+FILES = (MACHINE_FILE, SIZED_FILE, LINKAGE_FILE, DRIVEN_FILE, TRANSFER_FILE)
 _MAX_PARTS = 8
 _OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
 # a name, and numbers of entries where it is a list
@@ -86,9 +88,9 @@ def read_machine(
 def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | None:
     """Return the machine of the values, or None after complaints."""
     keys = file_keys(values)
-    read_values = keys.read(values, "", reader) or {}
+    read_values = keys.read(values, "", reader) or Values({}, keys)
 
-    def read_samples(table: Mapping[str, Any], one: Reader, path: str) -> MeasuredPressure | None:
+    def read_samples(table: Values, one: Reader, path: str) -> MeasuredPressure | None:
         return read_measured(table, one, path, folder)
 
     if keys in (LINKAGE_FILE, DRIVEN_FILE, TRANSFER_FILE):
@@ -290,12 +292,12 @@ def _printable(text: str) -> str:
     return text if is_one_line(text) else "".join(one if is_one_line(one) else ascii(one)[1:-1] for one in text)
 
 
-def json_schema() -> str:
-    """Return the JSON Schema of the machine file, for editors."""
+def json_schema(language: Language = "en") -> str:
+    """Return the JSON Schema of the machine file, for editors, its descriptions in a language."""
     schema = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "crankwork machine file",
-        "anyOf": [one.schema() for one in (MACHINE_FILE, SIZED_FILE, LINKAGE_FILE, DRIVEN_FILE, TRANSFER_FILE)],
+        "anyOf": [one.schema(language) for one in FILES],
     }
     return json.dumps(schema, indent=2, ensure_ascii=False)
 

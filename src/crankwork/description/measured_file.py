@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from crankwork import files
-from crankwork.description.schema import Reader
+from crankwork.description.kinds import Reader
+from crankwork.description.schema import Values
 from crankwork.errors import CrankworkError
 from crankwork.loads.measured import MeasuredPressure
 from crankwork.locale import Refusal
@@ -19,7 +20,7 @@ from crankwork.units import UNITS
 _LARGEST = 1e12
 
 
-def read_measured(values: Mapping[str, Any], reader: Reader, path: str, folder: Path) -> MeasuredPressure | None:
+def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> MeasuredPressure | None:
     """Return the samples of a CSV file, or None after a complaint; `path`: what of the description they belong to."""
     if "file" not in values or "pressure_unit" not in values:
         return None
@@ -34,7 +35,7 @@ def read_measured(values: Mapping[str, Any], reader: Reader, path: str, folder: 
         reader.complain(key, Refusal("in_file", file=values["file"], mistake=error.args[0]))
         return None
     numbers, angles, pressures = zip(*samples, strict=True)
-    degrees = np.array(angles) if values.get("angle_unit", "deg") == "deg" else np.degrees(angles)
+    degrees = np.array(angles) if values["angle_unit"] == "deg" else np.degrees(angles)
     pressure = np.array(pressures) * UNITS[values["pressure_unit"]].factor
     # the name in a note is the same whichever system wrote the folders before it
     return MeasuredPressure(degrees, pressure, numbers, PureWindowsPath(values["file"]).name)

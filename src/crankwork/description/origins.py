@@ -9,9 +9,10 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from crankwork import files
+from crankwork.description.kinds import Reader
 from crankwork.description.locate import locate
 from crankwork.description.machine_file import Setting, file_keys, lay, parse, settings_of
-from crankwork.description.schema import Reader, Table
+from crankwork.description.schema import Table
 from crankwork.description.stated import stated_numbers
 
 _SAME = 1e-9

@@ -7,8 +7,9 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
+from crankwork.description.kinds import Reader
 from crankwork.description.linkage_reach import fit
-from crankwork.description.schema import Reader
+from crankwork.description.schema import Values
 from crankwork.dynamics.redundant import RedundantLink
 from crankwork.locale import Refusal
 from crankwork.mechanism.decomposition import mechanism_of
@@ -23,9 +24,9 @@ def geometry_of(link: Mapping[str, Any]) -> dict[str, Any]:
     return {name: one for name, one in link.items() if name not in _KEYS}
 
 
-def taken_out(linkage: Linkage, values: Mapping[str, Any], reader: Reader) -> tuple[Linkage, tuple[Member, ...]]:
+def taken_out(linkage: Linkage, values: Values, reader: Reader) -> tuple[Linkage, tuple[Member, ...]]:
     """Return a linkage without the links that have a share, and these; complain of what can have none."""
-    links = values.get("links", {})
+    links = values["links"]
     for name, link in links.items():
         for key, other in (_KEYS, _KEYS[::-1]):
             if key in link and other not in link:
@@ -65,9 +66,7 @@ def _joints(linkage: Linkage, member: Member) -> list[str]:
     return [point for point in member.points if len(linkage.owners[point]) > 1]
 
 
-def fitting(
-    linkage: Linkage, members: tuple[Member, ...], values: Mapping[str, Any], reader: Reader
-) -> tuple[RedundantLink, ...]:
+def fitting(linkage: Linkage, members: tuple[Member, ...], values: Values, reader: Reader) -> tuple[RedundantLink, ...]:
     """Return links too many that fit where the linkage moves, and complain of those that do not."""
     found = []
     for one in members:

@@ -1,231 +1,18 @@
-"""What a table of the machine file may hold: kinds of values that read, complain and describe themselves."""
+"""What a table of the machine file holds: fields that are stated once, and lists and tables of values."""
 
 from __future__ import annotations
 
 import difflib
-import math
-import unicodedata
 from collections.abc import Iterable, Mapping
-from typing import Any, NamedTuple, Protocol
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 from crankwork import units
-from crankwork.errors import Problem
-from crankwork.locale import Refusal
+from crankwork.description.kinds import Choice, Kind, Measure, Number, Quantity, Reader, Text, is_one_line, shown
+from crankwork.locale import Language, Refusal, texts
 
 _MAX_ENTRIES = 10_000
-_MAX_PROBLEMS = 50
 _LONGEST_NAME = 60
-# what is nearer to zero than this is zero, and nothing is divided by it
-_NOTHING = 1e-30
-_OF_NUMBERS = "+-0123456789.,eE \t"
-
-
-class Measure(NamedTuple):
-    """A quantity as read: SI value, dimension, and the unit in which it is written."""
-
-    value: float
-    dimension: str
-    unit: str = ""
-
-
-class Reader:
-    """Collects the problems of one description while its values are read.
-
-    `problems` holds the first of them; `more` counts the others.
-    """
-
-    def __init__(self, *, decimal_comma: bool = False) -> None:
-        self.problems: list[Problem] = []
-        self.more = 0
-        self.decimal_comma = decimal_comma
-        self._blamed: set[str] = set()
-        self._suspects: set[str] = set()
-
-    def complain(self, key: str, message: str, *, meant: str = "") -> None:
-        """Remember a mistake; a key that is wrong already is not blamed twice.
-
-        `meant` is the key that a misspelt one stands for, so that it is not missed as well.
-        """
-        if key in self._blamed:
-            return
-        self._blamed.add(key)
-        self._suspects |= {key, meant or key}
-        if len(self.problems) < _MAX_PROBLEMS:
-            self.problems.append(Problem(key, message))
-        else:
-            self.more += 1
-
-    @property
-    def is_full(self) -> bool:
-        """Whether further mistakes are only counted."""
-        return len(self.problems) >= _MAX_PROBLEMS
-
-    def doubts(self, *keys: str) -> bool:
-        """Return whether one of the keys, or a table around it, is wrong already: what follows from it is not told."""
-        around = ({key, *(key[:at] for at, mark in enumerate(key) if mark == ".")} for key in keys)
-        return any(not self._suspects.isdisjoint(one) for one in around)
-
-
-class Kind(Protocol):
-    """A kind of value."""
-
-    def read(self, value: object, key: str, reader: Reader) -> Any:  # noqa: ANN401 - each kind has its own type
-        """Return the value as the program uses it, or None after a complaint."""
-
-    def schema(self) -> dict[str, Any]:
-        """Return the JSON Schema of the value as written."""
-
-
-class Quantity(NamedTuple):
-    """Number and unit as text; the SI value must lie within `low` and `high`, whichever dimension it has."""
-
-    dimensions: tuple[str, ...]
-    low: float
-    high: float
-    above: bool = False
-
-    def read(self, value: object, key: str, reader: Reader) -> Measure | None:
-        """Return SI value and dimension."""
-        example = units.EXAMPLES[self.dimensions[0]]
-        if isinstance(value, bool) or not isinstance(value, str | int | float):
-            reader.complain(key, Refusal("quantity_as_text", example=example))
-            return None
-        if not isinstance(value, str):
-            text = _shown(value)
-            known = example.split()[1]
-            shown = f'"{text} {known}"' if _is_moderate(value) else f'"{example}"'
-            reader.complain(key, Refusal("no_unit", value=text, example=shown))
-            return None
-        try:
-            number, dimension = units.parse(value, self.dimensions, decimal_comma=reader.decimal_comma)
-        except ValueError as error:
-            reader.complain(key, error.args[0])
-            return None
-        if not self._holds(number):
-            reader.complain(key, self._out_of_range(value.strip(), dimension))
-            return None
-        return Measure(number if abs(number) > _NOTHING else 0.0, dimension, value.lstrip(_OF_NUMBERS).rstrip())
-
-    def _holds(self, number: float) -> bool:
-        return (self.low < number if self.above else self.low <= number) and number <= self.high
-
-    def _out_of_range(self, value: str, dimension: str) -> Refusal:
-        low, high = (f'"{one}"' for one in self._range(dimension))
-        return Refusal(f"quantity_range{'_above' * self.above}", value=value, low=low, high=high)
-
-    def _range(self, dimension: str) -> tuple[str, str]:
-        """Return the least and the largest value with a unit."""
-        unit = units.EXAMPLES[dimension].split()[1]
-        low, high = (f"{units.from_si(one, unit):.6g} {unit}" for one in (self.low, self.high))
-        return low, high
-
-    def schema(self) -> dict[str, Any]:
-        """Return the schema of a text with a unit."""
-        named = " or ".join(dimension.replace("_", " ") for dimension in self.dimensions)
-        known = [one for dimension in self.dimensions for one in units.spellings(dimension)]
-        low, high = self._range(self.dimensions[0])
-        span = f"{'above' if self.above else 'from'} {low} to {high}"
-        return {
-            "type": "string",
-            "pattern": r"^\s*[+-]?[0-9.,]+([eE][+-]?[0-9]+)?\s*\S.*$",
-            "description": f"{named}; {span}; units: {', '.join(known)}",
-            "examples": [units.EXAMPLES[self.dimensions[0]]],
-        }
-
-
-class Number(NamedTuple):
-    """A plain number between `low` and `high`; a whole one if it counts something."""
-
-    low: float
-    high: float
-    above: bool = False
-    whole: bool = False
-
-    def read(self, value: object, key: str, reader: Reader) -> float | None:
-        """Return the number."""
-        if isinstance(value, str) and reader.decimal_comma and value.count(",") == 1:
-            value = _float(value.replace(",", "."))
-        if isinstance(value, bool) or not isinstance(value, int | float):
-            reader.complain(key, Refusal("number_plain", value=_shown(value), example=self.example()))
-            return None
-        number = float(value) if _is_moderate(value) else math.nan
-        if not (self.low < number if self.above else self.low <= number) or not number <= self.high:
-            reader.complain(key, self._out_of_range("number", value))
-            return None
-        if self.whole and not number.is_integer():
-            reader.complain(key, self._out_of_range("whole", value))
-            return None
-        return number if abs(number) > _NOTHING else 0.0
-
-    def _out_of_range(self, kind: str, value: object) -> Refusal:
-        name = f"{kind}_range{'_above' * self.above}"
-        return Refusal(name, value=_shown(value), low=f"{self.low:g}", high=f"{self.high:g}")
-
-    def example(self) -> str:
-        """Return a number in range, for advice."""
-        lowest = self.low + 1 if self.above and self.low >= 1 else self.low
-        return f"{min(self.high, max(lowest, 0.25)):g}"
-
-    def schema(self) -> dict[str, Any]:
-        """Return the schema of a number in range."""
-        kind = "integer" if self.whole else "number"
-        return {"type": kind, "exclusiveMinimum" if self.above else "minimum": self.low, "maximum": self.high}
-
-
-class Choice(NamedTuple):
-    """One of a few words or numbers."""
-
-    options: tuple[str | int, ...]
-
-    def read(self, value: object, key: str, reader: Reader) -> str | int | None:
-        """Return the word or number."""
-        if not isinstance(value, bool) and value in self.options:
-            return next(one for one in self.options if one == value)
-        options = tuple(_shown(one) for one in self.options)
-        reader.complain(key, Refusal("choice", value=_shown(value), options=options))
-        return None
-
-    def schema(self) -> dict[str, Any]:
-        """Return the schema of an enumeration."""
-        return {"enum": list(self.options)}
-
-
-class Text(NamedTuple):
-    """A text, at most `longest` characters."""
-
-    longest: int = 200
-
-    def read(self, value: object, key: str, reader: Reader) -> str | None:
-        """Return the text."""
-        if not isinstance(value, str):
-            reader.complain(key, Refusal("text_in_quotes", value=_shown(value)))
-            return None
-        if len(value) > self.longest:
-            reader.complain(key, Refusal("text_long", value=_shown(value), count=len(value), most=self.longest))
-            return None
-        if not is_one_line(value):
-            reader.complain(key, Refusal("text_line", value=_shown(value)))
-            return None
-        return value
-
-    def schema(self) -> dict[str, Any]:
-        """Return the schema of a text."""
-        return {"type": "string", "maxLength": self.longest}
-
-
-class Flag(NamedTuple):
-    """true or false."""
-
-    def read(self, value: object, key: str, reader: Reader) -> bool | None:
-        """Return the truth value."""
-        if isinstance(value, bool):
-            return value
-        reader.complain(key, Refusal("flag", value=_shown(value)))
-        return None
-
-    def schema(self) -> dict[str, Any]:
-        """Return the schema of a truth value."""
-        return {"type": "boolean"}
 
 
 class ListOf(NamedTuple):
@@ -254,9 +41,9 @@ class ListOf(NamedTuple):
         example = units.EXAMPLES[self.entry.dimensions[0]] if isinstance(self.entry, Quantity) else "a"
         return Refusal("list_like", example=f'["{example}"]')
 
-    def schema(self) -> dict[str, Any]:
+    def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of an array."""
-        return {"type": "array", "items": self.entry.schema(), "minItems": self.fewest, "maxItems": self.most}
+        return {"type": "array", "items": self.entry.schema(language), "minItems": self.fewest, "maxItems": self.most}
 
 
 class Nested(NamedTuple):
@@ -275,9 +62,9 @@ class Nested(NamedTuple):
             for i, one in enumerate(value, start=1)
         ]
 
-    def schema(self) -> dict[str, Any]:
+    def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of an array with arrays in it."""
-        one = self.entry.schema()
+        one = self.entry.schema(language)
         return {
             "type": "array",
             "items": {"anyOf": [one, {"type": "array", "items": one, "minItems": 1}]},
@@ -294,9 +81,9 @@ class NameOr(NamedTuple):
         """Return the name or the value."""
         return value if isinstance(value, str) and value else self.other.read(value, key, reader)
 
-    def schema(self) -> dict[str, Any]:
+    def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of either."""
-        return {"anyOf": [{"type": "string"}, self.other.schema()]}
+        return {"anyOf": [{"type": "string"}, self.other.schema(language)]}
 
 
 class NumberOr(NamedTuple):
@@ -309,9 +96,9 @@ class NumberOr(NamedTuple):
         """Return the quantity of a text and the number of a number."""
         return (self.quantity if isinstance(value, str) else self.number).read(value, key, reader)
 
-    def schema(self) -> dict[str, Any]:
+    def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of either."""
-        return {"anyOf": [self.quantity.schema(), self.number.schema()]}
+        return {"anyOf": [self.quantity.schema(language), self.number.schema(language)]}
 
 
 class Named(NamedTuple):
@@ -333,29 +120,42 @@ class Named(NamedTuple):
                 reader.complain(f"{key}.{name}", Refusal("no_name", most=_LONGEST_NAME))
         return {name: self.entry.read(one, f"{key}.{name}", reader) for name, one in value.items()}
 
-    def schema(self) -> dict[str, Any]:
+    def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of a mapping."""
         names = {"minLength": 1, "maxLength": _LONGEST_NAME}
-        return {"type": "object", "additionalProperties": self.entry.schema(), "propertyNames": names,
+        return {"type": "object", "additionalProperties": self.entry.schema(language), "propertyNames": names,
                 "maxProperties": self.most}  # fmt: skip
 
 
+class By(NamedTuple):
+    """A default that follows from what stands beside it: the key that decides, and the default by its value."""
+
+    key: str
+    values: Mapping[str, Any]
+
+
 class Key(NamedTuple):
-    """A key of a table: its kind, what it means, and the keys that say the same and exclude it."""
+    """A field of a table: its kind, its default as a file would state it, and when it applies.
+
+    `required`: always, or for tables of these kinds; `instead_of`: keys that say the same and exclude it; `only`: what
+    must stand beside it, by key the values that it may have, none for any.
+    """
 
     kind: Kind
-    meaning: str
-    required: bool = False
+    required: bool | tuple[str, ...] = False
     instead_of: tuple[str, ...] = ()
+    default: Any = None
+    only: Mapping[str, tuple[str, ...]] = MappingProxyType({})
 
 
 class Table(NamedTuple):
-    """A table with a fixed set of keys."""
+    """A table with a fixed set of keys; `name` is the one that texts about its keys begin with."""
 
+    name: str
     keys: Mapping[str, Key]
 
-    def read(self, value: object, key: str, reader: Reader) -> dict[str, Any] | None:
-        """Return the values by key; keys not given are absent."""
+    def read(self, value: object, key: str, reader: Reader) -> Values | None:
+        """Return the values by key."""
         if isinstance(value, list) and all(isinstance(one, dict) for one in value):
             reader.complain(key, Refusal("one_table", count=len(value), key=key))
             return None
@@ -373,10 +173,55 @@ class Table(NamedTuple):
             later = clashes and list(value).index(name) > min(list(value).index(other) for other in clashes)
             if later or any(name not in self.keys[other].instead_of for other in clashes):
                 reader.complain(path, Refusal("same", others=clashes))
+        values = Values({name: one for name, one in result.items() if one is not None}, self)
+        prefix = f"{key}." if key else ""
         for name, entry in self.keys.items():
-            if entry.required:
-                self._check_there(name, value, key, reader)
-        return {name: one for name, one in result.items() if one is not None}
+            if name in value:
+                self._check_applies(name, values, prefix, reader)
+            elif entry.required is True or (entry.required and values["kind"] in entry.required):
+                self._check_there(name, value, values, prefix, reader)
+        return values
+
+    def default(self, name: str, beside: Values) -> Any:  # noqa: ANN401 - each kind has its own type
+        """Return what a key is taken to be where only others are given, None for nothing."""
+        entry = self.keys.get(name)
+        match entry.kind if entry else None:
+            case Table() as table:
+                return Values({}, table)
+            case Named():
+                return {}
+            case ListOf() if entry and entry.default is None:
+                return []
+        written = self.written_default(name, beside)
+        return None if entry is None or written is None else entry.kind.read(written, name, Reader())
+
+    def written_default(self, name: str, beside: Values) -> Any:  # noqa: ANN401 - as a file has it
+        """Return the default of a key as a file would state it, None where it has none or does not apply."""
+        entry = self.keys.get(name)
+        if entry is None or self._foreign(entry, beside) or not beside.keys().isdisjoint(entry.instead_of):
+            return None
+        one = entry.default
+        return one.values.get(beside[one.key]) if isinstance(one, By) else one
+
+    @staticmethod
+    def _foreign(entry: Key, beside: Values) -> tuple[str, tuple[str, ...]] | None:
+        """Return the first key, with its values wanted, that keeps a key from applying."""
+        for other, wanted in entry.only.items():
+            if beside[other] not in wanted if wanted else other not in beside:
+                return other, wanted
+        return None
+
+    def _check_applies(self, name: str, values: Values, prefix: str, reader: Reader) -> None:
+        """Complain of a key that means nothing beside the others."""
+        missed = self._foreign(self.keys[name], values)
+        if missed is None or reader.doubts(f"{prefix}{missed[0]}"):
+            return
+        other, wanted = missed
+        if wanted:
+            reader.complain(f"{prefix}{name}", means_nothing(other, values[other], wanted))
+        else:
+            advice = _advice(other, self.keys[other].kind, prefix)
+            reader.complain(f"{prefix}{name}", Refusal("only_beside", key=other, advice=advice))
 
     def _complain_unknown(self, name: str, value: object, path: str, reader: Reader) -> None:
         if reader.is_full:
@@ -392,53 +237,81 @@ class Table(NamedTuple):
         else:
             reader.complain(path, Refusal(f"unknown_{what}", known=", ".join(self.keys)))
 
-    def _check_there(self, name: str, value: Mapping[str, object], key: str, reader: Reader) -> None:
+    def _check_there(self, name: str, value: Mapping[str, object], values: Values, prefix: str, reader: Reader) -> None:
         """Complain if a required key is missing, and so are those that could stand in its place."""
         entry = self.keys[name]
         alternatives = (name, *entry.instead_of)
-        prefix = f"{key}." if key else ""
-        if any(one in value for one in alternatives) or reader.doubts(*(f"{prefix}{one}" for one in alternatives)):
+        told = reader.doubts(*(f"{prefix}{one}" for one in (*alternatives, *entry.only)))
+        if told or any(one in value for one in alternatives) or self._foreign(entry, values):
             return
         advice = tuple(_advice(one, self.keys[one].kind, prefix) for one in alternatives)
         reader.complain(f"{prefix}{name}", Refusal("missing", advice=advice))
 
-    def schema(self) -> dict[str, Any]:
+    def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of an object."""
-        properties = {}
+        properties, beside = {}, {}
         for name, entry in self.keys.items():
-            own = entry.kind.schema()
-            described = {"description": "; ".join(part for part in (entry.meaning, own.get("description")) if part)}
-            properties[name] = {**own, **described}
-        required = [name for name, entry in self.keys.items() if entry.required and not entry.instead_of]
-        return {"type": "object", "properties": properties, "required": required, "additionalProperties": False}
+            own = entry.kind.schema(language)
+            described = "; ".join(part for part in (self.meaning(name, language), own.get("description")) if part)
+            default = {} if entry.default is None or isinstance(entry.default, By) else {"default": entry.default}
+            properties[name] = {**own, "description": described, **default}
+            if entry.only or entry.instead_of:
+                beside[name] = self._beside(entry)
+        always = [name for name, one in self.keys.items() if one.required is True and not (one.only or one.instead_of)]
+        rules = [self._needed(name, one) for name, one in self.keys.items() if one.required and name not in always]
+        return {"type": "object", "properties": properties, "required": always, "additionalProperties": False,
+                "dependentSchemas": beside, **({"allOf": rules} if rules else {})}  # fmt: skip
+
+    @staticmethod
+    def _needed(name: str, entry: Key) -> dict[str, Any]:
+        """Return the schema of a table that needs a key, or one that says the same, for some of its kinds."""
+        there = {"anyOf": [{"required": [one]} for one in (name, *entry.instead_of)]}
+        cases = {"kind": entry.required} if isinstance(entry.required, tuple) else entry.only
+        here = {"properties": {key: {"enum": list(values)} for key, values in cases.items()}, "required": list(cases)}
+        return {"if": here, "then": there} if cases else there
+
+    def _beside(self, entry: Key) -> dict[str, Any]:
+        """Return the schema of a table in which a key stands."""
+        wanted = {other: {"enum": list(values)} for other, values in entry.only.items() if values}
+        stated = [other for other, values in entry.only.items() if self.keys[other].default not in values or not values]
+        none = {"not": {"anyOf": [{"required": [other]} for other in entry.instead_of]}} if entry.instead_of else {}
+        return {"properties": wanted, "required": stated, **none}
+
+    def meaning(self, name: str, language: Language) -> str:
+        """Return what a key means, in this table or in every one."""
+        known = texts("fields", language)
+        return known.get(f"{self.name}.{name}") or known.get(name, "")
+
+
+class Values(dict[str, Any]):
+    """What a table states. What it leaves out has its default when it is asked for, and is not `in` it."""
+
+    def __init__(self, stated: Mapping[str, Any], table: Table) -> None:
+        super().__init__(stated)
+        self.table = table
+
+    def __missing__(self, name: str) -> Any:  # noqa: ANN401 - each kind has its own type
+        return self.table.default(name, self)
+
+    def si(self, name: str) -> Any:  # noqa: ANN401 - a number, a word, or None
+        """Return a value, that of a quantity in SI; None where there is none."""
+        value = self[name]
+        return value.value if isinstance(value, Measure) else value
+
+    def but(self, **changes: Any) -> Values:  # noqa: ANN401 - each kind has its own type
+        """Return these values with others in their place."""
+        return Values({**self, **changes}, self.table)
+
+
+def means_nothing(key: str, found: object, wanted: tuple[str, ...]) -> Refusal:
+    """Return what is said of a key that applies only where another one is something else."""
+    return Refusal("only_with", key=key, found=shown(found), needed=tuple(map(shown, wanted[:5])))
 
 
 def nearest_name(word: str, options: Iterable[str]) -> str:
     """Return the option nearest to a misspelt word, or nothing if none is near."""
     matches = difflib.get_close_matches(word[:60], list(options), n=1, cutoff=0.6)
     return matches[0] if matches else ""
-
-
-def is_one_line(text: str) -> bool:
-    """Return whether a text has no line break, no control character and nothing that XML forbids."""
-    return not any(unicodedata.category(one) in ("Cc", "Zl", "Zp", "Cs") or one in "\ufffe\uffff" for one in text)
-
-
-def _is_moderate(value: float) -> bool:
-    """Return whether a number is finite and of a size that can be shown; TOML has integers of any length."""
-    return abs(value) < 1e15
-
-
-def _shown(value: object) -> str:
-    """Return a value as a message shows it: short, and as TOML writes it."""
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, int) and not _is_moderate(value):
-        return Refusal("the_number")
-    if isinstance(value, list | dict):
-        return Refusal("some_list" if isinstance(value, list) else "some_table")
-    text = f'"{value}"' if isinstance(value, str) else str(value)
-    return text if len(text) <= 40 else f"{text[:37]}..."
 
 
 def _advice(name: str, kind: Kind, prefix: str) -> str:
@@ -449,7 +322,7 @@ def _advice(name: str, kind: Kind, prefix: str) -> str:
         case Number():
             return f"{name} = {kind.example()}"
         case Choice():
-            return f"{name} = {_shown(kind.options[0])}"
+            return f"{name} = {shown(kind.options[0])}"
         case Text():
             return f'{name} = "..."'
         case Table():
@@ -462,10 +335,3 @@ def _advice(name: str, kind: Kind, prefix: str) -> str:
             return f'{name} = ["{units.EXAMPLES[entry.dimensions[0]]}", ...]'
         case _:
             return f"{name} = [...]"
-
-
-def _float(text: str) -> float | str:
-    try:
-        return float(text)
-    except ValueError:
-        return text

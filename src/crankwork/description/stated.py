@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from crankwork.description.schema import Measure
+from crankwork.description.kinds import Measure
 from crankwork.machine import Stated
 
 

@@ -1,0 +1,262 @@
+"""Kinds of single values in a machine file, which read, complain and describe themselves, and their reader."""
+
+from __future__ import annotations
+
+import math
+import unicodedata
+from typing import Any, NamedTuple, Protocol
+
+from crankwork import units
+from crankwork.errors import Problem
+from crankwork.locale import Language, Refusal, say
+
+_MAX_PROBLEMS = 50
+# what is nearer to zero than this is zero, and nothing is divided by it
+_NOTHING = 1e-30
+_OF_NUMBERS = "+-0123456789.,eE \t"
+
+
+class Measure(NamedTuple):
+    """A quantity as read: SI value, dimension, and the unit in which it is written."""
+
+    value: float
+    dimension: str
+    unit: str = ""
+
+
+class Reader:
+    """Collects the problems of one description while its values are read.
+
+    `problems` holds the first of them; `more` counts the others.
+    """
+
+    def __init__(self, *, decimal_comma: bool = False) -> None:
+        self.problems: list[Problem] = []
+        self.more = 0
+        self.decimal_comma = decimal_comma
+        self._blamed: set[str] = set()
+        self._suspects: set[str] = set()
+
+    def complain(self, key: str, message: str, *, meant: str = "") -> None:
+        """Remember a mistake; a key that is wrong already is not blamed twice.
+
+        `meant` is the key that a misspelt one stands for, so that it is not missed as well.
+        """
+        if key in self._blamed:
+            return
+        self._blamed.add(key)
+        self._suspects |= {key, meant or key}
+        if len(self.problems) < _MAX_PROBLEMS:
+            self.problems.append(Problem(key, message))
+        else:
+            self.more += 1
+
+    @property
+    def is_full(self) -> bool:
+        """Whether further mistakes are only counted."""
+        return len(self.problems) >= _MAX_PROBLEMS
+
+    def doubts(self, *keys: str) -> bool:
+        """Return whether one of the keys, or a table around it, is wrong already: what follows from it is not told."""
+        around = ({key, *(key[:at] for at, mark in enumerate(key) if mark == ".")} for key in keys)
+        return any(not self._suspects.isdisjoint(one) for one in around)
+
+
+class Kind(Protocol):
+    """A kind of value."""
+
+    def read(self, value: object, key: str, reader: Reader) -> Any:  # noqa: ANN401 - each kind has its own type
+        """Return the value as the program uses it, or None after a complaint."""
+
+    def schema(self, language: Language, /) -> dict[str, Any]:
+        """Return the JSON Schema of the value as written."""
+
+
+class Quantity(NamedTuple):
+    """Number and unit as text; the SI value must lie within `low` and `high`, whichever dimension it has."""
+
+    dimensions: tuple[str, ...]
+    low: float
+    high: float
+    above: bool = False
+
+    def read(self, value: object, key: str, reader: Reader) -> Measure | None:
+        """Return SI value and dimension."""
+        example = units.EXAMPLES[self.dimensions[0]]
+        if isinstance(value, bool) or not isinstance(value, str | int | float):
+            reader.complain(key, Refusal("quantity_as_text", example=example))
+            return None
+        if not isinstance(value, str):
+            text = shown(value)
+            known = example.split()[1]
+            written = f'"{text} {known}"' if _is_moderate(value) else f'"{example}"'
+            reader.complain(key, Refusal("no_unit", value=text, example=written))
+            return None
+        try:
+            number, dimension = units.parse(value, self.dimensions, decimal_comma=reader.decimal_comma)
+        except ValueError as error:
+            reader.complain(key, error.args[0])
+            return None
+        if not self._holds(number):
+            reader.complain(key, self._out_of_range(value.strip(), dimension))
+            return None
+        return Measure(number if abs(number) > _NOTHING else 0.0, dimension, value.lstrip(_OF_NUMBERS).rstrip())
+
+    def _holds(self, number: float) -> bool:
+        return (self.low < number if self.above else self.low <= number) and number <= self.high
+
+    def _out_of_range(self, value: str, dimension: str) -> Refusal:
+        low, high = (f'"{one}"' for one in self._range(dimension))
+        return Refusal(f"quantity_range{'_above' * self.above}", value=value, low=low, high=high)
+
+    def _range(self, dimension: str) -> tuple[str, str]:
+        """Return the least and the largest value with a unit."""
+        unit = units.EXAMPLES[dimension].split()[1]
+        low, high = (f"{units.from_si(one, unit):.6g} {unit}" for one in (self.low, self.high))
+        return low, high
+
+    def schema(self, language: Language, /) -> dict[str, Any]:
+        """Return the schema of a text with a unit; its range in that unit is for forms, and as words for readers."""
+        unit = units.EXAMPLES[self.dimensions[0]].split()[1]
+        low, high = self._range(self.dimensions[0])
+        described = say(
+            f"fields.quantity{'_above' * self.above}",
+            language,
+            dimension=" / ".join(say(f"refusals.dimension_{one}", language) for one in self.dimensions),
+            low=low,
+            high=high,
+            units=", ".join(one for dimension in self.dimensions for one in units.spellings(dimension)),
+        )
+        return {
+            "type": "string",
+            "pattern": r"^\s*[+-]?[0-9.,]+([eE][+-]?[0-9]+)?\s*\S.*$",
+            "description": described,
+            "examples": [units.EXAMPLES[self.dimensions[0]]],
+            "unit": unit,
+            "exclusiveMinimum" if self.above else "minimum": float(f"{units.from_si(self.low, unit):.12g}"),
+            "maximum": float(f"{units.from_si(self.high, unit):.12g}"),
+        }
+
+
+class Number(NamedTuple):
+    """A plain number between `low` and `high`; a whole one if it counts something."""
+
+    low: float
+    high: float
+    above: bool = False
+    whole: bool = False
+
+    def read(self, value: object, key: str, reader: Reader) -> float | None:
+        """Return the number."""
+        if isinstance(value, str) and reader.decimal_comma and value.count(",") == 1:
+            value = _float(value.replace(",", "."))
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            reader.complain(key, Refusal("number_plain", value=shown(value), example=self.example()))
+            return None
+        number = float(value) if _is_moderate(value) else math.nan
+        if not (self.low < number if self.above else self.low <= number) or not number <= self.high:
+            reader.complain(key, self._out_of_range("number", value))
+            return None
+        if self.whole and not number.is_integer():
+            reader.complain(key, self._out_of_range("whole", value))
+            return None
+        return number if abs(number) > _NOTHING else 0.0
+
+    def _out_of_range(self, kind: str, value: object) -> Refusal:
+        name = f"{kind}_range{'_above' * self.above}"
+        return Refusal(name, value=shown(value), low=f"{self.low:g}", high=f"{self.high:g}")
+
+    def example(self) -> str:
+        """Return a number in range, for advice."""
+        lowest = self.low + 1 if self.above and self.low >= 1 else self.low
+        return f"{min(self.high, max(lowest, 0.25)):g}"
+
+    def schema(self, _: Language, /) -> dict[str, Any]:
+        """Return the schema of a number in range."""
+        kind = "integer" if self.whole else "number"
+        return {"type": kind, "exclusiveMinimum" if self.above else "minimum": self.low, "maximum": self.high}
+
+
+class Choice(NamedTuple):
+    """One of a few words or numbers."""
+
+    options: tuple[str | int, ...]
+
+    def read(self, value: object, key: str, reader: Reader) -> str | int | None:
+        """Return the word or number."""
+        if not isinstance(value, bool) and value in self.options:
+            return next(one for one in self.options if one == value)
+        options = tuple(shown(one) for one in self.options)
+        reader.complain(key, Refusal("choice", value=shown(value), options=options))
+        return None
+
+    def schema(self, _: Language, /) -> dict[str, Any]:
+        """Return the schema of an enumeration."""
+        return {"enum": list(self.options)}
+
+
+class Text(NamedTuple):
+    """A text, at most `longest` characters."""
+
+    longest: int = 200
+
+    def read(self, value: object, key: str, reader: Reader) -> str | None:
+        """Return the text."""
+        if not isinstance(value, str):
+            reader.complain(key, Refusal("text_in_quotes", value=shown(value)))
+            return None
+        if len(value) > self.longest:
+            reader.complain(key, Refusal("text_long", value=shown(value), count=len(value), most=self.longest))
+            return None
+        if not is_one_line(value):
+            reader.complain(key, Refusal("text_line", value=shown(value)))
+            return None
+        return value
+
+    def schema(self, _: Language, /) -> dict[str, Any]:
+        """Return the schema of a text."""
+        return {"type": "string", "maxLength": self.longest}
+
+
+class Flag(NamedTuple):
+    """true or false."""
+
+    def read(self, value: object, key: str, reader: Reader) -> bool | None:
+        """Return the truth value."""
+        if isinstance(value, bool):
+            return value
+        reader.complain(key, Refusal("flag", value=shown(value)))
+        return None
+
+    def schema(self, _: Language, /) -> dict[str, Any]:
+        """Return the schema of a truth value."""
+        return {"type": "boolean"}
+
+
+def is_one_line(text: str) -> bool:
+    """Return whether a text has no line break, no control character and nothing that XML forbids."""
+    return not any(unicodedata.category(one) in ("Cc", "Zl", "Zp", "Cs") or one in "\ufffe\uffff" for one in text)
+
+
+def _is_moderate(value: float) -> bool:
+    """Return whether a number is finite and of a size that can be shown; TOML has integers of any length."""
+    return abs(value) < 1e15
+
+
+def shown(value: object) -> str:
+    """Return a value as a message shows it: short, and as TOML writes it."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, int) and not _is_moderate(value):
+        return Refusal("the_number")
+    if isinstance(value, list | dict):
+        return Refusal("some_list" if isinstance(value, list) else "some_table")
+    text = f'"{value}"' if isinstance(value, str) else str(value)
+    return text if len(text) <= 40 else f"{text[:37]}..."
+
+
+def _float(text: str) -> float | str:
+    try:
+        return float(text)
+    except ValueError:
+        return text
