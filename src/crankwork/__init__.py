@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from crankwork.analysis.analyse import analyse, with_method
     from crankwork.analysis.results import Results
+    from crankwork.description.document import Description, load
     from crankwork.description.machine_file import json_schema, read, read_machine, template, template_names
     from crankwork.errors import (
         CrankworkError,
@@ -51,6 +52,7 @@ _HOMES = {
     "QUANTITIES": "quantities",
     "CrankGrid": "kinematics.crank_grid",
     "CrankworkError": "errors",
+    "Description": "description.document",
     "DoubtfulError": "errors",
     "GeometryError": "errors",
     "InputError": "errors",
@@ -66,6 +68,7 @@ _HOMES = {
     "figures": "report.figures",
     "four_bar": "mechanism.catalog",
     "json_schema": "description.machine_file",
+    "load": "description.document",
     "note_of": "note.contents",
     "read": "description.machine_file",
     "read_machine": "description.machine_file",
@@ -85,6 +88,7 @@ _HOMES = {
 __all__ = [
     "CrankGrid",
     "CrankworkError",
+    "Description",
     "DoubtfulError",
     "GeometryError",
     "InputError",
@@ -101,6 +105,7 @@ __all__ = [
     "figures",
     "four_bar",
     "json_schema",
+    "load",
     "note_of",
     "read",
     "read_machine",

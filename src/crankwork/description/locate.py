@@ -1,7 +1,7 @@
-"""On which line of a TOML file each key stands.
+"""Where in a TOML text each key stands.
 
-The standard parser reads the values but forgets the lines. This reads the same text again, after the parser
-has accepted it, and keeps only the lines.
+The standard parser reads the values but forgets their places. This reads the same text again, after the parser has
+accepted it, and keeps only the places.
 """
 
 from __future__ import annotations
@@ -29,6 +29,18 @@ class _Token(NamedTuple):
     kind: str
     text: str
     line: int
+    start: int
+
+    @property
+    def end(self) -> int:
+        return self.start + len(self.text)
+
+
+class Span(NamedTuple):
+    """A stretch of a text, from its first character to that after its last."""
+
+    start: int
+    end: int
 
 
 def locate(source: str) -> dict[str, int]:
@@ -36,12 +48,23 @@ def locate(source: str) -> dict[str, int]:
 
     Line by dotted key; entries of arrays are counted from one, `gas.pieces[2].law`.
     """
-    return _Locator(source).lines
+    return Places(source).lines
 
 
-class _Locator:
+class Places:
+    """Where in a valid TOML text keys, values and tables stand, by dotted key.
+
+    `lines` of everything; `values` and `pairs`: stretches of a value, and of it with its key; `ends`: where in a table
+    with a line of its own the last pair ends; `inner`: where in an inline one; `headers`: lines of tables in order.
+    """
+
     def __init__(self, source: str) -> None:
         self.lines: dict[str, int] = {}
+        self.values: dict[str, Span] = {}
+        self.pairs: dict[str, Span] = {}
+        self.ends: dict[str, int] = {}
+        self.inner: dict[str, Span] = {}
+        self.headers: list[tuple[str, int]] = []
         self.counts: dict[str, int] = {}
         self.tokens = list(_tokens(source))
         self.at = 0
@@ -57,6 +80,7 @@ class _Locator:
                 prefix = self._header()
             else:
                 self._pair(prefix)
+                self.ends[prefix] = self._end()
 
     def _header(self) -> str:
         opening = self.tokens[self.at]
@@ -74,15 +98,18 @@ class _Locator:
             self.lines.setdefault(path, opening.line)
             path = f"{path}[{self.counts[path]}]"
         self.lines[path] = opening.line
+        self.headers.append((path, opening.start))
+        self.ends[path] = self._end()
         return path
 
     def _pair(self, prefix: str) -> None:
-        line = self.tokens[self.at].line
+        first = self.tokens[self.at]
         for name in self._key():
             prefix = self._join(prefix, name)
-            self.lines.setdefault(prefix, line)
+            self.lines.setdefault(prefix, first.line)
         self.at += 1  # the equals sign
         self._value(prefix)
+        self.pairs[prefix] = Span(first.start, self._end())
 
     def _key(self) -> list[str]:
         names, token = [], self.tokens[self.at]
@@ -95,6 +122,11 @@ class _Locator:
             token = self.tokens[self.at]
 
     def _value(self, path: str) -> None:
+        start = self.tokens[self.at].start
+        self._skip_value(path)
+        self.values[path] = Span(start, self._end())
+
+    def _skip_value(self, path: str) -> None:
         text = self._text()
         if text in ("[", "[["):
             self._array(path)
@@ -124,26 +156,33 @@ class _Locator:
 
     def _inline_table(self, path: str) -> None:
         self.at += 1
+        start = last = self._end()
         while True:
             self._skip_newlines()
             if self._text() == "}":
                 self.at += 1
+                self.inner[path] = Span(start, last)
                 return
             if self._text() == ",":
                 self.at += 1
                 continue
             self._pair(path)
+            last = self._end()
 
     def _split(self, double: str) -> None:
         """Take a doubled bracket apart where it closes or opens nested arrays."""
         if self._text() == double:
             token = self.tokens[self.at]
             half = token._replace(text=double[0])
-            self.tokens[self.at : self.at + 1] = [half, half]
+            self.tokens[self.at : self.at + 1] = [half, half._replace(start=token.start + 1)]
 
     def _skip_newlines(self) -> None:
         while self.at < len(self.tokens) and self.tokens[self.at].kind == "newline":
             self.at += 1
+
+    def _end(self) -> int:
+        """Return where what was read last ends."""
+        return self.tokens[self.at - 1].end
 
     def _text(self) -> str:
         return self.tokens[self.at].text if self.at < len(self.tokens) else ""
@@ -163,5 +202,5 @@ def _tokens(source: str) -> Iterator[_Token]:
     for match in _TOKEN.finditer(source):
         kind = str(match.lastgroup)
         if kind not in ("comment", "space"):
-            yield _Token(kind, match[0], line)
+            yield _Token(kind, match[0], line, match.start())
         line += match[0].count("\n")

@@ -20,7 +20,7 @@ from crankwork.description.linkage_keys import DRIVEN_FILE, LINKAGE_FILE, TRANSF
 from crankwork.description.locate import locate
 from crankwork.description.measured_file import read_measured
 from crankwork.description.schema import ListOf, Named, Nested, Table, Values
-from crankwork.errors import CrankworkError, InputError, Problem
+from crankwork.errors import CrankworkError, InputError, Problem, UnknownKeyError
 from crankwork.loads.indicator import DiagramError
 from crankwork.locale import Language, Refusal
 from crankwork.resources import read_resource, resource_names
@@ -202,16 +202,16 @@ def _setting(text: str) -> Setting:
         return Setting("--set", key, value)
 
 
-def lay(values: dict[str, Any], setting: Setting) -> None:
-    """Lay a setting over the values; what says the same gives way."""
+def lay(values: dict[str, Any], setting: Setting) -> tuple[str, ...]:
+    """Lay a setting over the values; return the keys that say the same, which give way."""
     if setting.option == "--step" and "transfer" in values:
         raise CrankworkError(Refusal("step_of_table"))
-    *path, last = _steps(setting.key)
+    *path, last = steps_of(setting.key)
     table: Any = values
     entry: Any = file_keys(values)
     shown = f"{setting.option} {_printable(setting.key[:60])}"
     for step, following in itertools.pairwise([*path, last]):
-        entry = _below(entry, step)
+        entry = entry_at(entry, step)
         table = _entry_of(table, step, shown) if isinstance(step, int) else table.setdefault(step, {})
         if not isinstance(table, list if isinstance(following, int) else dict):
             name = step if isinstance(step, str) else f"[{step}]"
@@ -220,16 +220,20 @@ def lay(values: dict[str, Any], setting: Setting) -> None:
     if isinstance(last, int):
         _entry_of(table, last, shown)
         table[last - 1] = setting.value
-        return
+        return ()
     known = entry.keys.get(last) if isinstance(entry, Table) else None
-    for other in known.instead_of if known else ():
+    gives_way = known.instead_of if known else ()
+    for other in gives_way:
         table.pop(other, None)
     table[last] = setting.value
+    return gives_way
 
 
-def _steps(key: str) -> Iterator[str | int]:
+def steps_of(key: str) -> Iterator[str | int]:
     """Yield names, and the numbers of entries of lists, that lead to a key such as `loads[2].stiffness`."""
     for part in key.split("."):
+        if not _STEP.fullmatch(part):
+            raise UnknownKeyError(Refusal("key_form", key=_printable(key[:60])))
         name, *entries = part.replace("]", "").split("[")
         yield name
         yield from map(int, entries)
@@ -242,7 +246,7 @@ def _entry_of(table: list[Any], number: int, shown: str) -> Any:  # noqa: ANN401
     return table[number - 1]
 
 
-def _below(entry: object, step: str | int) -> object:
+def entry_at(entry: object, step: str | int) -> object:
     """Return the kind of what stands below a table or list."""
     match entry:
         case Table():

@@ -1,0 +1,137 @@
+"""A machine file as an object: values by dotted key, changed in the text itself, so that comments and order stay."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from crankwork import files
+from crankwork.description.machine_file import Setting, entry_at, file_keys, lay, parse, read_machine, steps_of
+from crankwork.description.schema import Table, Values
+from crankwork.description.written import with_value, without
+from crankwork.errors import CrankworkError, UnknownKeyError
+from crankwork.locale import Refusal
+
+if TYPE_CHECKING:
+    from crankwork.machine import Machine
+
+
+class Description:
+    r"""A machine file that can be read, changed and written again.
+
+    Keys are those of `--set`: `rod.ratio`, `gas.pieces[2].exponent`. What is not changed stays as it is in the text.
+
+    Parameters
+    ----------
+    text : str
+        The machine file.
+    name : str
+        What messages call it.
+    folder : Path or None
+        Where files named in it are looked for.
+
+    Raises
+    ------
+    CrankworkError
+        If the text is no TOML.
+
+    Examples
+    --------
+    >>> d = Description('[rod]\nlength = "160 mm"  # between the pins\n')
+    >>> d["rod.ratio"] = 0.3
+    >>> d["rod.mass"] = "0.9 kg"
+    >>> print(d.dump(), end="")
+    [rod]
+    ratio = 0.3  # between the pins
+    mass = "0.9 kg"
+    """
+
+    def __init__(self, text: str, name: str = "text", *, folder: Path | None = None) -> None:
+        self._text, self._values = text, parse(text, name)
+        self.name, self.folder = name, folder
+
+    def __getitem__(self, key: str) -> Any:  # noqa: ANN401 - what the file states
+        """Return a value as the file states it, or its default as a file would; KeyError if there is neither."""
+        *path, last = steps_of(key)
+        table: Any = self._values
+        kind: Any = file_keys(self._values)
+        for step in path:
+            kind = entry_at(kind, step)
+            table = _at(table, step)
+        found = _at(table, last)
+        if found is None and isinstance(kind, Table) and isinstance(last, str):
+            found = kind.written_default(last, Values(table or {}, kind))
+        if found is None:
+            raise UnknownKeyError(Refusal("not_stated", key=key[:60]))
+        return copy.deepcopy(found)
+
+    def __contains__(self, key: str) -> bool:
+        """Return whether the file states a key."""
+        found: Any = self._values
+        for step in steps_of(key):
+            found = _at(found, step)
+        return found is not None
+
+    def __setitem__(self, key: str, value: Any) -> None:  # noqa: ANN401 - what a file may state
+        """State a value, text with a unit, number or table; what says the same gives way."""
+        self._change({key: value})
+
+    def __delitem__(self, key: str) -> None:
+        """Take a key, or a table, out of the file."""
+        if key not in self:
+            raise UnknownKeyError(Refusal("not_stated", key=key[:60]))
+        self._text = without(self._text, key)
+        self._values = parse(self._text, self.name)
+
+    def replace(self, changes: Mapping[str, Any]) -> None:
+        """State several values at once: all of them, or, after a refusal, none."""
+        self._change(changes)
+
+    def _change(self, changes: Mapping[str, Any]) -> None:
+        text, values = self._text, copy.deepcopy(self._values)
+        for key, value in changes.items():
+            gives_way = lay(values, Setting("key", key, value))
+            text = with_value(text, key, value, gives_way)
+            if parse(text, self.name) != values:
+                # one of tables with lines of their own, [[loads]], is to be something else
+                raise CrankworkError(Refusal("entry_table", key=key[:60]))
+        self._text, self._values = text, values
+
+    def dump(self) -> str:
+        """Return the text, with the comments of whoever wrote it."""
+        return self._text
+
+    def machine(self) -> Machine:
+        """Return the machine that the file describes.
+
+        Raises
+        ------
+        InputError
+            With every mistake, each on its line.
+        """
+        return read_machine(self._text, self.name, folder=self.folder)
+
+    def __repr__(self) -> str:
+        return f"<Description {self.name}: {', '.join(self._values)}>"
+
+
+def load(path: str | Path) -> Description:
+    """Return a machine file, to be changed or computed.
+
+    Raises
+    ------
+    CrankworkError
+        If the file cannot be read, or is no TOML.
+    """
+    path = Path(path)
+    text = files.read_text(path, advice=Refusal("check_path_or_new", path=path))
+    return Description(text, str(path), folder=path.parent)
+
+
+def _at(table: Any, step: str | int) -> Any:  # noqa: ANN401 - what a file has there
+    """Return what stands in a table or list, None where nothing does."""
+    if isinstance(step, int):
+        return table[step - 1] if isinstance(table, list) and 0 < step <= len(table) else None
+    return table.get(step) if isinstance(table, dict) else None
