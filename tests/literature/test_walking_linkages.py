@@ -1,9 +1,11 @@
-"""Walking linkages from stated positions, on the stated branch.
+"""Walking linkages from machine files, from stated positions on the stated branch.
 
 Jansen's leg with his lengths (strandbeest.com/explains; University of Texas, wiki page 51061060): all joints at twelve
 crank angles and the extent of the foot, from intersections of circles at 40 digits. Chebyshev's lambda linkage with the
-proportions 1, 2, 2.5, 2.5 and its tracer at 5. Klann's six-bar (US patent 6,260,862) and Wagle's Strider
-(diywalkers.com) in proportions of our own against intersections of circles.
+proportions 1, 2, 2.5, 2.5 and its tracer at 5. Klann's six-bar with the coordinates of the example leg of US patent
+6,260,862: joints from intersections of circles, and stride and step height that he prints for it, 1.000 and 52.3 %
+(mechanicalspider.com/concept.html). Wagle's Strider with the bars of his plans, 4, 14, 5, 6, 1, 13, 10 and a frame of
+11 by 8 (diywalkers.com/strider-linkage-plans.html): joints from intersections of circles.
 """
 
 import math
@@ -11,12 +13,12 @@ import math
 import numpy as np
 import pytest
 
+from crankwork import read_machine
 from crankwork.kinematics.circuits import circuit_through
 from crankwork.kinematics.coordinates import At, driver_coordinate, point_coordinate
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.mechanism.catalog import four_bar
-from crankwork.mechanism.description import mechanism_from
 
 PLACES = {
     0: {
@@ -114,10 +116,26 @@ def _third(one, other, far):
     return along, math.sqrt(other**2 - along**2)
 
 
+def _described(tables):
+    """Return the mechanism of a machine file with lengths in millimetres."""
+
+    def shown(value):
+        if isinstance(value, dict):
+            return "{ " + ", ".join(f"{name} = {shown(one)}" for name, one in value.items()) + " }"
+        if isinstance(value, (list, tuple)):
+            return f"[{', '.join(map(shown, value))}]"
+        return f'"{value}"' if isinstance(value, str) else f'"{value!r} mm"'
+
+    lines = ['crank.speed = "60 rpm"']
+    for table, values in tables.items():
+        lines += [f"{table}.{name} = {shown(one)}" for name, one in values.items()]
+    return read_machine("\n".join(lines)).mechanism
+
+
 def _jansen(positions):
     b, c, d, e, f, g, h, i, j, k = LENGTHS.values()
     # seen from B the triangle b, d, e turns left to D; seen from F the foot lies on the left of K
-    return mechanism_from({
+    return _described({
         "fixed_points": {"O": (0.0, 0.0), "B": (-38.0, -7.8)},
         "crank": {"pivot": "O", "pin": "A", "radius": 15.0},
         "positions": positions,
@@ -140,16 +158,15 @@ def _foot(g, h, i):
 @pytest.fixture(scope="module")
 def jansen():
     rough = {name: (round(x / 5) * 5.0, round(y / 5) * 5.0) for name, (x, y) in PLACES[0].items() if name in "CKF"}
-    mechanism, problems = _jansen({**rough, "D": PLACES[0]["D"]})
-    assert problems == []
-    return mechanism
+    return _jansen({**rough, "D": PLACES[0]["D"]})
 
 
 def test_every_joint_of_jansens_leg(jansen):
     points = linkage_motion(jansen, CrankGrid.from_degrees(list(PLACES))).points
     for name in ("C", "K", "D", "F", "foot"):
         found = np.column_stack([points[name].x.position, points[name].y.position])
-        assert found == pytest.approx(np.array([place[name] for place in PLACES.values()]), abs=1e-10), name
+        wanted = 1e-3 * np.array([place[name] for place in PLACES.values()])
+        assert found == pytest.approx(wanted, abs=1e-13), name
 
 
 def test_stride_and_lift_of_jansens_leg(jansen):
@@ -157,7 +174,7 @@ def test_stride_and_lift_of_jansens_leg(jansen):
     foot = next(one for one in jansen.points if one.name == "foot")
     ends = [circuit.extent(point_coordinate(At("leg", foot.along, foot.across), axis)) for axis in (0, 1)]
     found = [value for end in ends for value in (end.least, end.greatest)]
-    assert found == pytest.approx(list(EXTREMES), abs=1e-10)
+    assert found == pytest.approx([1e-3 * one for one in EXTREMES], abs=1e-13)
     at = np.degrees(circuit.values(driver_coordinate(jansen), np.array([ends[1].least_at]))) % 360
     assert at == pytest.approx([329.3341944780148], abs=1e-6)
 
@@ -182,17 +199,16 @@ def _met(centre, radius, other, far, near):
 
 
 def _pair(z):
-    return z.real, z.imag
+    return float(z.real), float(z.imag)
 
 
-def _rounded(z):
-    return round(z.real, 1), round(z.imag, 1)
+def _rough(z, grain=0.1):
+    return _pair(complex(round(z.real / grain) * grain, round(z.imag / grain) * grain))
 
 
 def _as_walked(tables, places, start, names):
     """Follow the places round a turn in small steps and compare joints with the linkage of the tables."""
-    mechanism, problems = mechanism_from(tables)
-    assert problems == []
+    mechanism = _described(tables)
     circuit = circuit_through(mechanism)
     assert circuit.turns("crank") == 1
     points = linkage_motion(mechanism, CrankGrid.from_degrees(np.arange(361.0))).points
@@ -200,60 +216,80 @@ def _as_walked(tables, places, start, names):
     for degrees in range(361):
         last = places(degrees, last)
         found = [complex(points[name].x.position[degrees], points[name].y.position[degrees]) for name in names]
-        assert found == pytest.approx(list(last), abs=1e-10)
+        assert 1e3 * np.array(found) == pytest.approx(np.array(last), abs=1e-10)
     assert last == pytest.approx(start, abs=1e-12)
+    return circuit
+
+
+KLANN = {"hinge": 1.366 + 1.366j, "pivot": 1.009 + 0.574j, "shaft": 1.599 + 0.75j}
 
 
 @pytest.mark.parametrize("hip", [1, -1])
 def test_klanns_leg_stays_on_the_stated_branch(hip):
-    crank, rod, lower, upper, thigh = 1.1, 2.9, 1.8, 2.2, 2.6
-    pivot, hinge = complex(-2.9, -0.75), complex(-3.1, 2.6)
-    knee, foot = complex(5.0, 0.6), complex(4.9, -1.7)
+    """The same leg with its hip to one side of the line from knee to hinge walks, to the other it waves."""
+    crank, rod, lower, far, knee, thigh, leg, upper = 0.268, 0.59, 0.3206, 1.1051, 0.5221, 0.8966, 1.732, 0.5177
+    pivot, hinge, shaft = KLANN["pivot"], KLANN["hinge"], KLANN["shaft"]
 
     def places(degrees, last):
-        pin = crank * np.exp(1j * np.radians(degrees))
+        pin = shaft + crank * np.exp(1j * np.radians(degrees))
         elbow = _met(pin, rod, pivot, lower, last[0])
-        bend = pin + knee * (elbow - pin) / rod
+        bend = _met(pin, far, elbow, knee, last[2])
         top = _met(bend, thigh, hinge, upper, last[1])
-        return elbow, top, bend, bend + foot * (top - bend) / thigh
+        foot = _met(bend, thigh, top, leg, last[3])
+        return elbow, top, bend, foot
 
-    start = places(0, (complex(0, 9), complex(0, 9 * hip)))
+    # crank to the right: elbow beside the shaft, knee further left, the foot below
+    top, foot = (complex(1.0, 1.7), complex(1.0, 0.0)) if hip == 1 else (complex(1.7, 0.9), complex(0.0, 0.35))
+    first = (complex(1.3, 0.75), top, complex(0.8, 0.9), foot)
+    start = places(0, places(0, first))
+    angle = np.angle(start[0] - (shaft + crank))
+    own = (start[2] - (shaft + crank)) * np.exp(-1j * angle)
+    along = (start[3] - start[2]) * np.exp(-1j * np.angle(start[1] - start[2]))
     tables = {
-        "fixed_points": {"O": (0.0, 0.0), "P": _pair(pivot), "Q": _pair(hinge)},
+        "fixed_points": {"O": _pair(shaft), "P": _pair(pivot), "Q": _pair(hinge)},
         "crank": {"pivot": "O", "pin": "A", "radius": crank},
-        "positions": {"E": _rounded(start[0]), "H": _rounded(start[1]), "K": _rounded(start[2])},
+        "positions": {"E": _rough(start[0]), "H": _rough(start[1]), "K": _rough(start[2])},
         "links": {
-            "rod": {"joins": ["A", "E"], "length": rod, "points": {"K": _pair(knee)}},
+            "rod": {"joins": ["A", "E"], "length": rod, "points": {"K": _pair(own)}},
             "lower": {"joins": ["P", "E"], "length": lower},
-            "leg": {"joins": ["K", "H"], "length": thigh, "points": {"foot": _pair(foot)}},
+            "leg": {"joins": ["K", "H"], "length": thigh, "points": {"foot": _pair(along)}},
             "upper": {"joins": ["Q", "H"], "length": upper},
         },
     }
-    _as_walked(tables, places, start, ("E", "H", "K", "foot"))
+    circuit = _as_walked(tables, places, start, ("E", "H", "K", "foot"))
+    if hip == 1:
+        # the foot stands on one line with the crank to the right and to the left; that is the stride
+        assert abs(start[3] - 1.0) < 6e-4
+        half = linkage_motion(circuit.mechanism, CrankGrid.from_degrees([0.0, 180.0])).points["foot"]
+        assert 1e3 * abs(half.x.position[1] - half.x.position[0]) == pytest.approx(1.000, abs=5e-4)
+        height = circuit.extent(point_coordinate(At("leg", *(1e-3 * one for one in _pair(along))), 1))
+        # his four digits give 0.527
+        assert 1e3 * height.travel == pytest.approx(0.523, abs=5e-3)
 
 
 def test_the_strider_stays_on_the_stated_branch():
-    left, right = 2 * np.exp(0.75j * math.pi), 2 * np.exp(0.25j * math.pi)
-    back = 1.8 * np.exp(1j * (math.pi + 0.2))
+    left, right = complex(-11, 8), complex(11, 8)
 
     def places(degrees, last):
-        pin = np.exp(1j * np.radians(degrees))
-        behind, ahead = _met(pin, 2.6, left, 1.8, last[0]), _met(pin, 2.6, right, 1.8, last[1])
-        tail = pin + back * (ahead - pin) / 2.6
-        return behind, ahead, tail, _met(behind, 2.5, tail, 1.8, last[3])
+        pin = 4 * np.exp(1j * np.radians(degrees))
+        behind, ahead = _met(pin, 14, left, 5, last[0]), _met(pin, 14, right, 5, last[1])
+        # each bar goes on behind the crankpin, and there carries a short arm upwards
+        tail = pin - (6 - 1j) * (ahead - pin) / 14
+        return behind, ahead, tail, _met(behind, 13, tail, 10, last[3])
 
-    start = places(0, (complex(-2.25, 0), complex(2.25, 0), 0, complex(-2.7, -2.7)))
+    start = places(0, (complex(-9, 4), complex(14, 4), 0, complex(-10, -9)))
+    start = places(0, start)
     tables = {
         "fixed_points": {"O": (0.0, 0.0), "P": _pair(left), "Q": _pair(right)},
-        "crank": {"pivot": "O", "pin": "A", "radius": 1.0},
-        "positions": {name: _rounded(place) for name, place in zip("DEGH", start, strict=True)},
+        "crank": {"pivot": "O", "pin": "A", "radius": 4.0},
+        "positions": {name: _rough(place, 1.0) for name, place in zip("DEGH", start, strict=True)},
         "links": {
-            "one": {"joins": ["A", "D"], "length": 2.6},
-            "rocker": {"joins": ["P", "D"], "length": 1.8},
-            "two": {"joins": ["A", "E"], "length": 2.6, "points": {"G": _pair(back)}},
-            "other": {"joins": ["Q", "E"], "length": 1.8},
-            "shank": {"joins": ["D", "H"], "length": 2.5},
-            "thigh": {"joins": ["G", "H"], "length": 1.8},
+            "one": {"joins": ["A", "D"], "length": 14.0},
+            "rocker": {"joins": ["P", "D"], "length": 5.0},
+            "two": {"joins": ["A", "E"], "length": 14.0, "points": {"G": (-6.0, 1.0)}},
+            "other": {"joins": ["Q", "E"], "length": 5.0},
+            "shank": {"joins": ["D", "H"], "length": 13.0},
+            "thigh": {"joins": ["G", "H"], "length": 10.0},
         },
     }
     _as_walked(tables, places, start, ("D", "E", "G", "H"))

@@ -120,7 +120,7 @@ def given_mechanism(mechanism: Mechanism, linkage: Linkage | None = None) -> Mec
     return replace(
         mechanism,
         driver=_given_driver(mechanism, ground),
-        dyads=tuple(one if isinstance(one, Chain) else _dyad(one, places) for one in mechanism.dyads),
+        dyads=tuple(_chain(one, places) if isinstance(one, Chain) else _dyad(one, places) for one in mechanism.dyads),
         bodies=tuple(_body(one, places) for one in mechanism.bodies),
         ground=ground,
         points=tuple(_link_point(one, places) for one in mechanism.points),
@@ -244,6 +244,13 @@ def _dyad(dyad: Dyad, places: _Places) -> Dyad:
                 slot=_slot(dyad.block, dyad.slot, places.guide(dyad.block)),
                 guide=_guide(dyad.link, dyad.guide, places.guide(dyad.link)),
             )
+
+
+def _chain(chain: Chain, places: _Places) -> Chain:
+    """Return a chain whose guides are given; its points become so where they are placed."""
+    guides = (_guide(one.link, one.guide, places.guide(one.link)) for one in chain.slides)
+    slides = (replace(one, guide=guide) for one, guide in zip(chain.slides, guides, strict=True))
+    return replace(chain, slides=tuple(slides))
 
 
 def _body(body: Body, places: _Places) -> Body:

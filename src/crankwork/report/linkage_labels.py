@@ -39,7 +39,8 @@ def labels(drawn: Scene, fixed: Sequence[Array] = (), *, every: int = _EVERY) ->
     obstacles = np.concatenate([obstacles, np.broadcast_to(still, (count, *still.shape))], axis=1)
     seen = np.ascontiguousarray(obstacles[..., 0]), np.ascontiguousarray(obstacles[..., 1])
     placed: list[Label] = []
-    for text, is_number, ways in _wanted(drawn):
+    # without pivots there is no place for the number of the ground
+    for text, is_number, ways in (one for one in _wanted(drawn) if one[2]):
         placed.append(_cheapest([(Label(text, place, is_number), extra) for place, extra in ways], seen, placed, every))
     return placed
 
