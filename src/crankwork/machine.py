@@ -320,4 +320,6 @@ class Machine:
         """Crank angle after which everything repeats. [deg]"""
         if self.gas is not None:
             return self.gas.cycle
-        return self.engine.layout.cycle if self.engine is not None else cycle_of(self.chambers)
+        if self.engine is not None:
+            return self.engine.layout.cycle
+        return max(cycle_of(self.chambers), self.mechanism.period)

@@ -2,16 +2,20 @@
 
 import math
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from crankwork import analyse, read_machine
+import crankwork
+from crankwork import analyse, figures, read_machine
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.locale import LANGUAGES
 from crankwork.report.drawing import moving_drawing
 
 pytestmark = pytest.mark.elsewhere
+EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 
 
 def four_bar(*lengths, start=0.0, more="", of_crank="", mass=True):
@@ -179,3 +183,41 @@ length = "THIRD mm"
 def test_the_third_of_coupled_wheels_is_named_and_its_fit_told(length, message):
     with pytest.raises(CrankworkError, match=message):
         read_machine(THIRD.replace("THIRD", length))
+
+
+def test_the_parallelogram_of_the_examples():
+    """Its coupler goes round without turning: half of its centrifugal force at each end, and what the rocker has."""
+    results = analyse(crankwork.read(EXAMPLES / "parallelogram.toml"))
+    w = 4 * math.pi
+    half = 4 * w**2 * 0.15 / 2
+    wanted = {"A": half, "C": half, "O": half, "B": half + w**2 * 0.075}
+    for name, force in wanted.items():
+        assert results.columns[f"joint_force.{name}"] == pytest.approx(np.full(37, force), rel=1e-11)
+    angle = np.radians(results.grid.degrees)
+    assert results.columns["point_x.P"] == pytest.approx(0.25 + 0.15 * np.cos(angle), abs=1e-13)
+    assert results.columns["point_y.P"] == pytest.approx(0.08 + 0.15 * np.sin(angle), abs=1e-13)
+    assert results.columns["balancing_torque"] == pytest.approx(np.zeros(37), abs=1e-10)
+
+
+def test_everything_about_a_kite_covers_its_two_turns():
+    """The second turn is the first backwards, mirrored: links swing through both."""
+    results = analyse(four_bar(100, 150, 150, 100))
+    assert results.grid.degrees[-1] == 720.0
+    rocker = np.degrees(results.columns["link_angle.rocker"])
+    assert rocker[::-1] == pytest.approx(rocker[-1] + rocker[0] - rocker, abs=1e-8)
+    force = results.columns["joint_force.C"]
+    assert force[::-1] == pytest.approx(force, rel=1e-6)
+    # the joint by the law of cosines: the diagonal from A to B is 200 sin(phi/2), the kite is symmetrical about OC
+    phi = np.radians(results.grid.degrees[1:36])
+    along = 100 * np.cos(phi / 2)
+    far = along + np.sqrt(150**2 - (100 * np.sin(phi / 2)) ** 2)
+    x = 1e3 * results.columns["point_x.C"][1:36]
+    assert np.abs(x) == pytest.approx(np.abs(far * np.cos(phi / 2)), rel=1e-9)
+    assert "720" in moving_drawing(results.machine) or "705" in moving_drawing(results.machine)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_partial_motion_has_its_plans(language):
+    results = analyse(four_bar(150, 80, 150, 200))
+    drawn = figures(results, language=language)
+    assert {"position_plans", "velocity_plan", "joint_forces"} <= drawn.keys()

@@ -110,7 +110,7 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
         notices += turn.notices
     driver = machine.mechanism.driver
     if found is None and "shaking_force" in memory and isinstance(driver, Crank) and driver.law is None:
-        summary |= {key: one.named(key) for key, one in balance_of(driver, memory | summary)}
+        summary |= {key: one.named(key) for key, one in balance_of(driver, memory | summary, machine.mechanism.period)}
     summary |= transient_summary(machine)
     notices += tuple(_of_redundant(machine))
     if machine.drawn.geared:

@@ -35,20 +35,20 @@ def shaking(running: Running) -> Iterator[tuple[str, Known]]:
             yield "shaking_moment", total("shaking_moment", stated)
 
 
-def balance_of(driver: Crank, memory: Mapping[str, Known]) -> Iterator[tuple[str, Known]]:
+def balance_of(driver: Crank, memory: Mapping[str, Known], period: float) -> Iterator[tuple[str, Known]]:
     """Yield the largest force of each order, and the counterweight on the crank that takes the part that turns with it.
 
-    That counterweight makes the mean square of the shaking force least.
+    That counterweight makes the mean square of the shaking force least. `period`: crank angle of a cycle [deg].
     """
     of = memory["shaking_force_x"], memory["shaking_force_y"]
-    grid = CrankGrid.from_degrees(np.arange(_SAMPLES) * 360.0 / _SAMPLES)
+    grid, turns = CrankGrid.from_degrees(np.arange(_SAMPLES) * period / _SAMPLES), round(period / 360.0)
     columns = Program(dict(zip("xy", of, strict=True)))(grid)
     force = columns["x"] + 1j * columns["y"]
     coefficients = np.fft.fft(force) / _SAMPLES
     for order in _ORDERS:
-        both = abs(coefficients[order]) + abs(coefficients[-order])
+        both = abs(coefficients[order * turns]) + abs(coefficients[-order * turns])
         yield f"free_force.{order}", Known(Found(float(both), "harmonic", of))
-    forward = complex(coefficients[driver.direction])
+    forward = complex(coefficients[driver.direction * turns])
     moment = Known(Found(abs(forward) / memory["speed"].value ** 2, "fourier", of))
     yield "counterweight_moment", moment
     angle = math.remainder(cmath.phase(-forward) - driver.start, math.tau)

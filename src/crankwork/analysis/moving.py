@@ -105,7 +105,7 @@ def course(mechanism: Mechanism, frames: int) -> Course:
     """Return how the crank of a moving drawing goes: round, or to and fro between its dead positions."""
     mechanism = passing(mechanism)
     if not has_steady_crank(mechanism) or turns_fully(mechanism):
-        return Course(np.arange(frames + 1) * 360 / frames, mechanism, turns=True)
+        return Course(np.arange(frames + 1) * mechanism.period / frames, mechanism, turns=True)
     found = travel(mechanism)
     low, high = open_range(found)
     swung = (1 - np.cos(math.tau * np.arange(frames + 1) / frames)) / 2

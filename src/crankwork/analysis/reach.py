@@ -31,6 +31,7 @@ _EDGE = 1e-6
 _ASIDE = (1e-4, 1e-7)
 _GROWS = 10.0
 _NEARLY_SINGULAR = 1e-3
+_TURN = 360.0
 
 
 class Reached(NamedTuple):
@@ -80,10 +81,10 @@ def _told(mechanism: Mechanism, found: Travel | None) -> Iterator[Notice]:
     """Yield notices of change points that are passed, or nearly."""
     changes = sorted({one for passage in mechanism.passages.values() for one in passage.changes})
     if changes:
-        shown = sorted({round(one % 360.0, 6) for one in changes})
+        shown = sorted({round(one % mechanism.period, 6) for one in changes})
         yield Notice("change_points", {"angles": "°, ".join(f"{one:g}" for one in shown)})
-        if changes[-1] > 360.0 + _EDGE:
-            yield Notice("two_turns", {"turns": math.ceil(changes[-1] / 360.0 - _EDGE)})
+        if mechanism.period > _TURN:
+            yield Notice("two_turns", {"turns": round(mechanism.period / _TURN)})
     for degrees, miss in near_changes(found.circuit) if found else ():
         yield Notice("nearly_change_point", {"angle": degrees, "miss": miss})
 

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from crankwork.mechanism.passage import Passage
 
 
+_TURN = 360.0
+
+
 @dataclass(frozen=True)
 class Crank:
     """A link that turns about a fixed pivot and drives the mechanism."""
@@ -87,6 +90,11 @@ class Mechanism:
     def crank(self) -> Crank:
         """The crank, of a mechanism that one drives."""
         return crank_of(self.driver)
+
+    @property
+    def period(self) -> float:
+        """Crank angle after which it is back where it was; after change points that may be two turns. [deg]"""
+        return max([_TURN, *(one.period for one in self.passages.values() if math.isfinite(one.period))])
 
 
 def crank_of(driver: Driver) -> Crank:

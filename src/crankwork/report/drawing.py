@@ -46,7 +46,7 @@ def moving_drawing(
     mechanism, whole = (machine, None) if isinstance(machine, Mechanism) else (drawn_mechanism(machine), machine)
     way = course(mechanism, frames)
     mechanism, moved = way.mechanism, moving(way.mechanism, way.degrees)
-    duration, still = f"{seconds:g}s", round(frames * _STILL / 360)
+    duration, still = f"{seconds:g}s", round(frames * _STILL / mechanism.period)
     if whole is not None and whole.linkage is not None and not links:
         found, _ = structure(whole.linkage)
         links = found.links if found else ()
@@ -87,7 +87,7 @@ def period_of(mechanism: Mechanism) -> float:
 
 def _readout(x: float, y: float, stage: Stage, way: Course, language: Language) -> str:
     """Write the crank angle or the time, one text per step, each shown in its turn."""
-    count, period = 360 // _READOUT, period_of(way.mechanism)
+    count, period = round(way.mechanism.period) // _READOUT, period_of(way.mechanism)
     sign, unit = symbol("crank_angle", language), unit_name("deg", language)
     if period:
         sign, unit = symbol("time", language), f" {unit_name('s', language)}"

@@ -49,9 +49,10 @@ def linkage_figures(results: Results, *, language: Language = "en") -> dict[str,
 
 
 def _plans(machine: Machine, degrees: Array, speed: float, style: Style, *, is_whole: bool) -> dict[str, bytes]:
-    """Return position plans of the whole turn, and the plans of velocity and acceleration at one crank angle."""
+    """Return position plans of all that is reached, and the plans of velocity and acceleration at one crank angle."""
     mechanism = machine.mechanism
-    plans = {"position_plans": position_plans(mechanism, style=style)} if is_whole else {}
+    ends = None if is_whole else (float(degrees[0]), float(degrees[-1]))
+    plans = {"position_plans": position_plans(mechanism, ends, style=style)}
     index = int(np.argmin(np.abs(degrees - _MAIN)))
     moved = moving(mechanism, degrees)
     eps = machine.angular_acceleration

@@ -1,7 +1,8 @@
-"""Position plans: a linkage at twelve crank angles drawn over each other, one of them bold."""
+"""Position plans: a linkage at a dozen crank angles drawn over each other, one of them bold."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -33,6 +34,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _STEP = 2.0
+# steps of the plans of a crank that swings; that of one that turns is the last
+_STEPS, _APART, _MOST = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 30.0), 30.0, 12
 _MARGIN, _FOOT = 24.0, 50.0
 _TALLEST = 560.0
 # points whose places have the numbers of the plans; of more nobody could tell which number is whose
@@ -53,15 +56,21 @@ class _Sheet(NamedTuple):
 
 
 def position_plans(
-    mechanism: Mechanism, degrees: Sequence[float] = tuple(range(0, 360, 30)), main: int = 1, style: Style = PLAIN
+    mechanism: Mechanism, ends: tuple[float, float] | None = None, main: int = 1, style: Style = PLAIN
 ) -> bytes:
-    """Return the position plans of a linkage over each other.
+    """Return the position plans of a linkage over each other, numbered from 0.
 
-    `degrees`: crank angles of the plans, numbered from 0 [deg]; `main`: the plan that is drawn bold, with names of
-    points.
+    `ends`: crank angles between which a crank swings that does not turn fully [deg]; `main`: the plan that is drawn
+    bold, with names of points.
     """
     shape = skeleton(mechanism, style.links)
-    moved = moving(mechanism, np.union1d(np.arange(0.0, 360.0 + _STEP, _STEP), degrees))
+    first, last = ends or (0.0, mechanism.period)
+    step = _APART if ends is None else next(one for one in _STEPS if (last - first) / one <= _MOST or one == _APART)
+    degrees = step * np.arange(math.ceil(first / step), math.ceil(last / step))
+    if not degrees.size:
+        degrees = np.array([(first + last) / 2])
+    main = min(main, degrees.size - 1)
+    moved = moving(mechanism, np.union1d(np.append(np.arange(first, last, _STEP), last), degrees))
     plans = [int(np.argmin(np.abs(moved.degrees - one))) for one in degrees]
     room = _UNITS * (WIDTH * 72 - 2 * _MARGIN)
     drawn, scale = scene(shape, moved, room)
