@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 import crankwork
+from crankwork.analysis.moving import moving
+from crankwork.analysis.plans import accelerations, driver_rates, velocities
 from crankwork.errors import CrankworkError
 from crankwork.locale import LANGUAGES
 from crankwork.note.linkage_note import linkage_note
@@ -18,7 +20,7 @@ from crankwork.report.figures import figures
 from crankwork.report.summary import description_text, summary_text
 
 MACHINES = Path(__file__).parent.parent / "machines"
-NAMES = ("boom", "driven-slider", "elbow", "crank-by-table", "cylinder-between-links")
+NAMES = ("boom", "driven-slider", "elbow", "crank-by-table", "cylinder-between-links", "gas-by-law")
 
 
 @pytest.fixture(scope="module")
@@ -77,6 +79,26 @@ def test_figures_run_over_time(results, name):
     assert "nan" not in drawing
 
 
-def test_sheets_are_refused(results):
-    with pytest.raises(CrankworkError, match="leave the sheets out"):
-        linkage_sheets(results["boom"])
+@pytest.mark.parametrize("name", NAMES)
+def test_sheets_run_over_time(results, name):
+    first, second = linkage_sheets(results[name])
+    assert {"position_plans", "velocity_plans.3", "acceleration_plans.5"} <= {one.name for one in first.graphs}
+    assert {one.x.unit for one in second.graphs} == {"s"}
+    assert {one.name for one in second.graphs} & {"driver_force", "driver_torque"}
+
+
+def test_the_rod_of_a_cylinder_slides_on_its_barrel_in_the_plans(results):
+    one, at = results["boom"], [25.0, 300.0]
+    mechanism, known = one.machine.mechanism, one.columns_at(at)
+    moved, rates = moving(mechanism, at), driver_rates(one, known)
+    for i in range(2):
+        rate, second = float(rates.first[i]), float(rates.second[i])
+        turning = known["link_angular_velocity.cylinder"][i]
+        speed = {v.of: v for v in velocities(mechanism, moved, i, rate).vectors if v.kind == "sliding"}
+        assert speed["BB1"].length == pytest.approx(abs(rate), rel=1e-12)
+        plan = accelerations(mechanism, moved, i, rate, second).vectors
+        parts = {v.kind: v for v in plan if v.of == "BB1"}
+        assert parts["coriolis"].length == pytest.approx(2 * abs(turning * rate), rel=1e-12)
+        assert parts["sliding"].length == pytest.approx(abs(second), rel=1e-9, abs=1e-12)
+        (end,) = (v.end for v in plan if v.of == "B")
+        assert end == pytest.approx([known["point_acceleration_x.B"][i], known["point_acceleration_y.B"][i]])

@@ -12,11 +12,13 @@ from crankwork.analysis.solved import SolvedLinkage
 from crankwork.dynamics.reduction import reduced_torque
 from crankwork.formula.known import Known, breaks_of, given, total
 from crankwork.formula.over_cycle import OverCycle
+from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.memory import given_mechanism
 from crankwork.kinematics.motion import Motion
 from crankwork.loads import gas
-from crankwork.loads.filling import filled
+from crankwork.loads.chamber import Chamber
+from crankwork.loads.filling import Filling, filled, rate_by_angle
 from crankwork.machine import Machine
 
 if TYPE_CHECKING:
@@ -31,16 +33,21 @@ def solve_linkage(machine: Machine, motion: Motion) -> SolvedLinkage:
     """Return a linkage made ready, with the gas in its chambers over its remembered motion."""
     method = machine.method
     speed = machine.speed * method.pi / math.pi
-    return SolvedLinkage(machine, method, speed, filled(machine.chambers, machine.charges, motion, method.pi))
+    law = machine.mechanism.driver.law
+    return SolvedLinkage(machine, method, speed, filled(machine.chambers, machine.charges, motion, method.pi, law))
 
 
 def gas_summary(solved: SolvedLinkage) -> dict[str, Known]:
     """Return the single values of the gas in each chamber, and work and power of all of it."""
     chambers, found = solved.machine.chambers, dict(solved.filling.singles)
-    w = speed_of(solved.machine)
+    w, law = speed_of(solved.machine), solved.machine.mechanism.driver.law
     for name, chamber in chambers.items():
-        cycle = given(f"cycle_angle.{name}", math.radians(chamber.cycle), f"chambers.{name}.period")
-        power = gas.indicated_power(found[f"indicated_work.{name}"], w, cycle)
+        work = found[f"indicated_work.{name}"]
+        if law is not None:
+            power = work / given("period", law.period, "driver.period")
+        else:
+            cycle = given(f"cycle_angle.{name}", math.radians(chamber.cycle), f"chambers.{name}.period")
+            power = gas.indicated_power(work, w, cycle)
         found[f"indicated_power.{name}"] = power.named(f"indicated_power.{name}")
     if len(chambers) > 1:
         found["indicated_power"] = total("indicated_power", [found[f"indicated_power.{name}"] for name in chambers])
@@ -66,6 +73,12 @@ def indicators(results: Results) -> dict[str, Indicator]:
     return found
 
 
+def _against(filling: Filling, name: str, chamber: Chamber) -> float:
+    """Return the work on what is around a chamber, nothing where its volume comes back. [J]"""
+    ends = Program({"": filling.columns[f"cylinder_volume.{name}"]})(CrankGrid.from_degrees([0.0, 360.0]))[""]
+    return chamber.ambient * float(ends[1] - ends[0])
+
+
 def gas_check(solved: SolvedLinkage, motion: Motion) -> dict[str, float]:
     """Return how far the work of the gas by pressure and volume is from that of its torque on the crank."""
     machine, filling = solved.machine, solved.filling
@@ -73,9 +86,11 @@ def gas_check(solved: SolvedLinkage, motion: Motion) -> dict[str, float]:
         return {}
     mechanism = given_mechanism(machine.mechanism, machine.linkage)
     torque: Known = reduced_torque(motion, filling.loads(mechanism, motion))
+    if machine.mechanism.driver.law is not None:
+        torque = torque * rate_by_angle(motion, machine.mechanism.driver.law)
     over = OverCycle({"": torque}, CrankGrid.from_degrees, machine.cycle)
     work = sum(
-        filling.singles[f"indicated_work.{name}"].value * machine.cycle / one.cycle
+        filling.singles[f"indicated_work.{name}"].value * machine.cycle / one.cycle - _against(filling, name, one)
         for name, one in machine.chambers.items()
     )
     largest, least = over.largest_and_least[""]

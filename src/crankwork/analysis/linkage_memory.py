@@ -66,10 +66,10 @@ def _by_law(solved: SolvedLinkage, motion: Motion, law: Law) -> dict[str, Known]
     machine = solved.machine
     q, rate, second = motion.driver or Transfer(None, None, None)
     columns = {"time": clock(law), **{one.key: one for one in (q, rate, second)}}
-    columns |= dict(_moving(machine, motion, rate, second))
-    if machine.mechanism.bodies or machine.loads:
+    columns |= {**dict(_moving(machine, motion, rate, second)), **solved.filling.columns}
+    if machine.mechanism.bodies or machine.loads or machine.chambers:
         mechanism = given_mechanism(machine.mechanism, machine.linkage)
-        loads = applied_loads(mechanism, motion, machine.loads)
+        loads = applied_loads(mechanism, motion, machine.loads).also(solved.filling.loads(mechanism, motion))
         torque, forces = _forces(solved, Running(mechanism, motion, rate, loads, second))
         driven = torque.named(DRIVEN[machine.mechanism.driver.turns])
         columns |= {driven.key: driven, "driver_power": driver_power(driven, rate), **forces}

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Literal, NamedTuple
 
 import numpy as np
 
 from crankwork.analysis.moving import Moving, Track
+from crankwork.analysis.results import Results
 from crankwork.analysis.skeleton import Skeleton, skeleton
 from crankwork.kinematics.crank_grid import Array
 from crankwork.mechanism.mechanism import Mechanism
@@ -48,6 +49,28 @@ class _State(NamedTuple):
     at: Array
     velocity: Array
     acceleration: Array
+
+
+class DriverRates(NamedTuple):
+    """Rate and second rate of the driver's coordinate, shape (n,). [rad/s] or [m/s], and these over s"""
+
+    first: Array
+    second: Array
+
+
+def driver_rates(results: Results, known: Mapping[str, Array]) -> DriverRates:
+    """Return the rates of the driver: those of a crank that turns evenly, or the columns of a law."""
+    driver = results.machine.mechanism.driver
+    if driver.law is not None:
+        keys = (
+            ("driver_speed", "driver_angular_acceleration")
+            if driver.turns
+            else ("driver_velocity", "driver_acceleration")
+        )
+        return DriverRates(*(known[key] for key in keys))
+    count = len(next(iter(known.values())))
+    w: float = results.solved.speed
+    return DriverRates(np.full(count, w), np.full(count, results.machine.angular_acceleration))
 
 
 def velocities(mechanism: Mechanism, moving: Moving, index: int, speed: float, links: tuple[str, ...] = ()) -> Plan:
@@ -148,6 +171,8 @@ class _States:
     def pairs(self, *, with_fixed: bool = False) -> Iterator[tuple[str, str, float]]:
         """Yield pairs of points of one link, its first and each further one that moves, and how fast it turns."""
         for one in self.shape.members:
+            if one.is_cylinder:
+                continue
             points = [name for name in one.points if with_fixed or name not in self.shape.pivots]
             points.sort(key=lambda name: name not in self.shape.pivots)
             for end in points[1:]:
@@ -161,8 +186,13 @@ class _States:
         return first * self._speed, second * self._speed**2 + first * self._second
 
     def slides(self) -> Iterator[_Sliding]:
-        """Yield what slides on a moving guide."""
+        """Yield what slides on a moving guide; the rod of a cylinder slides on its barrel."""
         for one in self.shape.members:
+            if one.is_cylinder:
+                barrel, end = one.points[0], self.point(one.points[1])
+                rod = self.letter(one.points[1])
+                beneath = self._carried(one.name, self.point(barrel), end.at)
+                yield _Sliding(rod, f"{rod}{one.number}", end, beneath, one.name)
             if one.guide and one.guide.link:
                 piece = self.point(one.points[0]) if one.points else self._state(self._moving.frames[one.name].origin)
                 letter = self.letter(one.points[0]) if one.points else one.name
@@ -171,7 +201,10 @@ class _States:
 
     def _beneath(self, link: str, at: Array) -> _State:
         """Return the state of the point of a link that is at a place."""
-        origin = self._state(self._moving.frames[link].origin)
+        return self._carried(link, self._state(self._moving.frames[link].origin), at)
+
+    def _carried(self, link: str, origin: _State, at: Array) -> _State:
+        """Return the state of the point of a link that is at a place, of one of its points."""
         rate, rate_1 = self.turning(link)
         x, y = at - origin.at
         across, along = np.array([-y, x]), np.array([x, y])

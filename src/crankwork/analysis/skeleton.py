@@ -52,6 +52,11 @@ class Skeleton(NamedTuple):
         return self.members[0]
 
     @property
+    def driven(self) -> str:
+        """The point that shows how the driving link moves: the pin of a crank, the end of a rod."""
+        return self.pin or next((one for one in self.driver.points[::-1] if one not in self.pivots), "")
+
+    @property
     def traced(self) -> tuple[str, ...]:
         """The points whose paths are drawn."""
         return (*([self.pin] if self.pin else []), *self.coupler_points)

@@ -103,7 +103,8 @@ def _stated_chamber(name: str, chamber: Chamber, machine: Machine) -> StatedCham
         kind, names = "samples", {"file": chamber.measured.file or "–"}
     else:
         kind, names = "laws", {"count": str(len(chamber.pieces))}
-        amounts = {"cycle": (math.radians(chamber.cycle), "deg")}
+        law = machine.mechanism.driver.law
+        amounts = {"cycle": (math.radians(chamber.cycle), "deg") if law is None else (law.period, "s")}
     return StatedChamber(
         name, tuple((one.slider, one.sense) for one in chamber.faces), face_owners(name, chamber), chamber.ambient,
         kind, names, amounts,

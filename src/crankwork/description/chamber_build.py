@@ -10,6 +10,7 @@ from crankwork.description.kinds import Reader
 from crankwork.description.schema import Values, means_nothing
 from crankwork.loads.chamber import Chamber, Charge, DeadVolume, Face
 from crankwork.locale import Refusal
+from crankwork.mechanism.driver import DrivingSlider
 from crankwork.mechanism.linkage import Linkage
 
 _OWN_PRESSURE = ("pressure", "points", "pieces", "measured")
@@ -23,6 +24,8 @@ def build_chambers(
     tables = {name: one for name, one in values["chambers"].items() if one is not None}
     sealed = {name: one for name, one in values["charges"].items() if one is not None}
     sliders = {one.name for one in linkage.members if one.guide} if linkage is not None else None
+    if linkage is not None and sliders is not None and isinstance(linkage.driver, DrivingSlider):
+        sliders.add(linkage.driver.link)
     holder = _holders(sealed, tables, reader)
     for name, one in sealed.items():
         _check_charge(f"charges.{name}", one, reader)

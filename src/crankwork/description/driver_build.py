@@ -11,7 +11,7 @@ from crankwork.locale import Refusal
 from crankwork.mechanism.driver import Law, Segment
 
 # what presumes a crank that turns evenly
-_TURNING = ("efficiency", "motor", "flywheel", "transient", "chambers", "charges")
+_TURNING = ("efficiency", "motor", "flywheel", "transient")
 _WITHOUT_DRIVER = ("speed", "angular_acceleration")
 _SUM = 1e-9
 
@@ -39,6 +39,20 @@ def check_loads(values: Values, reader: Reader) -> None:
     for number, load in enumerate(values["loads"], start=1):
         if load and ((load["kind"] == "torque" and "at" in load) or load["against"] == "angle"):
             reader.complain(f"loads[{number}]", Refusal("load_by_angle"))
+
+
+def check_gas(values: Values, reader: Reader) -> None:
+    """Complain of gas whose pressure counts by the crank angle, which a driver with a law has not."""
+    for name, one in values.get("chambers", {}).items():
+        path, table = f"chambers.{name}", one or {}
+        keys = [key for key in ("measured", "period") if key in table and (key, table[key]) != ("period", "360 deg")]
+        points = table.get("points", {}).items()
+        keys += [f"points.{point}.angle" for point, placed in points if placed and "angle" in placed]
+        for key in keys:
+            reader.complain(f"{path}.{key}", Refusal("gas_by_angle"))
+    for name, one in values.get("charges", {}).items():
+        if one and "angle" in one:
+            reader.complain(f"charges.{name}.angle", Refusal("charge_by_angle"))
 
 
 def build_law(values: Values, reader: Reader) -> Law | None:

@@ -14,7 +14,7 @@ from crankwork.analysis.chambers import solve_linkage
 from crankwork.analysis.reach import reachable
 from crankwork.description.build import build_method, crank_speed
 from crankwork.description.chamber_build import build_chambers
-from crankwork.description.driver_build import build_law, check_driver, check_loads
+from crankwork.description.driver_build import build_law, check_driver, check_gas, check_loads
 from crankwork.description.gas_build import ReadMeasured
 from crankwork.description.kinds import Measure, Reader
 from crankwork.description.linkage_reach import checked_motion, passing_if_assembled, told_redundant, with_starts
@@ -77,6 +77,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
     chambers, charges = build_chambers(values, linkage, reader, read_measured)
     if "driver" in values:
         check_loads(values, reader)
+        check_gas(values, reader)
     drive = _drive(values, reader)
     transient = _transient(values, loads, reader)
     if reader.problems or mechanism is None or linkage is None:
@@ -192,9 +193,6 @@ def _is_filled(machine: Machine, values: Values, reader: Reader) -> bool:
     """Complain of gas that does not suit the volumes of its chambers."""
     if not machine.chambers:
         return True
-    if machine.mechanism.driver.law is not None:
-        reader.complain("chambers", Refusal("chambers_driven"))
-        return False
     reached = reachable(machine, _STEP)
     if reached.travel is not None:
         reader.complain("chambers", Refusal("chambers_partial"))
@@ -207,6 +205,8 @@ def _is_filled(machine: Machine, values: Values, reader: Reader) -> bool:
         if ".measured" in error.key:
             name = error.key.split(".")[1]
             mistake = Refusal("in_file", file=values["chambers"][name]["measured"]["file"], mistake=mistake)
+        if machine.mechanism.driver.law is not None:
+            mistake = Refusal("in_period", mistake=mistake)
         reader.complain(error.key, mistake)
         return False
     return True

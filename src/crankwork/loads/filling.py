@@ -23,11 +23,14 @@ from crankwork.loads.indicator import DiagramError, IndicatorDiagram, solve_diag
 from crankwork.loads.measured import measured_diagram, wrap_is_rough
 from crankwork.loads.pressure import at_angle, remembered_pressure
 from crankwork.locale import Refusal
+from crankwork.mechanism.driver import Law
 from crankwork.mechanism.mechanism import Mechanism
 
 _TURN = 360.0
 # share of the largest below which a volume is nothing
 _NOTHING = 1e-12
+# share of the swept volume by which one may change at rest
+_STILL = 1e-9
 # dead centres that are nearer are one [deg]
 _SAME_ANGLE = 1e-6
 Told = tuple[str, Mapping[str, float | str]]
@@ -89,12 +92,17 @@ class _Space(NamedTuple):
         return Program({"": self.volume})(CrankGrid.from_degrees(degrees))[""]
 
 
-def filled(chambers: Mapping[str, Chamber], charges: Mapping[str, Charge], motion: Motion, pi: float) -> Filling:
-    """Return the gas of chambers on the sliding pieces of a remembered motion, whose crank turns fully."""
+def filled(
+    chambers: Mapping[str, Chamber], charges: Mapping[str, Charge], motion: Motion, pi: float, law: Law | None = None
+) -> Filling:
+    """Return the gas of chambers on the sliding pieces of a remembered motion.
+
+    `law`: that of the driver, where it is not a crank that turns fully at the angle of the tables.
+    """
     if not chambers:
         return NO_GAS
     whole = cycle_of(chambers)
-    spaces = _spaces(chambers, motion, pi)
+    spaces = _spaces(chambers, motion, pi, law)
     pressures, works, own, told = dict[str, Known](), dict[str, Known](), list[Known](), list[Told]()
     for name, charge in charges.items():
         pressure, values = _sealed(name, charge, chambers, spaces)
@@ -103,7 +111,7 @@ def filled(chambers: Mapping[str, Chamber], charges: Mapping[str, Charge], motio
     works |= _works(pressures, spaces)
     for name, chamber in chambers.items():
         if name not in pressures:
-            pressures[name], works[name], notices = _of_its_own(name, chamber, spaces[name], whole)
+            pressures[name], works[name], notices = _of_its_own(name, chamber, spaces[name], whole, law)
             told += notices
     columns, forces = list[Known](), list[GasForce]()
     for name, space in spaces.items():
@@ -136,7 +144,13 @@ def _sizes(space: _Space) -> Iterator[Known]:
         yield space.ratio
 
 
-def _spaces(chambers: Mapping[str, Chamber], motion: Motion, pi: float) -> dict[str, _Space]:
+def rate_by_angle(motion: Motion, law: Law) -> Known:
+    """Return the derivative of the driver's coordinate by the angle that all columns follow."""
+    _, rate, _ = motion.driver if motion.driver is not None else (None, absent("driver_velocity"), None)
+    return rate * (given("period", law.period, "driver.period") / math.radians(_TURN))
+
+
+def _spaces(chambers: Mapping[str, Chamber], motion: Motion, pi: float, law: Law | None) -> dict[str, _Space]:
     """Return the chambers as they move."""
     walls = {name: tuple(_walls(name, one, motion, pi)) for name, one in chambers.items()}
     followed = {}
@@ -144,7 +158,8 @@ def _spaces(chambers: Mapping[str, Chamber], motion: Motion, pi: float) -> dict[
         travel = [gas.face_volume(one.sense, one.area, one.position, absent("")) for one in some]
         followed[f"face_volume.{name}"] = total(f"face_volume.{name}", travel)
         rates = [gas.face_volume_1(one.sense, one.area, one.position_1) for one in some]
-        followed[f"cylinder_volume_1.{name}"] = total(f"cylinder_volume_1.{name}", rates)
+        rate = total(f"cylinder_volume_1.{name}", rates)
+        followed[rate.key] = rate if law is None else (rate * rate_by_angle(motion, law)).named(rate.key)
     over = OverCycle(followed, CrankGrid.from_degrees, _TURN)
     return {name: _space(name, chambers[name], some, over) for name, some in walls.items()}
 
@@ -194,7 +209,12 @@ def _space(name: str, chamber: Chamber, walls: tuple[_Wall, ...], over: OverCycl
         parts.append(part.named(f"face_volume.{name}.{wall.slider}"))
     volume = total(f"cylinder_volume.{name}", parts)
     centres = [*over.crossings(rate).tolist(), largest.at, least.at, *_at_zero(rate, over)]
-    return _Space(walls, volume, over.knowns[rate], swept, clearance, ratio, _apart(centres))
+    turning = _apart(centres)
+    at = Program({"": volume})(CrankGrid.from_degrees(turning))[""]
+    # where a driver dwells the volume has turned back at the beginning of the dwell
+    moves = np.abs(at - np.roll(at, 1)) > _STILL * swept.value
+    kept = tuple(one for one, moved in zip(turning, moves.tolist(), strict=True) if moved)
+    return _Space(walls, volume, over.knowns[rate], swept, clearance, ratio, kept)
 
 
 def _at_zero(rate: str, over: OverCycle) -> Iterator[float]:
@@ -210,13 +230,17 @@ def _apart(degrees: list[float]) -> tuple[float, ...]:
     return tuple(two for one, two in itertools.pairwise([-1.0, *ordered]) if two - one > _SAME_ANGLE)
 
 
-def _of_its_own(name: str, chamber: Chamber, space: _Space, whole: float) -> tuple[Known, Known, list[Told]]:
+def _of_its_own(
+    name: str, chamber: Chamber, space: _Space, whole: float, law: Law | None
+) -> tuple[Known, Known, list[Told]]:
     """Return the pressure that a chamber has by itself, its work over a cycle, and what the reader should know."""
     key, path = f"diagram_pressure.{name}", f"chambers.{name}"
     told: list[Told] = []
     if chamber.pressure is not None:
         pressure = given(key, chamber.pressure, f"{path}.pressure")
-        return pressure, Known(Found(0.0, "work", (pressure, space.volume)), f"indicated_work.{name}"), told
+        # nothing where the volume comes back
+        done = chamber.pressure * float(np.diff(space.volume_at(np.array([0.0, _TURN])))[0])
+        return pressure, Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}"), told
     if chamber.measured is not None:
         diagram, cycles, wrap = measured_diagram(
             chamber.measured, chamber.cycle, shift=chamber.angle_shift, step=chamber.resample, path=path
@@ -227,10 +251,17 @@ def _of_its_own(name: str, chamber: Chamber, space: _Space, whole: float) -> tup
         diagram = solve_diagram(
             chamber.points, chamber.pieces, chamber.cycle, space.volume_at, dead_centres=space.dead_centres, path=path
         )
-        told += [("jump", {"point": point, "angle": at, "step": step}) for point, at, step in diagram.jumps]
+        told += [_jump(point, at, step, law) for point, at, step in diagram.jumps]
     pressure = remembered_pressure(_repeated(diagram, whole), space.volume, path)
     work = Known(Found(diagram.work(space.volume_at), "work", (pressure, space.volume)), f"indicated_work.{name}")
     return pressure, work, told
+
+
+def _jump(point: str, degrees: float, step: float, law: Law | None) -> Told:
+    """Return the notice of a jump at a crank angle, or at its time where a law drives."""
+    if law is None:
+        return "jump", {"point": point, "angle": degrees, "step": step}
+    return "jump_time", {"point": point, "time": degrees / _TURN * law.period, "step": step}
 
 
 def _repeated(diagram: IndicatorDiagram, whole: float) -> IndicatorDiagram:

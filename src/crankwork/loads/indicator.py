@@ -33,6 +33,8 @@ _CLOSING = 1e-3
 _SAME_ANGLE = 1e-5
 # share of the stroke by which a volume may miss that of a dead centre
 _SAME_PLACE = 1e-12
+# places at which a volume is looked at that does not seem to change
+_LOOKS = 5
 # share of the largest volume that is as good as none
 _EMPTY = 1e-7
 
@@ -187,6 +189,7 @@ def solve_diagram(
     """
     solver = _Solver(points, volume_at, dead_centres, cycle, path)
     segments = [replace(solver.segment(at, piece), piece=at + 1) for at, piece in enumerate(pieces)]
+    segments += solver.held(segments[-1])
     _check_chain(segments, cycle, solver.named, path)
     _check_closed(segments, solver.named[pieces[-1].points[-1]][1], path)
     return IndicatorDiagram(tuple(one for one in segments if one.end > one.start), solver.named, tuple(solver.jumps))
@@ -225,6 +228,21 @@ class _Solver:
                 return self._polytropic(key, piece)
             case "rounded":
                 return self._rounded(key, piece)
+
+    def held(self, last: Segment) -> list[Segment]:
+        """Return the rest of the cycle, in which the pressure stays as it is, where the volume does not change then."""
+        if not self.cycle - last.end > _SAME_ANGLE:
+            return []
+        volumes = self.volume_at(np.linspace(last.end, self.cycle, _LOOKS))
+        low, high = self._reach
+        if float(np.ptp(volumes)) > _SAME_PLACE * (high - low):
+            return []
+        ends = np.array([last.end, self.cycle])
+        held = replace(last, start=last.end, end=self.cycle, knots=ends, pressures=np.full(2, last.pressures[-1]))
+        if last.law != "rounded":
+            return [held]
+        point = last.places[-1].removeprefix(f"{self.path}.points.").removesuffix(".pressure")
+        return [replace(held, law="constant", slopes=np.zeros(2), places=(), origin=point)]
 
     def start(self, key: str, name: str) -> float:
         """Return the crank angle of the point where a piece begins: where the one before ended, if it may be. [deg]"""

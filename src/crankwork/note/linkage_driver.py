@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from crankwork.analysis.stated import stated_loads
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor
 from crankwork.mechanism.mechanism import Driver
+from crankwork.note.chambers import given_chambers
 from crankwork.note.document import Block, Citation, ItemList, Paragraph, Reference, Runs, Table
 from crankwork.note.linkage_data import links_and_places, method, outer_load
 from crankwork.note.linkage_material import Material
@@ -43,8 +44,9 @@ def driven_task(material: Material) -> Iterator[Block]:
     if machine.loads:
         yield words.paragraph("outer_loads")
         yield ItemList(tuple(outer_load(one, words) for one in stated_loads(machine)))
-    elif machine.mechanism.bodies:
+    elif machine.mechanism.bodies and not machine.chambers:
         yield words.paragraph("no_loads")
+    yield from given_chambers(material)
     yield method(material)
 
 
@@ -82,6 +84,7 @@ def driven_motion(material: Material) -> Iterator[Block]:
     words, columns, degrees = material.words, material.columns, material.positions
     yield words.heading("linkage_kinematics")
     yield words.paragraph("driven_positions", source=Citation(_SOURCE))
+    yield from material.figures("position_plans")
     yield from worked_at(material, "driver")
     yield from equations(material.lines("driver"), words)
     own = named(columns, *_COORDINATE)
@@ -96,12 +99,15 @@ def driven_motion(material: Material) -> Iterator[Block]:
         shown = quantity_columns(keys, columns, words)
         yield from position_tables(caption, degrees, shown, words, first=material.first)
     yield from material.figures("driver", "sliders")
+    if "velocity_plan" in material.drawn:
+        yield words.heading("polygons", 2)
+        yield from material.figures("velocity_plan", "acceleration_plan")
 
 
 def driven_forces(material: Material) -> Iterator[Block]:
     """Yield the section about inertia, joint forces, and what the driver has to give."""
     words, columns, mechanism = material.words, material.columns, material.machine.mechanism
-    if not (mechanism.bodies or material.machine.loads):
+    if not (mechanism.bodies or material.machine.loads or material.machine.chambers):
         return
     yield words.heading("linkage_forces")
     if mechanism.bodies:

@@ -29,7 +29,7 @@ _REPORT: tuple[Section, ...] = (
     law_of_motion, checks, sources, appendix,
 )  # fmt: skip
 _DRIVEN: tuple[Section, ...] = (
-    driven_task, structural_analysis, driven_motion, driven_forces, checks, conclusion, sources, appendix,
+    driven_task, structural_analysis, driven_motion, chambers, driven_forces, checks, conclusion, sources, appendix,
 )  # fmt: skip
 # the tables keep the numbers that courses of machines give them
 _OF_TABLE: tuple[Section, ...] = (

@@ -9,6 +9,7 @@ import numpy as np
 from crankwork.analysis import Array, Results
 from crankwork.analysis.diagrams import Fluctuation
 from crankwork.analysis.moving import moving, reached_angles
+from crankwork.analysis.plans import DriverRates, driver_rates
 from crankwork.locale import say
 from crankwork.machine import Machine
 from crankwork.mechanism.structure import structure
@@ -38,8 +39,14 @@ def linkage_figures(results: Results, *, language: Language = "en") -> dict[str,
     known = results.columns_at(degrees)
     if machine.mechanism.driver.law is not None:
         style = style._replace(period=machine.mechanism.driver.law.period)
-        return _driver(degrees, known, style) | _sliders(degrees, known, style) | _dynamics(degrees, known, style)
-    drawn = _plans(machine, degrees, results.solved.speed, style, is_whole=is_whole)
+    rates = driver_rates(results, known)
+    if style.period:
+        drawn, both = _driver(degrees, known, style), np.abs(rates.first * rates.second)
+        # where the driver moves, and gets faster or slower if it ever does
+        at = int(np.argmax(both if np.any(both) else np.abs(rates.first)))
+    else:
+        drawn, at = {}, int(np.argmin(np.abs(degrees - _MAIN)))
+    drawn |= _plans(machine, degrees, at, rates, style, is_whole=is_whole)
     drawn |= _sliders(degrees, known, style)
     drawn |= chamber_figures(results, degrees, known, style)
     drawn |= _dynamics(degrees, known, style)
@@ -48,17 +55,20 @@ def linkage_figures(results: Results, *, language: Language = "en") -> dict[str,
     return drawn
 
 
-def _plans(machine: Machine, degrees: Array, speed: float, style: Style, *, is_whole: bool) -> dict[str, bytes]:
-    """Return position plans of all that is reached, and the plans of velocity and acceleration at one crank angle."""
+def _plans(
+    machine: Machine, degrees: Array, at: int, rates: DriverRates, style: Style, *, is_whole: bool
+) -> dict[str, bytes]:
+    """Return position plans of all that is reached, and the plans of velocity and acceleration at one crank angle.
+
+    `at`: which of the crank angles.
+    """
     mechanism = machine.mechanism
     ends = None if is_whole else (float(degrees[0]), float(degrees[-1]))
     plans = {"position_plans": position_plans(mechanism, ends, style=style)}
-    index = int(np.argmin(np.abs(degrees - _MAIN)))
-    moved = moving(mechanism, degrees)
-    eps = machine.angular_acceleration
+    moved, first, second = moving(mechanism, degrees), float(rates.first[at]), float(rates.second[at])
     return plans | {
-        "velocity_plan": velocity_plan(mechanism, moved, index, speed, style),
-        "acceleration_plan": acceleration_plan(mechanism, moved, index, speed, eps, style),
+        "velocity_plan": velocity_plan(mechanism, moved, at, first, style),
+        "acceleration_plan": acceleration_plan(mechanism, moved, at, first, second, style),
     }
 
 

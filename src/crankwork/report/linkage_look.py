@@ -12,13 +12,14 @@ from crankwork.errors import CrankworkError
 from crankwork.locale import say
 from crankwork.quantities import QUANTITIES, Language, Quantity
 from crankwork.report.figure_look import LOOK, drawing_library, math_symbol, over_crank_angle, plain
-from crankwork.report.language import number, unit_name
+from crankwork.report.language import number, symbol, unit_name
 from crankwork.units import from_si
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 POINTS_PER_MM = 72 / 25.4
+_DIGITS = 4
 
 
 class Style(NamedTuple):
@@ -36,6 +37,20 @@ PLAIN = Style()
 def linkage_title(name: str, language: Language) -> str:
     """Return what a figure of a linkage shows, for its caption."""
     return say(f"figures.{name}", language)
+
+
+def position_text(degrees: float, style: Style) -> str:
+    """Return a crank angle with its unit, or the time where a law drives. [deg]"""
+    if style.period:
+        return (
+            f"{number(degrees / 360.0 * style.period, style.language, digits=_DIGITS)} {unit_name('s', style.language)}"
+        )
+    return f"{number(degrees, style.language)}°"
+
+
+def position_sign(style: Style, mark: str = "") -> str:
+    """Return the symbol of the crank angle, or of the time where a law drives."""
+    return f"${symbol('time' if style.period else 'crank_angle', style.language)}{mark}$"
 
 
 @contextmanager

@@ -20,6 +20,8 @@ from crankwork.report.linkage_look import (
     Style,
     figure_look,
     linkage_title,
+    position_sign,
+    position_text,
     round_scale,
     scale_text,
 )
@@ -93,9 +95,9 @@ def _figure(plan: Plan, kind: _Kind, degrees: float, style: Style) -> bytes:
         for count, row in enumerate(rows):
             axes.text(left + WIDTH * 72 - _LIST, bottom + tall - 20 - _ROW * count, row, size=8.5, va="center")
         axes.text(left + 14, bottom + 20, scale_text(f"μ_{kind.sign}", scale, kind.unit, language), size=9)
-        shown = f"${symbol('crank_angle', language)}$ = {number(float(degrees), language)}°"
+        shown = f"{position_sign(style)} = {position_text(float(degrees), style)}"
         axes.text(left + WIDTH * 72 - 14, bottom + 20, shown, size=9, ha="right")
-        title = f"{linkage_title(kind.title, language)}, {number(float(degrees), language)}°"
+        title = f"{linkage_title(kind.title, language)}, {position_text(float(degrees), style)}"
         return svg(figure, title, style.method, _remark(plan, kind, language))
 
 

@@ -15,7 +15,6 @@ from crankwork.mechanism.mechanism import Mechanism
 from crankwork.report import drawing_parts as parts
 from crankwork.report.figure_labels import Line, label_points
 from crankwork.report.figure_look import DASH_DOT, WIDTH, new_figure, svg
-from crankwork.report.language import number, symbol
 from crankwork.report.linkage_drawing import corners, slot_middle, walls
 from crankwork.report.linkage_labels import labels
 from crankwork.report.linkage_look import (
@@ -24,6 +23,8 @@ from crankwork.report.linkage_look import (
     Style,
     figure_look,
     linkage_title,
+    position_sign,
+    position_text,
     round_scale,
     scale_text,
 )
@@ -86,9 +87,7 @@ def position_plans(
         at: Any = {"size": 9, "transform": sheet.axes.transAxes, "va": "bottom"}
         foot = 17 / 72 / sheet.figure.get_size_inches()[1]
         sheet.axes.text(0.03, foot, scale_text("μ_l", paper, "mm", style.language), **at)
-        shown = (
-            f"${symbol('crank_angle', style.language)}_{{{main}}}$ = {number(float(degrees[main]), style.language)}°"
-        )
+        shown = f"{position_sign(style, f'_{{{main}}}')} = {position_text(float(degrees[main]), style)}"
         sheet.axes.text(0.97, foot, shown, ha="right", **at)
         return svg(sheet.figure, linkage_title("position_plans", style.language), style.method)
 
@@ -186,7 +185,7 @@ def _texts(sheet: _Sheet) -> None:
         lines.append((nodes[:, 0], nodes[:, 1]))
     lines += [_line(*wall) for rail in drawn.rails for wall in walls(rail)]
     lines += [_line(*wall) for rail in drawn.rails for wall in walls(rail._replace(half=rail.half + 5))]
-    numbered = [drawn.skeleton.pin]
+    numbered = [drawn.skeleton.driven] if drawn.skeleton.driven else []
     numbered += [one.points[0] for one in drawn.skeleton.members if one.guide and not one.guide.link and one.points]
     numbered += drawn.skeleton.coupler_points[: max(_NUMBERED - len(numbered), 0)]
     points = [

@@ -9,10 +9,10 @@ import numpy as np
 from crankwork.analysis import Array, Results
 from crankwork.analysis.diagrams import Fluctuation
 from crankwork.analysis.moving import moving, reached_angles
-from crankwork.analysis.plans import accelerations, velocities
+from crankwork.analysis.plans import accelerations, driver_rates, velocities
 from crankwork.analysis.skeleton import skeleton
 from crankwork.errors import CrankworkError
-from crankwork.locale import Refusal, say
+from crankwork.locale import say
 from crankwork.machine import Machine
 from crankwork.mechanism.structure import structure
 from crankwork.note.sheets.graph import Graph
@@ -39,16 +39,16 @@ _ALONE = {
     "reduced_inertia": (408, 320, 408, 260),
     "reduced_inertia_1": (408, 62, 408, 256),
 }
+_REDUCED = ("reduced_inertia", "reduced_inertia_1")
+_DRIVER = ("driver_force", "driver_torque", "driver_power", "driver_velocity", "driver_speed")
 _TORQUES = ("static_torque", "dynamic_torque", "driving_torque")
 
 
 def linkage_sheets(results: Results, language: Language = "en", *, paper: Paper = PLAIN) -> tuple[Sheet, ...]:
     """Return the sheets of a linkage, or of a table of transfer functions; what is not known is left out."""
-    words = Words(language)
+    words = Words(language, period=results.period)
     if results.machine.is_crank_gear:
         raise CrankworkError("sheets of a linkage need a linkage; take engine_sheets for this machine")
-    if results.period:
-        raise CrankworkError(Refusal("sheets_by_law"))
     machine, wanted = results.machine, None
     if machine.linkage is not None:
         degrees, _ = reached_angles(machine, _DENSE_STEP)
@@ -69,7 +69,7 @@ def _kinematics(
     results: Results, machine: Machine, degrees: Array, known: Mapping[str, Array], paper: Paper, words: Words
 ) -> Sheet:
     """Return the sheet of plans, and below them the motion of sliders, or of links where nothing slides."""
-    mechanism, speed = machine.mechanism, results.solved.speed
+    mechanism, rates = machine.mechanism, driver_rates(results, known)
     found, _ = structure(machine.drawn)
     links = found.links if found is not None else ()
     moved = moving(mechanism, degrees)
@@ -78,11 +78,15 @@ def _kinematics(
     main = min(_MAIN, len(shown) - 1)
     shape = skeleton(mechanism, links)
     graphs = [position_plans(shape, moved, shown, main, paper.part(0, 190, 400, 390), words)]
-    by_velocity = [Numbered(i, velocities(mechanism, moved, at, speed, links)) for i, at in enumerate(shown)]
+    by_velocity = [
+        Numbered(i, velocities(mechanism, moved, at, float(rates.first[at]), links)) for i, at in enumerate(shown)
+    ]
     polygons, heads = vector_plans("velocity_plans", by_velocity, paper.part(400, 316, 416, 264), 4, words)
-    eps = machine.angular_acceleration
     chosen = [i for i in _ACCELERATIONS if i < len(shown)] or [0]
-    by_acceleration = [Numbered(i, accelerations(mechanism, moved, shown[i], speed, eps, links)) for i in chosen]
+    by_acceleration = [
+        Numbered(i, accelerations(mechanism, moved, at, float(rates.first[at]), float(rates.second[at]), links))
+        for i, at in ((i, shown[i]) for i in chosen)
+    ]
     box = paper.part(400, 190, 416, 124)
     further, further_heads = vector_plans("acceleration_plans", by_acceleration, box, 3, words)
     graphs += [*polygons, *further, *_motion(degrees, known, paper, words)]
@@ -113,8 +117,9 @@ def _motion(degrees: Array, known: Mapping[str, Array], paper: Paper, words: Wor
 
 def _remarks(results: Results, main: Numbered, words: Words) -> list[str]:
     """Return speed and method, the turning of the links in the bold plan, and what the small letters are."""
-    speed = f"{words.symbol('speed')} = {words.number(results.solved.speed)} {words.unit('rad/s')}"
-    rows = [f"{speed}; {words.say('method')}: {results_method(results, words.language)}"]
+    key, value, unit = ("period", words.period, "s") if words.period else ("speed", results.solved.speed, "rad/s")
+    driven = f"{words.symbol(key)} = {words.number(value)} {words.unit(unit)}"
+    rows = [f"{driven}; {words.say('method')}: {results_method(results, words.language)}"]
     turning = [
         f"ω_{{{link}}} = {words.number(value)}" for link, value in main.plan.turning.items() if abs(value) > 1e-9
     ]
@@ -135,10 +140,12 @@ def _dynamics(
     has_energy = wanted is not None and "kinetic_energy_change" in known
     is_alone = not joints and not has_energy
     places = _ALONE if is_alone else _BESIDE
-    keys = (_TORQUES, ("reduced_inertia",), ("reduced_inertia_1",))
+    drawn: list[tuple[str, tuple[str, ...]]] = [("torques", _TORQUES), *((one, (one,)) for one in _REDUCED)]
+    if words.period:
+        drawn = [(one, (one,)) for one in _DRIVER if one in known]
     graphs = [
-        over_angle(name, some, known, degrees, paper.part(*places[name]), words)
-        for name, some in zip(("torques", "reduced_inertia", "reduced_inertia_1"), keys, strict=True)
+        over_angle(name, some, known, degrees, paper.part(*place), words)
+        for (name, some), place in zip(drawn, places.values(), strict=True)
     ]
     if wanted is not None and has_energy:
         graphs.append(wittenbauer(known, degrees, wanted, paper.part(408, 220, 408, 360), words))

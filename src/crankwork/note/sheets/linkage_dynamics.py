@@ -23,7 +23,7 @@ _FAR = frozenset(("crank_speed", "slider_displacement", "link_angle"))
 def over_angle(
     name: str, keys: Sequence[str], known: Mapping[str, Array], degrees: Array, box: Box, words: Words
 ) -> Graph | None:
-    """Return quantities of one unit over the crank angle, or None if none of them is known.
+    """Return quantities of one unit over the crank angle, or over time, or None if none of them is known.
 
     `name`: key of the title among the words of sheets; `keys`: keys of the columns; the first five that are there are
     drawn.
@@ -37,7 +37,9 @@ def over_angle(
         symbol = indexed(printable(row.symbol(language)))
         text = printable(row.label(language), 60) if len(present) > 1 else ""
         curves.append(Curve(key, symbol, text, degrees, displayed_values(row, known[key]), kind))
-    if degrees[0] == 0 and degrees[-1] < 360 and 360 - degrees[-1] <= degrees[1] - degrees[0] + 1e-9:
+    if words.period:
+        curves = [one._replace(x=one.x / 360.0 * words.period) for one in curves]
+    elif degrees[0] == 0 and degrees[-1] < 360 and 360 - degrees[-1] <= degrees[1] - degrees[0] + 1e-9:
         # a table of a whole turn ends before the angle at which it starts again
         curves = [one._replace(x=np.append(one.x, 360.0), y=np.append(one.y, one.y[0])) for one in curves]
     low, high = _reach(name, curves)
@@ -58,7 +60,8 @@ def _reach(name: str, curves: Sequence[Curve]) -> tuple[float, float]:
 
 def _angles(curves: Sequence[Curve], words: Words) -> Side:
     ends = curves[0].x[[0, -1]]
-    return Side(words.symbol("crank_angle"), "deg", float(ends[0]), float(ends[1]))
+    sign, unit = ("time", "s") if words.period else ("crank_angle", "deg")
+    return Side(words.symbol(sign), unit, float(ends[0]), float(ends[1]))
 
 
 def wittenbauer(known: Mapping[str, Array], degrees: Array, wanted: Fluctuation, box: Box, words: Words) -> Graph:

@@ -132,7 +132,7 @@ def _names(drawn: Scene, plans: list[int], main: int, middle: Array, clear: tupl
             x, y = _placed(drawn.points[name][plans[main]], middle)
             letters.setdefault(letter, Named(printable(letter), (float(x), float(y))))
     named = names_beside(list(letters.values()), lines, room, height=TEXT, dot=0.0)
-    shown = list(shape.traced)
+    shown = [*([shape.driven] if shape.driven else []), *shape.traced]
     shown += [one.points[0] for one in shape.members if one.guide and not one.guide.link and one.points]
     points = []
     for name in dict.fromkeys(shown):

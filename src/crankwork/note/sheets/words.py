@@ -36,10 +36,11 @@ _LEVEL = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789−")
 
 
 class Words(NamedTuple):
-    """How a sheet says things: its language, and whether forces are per piston area."""
+    """How a sheet says things: its language, whether forces are per piston area, the period of a law that drives."""
 
     language: Language
     per_area: bool = False
+    period: float = 0.0  # Curves are over time then, and not over the crank angle [s]
 
     def say(self, key: str) -> str:
         """Return a word of the sheets, or a title, which may be the name of a quantity."""
