@@ -271,6 +271,8 @@ class Machine:
         Of a crank that does not turn fully, the crank angles between which largest values count. [deg]
     engine : Engine or None
         The whole engine that this crank gear is a cylinder of.
+    notices : tuple of (str, mapping)
+        What the reader should know of the description of a linkage: code and values.
     """
 
     mechanism: Mechanism
@@ -294,6 +296,7 @@ class Machine:
     table_special: tuple[float, ...] = ()
     working_range: tuple[float, float] | None = None
     engine: Engine | None = None
+    notices: tuple[tuple[str, Mapping[str, float | str]], ...] = ()
     # The numbers of the description by their paths: `crank.stroke`; a machine may be made without one
     stated: Mapping[str, Stated] = field(default_factory=dict, compare=False, repr=False)
 

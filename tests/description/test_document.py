@@ -132,7 +132,7 @@ def test_a_key_that_is_none_changes_nothing(key):
 def test_a_description_tells_mistakes_on_their_lines():
     d = Description(ENGINE, "my.toml")
     d["rod.mass"] = "2 parsecs"
-    with pytest.raises(crankwork.InputError, match=r"my\.toml:16: rod\.mass"):
+    with pytest.raises(crankwork.InputError, match=r"my\.toml:17: rod\.mass"):
         d.machine()
 
 

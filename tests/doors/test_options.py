@@ -67,7 +67,7 @@ def test_a_wrong_option_is_named_with_what_to_write(
 
 def test_mistakes_of_options_and_of_the_file_are_told_together(crankwork, machine_file) -> None:
     answer = crankwork("run", machine_file(('"0.55 kg"', '"x"')), "--step", "0", "--method", "x", "--set", "rod.x=1")
-    assert [line.partition(": ")[0] for line in answer.mistakes] == ["--set rod.x", "--step", "--method", "my.toml:21"]
+    assert [line.partition(": ")[0] for line in answer.mistakes] == ["--set rod.x", "--step", "--method", "my.toml:22"]
 
 
 @pytest.mark.parametrize(

@@ -108,7 +108,12 @@ TABLE = Table("table", {
     "special_angles": Key(ListOf(Quantity(("angle",), 0.0, 4 * math.pi + 1e-9))),
 })  # fmt: skip
 
-TITLE = {"title": Key(Text()), "decimal_mark": Key(Choice((".", ",")), default=".")}
+FORMATS = (1, 2)
+TITLE = {
+    "title": Key(Text()),
+    "format": Key(Choice(FORMATS), default=1),
+    "decimal_mark": Key(Choice((".", ",")), default="."),
+}
 
 MACHINE_FILE = Table("file", {
     **TITLE,

@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
-
-import numpy as np
 
 from crankwork.analysis.chambers import solve_linkage
 from crankwork.analysis.reach import reachable
@@ -18,16 +15,15 @@ from crankwork.description.driver_build import build_law, check_driver, check_ga
 from crankwork.description.gas_build import ReadMeasured
 from crankwork.description.kinds import Measure, Reader
 from crankwork.description.linkage_reach import checked_motion, passing_if_assembled, told_redundant, with_starts
+from crankwork.description.positions_build import settled, told_positions
 from crankwork.description.redundant_build import fitting, geometry_of, taken_out
 from crankwork.description.schema import Values
 from crankwork.description.stated import stated_numbers
 from crankwork.dynamics.efficiency import Chain as EfficiencyChain
 from crankwork.dynamics.efficiency import Parallel, Series, efficiency
 from crankwork.dynamics.tabulated import TabulatedBody
-from crankwork.errors import GeometryError, MethodError, Problem
-from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.errors import MethodError
 from crankwork.kinematics.memory import remembered_motion
-from crankwork.kinematics.placement import place
 from crankwork.loads.indicator import DiagramError
 from crankwork.loads.load import Load
 from crankwork.loads.process import ForceOnPoint, ProcessForce, TorqueOnLink
@@ -36,11 +32,8 @@ from crankwork.loads.table import Table as LoadTable
 from crankwork.loads.weight import Weight
 from crankwork.locale import Refusal
 from crankwork.machine import Drive, Machine, TransferTable, Transient
-from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.decomposition import mechanism_of
 from crankwork.mechanism.description import linkage_from
 from crankwork.mechanism.driver import Law
-from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.linkage import GROUND, Linkage
 from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.shaft.motor import AsynchronousMotor, GearedMotor
@@ -49,8 +42,6 @@ _GEOMETRY = ("fixed_points", "crank", "geared", "links", "guides", "sliders", "b
 _STEP = 1.0
 _LEAST_EFFICIENCY = 1e-4
 _REVOLUTION = math.tau + 1e-9
-# share of the size of a linkage by which a stated position may be rough
-_ROUGHLY = 0.25
 _OF_SPRING = ("stiffness", "free_length", "preload")
 _RATES = ("speed", "angular_acceleration", "from", "to")
 
@@ -63,11 +54,12 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
     if reader.problems:
         return None
     linkage, problems = linkage_from(tables)
-    mechanism = None
+    mechanism, notices = None, tuple[tuple[str, dict[str, float | str]], ...]()
     if linkage is not None:
         linkage, carried = taken_out(linkage, values, reader)
-        mechanism, problems = _decomposed(linkage)
-        problems = told_redundant(linkage, problems)
+        found = settled(linkage)
+        mechanism, problems = found.mechanism, told_redundant(linkage, found.problems)
+        notices = tuple(told_positions(tables, linkage, found, reader, is_new=values["format"] > 1))
     for problem in problems:
         reader.complain(problem.key or "links", problem.message)
     method = build_method(values["method"], reader)
@@ -98,6 +90,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
         title=values["title"] or "",
         loads=loads,
         redundant=redundant,
+        notices=notices,
         chambers=chambers,
         charges=charges,
         drive=drive if _weighs(values) else replace(drive, inertia=drive.inertia + crank.si("inertia")),
@@ -137,56 +130,6 @@ def _table_step(given: float | None, law: Law | None) -> float:
     if law is None:
         return round(math.degrees(given or 0.0), 9)
     return 10.0 if given is None else min(360.0 * given / law.period, 360.0)
-
-
-def _decomposed(linkage: Linkage) -> tuple[Mechanism | None, list[Problem]]:
-    """Return the mechanism of a linkage, its branches from stated positions as seen from solved ones.
-
-    Where a link carries the points that the next group hangs on, these are known when its own group is solved: group
-    after group settles its branch.
-    """
-    mechanism, problems = mechanism_of(linkage)
-    for _ in mechanism.dyads if mechanism is not None and linkage.positions else ():
-        if mechanism is None:
-            break
-        try:
-            here = place(mechanism, CrankGrid.from_degrees([0.0])).points
-        except GeometryError:
-            break
-        places = {name: tuple(float(np.ravel(one.position)[0]) for one in point) for name, point in here.items()}
-        solved = {name: (x, y) for name, (x, y) in places.items() if math.isfinite(x) and math.isfinite(y)}
-        before = mechanism
-        mechanism, problems = mechanism_of(linkage, solved)
-        if mechanism == before:
-            problems = [*problems, *_without_effect(linkage, mechanism, solved)]
-            break
-    return (None if problems else mechanism), problems
-
-
-def _without_effect(
-    linkage: Linkage, mechanism: Mechanism, solved: Mapping[str, tuple[float, float]]
-) -> Iterator[Problem]:
-    """Yield positions that settle no branch and say something else than what the lengths and branches give."""
-    settle = _settling(linkage, mechanism)
-    size = max((math.dist(one, other) for one in solved.values() for other in solved.values()), default=0.0)
-    for name, stated in linkage.positions.items():
-        if name in solved and name not in settle and math.dist(stated, solved[name]) > _ROUGHLY * size:
-            x, y = (f"{1e3 * one:.4g}" for one in solved[name])
-            yield Problem(f"positions.{name}", Refusal("position_idle", name=name, x=x, y=y))
-
-
-def _settling(linkage: Linkage, mechanism: Mechanism) -> set[str]:
-    """Return the points whose stated positions settle a branch, or where a chain begins."""
-    found: set[str] = set()
-    for group in mechanism.dyads:
-        match group:
-            case RRR(point=name) | RRP(slider=name):
-                found |= {name} - set(linkage.branches)
-            case RPR(link=name):
-                found |= set() if name in linkage.branches else set(linkage.member(name).points)
-            case Chain(links=links):
-                found |= {name for link in links for name in link.points}
-    return found
 
 
 def _is_filled(machine: Machine, values: Values, reader: Reader) -> bool:

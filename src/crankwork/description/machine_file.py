@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from crankwork import files
 from crankwork.analysis import solve
 from crankwork.description.build import build_machine
-from crankwork.description.keys import MACHINE_FILE, SIZED_FILE
+from crankwork.description.keys import FORMATS, MACHINE_FILE, SIZED_FILE
 from crankwork.description.kinds import Reader, is_one_line
 from crankwork.description.linkage_keys import DRIVEN_FILE, LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.locate import locate
@@ -87,6 +87,10 @@ def read_machine(
 
 def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | None:
     """Return the machine of the values, or None after complaints."""
+    if isinstance(found := values.get("format"), int) and found > FORMATS[-1]:
+        # what it states may mean something else
+        reader.complain("format", Refusal("format_unknown", newest=str(FORMATS[-1])))
+        return None
     keys = file_keys(values)
     read_values = keys.read(values, "", reader) or Values({}, keys)
 
@@ -103,24 +107,29 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
         if keys is TRANSFER_FILE:
             return build_tabulated(read_values, reader)
         return build_linkage(read_values, reader, read_samples)
-    machine = build_machine(read_values, reader, read_samples)
-    if machine is not None:
-        try:
-            solved = solve(machine, machine.method)
-            if machine.engine is not None and machine.engine.gases:
-                from crankwork.analysis.cylinders import whole_engine  # noqa: PLC0415 - few engines have them
+    return _solvable(build_machine(read_values, reader, read_samples), read_values, reader)
 
-                whole_engine(solved)
-        except DiagramError as error:
-            mistake = error.args[0]
-            if error.key.endswith(".measured"):
-                measured = functools.reduce(dict.__getitem__, error.key.split("."), read_values)
-                mistake = Refusal("in_file", file=measured["file"], mistake=mistake)
-            reader.complain(error.key, mistake)
-        except CrankworkError as error:
-            if "cycle" not in values:
-                raise
-            reader.complain("cycle", error.args[0])
+
+def _solvable(machine: Machine | None, values: Values, reader: Reader) -> Machine | None:
+    """Complain of a crank gear whose pressures cannot be found."""
+    if machine is None:
+        return None
+    try:
+        solved = solve(machine, machine.method)
+        if machine.engine is not None and machine.engine.gases:
+            from crankwork.analysis.cylinders import whole_engine  # noqa: PLC0415 - few engines have them
+
+            whole_engine(solved)
+    except DiagramError as error:
+        mistake = error.args[0]
+        if error.key.endswith(".measured"):
+            measured = functools.reduce(dict.__getitem__, error.key.split("."), values)
+            mistake = Refusal("in_file", file=measured["file"], mistake=mistake)
+        reader.complain(error.key, mistake)
+    except CrankworkError as error:
+        if "cycle" not in values:
+            raise
+        reader.complain("cycle", error.args[0])
     return machine
 
 
