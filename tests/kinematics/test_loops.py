@@ -1,5 +1,6 @@
 """Newton's method on whole groups: the same as the dyads, and groups that are none."""
 
+import time
 from dataclasses import replace
 
 import numpy as np
@@ -123,3 +124,14 @@ def test_a_chain_with_a_joint_missing_is_refused(triad):
     loose = Chain((ChainLink("rod", (0, 0), 0.0, {"crank_pin": (0, 0), "B": (1, 0)}),), known=frozenset({"crank_pin"}))
     with pytest.raises(GeometryError, match=r"2 equations for 3 coordinates"):
         linkage_motion(replace(triad, dyads=(loose,), points=()), GRID)
+
+
+def test_a_turn_of_a_triad_is_followed_once(triad):
+    """A thousand turns on it is where it was, and that is known without following them."""
+    first = linkage_motion(triad, CrankGrid.from_degrees([17.0, 200.0])).points["S"]
+    before = time.process_time()
+    later = linkage_motion(triad, CrankGrid.from_degrees([360_017.0, 360_200.0])).points["S"]
+    assert time.process_time() - before < 1.0
+    for order in range(3):
+        assert later.x[order] == pytest.approx(first.x[order], abs=1e-11)
+        assert later.y[order] == pytest.approx(first.y[order], abs=1e-11)

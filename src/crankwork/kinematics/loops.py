@@ -58,7 +58,12 @@ class ChainPath:
 
     def __init__(self, chain: Chain, grid: CrankGrid, around: Callable[[CrankGrid], Surroundings]) -> None:
         self._equations, self._around = ClosingEquations(chain), around
+        # by how much a turn of the crank turns the links, where it brings them back
+        self._turned: Array | None = None
         self._reach = float(min(grid.angle.min(), chain.start)), float(max(grid.angle.max(), chain.start))
+        is_long = chain.radian == 1.0 and self._reach[1] - self._reach[0] > 2 * math.tau
+        if is_long and self._repeats():
+            return
         behind, ahead = (_knots(chain, end) for end in self._reach)
         knots = CrankGrid.from_radians([chain.start, *ahead, *behind])
         surroundings, size = around(knots), len(knots)
@@ -68,16 +73,43 @@ class ChainPath:
         back = list(walk.along(start, knots.angle, np.arange(1 + len(ahead), size)))
         self._path = _path([*back[::-1], (chain.start, start), *there], start)
 
+    def _repeats(self) -> bool:
+        """Follow one turn of the crank, and return whether it ends as it began; then it is the same in every other."""
+        chain = self._equations.chain
+        knots = CrankGrid.from_radians([chain.start, *_knots(chain, chain.start + math.tau)])
+        surroundings = self._around(knots)
+        start = _start(self._equations, surroundings)
+        walk = _Walk(self._equations, surroundings, self._around)
+        there = list(walk.along(start, knots.angle, np.arange(1, len(knots))))
+        if not there or there[-1][0] != knots.angle[-1]:
+            return False
+        last, scale = there[-1][1], self._equations.scale
+        turned = np.zeros_like(start.q[0])
+        turned[2::3] = math.tau * np.rint((last.q - start.q)[0, 2::3] / math.tau)
+        same = (last.q - start.q - turned, last.q_1 - start.q_1, last.q_2 - start.q_2)
+        if max(float(np.max(np.abs(one) / scale)) for one in same) > _LAST_STEP:
+            return False
+        self._path, self._turned = _path([(chain.start, start), *there], start), turned
+        return True
+
     def covers(self, grid: CrankGrid) -> bool:
         """Return whether crank angles lie within what has been followed."""
-        return bool(self._reach[0] <= grid.angle.min() and grid.angle.max() <= self._reach[1])
+        return self._turned is not None or bool(
+            self._reach[0] <= grid.angle.min() and grid.angle.max() <= self._reach[1]
+        )
 
     def _solved(self, grid: CrankGrid, surroundings: Surroundings) -> _Solution:
-        path = self._path
-        nearest = np.clip(np.searchsorted(path.angle, grid.angle), 1, path.angle.size - 1)
-        nearest -= grid.angle - path.angle[nearest - 1] < path.angle[nearest] - grid.angle
-        step = (grid.angle - path.angle[nearest])[:, None]
+        path, angle = self._path, grid.angle
+        turns = np.zeros_like(angle)
+        if self._turned is not None:
+            turns = np.floor((angle - path.angle[0]) / math.tau)
+            angle = angle - math.tau * turns
+        nearest = np.clip(np.searchsorted(path.angle, angle), 1, path.angle.size - 1)
+        nearest -= angle - path.angle[nearest - 1] < path.angle[nearest] - angle
+        step = (angle - path.angle[nearest])[:, None]
         guess = path.q[nearest] + step * (path.q_1[nearest] + 0.5 * step * path.q_2[nearest])
+        if self._turned is not None:
+            guess += turns[:, None] * self._turned
         guess[np.abs(step[:, 0]) > 1.001 * _STEP * self._equations.chain.radian] = np.nan
         at = np.arange(len(grid))
         q, _ = _newton(self._equations, guess, surroundings, at)

@@ -65,6 +65,8 @@ class Placed:
     lengths: dict[str, Transfer] = field(default_factory=dict)
     closures: list[Closure] = field(default_factory=list)
     plain: Mechanism | None = None
+    # What has been followed of chains, by their place; it serves what hangs on them
+    paths: dict[int, ChainPath] = field(default_factory=dict)
 
     def guide(self, guide: Guide, piece: str = "chain") -> LinkMotion:
         """Return the motion of a guide, under the name of what slides on it."""
@@ -86,12 +88,19 @@ def coordinates(driver: Driver, grid: CrankGrid) -> CrankGrid:
     return grid if driver.law is None else CrankGrid.from_radians(law_at(driver.law, grid).position)
 
 
-def place_at(mechanism: Mechanism, grid: CrankGrid, *, plain: Mechanism | None = None) -> Placed:
+def place_at(
+    mechanism: Mechanism,
+    grid: CrankGrid,
+    *,
+    plain: Mechanism | None = None,
+    paths: dict[int, ChainPath] | None = None,
+) -> Placed:
     """Return what `place` does at values of the driver's coordinate.
 
-    `plain`: the same in numbers, where lengths and coordinate are knowns.
+    `plain`: the same in numbers, where lengths and coordinate are knowns; `paths`: of its chains, as far as they have
+    been followed, for more of them.
     """
-    placed = Placed(grid, plain=plain)
+    placed = Placed(grid, plain=plain, paths={} if paths is None else paths)
     placed.points.update({name: fixed_point(point) for name, point in mechanism.ground.items()})
     _place_driver(mechanism.driver, placed)
     _place_link_points(mechanism, placed, set(placed.links))
@@ -189,8 +198,8 @@ def _place_group(mechanism: Mechanism, index: int, placed: Placed) -> Closure | 
             return rpp.closure
         case chain:
             if placed.plain is None:
-                root = ChainRoot(mechanism, index)
-                solved = ChainPath(chain, placed.grid, root.around).motion(placed.grid)
+                root = ChainRoot(mechanism, index, placed.paths)
+                solved = root.path(placed.grid).motion(placed.grid)
             else:
                 follows: Any = () if placed.plain.driver.law is None else (placed.grid.angle,)
                 solved = remembered_chain(chain, placed, Root(ChainRoot(placed.plain, index), follows))
@@ -203,24 +212,29 @@ def _place_group(mechanism: Mechanism, index: int, placed: Placed) -> Closure | 
 class ChainRoot:
     """The coordinates of the links of one chain of a mechanism, its way along the driver's coordinate solved once."""
 
-    def __init__(self, mechanism: Mechanism, index: int) -> None:
-        self._earlier = replace(mechanism, dyads=mechanism.dyads[:index])
+    def __init__(self, mechanism: Mechanism, index: int, paths: dict[int, ChainPath] | None = None) -> None:
+        self._earlier, self._index = replace(mechanism, dyads=mechanism.dyads[:index]), index
+        self._paths: dict[int, ChainPath] = {} if paths is None else paths
         chain = mechanism.dyads[index]
         if not isinstance(chain, Chain):
             raise TypeError(f"group {index} is no chain")
         self._chain = chain
-        self._path: ChainPath | None = None
 
     def around(self, grid: CrankGrid) -> Placed:
         """Return what the chain hangs on."""
-        return place_at(self._earlier, grid)
+        return place_at(self._earlier, grid, paths=self._paths)
+
+    def path(self, grid: CrankGrid) -> ChainPath:
+        """Return the way of the chain, followed as far as some crank angles."""
+        found = self._paths.get(self._index)
+        if found is None or not found.covers(grid):
+            found = self._paths[self._index] = ChainPath(self._chain, grid, self.around)
+        return found
 
     def __call__(self, at: CrankGrid | Sequence[Array]) -> Array:
         """Return coordinates, first and second transfer functions, shape (9 links, n). [m], [rad]"""
         grid = at if isinstance(at, CrankGrid) else CrankGrid.from_radians(at[0])
-        if self._path is None or not self._path.covers(grid):
-            self._path = ChainPath(self._chain, grid, self.around)
-        return self._path.coordinates(grid)
+        return self.path(grid).coordinates(grid)
 
 
 def assembled(mechanism: Mechanism, grid: CrankGrid) -> Placed:

@@ -81,7 +81,9 @@ def _travel(mechanism: Mechanism) -> Travel:
     start, end = sorted(map(float, np.degrees(circuit.values(driver, np.array(branch)))))
     passed = _changes(circuit, branch)
     if not is_whole:
-        return Travel(circuit, branch, start, end, 0, tuple(sorted(map(float, passed))), stated)
+        # where dyads come to their ends together, curves cross in the dead position
+        inner = (float(one) for one in passed if start + _SAME < one < end - _SAME)
+        return Travel(circuit, branch, start, end, 0, tuple(sorted(inner)), stated)
     period = 360.0 * turns
     once = np.mod(passed, period)
     once = np.where(period - once < _SAME, 0.0, once)
