@@ -152,7 +152,9 @@ def new(name: str | None, output: str | None, *, overwrite: bool) -> None:
 @click.argument("file")
 @click.option("--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the output.")
 @click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
-def check(file: str, language: Language, settings: tuple[str, ...]) -> None:
+@click.option("--circuits", is_flag=True, help="List every way to assemble a linkage, and how far it moves on each.")
+@click.option("--json", "as_json", is_flag=True, help="Print the circuits as one JSON object.")
+def check(file: str, language: Language, settings: tuple[str, ...], *, circuits: bool, as_json: bool) -> None:
     """Say what a machine file describes, or every mistake in it at once."""
     from crankwork.analysis import analyse
     from crankwork.description.machine_file import read
@@ -160,10 +162,23 @@ def check(file: str, language: Language, settings: tuple[str, ...]) -> None:
     from crankwork.report.notices import notice_text
     from crankwork.report.summary import description_text
 
+    if as_json and not circuits:
+        raise CrankworkError(_refusal("json_of_circuits"))
     machine = read(file, settings)
+    if circuits and as_json:
+        from crankwork.analysis.ways import ways
+        from crankwork.report.ways import ways_data
+
+        click.echo(json.dumps(ways_data(machine, ways(machine)), ensure_ascii=False, indent=1))
+        return
     results = analyse(machine)
     click.echo(f"{file}: {machine.title}" if machine.title else file)
     click.echo(description_text(machine, results, language))
+    if circuits:
+        from crankwork.analysis.ways import ways
+        from crankwork.report.ways import ways_text
+
+        click.echo(ways_text(machine, ways(machine), language))
     for notice in results.notices:
         click.echo(say("check.note", language, notice=notice_text(notice.code, notice.values, language)))
     _doubt(file, results, language)

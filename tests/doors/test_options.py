@@ -200,3 +200,14 @@ def test_new_prints_the_names_or_the_template(crankwork) -> None:
 def _summary(answer):
     assert answer.code == 0, answer.err
     return json.loads(answer.out)["summary"]
+
+
+def test_circuits_are_listed(crankwork, machine_file) -> None:
+    file = machine_file(name="four-bar")
+    listed = crankwork("check", file, "--circuits")
+    assert listed.code == 0
+    assert "circuit 2, branch 1: crank turns fully; " in listed.out
+    data = json.loads(crankwork("check", file, "--circuits", "--json").out)
+    assert [one["circuit"] for one in data["branches"]] == [1, 2]
+    refused = crankwork("check", file, "--json")
+    assert (refused.code, "add --circuits" in refused.err) == (2, True)

@@ -1,0 +1,154 @@
+"""Every circuit and branch of a linkage, with the ranges of each, against closed forms."""
+
+import json
+import math
+from pathlib import Path
+
+import pytest
+
+from crankwork import read, read_machine, template
+from crankwork.analysis.ways import ways
+from crankwork.errors import CrankworkError
+from crankwork.locale import LANGUAGES
+from crankwork.report.ways import ways_data, ways_text
+
+pytestmark = pytest.mark.elsewhere
+ROOT = Path(__file__).parent.parent.parent
+
+
+def four_bar(crank, coupler, rocker, ground, start=0.0):
+    return read_machine(f"""
+[fixed_points]
+O = ["0 mm", "0 mm"]
+B = ["{ground} mm", "0 mm"]
+[crank]
+pivot = "O"
+pin = "A"
+radius = "{crank} mm"
+speed = "60 rpm"
+start = "{start} deg"
+[links.coupler]
+joins = ["A", "C"]
+length = "{coupler} mm"
+[links.rocker]
+joins = ["B", "C"]
+length = "{rocker} mm"
+""")
+
+
+@pytest.mark.parametrize("start", [0.0, 40.0, 300.0])
+def test_both_mirror_circuits_of_a_crank_that_swings(start):
+    machine = four_bar(150, 80, 150, 200, start)
+    found = ways(machine)
+    assert found.is_all
+    assert [(one.circuit, one.branch) for one in found.found] == [(1, 1), (1, 2), (2, 1), (2, 2)]
+    assert [one.is_stated for one in found.found] == [True, False, False, False]
+    for one in found.found:
+        assert math.degrees(one.end - one.start) == pytest.approx(64.53289907034215, abs=1e-9)
+        assert one.turns == 0
+    swings = [math.degrees(one.swings["rocker"]) for one in found.found]
+    for pair in (swings[:2], swings[2:]):
+        assert sorted(pair) == pytest.approx([23.81345930662, 43.92320613281], abs=1e-9)
+    # the other circuit is the mirror image on the line of the pivots
+    ends = {tuple(round((math.degrees(at) + start) % 360, 6) for at in (one.start, one.end)) for one in found.found}
+    mirrored = {tuple(round(-at % 360, 6) for at in pair[::-1]) for pair in ends}
+    assert ends == mirrored
+    assert len(ends) == 2
+
+
+def test_a_crank_rocker_has_two_circuits_of_one_branch():
+    """The rocker swings between the positions in which crank and coupler are in line."""
+    found = ways(four_bar(50, 175, 112.5, 200))
+    assert [(one.circuit, one.branch, one.turns) for one in found.found] == [(1, 1, 1), (2, 1, 1)]
+    far, near = (math.acos((112.5**2 + 200**2 - reach**2) / (2 * 112.5 * 200)) for reach in (225.0, 125.0))
+    for one in found.found:
+        assert one.swings["rocker"] == pytest.approx(far - near, abs=1e-11)
+        assert (one.start, one.end) == (0.0, math.tau)
+
+
+def test_a_parallelogram_crosses_an_antiparallelogram():
+    found = ways(read(ROOT / "examples/parallelogram.toml"))
+    assert [(one.circuit, one.turns, one.is_stated) for one in found.found] == [(1, 1, True), (2, 1, False)]
+    assert found.found[0].swings["coupler"] == pytest.approx(0.0, abs=1e-9)
+    # the crossed coupler turns by the angle whose half has the sine r / l
+    assert found.found[1].swings["coupler"] == pytest.approx(4 * math.asin(0.15 / 0.5), abs=1e-9)
+
+
+def test_a_six_bar_has_the_circuits_of_both_its_dyads():
+    found = ways(read(ROOT / "examples/atkinson.toml"))
+    assert [one.circuit for one in found.found] == [1, 2, 3, 4]
+    assert found.found[0].is_stated
+    assert found.found[0].strokes["piston"] == pytest.approx(78.0637e-3, abs=1e-7)
+    assert found.is_all
+
+
+@pytest.mark.parametrize("name", ["examples/excavator-boom", "tests/machines/elbow", "tests/machines/driven-slider"])
+def test_of_other_drivers_the_circuit_of_the_stated_position(name):
+    machine = read(ROOT / f"{name}.toml")
+    found = ways(machine)
+    assert not found.is_all
+    assert {one.circuit for one in found.found} == {1}
+    assert [one.is_stated for one in found.found].count(True) == 1
+    law = machine.mechanism.driver.law
+    stated = found.found[0]
+    assert all(stated.start <= one.to <= stated.end for one in law.segments)
+
+
+def test_the_reach_of_a_cylinder_follows_from_two_sides():
+    stated = ways(read(ROOT / "examples/excavator-boom.toml")).found[0]
+    base = math.hypot(0.55, 0.55)
+    assert [stated.start, stated.end] == pytest.approx([2.1 - base, 2.1 + base], abs=1e-11)
+
+
+TRIAD = """
+[fixed_points]
+O = ["0 mm", "0 mm"]
+E = ["200 mm", "500 mm"]
+F = ["260 mm", "400 mm"]
+[crank]
+pivot = "O"
+pin = "A"
+radius = "30 mm"
+speed = "60 rpm"
+[links]
+rod = { joins = ["A", "B"], length = "123.7 mm" }
+plate = { joins = ["B", "C"], length = "86 mm", points = { D = ["-11.6 mm", "93.6 mm"] } }
+arm = { joins = ["C", "E"], length = "400 mm" }
+leg = { joins = ["D", "F"], length = "454 mm" }
+[positions]
+B = ["150 mm", "30 mm"]
+C = ["200 mm", "100 mm"]
+D = ["67.5 mm", "76.4 mm"]
+"""
+
+
+def test_of_a_group_of_class_iii_the_circuit_of_the_stated_position():
+    machine = read_machine(TRIAD)
+    found = ways(machine)
+    assert not found.is_all
+    assert {one.circuit for one in found.found} == {1}
+    assert found.found[0].is_stated
+    assert "only the circuit of the stated position" in ways_text(machine, found)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_text_and_data(language):
+    machine = four_bar(150, 80, 150, 200)
+    found = ways(machine)
+    text = ways_text(machine, found, language)
+    assert text.count("\n") == 4
+    assert "16" in text
+    assert "rocker 43" in text
+    data = json.loads(json.dumps(ways_data(machine, found), allow_nan=False))
+    assert data["all"] is True
+    assert [one["stated"] for one in data["branches"]] == [True, False, False, False]
+    assert data["branches"][0]["driver"]["end"] - data["branches"][0]["driver"]["start"] == pytest.approx(
+        64.532899070342
+    )
+
+
+@pytest.mark.parametrize("name", ["engine", "press"])
+def test_what_is_no_linkage_has_none(name):
+    machine = read_machine(template("engine")) if name == "engine" else read(ROOT / "examples/press.toml")
+    with pytest.raises(CrankworkError, match="leave --circuits out"):
+        ways(machine)
