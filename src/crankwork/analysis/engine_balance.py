@@ -37,7 +37,10 @@ from crankwork.formula.known import Found, Known, given, in_order
 from crankwork.formula.replay import Samples, replay
 from crankwork.kinematics.crank_grid import CrankGrid
 
-_SAMPLES = 720
+# by which the first orders that samples cannot tell apart are below the first
+_DECADES = 17
+# parts of a degree in the finest samples
+_MOST = 16
 
 
 class EngineBalance(NamedTuple):
@@ -103,11 +106,23 @@ def _harmonics(whole: WholeEngine) -> InertiaHarmonics:
         if ratio is not None and not method.is_exact:
             lengths = lengths._replace(rod_length=lengths.crank_radius / ratio)
         return inertia_harmonics(lengths, ORDERS, method)
-    turn = CrankGrid.from_degrees(np.arange(_SAMPLES) * 360 / _SAMPLES)
+    turn = _turn(whole)
     # that of the inertia force, where a document has its own
     own = [one.memory.get("inertia_acceleration", one.memory["piston_acceleration"]) for one in whole.cylinders]
     rows = [replay(one.node.operands[0], turn) for one in own]
     return sampled_harmonics(np.stack(rows), lengths.crank_radius, ORDERS)
+
+
+def _turn(whole: WholeEngine) -> CrankGrid:
+    """Return samples of one turn, so many that orders which they cannot tell apart are nothing.
+
+    The orders of a slider-crank fall by a factor that comes near one where crank and offset come near the rod.
+    """
+    r, l, e = whole.master.lengths  # noqa: E741
+    fall = math.acosh(max(l / (r + max(map(abs, (e, *whole.engine.offsets)))), 1.0 + 1e-9))
+    least = 2 if any(whole.engine.slaves) else 1
+    count = 360 * min(max(math.ceil((_DECADES * math.log(10) / fall + max(ORDERS)) / 360), least), _MOST)
+    return CrankGrid.from_degrees(np.arange(count) * (360 / count))
 
 
 def _knuckles(whole: WholeEngine) -> tuple[OrderBalance, ...]:
@@ -116,11 +131,11 @@ def _knuckles(whole: WholeEngine) -> tuple[OrderBalance, ...]:
     for place, one in zip(whole.layout.places, whole.cylinders, strict=True):
         if one.moving.slave is None or "knuckle_mass" not in one.memory:
             continue
-        own = CrankGrid.from_degrees(np.arange(_SAMPLES) * 360 / _SAMPLES - place.firing_angle)
+        own = _turn(whole).shifted(-place.firing_angle)
         x, y = (replay(side.position_2, own) for side in one.moving.slave.knuckle)
         away = (x + r * own.cos) + 1j * (y + r * own.sin)
         vectors = -one.memory["knuckle_mass"].value * w**2 * away * unit_vectors(place.axis)
-        spectrum = np.fft.fft(vectors) / _SAMPLES
+        spectrum = np.fft.fft(vectors) / len(own)
         for order in ORDERS:
             force = Ellipse(complex(spectrum[order]), complex(spectrum[-order]))
             parts.append(OrderBalance(order, force, Ellipse(*(place.position * one for one in force))))
@@ -251,11 +266,11 @@ def balance_checks(whole: WholeEngine, balance: EngineBalance, samples: Samples)
     """Return how far the orders are from the Fourier transform of the summed inertia forces."""
     if whole.machine.masses is None or whole.machine.angular_acceleration:
         return {}
-    degrees = np.arange(_SAMPLES) * 360 / _SAMPLES
-    force = whole.each_of("inertia_force", samples(CrankGrid.from_degrees(degrees)))
+    turn = _turn(whole)
+    force = whole.each_of("inertia_force", samples(turn))
     # the inertia force is positive towards the crankshaft, the axis points to the head
     vectors = -force.T @ unit_vectors([one.axis for one in whole.layout.places])
-    spectrum = np.fft.fft(vectors) / _SAMPLES
+    spectrum = np.fft.fft(vectors) / len(turn)
     scale = float(np.max(np.abs(force))) or 1.0
     # crank angles count from the axis of cylinder 1, which is where the phasors begin as well
     apart = [

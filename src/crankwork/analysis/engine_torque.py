@@ -226,9 +226,12 @@ def torque_checks(whole: WholeEngine, torque: EngineTorque, samples: Samples) ->
 
 
 def _common_samples(layout: Layout) -> int:
-    """Return how many samples of a cycle have one at every firing; 0 if no moderate number has."""
+    """Return how many samples of a cycle have one at every firing; 0 if no moderate number has.
+
+    Those at whole degrees where they do.
+    """
     firing = np.array([one.firing_angle for one in layout.places]) / layout.cycle
-    for count in range(_SAMPLES, 2 * _SAMPLES):
+    for count in range(round(layout.cycle), 2 * _SAMPLES):
         if np.max(np.abs(firing * count - np.rint(firing * count))) < 1e-9 * count:
             return count
     return 0

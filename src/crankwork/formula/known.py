@@ -59,7 +59,7 @@ class Use(Node):
     __slots__ = ("formula", "inputs")
 
     def __init__(self, formula: Formula, inputs: tuple[Known | float, ...]) -> None:
-        super().__init__(_value(formula.function, inputs), _knowns(inputs))
+        self.value, self.operands = _value(formula.function, inputs)
         self.formula, self.inputs = formula, inputs
 
 
@@ -69,7 +69,7 @@ class Arithmetic(Node):
     __slots__ = ("function", "inputs")
 
     def __init__(self, function: Callable[..., Any], inputs: tuple[Known | float, ...]) -> None:
-        super().__init__(_value(function, inputs), _knowns(inputs))
+        self.value, self.operands = _value(function, inputs)
         self.function, self.inputs = function, inputs
 
 
@@ -79,7 +79,7 @@ class Total(Node):
     __slots__ = ()
 
     def __init__(self, terms: tuple[Known, ...]) -> None:
-        super().__init__(_value(lambda *values: sum(values), terms), terms)
+        self.value, self.operands = _value(lambda *values: sum(values), terms)
 
 
 class Delayed(Node):
@@ -178,10 +178,6 @@ class Found(Node):
     def __init__(self, value: float, word: str, of: Iterable[Known] = (), at: float | None = None) -> None:
         super().__init__(float(value), of)
         self.word, self.at = word, at
-
-
-def _knowns(inputs: Iterable[Known | float]) -> Iterator[Known]:
-    return (one for one in inputs if isinstance(one, Known))
 
 
 class Known:
@@ -338,7 +334,7 @@ def delayed(known: Known, by: float, cycle: float, key: str) -> Known:
 
 def is_known(*values: object) -> bool:
     """Return whether any of the values remembers."""
-    return any(type(one) is Known for one in values)
+    return Known in map(type, values)
 
 
 def in_order(knowns: Iterable[Known], *, into: Callable[[Node], Sequence[Known]] | None = None) -> Iterator[Known]:
@@ -409,15 +405,16 @@ def _varying(node: Node) -> tuple[Known, ...]:
     return tuple(one for one in node.operands if one.varies)
 
 
-def _value(function: Callable[..., Any], inputs: Sequence[Known | float]) -> float | None:
-    """Return the value of what does not vary with the crank angle, at once."""
-    numbers: list[float] = []
+def _value(function: Callable[..., Any], inputs: Sequence[Known | float]) -> tuple[float | None, tuple[Known, ...]]:
+    """Return the value of what does not vary with the crank angle, at once, and the knowns among what it is made of."""
+    numbers, knowns = list[float | None](), list[Known]()
     for one in inputs:
-        number = one.node.value if isinstance(one, Known) else one
-        if number is None:
-            return None
-        numbers.append(number)
-    return float(function(*numbers))
+        if isinstance(one, Known):
+            knowns.append(one)
+            numbers.append(one.node.value)
+        else:
+            numbers.append(one)
+    return None if None in numbers else float(function(*numbers)), tuple(knowns)
 
 
 Memory = Mapping[str, Known]

@@ -6,7 +6,9 @@ operations at the angles wanted.
 
 from __future__ import annotations
 
+import functools
 import itertools
+import operator
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property, partial
 from operator import itemgetter
@@ -165,21 +167,20 @@ class Program:
 
 
 class Samples:
-    """Columns at crank angles; those at half degrees of the cycle are replayed together, once. [deg]"""
+    """Columns at crank angles; those at whole degrees of the cycle are replayed together, once. [deg]"""
 
     def __init__(self, program: Program, angles_at: Callable[[Any], Angles], cycle: float) -> None:
         self.program, self._angles_at, self._cycle = program, angles_at, cycle
 
     @cached_property
-    def _halves(self) -> dict[str, Array]:
-        return self.program(self._angles_at(np.arange(2 * self._cycle + 1) / 2))
+    def _at_whole_degrees(self) -> dict[str, Array]:
+        return self.program(self._angles_at(np.arange(self._cycle + 1)))
 
     def __call__(self, angles: Angles) -> dict[str, Array]:
         """Return all columns at crank angles, by key. [SI]"""
-        twice = 2 * angles.degrees
-        rows = np.rint(twice).astype(np.intp)
-        if np.array_equal(rows, twice) and rows.min() >= 0 and rows.max() <= 2 * self._cycle:
-            return {key: column[rows] for key, column in self._halves.items()}
+        rows = np.rint(angles.degrees).astype(np.intp)
+        if np.array_equal(rows, angles.degrees) and rows.min() >= 0 and rows.max() <= self._cycle:
+            return {key: column[rows] for key, column in self._at_whole_degrees.items()}
         return self.program(angles)
 
 
@@ -243,7 +244,7 @@ def _of_angle(node: OfAngle, angles: Angles) -> Array:
 
 
 def _sum(*terms: Array) -> Array:
-    return np.asarray(sum(terms))
+    return np.asarray(functools.reduce(operator.add, terms))
 
 
 def _read(function: Callable[[Array], Array], at: Array) -> Array:

@@ -148,14 +148,22 @@ class CrankGrid:
         tuple of CrankGrid and array, shape (m, n)
             The grid, and for each amount the place of every angle in it.
         """
-        local = np.mod(self.degrees - by[:, None], cycle)
+        local = (self.degrees - by[:, None]).ravel()
+        if local.min() < -cycle or local.max() > cycle:
+            local = np.mod(local, cycle)
+        local = np.where(local < 0, local + cycle, local)
         # a decimal where rounding alone keeps it from being one; the end of a cycle is its start
         near = np.round(local, _DECIMALS)
-        reach = 1e-15 * (np.abs(self.degrees) + by[:, None] + cycle)
+        reach = 1e-15 * (float(np.max(np.abs(self.degrees))) + float(np.max(by)) + cycle)
         local = np.where(np.abs(local - near) <= reach, near, local)
         local[cycle - local <= 1e-12 * cycle] = 0.0
-        distinct, place = np.unique(local, return_inverse=True)
-        return type(self).from_degrees(distinct), place.reshape(local.shape)
+        order = local.argsort()
+        ascending = local[order]
+        # those that rounding alone has set apart are one
+        is_first = np.append(True, np.diff(ascending) > reach)
+        place = np.empty(local.size, dtype=np.intp)
+        place[order] = np.cumsum(is_first) - 1
+        return type(self).from_degrees(ascending[is_first]), place.reshape(by.size, -1)
 
     def __getitem__(self, part: slice) -> Self:
         """Return a stretch of the grid."""
