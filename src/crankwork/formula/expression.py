@@ -68,6 +68,12 @@ class Formula:
         """The names of the arguments, in order."""
         return tuple(inspect.signature(self.function).parameters)
 
+    @functools.cached_property
+    def is_root(self) -> bool:
+        """Whether it is the square root of what its arguments come to."""
+        recorded = self.function(*map(Symbol, self.arguments))
+        return isinstance(recorded, Operation) and recorded.function is np.sqrt
+
 
 FORMULAS: dict[str, Formula] = {}
 

@@ -1,8 +1,9 @@
 """Columns over a whole cycle without sampling: their means, integrals and extremes.
 
-Between the angles where a law changes a column is smooth; there it is followed by polynomials, on intervals halved
+Between the angles where a law changes a column is smooth; there it is followed by polynomials, on intervals cut
 until the polynomials have converged. Integrals are those of the polynomials; where an extreme stands is found on them,
-what it amounts to is replayed.
+what it amounts to is replayed. The square root of something has a corner where that vanishes: it is followed by its
+square, which has none.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-from crankwork.formula.known import Array, Found, Known, breaks_of, distinct
+from crankwork.formula.known import Array, Found, Known, Use, breaks_of, distinct
 from crankwork.formula.replay import Angles, Program
 
 _NODES, _WEIGHTS = legendre.leggauss(12)
@@ -40,8 +41,8 @@ _PLATEAU = 1e-13
 _UNSURE = 1e-9
 _NEAR_TOP = 0.05
 _ROUGH = 0.05
-_NOTHING = 1e-4
-_INSIDE = 1 - 1e-9
+# of the largest column of its quantity, below which a column may be nothing but rounding
+_SMALL = 1e-3
 _NEWTON = 12
 _STEPS = 60
 # Newton's next step would be the square of this
@@ -88,6 +89,7 @@ class OverCycle:
         self._program, self._angles_at = program or Program(knowns), angles_at
         self._row = {key: at for at, key in enumerate(knowns)}
         self.knowns = dict(knowns)
+        self._is_root = np.array([_is_root(one) for one in knowns.values()])
         self.breaks = breaks_of(knowns.values(), cycle, start)
         parts = np.maximum(1, np.ceil(np.diff(self.breaks) / _WIDTH - 1e-9)).astype(int)
         within = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
@@ -95,8 +97,9 @@ class OverCycle:
         low = start_of + within * width
         high = np.append(low[1:], self.breaks[-1])
         coefficients = self._fit(low, high)
-        size = np.maximum(np.max(np.abs(coefficients).sum(axis=2), axis=1), 1e-300)
-        self._scale = size[[self._row[size_of.get(key, key)] for key in self._row]]
+        size = np.max(np.abs(coefficients).sum(axis=2), axis=1)
+        size = size[[self._row[size_of.get(key, key)] for key in self._row]]
+        self._scale = np.maximum(np.maximum(size, self._of_quantity(size)), 1e-300)
         rounding = np.zeros(coefficients.shape[:2], dtype=bool)
         done = []
         for cut in range(_CUTS):
@@ -106,7 +109,7 @@ class OverCycle:
             low, high, coefficients = low[is_coarse], high[is_coarse], coefficients[:, is_coarse]
             if not low.size:
                 break
-            between = self._cuts(coefficients, low, high)
+            between = np.linspace(low, high, _PARTS + 1)
             low, high = between[:-1].ravel(), between[1:].ravel()
             coefficients = self._fit(low, high)
             # what is no nearer in any part is rounding, and no polynomial follows it
@@ -130,40 +133,59 @@ class OverCycle:
     def _fit(self, low: Array, high: Array) -> Array:
         """Return Legendre coefficients, shape (columns, intervals, degrees)."""
         degrees = (low + high)[:, None] / 2 + (high - low)[:, None] / 2 * _NODES
-        values = self._program.rows(self._angles_at(degrees.ravel()), self._row).reshape(-1, _NODES.size)
+        values = self._program.rows(self._angles_at(degrees.ravel()), self._row)
+        values[self._is_root] **= 2
+        values = values.reshape(-1, _NODES.size)
         return np.asarray((values @ _FROM_VALUES.T).reshape(len(self._row), low.size, _NODES.size))
 
-    def _cuts(self, coefficients: Array, low: Array, high: Array) -> Array:
-        """Return where intervals are cut, shape (_PARTS + 1, n): evenly, or where the worst column comes to nothing."""
-        worst = coefficients[self._left_out(coefficients).argmax(axis=0), np.arange(low.size)]
-        # the size of a vector has a corner where that vanishes, its square has none
-        squared = np.square(worst @ _AT_NODES.T) @ _FROM_VALUES.T
-        looked = squared @ _AT_LOOK.T
-        u = self._flat(squared, _LOOK[looked.argmin(axis=1)])
-        is_corner = legendre.legval(u, squared.T, tensor=False) < _NOTHING * looked.max(axis=1)
-        is_corner &= ((worst @ _AT_LOOK[[0, -1]].T).prod(axis=1) > 0) & (np.abs(u) < _INSIDE)
-        cuts = np.linspace(np.full(low.size, -1.0), 1.0, _PARTS + 1)
-        nearest = np.abs(cuts[1:-1] - u).argmin(axis=0) + 1
-        cuts[nearest[is_corner], np.flatnonzero(is_corner)] = u[is_corner]
-        return np.asarray((low + high) / 2 + (high - low) / 2 * cuts)
+    def _of_quantity(self, size: Array) -> Array:
+        """Return for each column what counts beside the largest one of its quantity."""
+        kinds = [key.partition(".")[0] for key in self._row]
+        largest = {kind: max(one for one, of in zip(size, kinds, strict=True) if of == kind) for kind in set(kinds)}
+        return _SMALL * np.array([largest[kind] for kind in kinds])
 
     def _left_out(self, coefficients: Array) -> Array:
         return np.asarray((np.abs(coefficients[:, :, -2]) + np.abs(coefficients[:, :, -1])) / self._scale[:, None])
 
     def integral(self, key: str) -> float:
         """Return the integral of a column over the crank angle. [its unit, rad]"""
-        widths = np.radians(self._high - self._low)
-        return float(widths @ self._coefficients[self._row[key], :, 0])
+        row = self._row[key]
+        if self._is_root[row]:
+            return float(self._integrals_of_roots[row])
+        return float(np.radians(self._high - self._low) @ self._coefficients[row, :, 0])
+
+    @cached_property
+    def _integrals_of_roots(self) -> Array:
+        """The integral of the root of the polynomials of each column, on parts of them where it has a corner."""
+        widths, result = np.radians(self._high - self._low), np.zeros(len(self._row))
+        limit = _CONVERGED * np.sqrt(self._scale)
+        row, of = np.nonzero(self._is_root[:, None] & np.ones(widths.size, dtype=bool))
+        low, high = np.full(row.size, -1.0), np.ones(row.size)
+        squares = self._coefficients[row, of] @ _AT_NODES.T
+        for cut in range(_CUTS + 1):
+            fitted = np.sqrt(np.maximum(squares, 0.0)) @ _FROM_VALUES.T
+            is_coarse = (np.abs(fitted[:, -2]) + np.abs(fitted[:, -1]) > limit[row]) & (cut < _CUTS)
+            np.add.at(result, row, np.where(is_coarse, 0.0, widths[of] * (high - low) / 2 * fitted[:, 0]))
+            row, of = np.tile(row[is_coarse], _PARTS), np.tile(of[is_coarse], _PARTS)
+            between = np.linspace(low[is_coarse], high[is_coarse], _PARTS + 1)
+            low, high = between[:-1].ravel(), between[1:].ravel()
+            if not row.size:
+                break
+            u = (low + high) / 2 + (high - low) / 2 * _NODES[:, None]
+            squares = legendre.legval(u, self._coefficients[row, of].T, tensor=False).T
+        return result
 
     def mean(self, key: str, name: str) -> Known:
         """Return the mean of a column under a name; what rounding leaves of nothing is nothing."""
         mean = self.integral(key) / float(np.radians(self._high[-1] - self._low[0]))
-        if abs(mean) <= _PLATEAU * self._scale[self._row[key]]:
+        if abs(mean) <= _PLATEAU * self._plain(self._scale)[self._row[key]]:
             mean = 0.0
         return Known(Found(mean, "mean", (self.knowns[key],)), name)
 
     def polynomials(self, key: str) -> Array:
         """Return the Legendre coefficients of a column between `edges`, shape (intervals, degrees)."""
+        if self._is_root[self._row[key]]:
+            raise TypeError(f"{key} is a square root, which is followed by its square")
         return np.asarray(self._coefficients[self._row[key]])
 
     @property
@@ -182,7 +204,7 @@ class OverCycle:
     def crossings(self, key: str, level: float = 0.0) -> Array:
         """Return the crank angles where a column passes a level, ascending. [deg]"""
         row = self._row[key]
-        coefficients = self._coefficients[row].copy()
+        coefficients = self.polynomials(key).copy()
         coefficients[:, 0] -= level
         looked = coefficients @ _AT_LOOK.T
         looked[np.abs(looked) <= _ZERO * max(self._scale[row], abs(level))] = 0.0
@@ -273,10 +295,15 @@ class OverCycle:
         row, interval, u = (one[at_peaks >= high[row]] for one in (row, interval, u))
         peaks = (self._low[interval] + self._high[interval]) / 2 + (self._high - self._low)[interval] / 2 * u
         beyond = np.nextafter(self._low[jump[1]], np.inf)
+        top, least = self._plain(top), self._plain(least)
         equal = _PLATEAU * (top - least + np.maximum(np.abs(top), np.abs(least)))
         return _Places(
             np.concatenate([edge[0], jump[0], row]), np.concatenate([self.edges[edge[1]], beyond, peaks]), equal
         )
+
+    def _plain(self, values: Array) -> Array:
+        """Return one value of each column for one of what follows it."""
+        return np.where(self._is_root, np.sign(values) * np.sqrt(np.abs(values)), values)
 
     def _peaks(self, coefficients: Array, looked: Array, is_high: NDArray[np.bool_]) -> tuple[NDArray[np.intp], Array]:
         """Return which polynomials have a peak that is high up, and the places of peaks, from -1 to 1."""
@@ -341,3 +368,7 @@ class OverCycle:
             if change < _SETTLED:
                 break
         return u
+
+
+def _is_root(known: Known) -> bool:
+    return known.varies and isinstance(known.node, Use) and known.node.formula.is_root
