@@ -64,6 +64,9 @@ def test_modified_sine_of_a_design_program() -> None:
     jerk = np.diff(a) / np.diff(RISE / 180)
     assert jerk[0] == pytest.approx(69.47, rel=1e-3)
     assert jerk[jerk.size // 2] == pytest.approx(-23.15, rel=1e-3)
+    # between its peaks it is a sine over 180 degrees: a quarter on from the first, and half way between them
+    _, a = normalised("modified-sine", np.array([22.5, 56.25, 90.0]))
+    assert a / 5.52796 == pytest.approx([1.0, math.sqrt(0.5), 0.0], abs=1e-5)
 
 
 @pytest.mark.parametrize(

@@ -168,6 +168,15 @@ def test_pressure_angle_of_a_slider_crank_and_of_an_offset_one():
     sines = [0.25 * math.sin(math.radians(one)) for one in (0, 30, 90)]
     assert [abs(math.sin(one)) for one in central.columns["pressure_angle.B"]] == pytest.approx(sines, abs=1e-14)
     assert central.summary["pressure_angle_max.B"] == pytest.approx(math.asin(0.25), rel=1e-12)
+    # the same machine turned by 35 degrees
+    leaning = analysed(
+        text.replace("OFFSET", "0 mm").replace('"] }\n        [sliders]', '"], angle = "35 deg" }\n        [sliders]'),
+        35.0,
+        65.0,
+        125.0,
+    )
+    assert [abs(math.sin(one)) for one in leaning.columns["pressure_angle.B"]] == pytest.approx(sines, abs=1e-14)
+    assert leaning.summary["pressure_angle_max.B"] == pytest.approx(math.asin(0.25), rel=1e-12)
     offset = analysed(text.replace("OFFSET", "30 mm")).summary
     assert offset["pressure_angle_max.B"] == pytest.approx(math.asin(80 / 200), rel=1e-12)
     assert offset["transmission_angle_min.B"] == pytest.approx(math.acos(80 / 200), rel=1e-12)

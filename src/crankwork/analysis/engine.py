@@ -87,7 +87,7 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
 
 
 def _only(knowns: Mapping[str, Known], columns: Mapping[str, Array]) -> dict[str, Array]:
-    return {key: columns[key] for key in knowns if key in columns}
+    return {key: columns[key].copy() for key in knowns if key in columns}
 
 
 def _followed(solved: SolvedCylinder) -> tuple[dict[str, Known], dict[str, str]]:

@@ -35,7 +35,7 @@ from crankwork.formula.known import Found, Known, given
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.instant_centres import absent_where_still
+from crankwork.kinematics.instant_centres import absent_where_still, pivoted_links
 from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.quality import FourBarType, grashof
@@ -176,7 +176,7 @@ def _summary(
     machine, law = solved.machine, solved.machine.mechanism.driver.law
     result = {**_given_values(machine), **quality}
     keys = [key for key in over.knowns if key.partition(".")[0] not in FOLLOWED and not over.is_nothing(key)]
-    extremes = over.extremes(*keys)
+    extremes, pivoted = over.extremes(*keys), pivoted_links(machine.mechanism)
     for key in keys:
         kind, dot, name = key.partition(".")
         largest, least = (extremes[f"{kind}_{word}{dot}{name}"] for word in ("max", "min"))
@@ -186,7 +186,7 @@ def _summary(
             continue
         if is_place and (kind == "slider_displacement" or travel.value < math.pi):
             result[f"{_TRAVEL[kind]}.{name}"] = travel
-        if not is_place or rocks(machine.mechanism, key, travel.value):
+        if not is_place or rocks(pivoted, key, travel.value):
             both = is_place or key in DYNAMICS or kind == "gas_force" or key in _OF_DRIVER
             words = ("max", "min") if both else ("max",)
             for word in words:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -14,7 +14,6 @@ from crankwork.formula.over_cycle import OverCycle
 from crankwork.kinematics import transmission as angles
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.dyads import LinkMotion
-from crankwork.kinematics.instant_centres import pivoted_links
 from crankwork.kinematics.motion import Motion
 from crankwork.mechanism.dyads import RRP, RRR
 from crankwork.mechanism.mechanism import Mechanism
@@ -93,10 +92,10 @@ def quality_of(over: OverCycle) -> tuple[dict[str, Known], tuple[Notice, ...]]:
     return result, tuple(told)
 
 
-def rocks(mechanism: Mechanism, key: str, travel: float) -> bool:
-    """Say whether a column is that of a slider, or of a link that rocks about a fixed pivot."""
+def rocks(pivoted: Collection[str], key: str, travel: float) -> bool:
+    """Say whether a column is that of a slider, or of a link that rocks about a fixed pivot, as `pivoted` ones do."""
     kind, _, name = key.partition(".")
-    return kind == "slider_displacement" or (travel < math.pi and name in pivoted_links(mechanism))
+    return kind == "slider_displacement" or (travel < math.pi and name in pivoted)
 
 
 def time_ratios(over: OverCycle, summary: Mapping[str, Known]) -> Iterator[tuple[str, Known]]:

@@ -107,7 +107,7 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
     loads = load_values(whole, memory, over, extremes) | wear_memory(whole, memory, samples)
     works, harmonics = work_memory(whole, firing), harmonics_memory(whole, torque, memory)
     sampled = samples(results.grid)
-    columns = {key: sampled[key] for key in _table_keys(memory)} | Program(torque.columns)(results.grid)
+    columns = {key: sampled[key].copy() for key in _table_keys(memory)} | Program(torque.columns)(results.grid)
     memory |= torque.columns
     groups = {
         name: tuple(key for key in columns if key.startswith(starts) and _belongs(name, key))

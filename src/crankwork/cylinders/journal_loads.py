@@ -64,7 +64,8 @@ def main_journal_loads(
     for one in acting:
         far = _far_share(one, journals[one.throw : one.throw + 2])
         for journal, share in ((one.throw, 1 - far), (one.throw + 1, far)):
-            part = BearingLoad(-share * one.load.x, -share * one.load.y)
+            minus = -share
+            part = BearingLoad(minus * one.load.x, minus * one.load.y)
             held[journal].append(part.named(f"main_journal.{journal + 1}.{one.name}"))
     return tuple(_sum(some, f"main_journal.{at}") for at, some in enumerate(held, start=1))
 

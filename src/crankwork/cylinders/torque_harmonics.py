@@ -9,15 +9,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from crankwork.cylinders.firing import wrapped
 from crankwork.cylinders.layout import Layout
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
-from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.crank_grid import Array, CrankGrid, decimals
 from crankwork.shaft.curve import Curve
 
 Phasors = NDArray[np.complex128]
 
+_TURN = 360.0
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 
 
@@ -114,8 +114,9 @@ def phase_sums(layout: Layout, orders: Iterable[float]) -> Phasors:
 
 
 def _unit_vectors(layout: Layout, orders: Iterable[float]) -> Phasors:
-    firing = [place.firing_angle for place in layout.places]
-    grid = CrankGrid.from_degrees([[wrapped(order * one) for one in firing] for order in orders])
+    firing = np.outer(list(orders), [place.firing_angle for place in layout.places])
+    reach = 1e-15 * (float(np.max(np.abs(firing))) + _TURN)
+    grid = CrankGrid.from_degrees(decimals(np.mod(firing, _TURN), reach))
     return np.asarray(grid.cos - 1j * grid.sin)
 
 

@@ -8,6 +8,7 @@ square, which has none.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from functools import cached_property
 from types import MappingProxyType
@@ -20,11 +21,13 @@ from numpy.typing import NDArray
 from crankwork.formula.known import Array, Found, Known, Use, breaks_of, distinct
 from crankwork.formula.replay import Angles, Program
 
-_NODES, _WEIGHTS = legendre.leggauss(12)
+_NODES, _WEIGHTS = legendre.leggauss(16)
 _DEGREES = np.arange(_NODES.size)
 _AT_NODES = legendre.legvander(_NODES, _NODES.size - 1)
 _FROM_VALUES = (_AT_NODES * _WEIGHTS[:, None]).T * ((2 * _DEGREES + 1) / 2)[:, None]
-_LOOK = np.linspace(-1.0, 1.0, 25)
+# closer towards the ends, as the zeros of polynomials are
+_APART = math.pi / 24
+_LOOK = -np.cos(np.arange(25) * _APART)
 _AT_LOOK = legendre.legvander(_LOOK, _NODES.size - 1)
 # derivatives of the Legendre polynomials: at both ends, and as sums of them
 _SLOPE_AT_ENDS = np.stack([(-1.0) ** (_DEGREES + 1), np.ones(_NODES.size)]) * _DEGREES * (_DEGREES + 1) / 2
@@ -43,7 +46,6 @@ _NEAR_TOP = 0.05
 _ROUGH = 0.05
 # of the largest column of its quantity, below which a column may be nothing but rounding
 _SMALL = 1e-3
-_NEWTON = 12
 _STEPS = 60
 # Newton's next step would be the square of this
 _SETTLED = 1e-9
@@ -279,7 +281,8 @@ class OverCycle:
         top, least = at_ends.max(axis=(1, 2), initial=-np.inf), at_ends.min(axis=(1, 2), initial=np.inf)
         is_high = sign * self._coefficients[:, :, 0] + self._rise >= (top - self._spare(top - least))[:, None]
         # what no polynomial follows is rounding, and its peaks are none
-        row, interval = np.nonzero(is_high & (self._left * self._scale[:, None] < _ROUGH * self._rise))
+        rough = np.maximum(self._left / _ROUGH, _ZERO) * self._scale[:, None]
+        row, interval = np.nonzero(is_high & (self._rise > rough))
         inside = sign * self._coefficients[row, interval]
         looked = inside @ _AT_LOOK.T
         np.maximum.at(top, row, looked.max(axis=1))
@@ -316,7 +319,7 @@ class OverCycle:
         beside = (_LOOK[1] + _LOOK[0]) / 2
         one = np.concatenate([one, low, high])
         u = np.concatenate([_LOOK[place + 1], np.full(low.size, beside), np.full(high.size, -beside)])
-        return one, self._flat(coefficients[one], u)
+        return one, self._peak(coefficients[one], u)
 
     def _spare(self, span: Array) -> Array:
         """Return how far below the top of each column one place of its polynomials may be and count as the largest."""
@@ -350,21 +353,25 @@ class OverCycle:
             before = (value < 0) == starts_below
             low, high = np.where(before, u, low), np.where(before, high, u)
             moved = u - np.divide(value, slope, out=np.full_like(u, np.inf), where=slope != 0)
-            moved = np.where((moved > low) & (moved < high), moved, (low + high) / 2)
+            # a zero at an end may lie beyond it by rounding
+            within = (moved >= low - _SETTLED) & (moved <= high + _SETTLED)
+            moved = np.where(within, np.clip(moved, low, high), (low + high) / 2)
             change, u = np.max(np.abs(moved - u)), moved
             if change < _SETTLED:
                 break
         return u
 
-    def _flat(self, coefficients: Array, u: Array) -> Array:
-        """Return where each polynomial is flat, near a place from -1 to 1."""
+    def _peak(self, coefficients: Array, u: Array) -> Array:
+        """Return the peak of each polynomial near a place from -1 to 1: Newton steps, kept where it rises to one."""
         first = _DERIVATIVE @ coefficients.T
-        slopes, step = np.stack([first, _DERIVATIVE @ first], axis=1), _LOOK[1] - _LOOK[0]
-        low, high = np.maximum(u - step, -1.0), np.minimum(u + step, 1.0)
-        for _ in range(_NEWTON if u.size else 0):
+        slopes, around = np.stack([first, _DERIVATIVE @ first], axis=1), np.arccos(-u)
+        low, high = -np.cos(np.maximum(around - _APART, 0.0)), -np.cos(np.minimum(around + _APART, math.pi))
+        for _ in range(_STEPS if u.size else 0):
             slope, bend = legendre.legval(u, slopes, tensor=False)
-            moved = np.clip(u - np.divide(slope, bend, out=np.zeros_like(u), where=bend != 0), low, high)
-            change, u = np.max(np.abs(moved - u), initial=0.0), moved
+            low, high = np.where(slope > 0, u, low), np.where(slope > 0, high, u)
+            moved = u - np.divide(slope, bend, out=np.full_like(u, np.inf), where=bend < 0)
+            moved = np.where((moved >= low) & (moved <= high), moved, (low + high) / 2)
+            change, u = np.max(np.abs(moved - u)), moved
             if change < _SETTLED:
                 break
         return u

@@ -154,7 +154,7 @@ class Program:
             part = slice(start, min(start + together, count))
             # a vertical link has no slope, and its arc tangent is a right angle
             with np.errstate(divide="ignore", invalid=self._invalid):
-                columns = self._replay(angles[part])
+                columns = self._replay(angles if together >= count else angles[part])
             for row, slot in wanted:
                 row[part] = columns[slot]
         return rows
@@ -179,9 +179,13 @@ class Samples:
     def __call__(self, angles: Angles) -> dict[str, Array]:
         """Return all columns at crank angles, by key. [SI]"""
         rows = np.rint(angles.degrees).astype(np.intp)
-        if np.array_equal(rows, angles.degrees) and rows.min() >= 0 and rows.max() <= self._cycle:
-            return {key: column[rows] for key, column in self._at_whole_degrees.items()}
-        return self.program(angles)
+        if not (np.array_equal(rows, angles.degrees) and rows.min() >= 0 and rows.max() <= self._cycle):
+            return self.program(angles)
+        step = rows[1] - rows[0] if rows.size > 1 else 1
+        # evenly spaced ones are not copied
+        is_even = step > 0 and rows[-1] - rows[0] == step * (rows.size - 1) and np.all(np.diff(rows) == step)
+        place = slice(rows[0], rows[-1] + 1, step) if is_even else rows
+        return {key: column[place] for key, column in self._at_whole_degrees.items()}
 
 
 def _may_have_no_value(node: Node) -> bool:

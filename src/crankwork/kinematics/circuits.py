@@ -23,7 +23,7 @@ from crankwork.kinematics.curves import Curve, PositionEquations, follow
 from crankwork.kinematics.dyads import LinkMotion, fixed_point
 from crankwork.kinematics.extremes import closed_in
 from crankwork.kinematics.loops import as_chain
-from crankwork.kinematics.placement import Placed, closure_of, place_at
+from crankwork.kinematics.placement import Closures, Placed, place_at
 from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.mechanism.chain import Chain, ChainLink, Gear, Slide
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
@@ -280,9 +280,9 @@ def assembled_stretches(mechanism: Mechanism) -> list[tuple[float, float]]:
     degrees = np.unique(np.concatenate([degrees, *_narrow(mechanism, degrees)]))
     works = np.all(_margins(mechanism, degrees) > _SINGULAR, axis=0)
     cut = np.zeros(len(degrees) - 1, dtype=bool)
-    grid = CrankGrid.from_degrees(degrees)
+    grid, closures = CrankGrid.from_degrees(degrees), Closures(mechanism)
     for index, closure in enumerate(place_at(mechanism, grid).closures):
-        for interval, _ in singular_between(grid, closure, closure_of(mechanism, index)):
+        for interval, _ in singular_between(grid, closure, closures[index]):
             cut[interval] = True
     stretches = []
     start = None

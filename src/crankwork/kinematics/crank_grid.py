@@ -152,10 +152,9 @@ class CrankGrid:
         if local.min() < -cycle or local.max() > cycle:
             local = np.mod(local, cycle)
         local = np.where(local < 0, local + cycle, local)
-        # a decimal where rounding alone keeps it from being one; the end of a cycle is its start
-        near = np.round(local, _DECIMALS)
         reach = 1e-15 * (float(np.max(np.abs(self.degrees))) + float(np.max(by)) + cycle)
-        local = np.where(np.abs(local - near) <= reach, near, local)
+        local = decimals(local, reach)
+        # the end of a cycle is its start
         local[cycle - local <= 1e-12 * cycle] = 0.0
         order = local.argsort()
         ascending = local[order]
@@ -171,6 +170,12 @@ class CrankGrid:
 
     def __len__(self) -> int:
         return self.angle.size
+
+
+def decimals(degrees: Array, reach: float) -> Array:
+    """Return angles, decimals where rounding alone, no more than `reach`, keeps them from being such. [deg]"""
+    near = np.round(degrees, _DECIMALS)
+    return np.where(np.abs(degrees - near) <= reach, near, degrees)
 
 
 def sin_multiple(grid: CrankGrid, order: int) -> Array:

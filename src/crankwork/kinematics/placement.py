@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
@@ -252,9 +253,10 @@ def assembled(mechanism: Mechanism, grid: CrankGrid) -> Placed:
     ways = passed[:1] if stands else np.linspace(passed.min(), passed.max(), passed.size)
     whole = CrankGrid.from_radians(ways)
     placed = place_at(mechanism, whole)
+    closures = Closures(mechanism)
     for index, (group, closure) in enumerate(zip(mechanism.dyads, placed.closures, strict=True)):
         bad = unassembled(closure)
-        between = [angle for _, angle in singular_between(whole, closure, closure_of(mechanism, index))]
+        between = [angle for _, angle in singular_between(whole, closure, closures[index])]
         if bad is not None or between:
             # what the driver meets first
             lost = [*ways[bad if bad is not None else []].tolist(), *between]
@@ -269,13 +271,14 @@ def _unreached(driver: Driver, group: Dyad | Chain, at: float) -> GeometryError:
 
 def _assembled_at(mechanism: Mechanism, grid: CrankGrid) -> Placed:
     placed = place_at(mechanism, grid)
+    closures = Closures(mechanism)
     for index, (group, closure) in enumerate(zip(mechanism.dyads, placed.closures, strict=True)):
         bad = unassembled(closure)
         if bad is not None:
             raise refusal(group, closure, grid, bad)
-        for _, angle in singular_between(grid, closure, closure_of(mechanism, index)):
+        for _, angle in singular_between(grid, closure, closures[index]):
             at = CrankGrid.from_radians(np.array([angle]))
-            there = closure_of(mechanism, index)(at)._replace(scale=closure.scale)
+            there = closures[index](at)._replace(scale=closure.scale)
             raise refusal(group, there, at, np.array([True]))
     return placed
 
@@ -289,11 +292,12 @@ def reached(mechanism: Mechanism, placed: Placed) -> NDArray[np.int8]:
     grid = placed.grid
     bad = np.zeros(grid.angle.shape, dtype=bool)
     cut = np.zeros(grid.angle.shape, dtype=bool)
+    closures = Closures(mechanism)
     for index, closure in enumerate(placed.closures):
         missing = unassembled(closure)
         if missing is not None:
             bad |= missing
-        for interval, _ in singular_between(grid, closure, closure_of(mechanism, index)):
+        for interval, _ in singular_between(grid, closure, closures[index]):
             cut[interval + 1] = True
     if bad.all():
         return np.ones(grid.angle.shape, dtype=np.int8)
@@ -302,10 +306,25 @@ def reached(mechanism: Mechanism, placed: Placed) -> NDArray[np.int8]:
     return np.where(bad, 1, np.where(run == run[first], 0, 2)).astype(np.int8)
 
 
-def closure_of(mechanism: Mechanism, index: int) -> Callable[[CrankGrid], Closure]:
-    """Return how well one group closes, as a function of the crank angles."""
-    part = replace(mechanism, dyads=mechanism.dyads[: index + 1])
-    return lambda grid: place_at(part, grid).closures[index]
+class Closures:
+    """How well each group of a mechanism closes, as a function of the crank angles.
+
+    What several groups are asked for at the same angles is placed once.
+    """
+
+    def __init__(self, mechanism: Mechanism) -> None:
+        self._mechanism = mechanism
+        self._placed = functools.lru_cache(maxsize=4)(self._place)
+
+    def __getitem__(self, index: int) -> Callable[[CrankGrid], Closure]:
+        groups = self._mechanism.dyads
+        # a chain is followed where it is asked for only
+        end = next((at for at in range(index + 1, len(groups)) if isinstance(groups[at], Chain)), len(groups))
+        return lambda grid: self._placed(end, grid.angle.tobytes())[index]
+
+    def _place(self, end: int, angles: bytes) -> tuple[Closure, ...]:
+        part = replace(self._mechanism, dyads=self._mechanism.dyads[:end])
+        return tuple(place_at(part, CrankGrid.from_radians(np.frombuffer(angles))).closures)
 
 
 def _title(group: Dyad | Chain) -> Refusal:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, VolumeAt, solve_diagram
+from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Segment, VolumeAt, solve_diagram
 from crankwork.working_cycle.calculated_cycle import Notice
 from crankwork.working_cycle.gas_exchange import clipped
 from crankwork.working_cycle.rounded_pieces import without_auxiliary, written
@@ -128,13 +128,14 @@ def _drawn(
 
 def _filling(corners: RoundedCorners, diagram: IndicatorDiagram) -> float:
     """Return the work of compression to expansion over that of the theoretical lines."""
-    cycle, work = corners.timing.cycle, 0.0
+    cycle, parts = corners.timing.cycle, list[Segment]()
     end = corners.bottom if cycle > 360 else corners.opens
     for turn in (0.0, cycle):
         for segment in diagram.segments:
             first, last = max(segment.start, corners.start - turn), min(segment.end, end - turn)
             if last > first:
-                work += clipped(segment, first, last).work(corners.volume_at)
+                parts.append(clipped(segment, first, last))
+    work = IndicatorDiagram(tuple(parts), {}).work(corners.volume_at)
     return work / theoretical_work(corners.theory, corners.volume_at, (corners.start, corners.top, end))
 
 
@@ -158,8 +159,8 @@ def _deviations(corners: RoundedCorners) -> list[Notice]:
     """Return where given pressures are not those of the lines they lie on."""
     found: list[Notice] = []
     computed = {
-        "p_c": corners.compression(corners.top) / 1e6,
-        "p_b": corners.expansion(corners.opens if corners.timing.cycle == 360 else corners.bottom) / 1e6,
+        "p_c": corners.compression(corners.top)[0] / 1e6,
+        "p_b": corners.expansion(corners.opens if corners.timing.cycle == 360 else corners.bottom)[0] / 1e6,
         "epsilon": corners.start_volume / corners.clearance,
     }
     for name, value in computed.items():
@@ -190,7 +191,7 @@ def _above(corners: RoundedCorners, level: float) -> list[Notice]:
     """Return whether the peak stands out above the expansion line that it is to be rounded from."""
     if not corners.timing.ignition_advance:
         return []
-    line = min(corners.theory["p_z"], corners.expansion(corners.top + corners.rounding.peak_angle))
+    line = min(corners.theory["p_z"], *corners.expansion(corners.top + corners.rounding.peak_angle))
     ratio = level * corners.theory["p_z"] / line
     return [("round_above", {"ratio": ratio})] if ratio > _ABOVE else []
 

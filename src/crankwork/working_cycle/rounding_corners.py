@@ -5,15 +5,15 @@ A corner whose timing is zero is left as it is.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
 from itertools import pairwise
 from typing import Literal, NamedTuple
 
 import numpy as np
 
 from crankwork.errors import CrankworkError
+from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.extremes import reached
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import VolumeAt
@@ -32,7 +32,6 @@ class RoundedCorners(NamedTuple):
     timing: Timing
     rounding: Rounding
     volume_at: VolumeAt
-    volume_of: Callable[[float], float]
     dead_centres: tuple[float, float]
     kind: Literal["petrol", "diesel", "motored"]
     start: float
@@ -43,21 +42,23 @@ class RoundedCorners(NamedTuple):
     start_volume: float
     burnt_volume: float
 
-    def compression(self, angle: float) -> float:
-        """Return the pressure on the compression line. [Pa]"""
-        return self._on((self.theory["p_a"], self.start_volume), self.theory["n1"], angle)
+    def compression(self, *angles: float) -> list[float]:
+        """Return the pressures on the compression line. [Pa]"""
+        return self._on((self.theory["p_a"], self.start_volume), self.theory["n1"], angles)
 
-    def expansion(self, angle: float) -> float:
-        """Return the pressure on the expansion line. [Pa]"""
-        return self._on((self.theory["p_z"], self.burnt_volume), self.theory["n2"], angle)
+    def expansion(self, *angles: float) -> list[float]:
+        """Return the pressures on the expansion line. [Pa]"""
+        return self._on((self.theory["p_z"], self.burnt_volume), self.theory["n2"], angles)
 
-    def _on(self, state: tuple[float, float], exponent: float, angle: float) -> float:
-        return float(polytropic_pressure(*state, self.volume_of(angle), exponent))
+    def _on(self, state: tuple[float, float], exponent: float, angles: tuple[float, ...]) -> list[float]:
+        pressures: Array = polytropic_pressure(*state, self.volume_at(np.array(angles)), exponent)
+        return [float(one) for one in pressures]
 
     def slope(self, line: str, angle: float, step: float = 0.01) -> float:
         """Return the slope of a polytrope by crank angle. [Pa/deg]"""
         on = self.compression if line == "compression" else self.expansion
-        return (on(angle + step) - on(angle - step)) / (2 * step)
+        after, before = on(angle + step, angle - step)
+        return (after - before) / (2 * step)
 
     def angle_of_volume(self, volume: float) -> float:
         """Return where the expansion reaches a volume. [deg]"""
@@ -85,7 +86,6 @@ def corners_of(
         timing,
         rounding,
         volume_at,
-        cache(lambda angle: float(volume_at(np.array([angle]))[0])),
         dead_centres,
         "diesel" if rho > 1 else "petrol",
         start,
@@ -125,15 +125,15 @@ def compression_parts(corners: RoundedCorners) -> list[Part]:
     names, angles = zip(*events, strict=True)
     if any(after <= before for before, after in pairwise(angles)):
         raise CrankworkError(Refusal("events_crossed", names=list(names), angles=list(angles)))
-    points = [Named(name, angle, corners.compression(angle)) for name, angle in zip(names, angles, strict=True)]
+    points = list(map(Named, names, angles, corners.compression(*angles)))
     return [Part("polytropic", pair, exponent=corners.theory["n1"], reference="~start") for pair in pairwise(points)]
 
 
 def burning_parts(corners: RoundedCorners, level: float) -> list[Part]:
     """Return combustion and expansion up to where the exhaust opens."""
     theory, top = corners.theory, corners.top
-    opened = Named("b'" if corners.timing.exhaust_opens else "b", corners.opens, corners.expansion(corners.opens))
     if not corners.timing.ignition_advance:
+        opened = _opened(corners, *corners.expansion(corners.opens))
         burnt = corners.angle_of_volume(corners.burnt_volume) if corners.kind == "diesel" else top
         z = Named("z", burnt, theory["p_z"])
         return [
@@ -143,9 +143,10 @@ def burning_parts(corners: RoundedCorners, level: float) -> list[Part]:
     peak = level * theory["p_z"]
     highest = Named("z_d" if corners.rounding.school == "ru" else "z'", top + corners.rounding.peak_angle, peak)
     joined = max(highest.angle + corners.rounding.join_after, _falls_to(corners, _JOIN_BELOW * peak))
-    if joined >= opened.angle or highest.angle <= top:
+    if joined >= corners.opens or highest.angle <= top:
         raise CrankworkError(Refusal("peak_late", angle=corners.rounding.peak_angle))
-    join = Named("~g", joined, corners.expansion(joined))
+    opened_pressure, joined_pressure = corners.expansion(corners.opens, joined)
+    opened, join = _opened(corners, opened_pressure), Named("~g", joined, joined_pressure)
     rising = _rising(corners, peak)
     slopes = corners.slope("compression", rising[0].angle), corners.slope("expansion", joined)
     return [
@@ -154,10 +155,15 @@ def burning_parts(corners: RoundedCorners, level: float) -> list[Part]:
     ]
 
 
+def _opened(corners: RoundedCorners, pressure: float) -> Named:
+    return Named("b'" if corners.timing.exhaust_opens else "b", corners.opens, pressure)
+
+
 def _rising(corners: RoundedCorners, peak: float) -> list[Named]:
     """Return the points from where the pressure leaves the compression line to c''."""
     left = compression_parts(corners)[-1].points[-1]
-    compressed = corners.compression(corners.top)
+    angles = [left.angle + share * (corners.top - left.angle) for share in _RISING]
+    compressed, *lines = corners.compression(corners.top, *angles)
     if corners.rounding.school == "ru":
         # with a small rise of pressure there is no room for the usual one
         middle = min(corners.rounding.rise * compressed, (compressed + peak) / 2)
@@ -173,10 +179,9 @@ def _rising(corners: RoundedCorners, peak: float) -> list[Named]:
             )
         )
     # burning adds to the compression line as the square of the angle since it began
-    angles = [(share, left.angle + share * (corners.top - left.angle)) for share in _RISING]
     between = [
-        Named(f"~f{number}", angle, corners.compression(angle) + (middle - compressed) * share**2)
-        for number, (share, angle) in enumerate(angles)
+        Named(f"~f{number}", angle, line + (middle - compressed) * share**2)
+        for number, (share, angle, line) in enumerate(zip(_RISING, angles, lines, strict=True))
     ]
     return [left, *between, Named("c''", corners.top, middle)]
 
@@ -191,7 +196,8 @@ def exchange_parts(corners: RoundedCorners) -> list[Part]:
     """Return exhaust and intake from where the exhaust opens to a of the next cycle."""
     theory, timing = corners.theory, corners.timing
     low, charge = theory["p_r"], theory["p_a"]
-    opened = Named("b'" if timing.exhaust_opens else "b", corners.opens, corners.expansion(corners.opens))
+    pressure, expanded = corners.expansion(corners.opens, corners.bottom)
+    opened = _opened(corners, pressure)
     closed = Named("a", corners.start + timing.cycle, charge)
     if timing.cycle == 360:
         out = Named("~s", corners.bottom - timing.intake_opens, low)
@@ -206,7 +212,6 @@ def exchange_parts(corners: RoundedCorners) -> list[Part]:
         raise CrankworkError(Refusal("exhaust_nothing", exhaust=timing.exhaust_opens, intake=timing.intake_opens))
     blown = []
     if timing.exhaust_opens:
-        expanded = corners.expansion(corners.bottom)
         other = low if corners.rounding.school == "ru" else charge
         middle = Named("b''", corners.bottom, (expanded + other) / 2)
         blown = _blow_down(corners, (opened, middle, out))
