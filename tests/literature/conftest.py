@@ -1,4 +1,22 @@
-"""Everything here expects what somebody else printed."""
+"""Everything here expects what somebody else printed.
+
+Published cases of mechanisms that no machine file expresses, with the reason:
+
+* free oscillations: the simple pendulum from 10 to 80 degrees (physics.gmu.edu/~mrseth/pass6.html) and released from
+  the horizontal (IFToMM benchmark A01). Something always drives; a transient goes on under a torque and stops at a
+  hill of its springs.
+* two wheels, two links and a collar that fall onto a spring (Meriam and Kraige, ex. 6/11): nothing drives, and it
+  ends in an impact.
+* synthesis: the fifteen four-bars through five points (Morgan and Wampler, J. Mech. Des. 112, 1990, problem 7). Files
+  have lengths that are known; what a synthesis gives is analysed, like the crank-rocker and the slotted lever made for
+  a swing and a time ratio.
+* rubbing speeds of pins, and the point of least speed on a rod (Khurmi and Gupta, ex. 7.2): the velocity of any stated
+  point is there, but pins of linkages have no size.
+* wedges, pulleys and sliding pairs that friction holds (Beer and Johnston, 8.4 and 8.6; Bevan, ch. 6, ex. 1): they are
+  no linkages; losses of a linkage are its efficiencies.
+* the Ross yoke by the displacement formula of its program (Urieli, D-90), which takes the end of the yoke on a
+  straight line where it goes on an arc: a linkage moves as it is made.
+"""
 
 from __future__ import annotations
 

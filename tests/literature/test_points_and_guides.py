@@ -93,6 +93,46 @@ SLIDER_CRANK = """
 """
 
 
+FOOT = 12 * INCH
+ENGINE = """
+    [fixed_points]
+    O = ["0 in", "0 in"]
+    [crank]
+    pivot = "O"
+    pin = "C"
+    radius = "9 in"
+    speed = "240 rpm"
+    {more}
+    [links]
+    rod = {{ joins = ["C", "P"], length = "36 in", points = {{ X = ["12 in", "0 in"] }} }}
+    [guides]
+    bed = {{ through = "O" }}
+    [sliders]
+    piston = {{ pin = "P", guide = "bed" }}
+"""
+
+
+@pytest.mark.parametrize(
+    ("more", "piston", "point", "rod", "printed"),
+    [
+        ("", 385.610118654139, 422.4504285947545, 98.96964765662062, (422, 98.7)),
+        ('angular_acceleration = "100 rad/s2"', 443.1733303311859, 452.8191827076349, 79.56636771449882, (452, 79.3)),
+    ],
+)
+def test_engine_whose_crank_gathers_speed(more, piston, point, rod, printed):
+    """T. Bevan, ch. 3, ex. 4, p. 93: crank 9 in, rod 36 in, 240 rev/min, 40 degrees; without and with 100 rad/s2.
+
+    The notebook prints the acceleration of the piston against the crankpin, 306 ft/s2, as that of the piston.
+    """
+    found = at(ENGINE.format(more=more), 40.0)
+    assert abs(found["slider_acceleration.piston"]) / FOOT == pytest.approx(piston, rel=1e-12)
+    assert found["point_acceleration.X"] / FOOT == pytest.approx(point, rel=1e-12)
+    assert abs(found["link_angular_acceleration.rod"]) == pytest.approx(rod, rel=1e-12)
+    assert (found["point_acceleration.X"] / FOOT, abs(found["link_angular_acceleration.rod"])) == pytest.approx(
+        printed, rel=5e-3
+    )
+
+
 def test_point_of_the_rod_of_a_steam_engine():
     """Khurmi and Gupta, Theory of Machines, ex. 7.2, p. 148: crank 0.5 m, rod 2 m, 180 rev/min, 45 degrees."""
     found = at(SLIDER_CRANK.format(r=0.5, l=2, n=180, at=1.5), 45.0)

@@ -67,6 +67,18 @@ def test_stroke_of_a_slotted_lever():
     assert ends[0] + ends[1] == pytest.approx(2 * math.sqrt(0.9**2 - (0.37 - 0.2 * math.sqrt(3)) ** 2), rel=1e-12)
 
 
+def test_slotted_lever_made_for_a_stroke_and_a_time_ratio():
+    """Khurmi and Gupta, ex. 5.3, p. 112: crank 30 mm; for 120 mm and 1.7 centres 75.7 mm apart, lever 151.48 mm."""
+    found = analysed(
+        SLOTTED_LEVER.format(centres=75.74231902831959, crank=30, lever=151.4846380566392, bed=140)
+    ).summary
+    assert found["time_ratio.lever"] == pytest.approx(1.7, rel=1e-9)
+    assert found["slider_stroke.ram"] == pytest.approx(0.12, rel=1e-12)
+    printed = analysed(SLOTTED_LEVER.format(centres=75.7, crank=30, lever=151.48, bed=140)).summary
+    assert printed["time_ratio.lever"] == pytest.approx(1.7, rel=1e-3)
+    assert printed["slider_stroke.ram"] == pytest.approx(0.12, rel=1e-3)
+
+
 def test_whitworth():
     """Khurmi and Gupta, ex. 5.4, p. 112: fixed link 50 mm, crank 75 mm, arm 150 mm, link 135 mm long."""
     text = """
@@ -145,6 +157,21 @@ def test_instant_centre_of_a_coupler():
     assert abs(found["link_angular_velocity.coupler"][0]) == pytest.approx(6.283, rel=0.004)
     by_centres = 100 * math.tau / 60 * 300 / to_crankpin
     assert abs(found["link_angular_velocity.coupler"][0]) == pytest.approx(by_centres, rel=1e-12)
+
+
+def test_torque_through_a_four_bar_with_losses():
+    """Khurmi and Gupta, ex. 7.10, p. 162: the same linkage; 50 N m at 70 % hold a torque 1.17 times as large."""
+    text = FOUR_BAR.format(crank=300, coupler=360, rocker=360, ground=600, speed=100)
+    free = analysed(text, 60.0).columns
+    assert free["point_velocity.C"][0] == pytest.approx(2.25, rel=0.01)
+    assert free["point_velocity.C"][0] == pytest.approx(2.269219869902356, rel=1e-12)
+    assert abs(free["link_angular_velocity.rocker"][0]) == pytest.approx(6.303388527506544, rel=1e-12)
+    torque = -58.14636704042652 * math.copysign(1.0, free["link_angular_velocity.rocker"][0])
+    load = f'\n[[loads]]\nkind = "torque"\nlink = "rocker"\ntorque = ["{torque!r} N*m"]\n[efficiency]\nchain = [0.7]\n'
+    found = analysed(text + load, 60.0).columns
+    assert found["driving_torque"][0] == pytest.approx(50, rel=1e-12)
+    # printed 58.6 N m, from a velocity read off a drawing
+    assert abs(torque) == pytest.approx(58.6, rel=0.01)
 
 
 def test_pressure_angle_of_a_slider_crank_and_of_an_offset_one():
