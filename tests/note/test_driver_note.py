@@ -20,7 +20,7 @@ from crankwork.report.figures import figures
 from crankwork.report.summary import description_text, summary_text
 
 MACHINES = Path(__file__).parent.parent / "machines"
-NAMES = ("boom", "driven-slider", "elbow", "crank-by-table", "cylinder-between-links", "gas-by-law")
+NAMES = ("boom", "driven-slider", "elbow", "crank-by-table", "cylinder-between-links", "gas-by-law", "heavy-boom")
 
 
 @pytest.fixture(scope="module")

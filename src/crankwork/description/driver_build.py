@@ -34,6 +34,14 @@ def check_driver(values: Values, reader: Reader) -> None:
             reader.complain(f"crank.{name}", Refusal("missing", advice=(f'{name} = "{example}"',)))
 
 
+def check_halves(values: Values, reader: Reader) -> None:
+    """Complain of barrel and rod where no cylinder drives."""
+    driver = values["driver"]
+    for name in ("barrel", "rod"):
+        if name in driver and "cylinder" not in driver and not reader.doubts("driver.cylinder"):
+            reader.complain(f"driver.{name}", Refusal("half_alone", key=name))
+
+
 def check_loads(values: Values, reader: Reader) -> None:
     """Complain of loads that count by a crank angle which nothing has."""
     for number, load in enumerate(values["loads"], start=1):

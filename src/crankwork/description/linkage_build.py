@@ -11,7 +11,7 @@ from crankwork.analysis.chambers import solve_linkage
 from crankwork.analysis.reach import reachable
 from crankwork.description.build import build_method, crank_speed
 from crankwork.description.chamber_build import build_chambers
-from crankwork.description.driver_build import build_law, check_driver, check_gas, check_loads
+from crankwork.description.driver_build import build_law, check_driver, check_gas, check_halves, check_loads
 from crankwork.description.gas_build import ReadMeasured
 from crankwork.description.kinds import Measure, Reader
 from crankwork.description.linkage_reach import checked_motion, passing_if_assembled, told_redundant, with_starts
@@ -120,7 +120,8 @@ def _geometry(values: Values, reader: Reader) -> dict[str, Any]:
         tables["crank"] = {name: one for name, one in tables["crank"].items() if name not in elsewhere}
     if "driver" in values:
         check_driver(values, reader)
-        named = {name: one for name, one in values["driver"].items() if name not in ("start", "period")}
+        check_halves(values, reader)
+        named = {name: _plain(one) for name, one in values["driver"].items() if name not in ("start", "period", "law")}
         tables["driver"] = {**named, "law": build_law(values, reader)}
     return tables
 

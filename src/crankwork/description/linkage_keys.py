@@ -52,9 +52,17 @@ _SEGMENT = Table("segment", {
     "values": Key(ListOf(_COORDINATE_OF_DRIVER), only=_BY_TABLE),
 })  # fmt: skip
 
+_HALF = Table("half", {
+    "mass": Key(Quantity(("mass",), 1e-9, 1e6), required=True),
+    "inertia": _INERTIA,
+    "centre": Key(_PLACE, required=True),
+})  # fmt: skip
+
 _DRIVER = Table("driver", {
     "slider": Key(_NAME),
     "cylinder": Key(ListOf(_NAME, fewest=2, most=2)),
+    "barrel": Key(_HALF),
+    "rod": Key(_HALF),
     "between": Key(ListOf(_NAME, fewest=2, most=2)),
     "start": Key(_COORDINATE_OF_DRIVER),
     "law": Key(ListOf(_SEGMENT, fewest=1, most=100), required=True),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +20,7 @@ from crankwork.kinematics.dyads import LinkMotion
 from crankwork.kinematics.motion import Motion
 from crankwork.loads.applied import AppliedForce, AppliedLoads, AppliedTorque
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
-from crankwork.mechanism.joints import Joint, Pin, group_links, joints, origin_of
+from crankwork.mechanism.joints import Joint, Pin, SlidingJoint, group_links, joints, origin_of
 from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
 
 Vector = tuple[Array, Array]
@@ -93,6 +93,10 @@ def _pushed(driver: Driver | None, motion: Motion) -> list[tuple[str, int, Value
             return [(link, 0, motion.frames[link].cos), (link, 1, motion.frames[link].sin)]
         case LinkMotor(links=(first, second)):
             return [(first, 2, -1.0), (second, 2, 1.0)]
+        case Cylinder(halves=(barrel, rod)):
+            frame = motion.frames[barrel.link]
+            back = [(barrel.link, 0, -frame.cos), (barrel.link, 1, -frame.sin)]
+            return [*back, (rod.link, 0, frame.cos), (rod.link, 1, frame.sin)]
     return []
 
 
@@ -177,7 +181,9 @@ def _remembered_with(
     return reactions, unknowns[-1]
 
 
-def cylinder_force(mechanism: Mechanism, motion: Motion, reactions: Mapping[Joint, Reaction]) -> Value:
+def cylinder_force(
+    mechanism: Mechanism, motion: Motion, reactions: Mapping[Joint, Reaction], wrenches: Acting
+) -> Value:
     """Return the force with which a cylinder pushes its ends apart, from that on its barrel. [N]"""
     driver = mechanism.driver
     if not isinstance(driver, Cylinder):
@@ -191,6 +197,11 @@ def cylinder_force(mechanism: Mechanism, motion: Motion, reactions: Mapping[Join
         added(f"link_force_{axis}.{driver.link}", side)
         for axis, side in zip("xy", zip(*on_barrel, strict=True), strict=True)
     )
+    if driver.halves:
+        # what pushes the barrel back balances its own loads, too
+        barrel = wrenches[driver.halves[0].link]
+        frame = motion.frames[driver.halves[0].link]
+        return force_along(x + barrel.x, frame.cos, y + barrel.y, frame.sin)
     frame = motion.frames[driver.link]
     force = force_along(x, frame.cos, y, frame.sin)
     return force if origin_of(mechanism, driver.link) == driver.barrel else -force
@@ -217,8 +228,8 @@ def system_joint_forces(running: Running) -> JointForces:
     wrenches = {link: Wrench(*one) for link, one in plain_wrenches(running).items()}
     unknowns = solve_positions(system.matrix, system.right_side(wrenches))
     reactions = system.reactions(unknowns)
-    is_inside = isinstance(mechanism.driver, Cylinder)
-    driven = cylinder_force(mechanism, running.motion, reactions) if is_inside else unknowns[..., -1]
+    is_inside = isinstance(mechanism.driver, Cylinder) and not mechanism.driver.halves
+    driven = cylinder_force(mechanism, running.motion, reactions, wrenches) if is_inside else unknowns[..., -1]
     return gathered(reactions, system.joints, driven)
 
 
@@ -229,9 +240,21 @@ def whole_system(running: Running) -> Equilibrium:
     # a link of a chain may only hold others
     holding = (name for group in mechanism.dyads for name in group_links(group))
     links = dict.fromkeys([*(joint.link for joint in held), *holding])
+    if mechanism.halves:
+        barrel, rod = (one.link for one in mechanism.halves)
+        held = (*(_on_half(one, mechanism.driver) for one in held), SlidingJoint(rod, rod, barrel))
+        links = dict.fromkeys([*(one for one in links if one != mechanism.driver.link), barrel, rod])
     if isinstance(mechanism.driver, LinkMotor):
         links.pop(mechanism.driver.link)
     return equilibrium(running.motion, tuple(links), held, driver=mechanism.driver)
+
+
+def _on_half(joint: Joint, driver: Driver) -> Joint:
+    """Return a joint of a cylinder as that of its barrel or its rod, the two links that it is."""
+    if not isinstance(joint, Pin) or not isinstance(driver, Cylinder) or driver.link not in (joint.link, joint.other):
+        return joint
+    half = driver.halves[0 if joint.point == driver.barrel else 1].link
+    return replace(joint, link=half) if joint.link == driver.link else replace(joint, other=half)
 
 
 def solve_positions(matrix: Array, right: Array) -> Array:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from crankwork.dynamics.dyad_forces import (
     OnGuide,
@@ -17,7 +17,7 @@ from crankwork.dynamics.dyad_forces import (
 )
 from crankwork.dynamics.force_passages import bridged_forces
 from crankwork.dynamics.force_system import cylinder_force, opened_group, solved_group
-from crankwork.dynamics.link_loads import Wrenches, arm, link_wrenches
+from crankwork.dynamics.link_loads import Wrench, Wrenches, arm, link_wrenches, moment_of
 from crankwork.dynamics.reaction import GuideForce, JointForces, PinForce, Reaction, gathered, reaction_wrench
 from crankwork.dynamics.running import Running
 from crankwork.formula.expression import Value
@@ -25,11 +25,11 @@ from crankwork.formula.known import named
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.transfer import PointMotion
 from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, Half, LinkMotor
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint, group_links, joints
 from crankwork.mechanism.linkage import GROUND
-from crankwork.mechanism.mechanism import Crank, Mechanism
+from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
 
 
 def joint_forces(running: Running) -> JointForces:
@@ -39,7 +39,7 @@ def joint_forces(running: Running) -> JointForces:
     the torque [N m] or force [N] that the driver needs. Source: artobolevsky_1988, ch. 13; the method of Bruyevich.
     """
     mechanism, motion, driver = running.mechanism, running.motion, running.mechanism.driver
-    every, wrenches = joints(mechanism), link_wrenches(running)
+    every, wrenches = joints(mechanism), _loaded(running)
     found: dict[Joint, Reaction] = {}
     torque: Value = 0.0
     for group, links in _held_together(mechanism):
@@ -57,15 +57,31 @@ def joint_forces(running: Running) -> JointForces:
             if carrier != GROUND and carrier not in links:
                 wrenches.add(carrier, reaction_wrench(reaction, motion, carrier))
     found |= _at_base(running, every, wrenches)
-    match driver:
-        case Crank():
-            torque = _crank_torque(driver, motion, wrenches)
-        case DrivingSlider(link=link):
-            piece, (cos, sin) = wrenches[link], motion.frames[link][1:3]
-            torque = -force_along(piece.x, cos, piece.y, sin)
-        case Cylinder():
-            torque = cylinder_force(mechanism, motion, found)
+    if isinstance(driver, Cylinder) and driver.halves:
+        guided = _in_barrel(driver, motion, found, wrenches)
+        found[guided.joint], every = guided, (*every, guided.joint)
+    if not isinstance(driver, LinkMotor):
+        torque = _at_driver(running, found, wrenches)
     return gathered(found, every, torque)
+
+
+def _loaded(running: Running) -> Wrenches:
+    """Return what loads and inertia put on each link; barrel and rod of a cylinder are one link as well."""
+    wrenches, driver = link_wrenches(running), running.mechanism.driver
+    for half in running.mechanism.halves:
+        wrenches.add(driver.link, _on_cylinder(half, driver, running.motion, wrenches[half.link]))
+    return wrenches
+
+
+def _at_driver(running: Running, found: Mapping[Joint, Reaction], wrenches: Wrenches) -> Value:
+    """Return the torque of a crank, or the force of a slider or a cylinder that drives."""
+    driver, motion = running.mechanism.driver, running.motion
+    if isinstance(driver, Crank):
+        return _crank_torque(driver, motion, wrenches)
+    if isinstance(driver, DrivingSlider):
+        piece, (cos, sin) = wrenches[driver.link], motion.frames[driver.link][1:3]
+        return -force_along(piece.x, cos, piece.y, sin)
+    return cylinder_force(running.mechanism, motion, found, wrenches)
 
 
 def _at_base(running: Running, every: Sequence[Joint], wrenches: Wrenches) -> dict[Joint, Reaction]:
@@ -83,6 +99,26 @@ def _at_base(running: Running, every: Sequence[Joint], wrenches: Wrenches) -> di
             across = named(-force_across(held.y, cos, held.x, sin), f"normal_force.{joint.link}")
             found[joint] = GuideForce(joint, across, named(-held.moment, f"normal_moment.{joint.link}"))
     return found
+
+
+def _on_cylinder(half: Half, driver: Driver, motion: Motion, own: Wrench) -> Wrench:
+    """Return what acts on the barrel or the rod of a cylinder as it acts on both together."""
+    way = arm(motion.frames[driver.link].origin, motion.frames[half.link].origin)
+    moved = moment_of(way, (own.x, own.y), f"{driver.link}.{half.link}")
+    return Wrench(own.x, own.y, named(own.moment + moved, f"link_moment.{driver.link}.{half.link}.both"))
+
+
+def _in_barrel(driver: Cylinder, motion: Motion, reactions: Mapping[Joint, Reaction], wrenches: Wrenches) -> GuideForce:
+    """Return the force across the rod of a cylinder from its barrel, and its moment about the end of the rod."""
+    barrel, rod = (one.link for one in driver.halves)
+    own, frame, x, y = wrenches[rod], motion.frames[rod], wrenches[rod].x, wrenches[rod].y
+    for joint, one in reactions.items():
+        if isinstance(one, PinForce) and one.joint.point == driver.rod and driver.link in (joint.link, joint.other):
+            sign = 1.0 if joint.link == driver.link else -1.0
+            x, y = x + sign * one.x, y + sign * one.y
+    across = force_across(y, frame.cos, x, frame.sin)
+    normal, moment = named(-across, f"normal_force.{rod}"), named(-own.moment, f"normal_moment.{rod}")
+    return GuideForce(SlidingJoint(rod, rod, barrel), normal, moment)
 
 
 def _crank_torque(crank: Crank, motion: Motion, wrenches: Wrenches) -> Value:

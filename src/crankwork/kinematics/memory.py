@@ -17,7 +17,7 @@ from crankwork.kinematics.placement import place_at
 from crankwork.kinematics.plane_motion import cosine_of_direction, direction_of_slope, sine_of_direction
 from crankwork.kinematics.transfer import Transfer
 from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.driver import DrivingSlider, GearedCrank, LinkMotor
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, GearedCrank, LinkMotor
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide, Point
 from crankwork.mechanism.linkage import Linkage
 from crankwork.mechanism.mechanism import Body, Crank, Driver, LinkPoint, Mechanism
@@ -64,7 +64,7 @@ def remembered_motion(mechanism: Mechanism, moved: Motion, linkage: Linkage | No
     for name, frame in placed.links.items():
         if name == driver.link and isinstance(driver, Crank):
             links[name] = Transfer(driver.start + driver.direction * at.angle, frame.angle_1, frame.angle_2)
-        elif name not in placed.sliders:
+        elif name in moved.links:
             near = Near(moved.grid.degrees, moved.links[name].position)
             turns = Known(HalfTurns(frame.sin, frame.cos, near), f"half_turns.{name}")
             angle = direction_of_slope(frame.sin, frame.cos, turns).named(f"link_angle.{name}")
@@ -100,6 +100,8 @@ class _Places:
         members = () if linkage is None else (linkage.driving, *linkage.members)
         self._geared = set() if linkage is None else {one.name for one in linkage.geared}
         self._guides = {one.name: one.guide for one in members}
+        halves = linkage.driver.halves if linkage is not None and isinstance(linkage.driver, Cylinder) else ()
+        self._halves = {half.link: f"driver.{name}" for half, name in zip(halves, ("barrel", "rod"), strict=False)}
         self._crank = linkage.driver.link if linkage is not None and isinstance(linkage.driver, Crank) else ""
 
     def member(self, name: str) -> str:
@@ -107,6 +109,8 @@ class _Places:
             return "crank"
         if name in self._geared:
             return f"geared.{name}"
+        if name in self._halves:
+            return self._halves[name]
         return f"{'sliders' if self._guides.get(name) else 'links'}.{name}"
 
     def guide(self, piece: str) -> str:

@@ -102,7 +102,8 @@ def _as_motion(mechanism: Mechanism, placed: Placed, grid: CrankGrid, status: St
     if lost is not None:
         frames = {name: _masked(link, full) for name, link in frames.items()}
     sliders = {name: transfer(one) for name, one in placed.sliders.items()}
-    links = {name: frame for name, frame in frames.items() if name not in sliders}
+    halves = {one.link for one in mechanism.halves}
+    links = {name: frame for name, frame in frames.items() if name not in sliders and name not in halves}
     law = mechanism.driver.law
     driver = None if law is None else law_at(law, grid)
     return Motion(grid, points, Directions(placed.grid, links), sliders, frames, driver, status)

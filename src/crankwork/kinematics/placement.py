@@ -44,7 +44,7 @@ from crankwork.locale import Refusal
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide
-from crankwork.mechanism.joints import group_links
+from crankwork.mechanism.joints import group_links, origin_of
 from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
 from crankwork.mechanism.passage import Passage
 
@@ -114,6 +114,7 @@ def place_at(
                 raise GeometryError(Refusal("group_unplaced", group=_title(group), missing=str(missing))) from None
             if closure is not None:
                 placed.closures.append(_bridged(closure, mechanism.passages.get(index), grid))
+            _place_halves(mechanism, placed, placed.links.keys() - before)
             _name(placed, placed.links.keys() - before, placed.points.keys() - standing)
             _place_link_points(mechanism, placed, placed.links.keys() - before)
     return placed
@@ -155,6 +156,18 @@ def _name(placed: Placed, links: set[str], points: set[str]) -> None:
     if placed.plain is not None:
         placed.links.update({name: named_link(placed.links[name], name) for name in links})
         placed.points.update({name: named_point(placed.points[name], name) for name in points})
+
+
+def _place_halves(mechanism: Mechanism, placed: Placed, links: set[str]) -> None:
+    """Add the frames of barrel and rod of a cylinder just placed, each at its own end, from the one to the other."""
+    driver = mechanism.driver
+    if not isinstance(driver, Cylinder) or not driver.halves or driver.link not in links:
+        return
+    frame = placed.links[driver.link]
+    if origin_of(mechanism, driver.link) != driver.barrel:
+        frame = frame._replace(cos=-frame.cos, sin=-frame.sin)
+    for half, end in zip(driver.halves, (driver.barrel, driver.rod), strict=True):
+        placed.links[half.link] = frame._replace(origin=placed.points[end])
 
 
 def _place_link_points(mechanism: Mechanism, placed: Placed, links: set[str]) -> None:

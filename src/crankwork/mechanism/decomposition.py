@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from crankwork.errors import Problem
 from crankwork.locale import Refusal
 from crankwork.mechanism.chain import Chain, ChainLink, Slide
+from crankwork.mechanism.driver import Cylinder
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Branch, Dyad, Guide, Point
 from crankwork.mechanism.linkage import Linkage, Member
 from crankwork.mechanism.mechanism import LinkPoint, Mechanism, body_at
@@ -33,8 +34,15 @@ def mechanism_of(linkage: Linkage, solved: Mapping[str, Point] | None = None) ->
     order.points += [LinkPoint(name, linkage.driver.link, *place) for name, place in linkage.driving.points.items()]
     order.points += [LinkPoint(name, one.name, *place) for one in linkage.geared for name, place in one.points.items()]
     massive = (one for one in (linkage.driving, *linkage.geared, *linkage.members) if one.centre)
-    bodies = tuple(body_at(one.name, one.mass, one.inertia, one.centre) for one in massive)
-    return Mechanism(linkage.driver, tuple(groups), bodies, dict(linkage.ground), tuple(order.points)), []
+    bodies = [body_at(one.name, one.mass, one.inertia, one.centre) for one in massive]
+    halves = linkage.driver.halves if isinstance(linkage.driver, Cylinder) else ()
+    # the frames of both lead from the end of the barrel to that of the rod
+    for sense, half in zip((1, -1), halves, strict=False):
+        name, (along, across) = f"{half.link}.centre", half.centre
+        if half.mass:
+            order.points.append(LinkPoint(name, half.link, sense * along, sense * across))
+            bodies.append(body_at(half.link, half.mass, half.inertia, name))
+    return Mechanism(linkage.driver, tuple(groups), tuple(bodies), dict(linkage.ground), tuple(order.points)), []
 
 
 @dataclass

@@ -11,7 +11,7 @@ from typing import Any
 from crankwork.errors import Problem
 from crankwork.locale import Refusal
 from crankwork.mechanism.decomposition import mechanism_of
-from crankwork.mechanism.driver import Cylinder, DrivingSlider, GearedCrank, Law, LinkMotor
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, GearedCrank, Half, Law, LinkMotor
 from crankwork.mechanism.dyads import Branch, Guide, Point
 from crankwork.mechanism.linkage import GROUND, Linkage, Member
 from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
@@ -26,7 +26,8 @@ _LINK = ("joins", "length", "points", *_MASS)
 _SLIDER = ("guide", "pin", "points", *_MASS)
 _GUIDE = ("through", "angle", "link")
 _DRIVERS = ("slider", "cylinder", "between")
-_DRIVER = (*_DRIVERS, "law")
+_HALVES = ("barrel", "rod")
+_DRIVER = (*_DRIVERS, *_HALVES, "law")
 _SAME = 1e-12
 _GEARED = ("pivot", "ratio", "start", "points", *_MASS)
 _DIRECTIONS: dict[str, Branch] = {"anticlockwise": 1, "clockwise": -1}
@@ -214,7 +215,18 @@ class _Reader:
             self._problem("driver.cylinder", told)
         member = Member(name, {ends[0]: (0.0, 0.0), ends[1]: (law.start, 0.0)})
         members = (*linkage.members, member)
-        return replace(linkage, driver=Cylinder(*ends, law, name), members=members)
+        halves = tuple(self._half(one, f"{name}_{one}" if one in taken else one) for one in _HALVES)
+        halves = halves if any(one.mass for one in halves) else ()
+        return replace(linkage, driver=Cylinder(*ends, law, name, halves), members=members)
+
+    def _half(self, name: str, link: str) -> Half:
+        """Return the barrel or the rod of a cylinder, without mass where none is given."""
+        table, key = self._table("driver").get(name), f"driver.{name}"
+        if table is None:
+            return Half(link, 0.0, 0.0, (0.0, 0.0))
+        mass = self._number(f"{key}.mass", table.get("mass"), positive=True)
+        inertia = self._number(f"{key}.inertia", table.get("inertia", 0.0))
+        return Half(link, mass, inertia, self._point(f"{key}.centre", table.get("centre")))
 
     def _with_motor(self, linkage: Linkage, law: Law) -> Linkage:
         """Return a linkage with the third side of the triangle that a motor between two links opens."""

@@ -51,6 +51,16 @@ class DrivingSlider:
 
 
 @dataclass(frozen=True)
+class Half:
+    """The barrel or the rod of a cylinder with its mass. [kg], [kg m2]"""
+
+    link: str
+    mass: float
+    inertia: float  # About its centre of mass
+    centre: Point  # From its own end towards the other one, and to the left of that [m]
+
+
+@dataclass(frozen=True)
 class Cylinder:
     """A link of changing length between two points: that length is the coordinate."""
 
@@ -59,6 +69,7 @@ class Cylinder:
     rod: str
     law: Law
     link: str = "cylinder"  # Name of the link
+    halves: tuple[Half, ...] = ()  # Barrel and rod, where they have masses
 
     turns = False
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from crankwork.mechanism.driver import Cylinder, DrivingSlider, GearedCrank, Law, LinkMotor
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, GearedCrank, Half, Law, LinkMotor
 from crankwork.mechanism.dyads import RRP
 
 if TYPE_CHECKING:
@@ -90,6 +90,11 @@ class Mechanism:
     def crank(self) -> Crank:
         """The crank, of a mechanism that one drives."""
         return crank_of(self.driver)
+
+    @property
+    def halves(self) -> tuple[Half, ...]:
+        """Barrel and rod of a driving cylinder that has masses."""
+        return self.driver.halves if isinstance(self.driver, Cylinder) else ()
 
     @property
     def period(self) -> float:

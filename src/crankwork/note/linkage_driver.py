@@ -36,6 +36,11 @@ def driven_task(material: Material) -> Iterator[Block]:
     yield words.heading("task")
     yield words.paragraph("driven_task")
     yield _drives(driver, words)
+    for name, half in zip(("barrel", "rod"), machine.mechanism.halves, strict=False):
+        if half.mass:
+            along, across = (words.amount(one, "mm") for one in half.centre)
+            amounts = {"mass": words.amount(half.mass, "kg"), "inertia": words.amount(half.inertia, "kg*m2")}
+            yield words.paragraph(f"cylinder_{name}", **amounts, along=along, across=across)
     if driver.law is not None:
         period = words.amount(driver.law.period, "s")
         yield words.paragraph("driver_law", period=period, table=Reference("law"))
