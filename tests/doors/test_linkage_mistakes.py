@@ -212,3 +212,10 @@ def test_two_hundred_links_and_a_loose_chain_are_answered_quickly(crankwork, mac
     answer = crankwork("check", machine_file(text="\n".join([text, *loose])))
     check_mistakes(answer)
     assert "30 degrees of freedom" in answer.err
+
+
+def test_a_slot_all_but_along_its_guide_has_no_second_position(crankwork, machine_file) -> None:
+    change = ('link = "yoke", angle = "90 deg"', 'link = "yoke", angle = "9e-05 deg"')
+    answer = crankwork("check", machine_file(change, name="scotch-yoke"))
+    assert answer.code == 2
+    assert "yoke" in answer.err

@@ -229,7 +229,10 @@ def follow(system: PositionEquations, start: Array, ahead: Array) -> Curve:
         return forward.curve()
     backward = _Follower(system, u, -forward.first.way)
     backward.run()
-    return forward.after(backward)
+    curve = forward.after(backward)
+    if len(curve.knots) < 3:
+        raise GeometryError(Refusal("circuit_lost", links=system.equations.names))
+    return curve
 
 
 class _Follower:
