@@ -154,8 +154,16 @@ def new(name: str | None, output: str | None, *, overwrite: bool) -> None:
 @click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
 @click.option("--circuits", is_flag=True, help="List every way to assemble a linkage, and how far it moves on each.")
 @click.option("--json", "as_json", is_flag=True, help="Print the circuits as one JSON object.")
-def check(file: str, language: Language, settings: tuple[str, ...], *, circuits: bool, as_json: bool) -> None:
+@click.option("--expand", is_flag=True, help="Print the file with its shorthand and every default written out.")
+def check(
+    file: str, language: Language, settings: tuple[str, ...], *, circuits: bool, as_json: bool, expand: bool
+) -> None:
     """Say what a machine file describes, or every mistake in it at once."""
+    if expand:
+        from crankwork.description.expand import expanded
+
+        click.echo(expanded(file, settings, language), nl=False)
+        return
     from crankwork.analysis import analyse
     from crankwork.description.machine_file import read
     from crankwork.locale import say

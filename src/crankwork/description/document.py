@@ -99,6 +99,11 @@ class Description:
                 raise CrankworkError(Refusal("entry_table", key=key[:60]))
         self._text, self._values = text, values
 
+    @property
+    def values(self) -> dict[str, Any]:
+        """What the file states, as nested tables and lists; a copy."""
+        return copy.deepcopy(self._values)
+
     def dump(self) -> str:
         """Return the text, with the comments of whoever wrote it."""
         return self._text

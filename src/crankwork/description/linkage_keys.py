@@ -21,7 +21,10 @@ _FORCE = Quantity(("force",), -1e9, 1e9)
 _NAME = Text(60)
 _NO_ANGLE = Key(_ANGLE, default="0 deg")
 _INERTIA = Key(Quantity(("inertia",), 0.0, 1e9), default="0 kg*m2")
-_MASS = {"mass": Key(Quantity(("mass",), 1e-9, 1e6)), "inertia": _INERTIA, "centre": Key(NameOr(_PLACE))}
+# of what turns about a pivot all of it counts, and a mass has the inertia of its distance
+_TURNING = {"mass": Key(Quantity(("mass",), 1e-9, 1e6)), "inertia": _INERTIA._replace(default=None),
+            "centre": Key(NameOr(_PLACE))}  # fmt: skip
+_MASS = {**_TURNING, "inertia": _INERTIA._replace(only={"mass": ()})}
 
 _CRANK = Table("driving", {
     "pivot": Key(_NAME, required=True),
@@ -32,7 +35,7 @@ _CRANK = Table("driving", {
     "start": _NO_ANGLE,
     "direction": Key(Choice(("anticlockwise", "clockwise")), default="anticlockwise"),
     "points": Key(Named(_PLACE)),
-    **_MASS,
+    **_TURNING,
     "from": Key(_ANGLE),
     "to": Key(_ANGLE),
 })  # fmt: skip
@@ -74,7 +77,7 @@ _GEARED = Table("geared", {
     "ratio": Key(Number(-1e3, 1e3), required=True),
     "start": _NO_ANGLE,
     "points": Key(Named(_PLACE), required=True),
-    **_MASS,
+    **_TURNING,
 })  # fmt: skip
 
 _LINK = Table("link", {
@@ -208,7 +211,11 @@ LINKAGE_FILE = Table("file", {
 # a crank that follows a law has no speed of its own, and other drivers have no crank
 DRIVEN_FILE = LINKAGE_FILE._replace(keys={
     **LINKAGE_FILE.keys,
-    "crank": Key(_CRANK._replace(keys={name: key._replace(required=False) for name, key in _CRANK.keys.items()})),
+    "crank": Key(_CRANK._replace(keys={
+        **{name: key._replace(required=False) for name, key in _CRANK.keys.items()},
+        "angular_acceleration": NO_ACCELERATION._replace(default=None),
+    })),
+    "charges": Key(Named(_CHARGE._replace(keys={**_CHARGE.keys, "angle": Key(_TURN)}), most=20)),
     "driver": Key(_DRIVER, required=True),
     "table": Key(Table("table", {"step": Key(_TIME)})),
 })  # fmt: skip

@@ -81,7 +81,7 @@ def read_machine(
     reader = Reader(decimal_comma=values.get("decimal_mark") == ",")
     machine = _build(values, reader, folder)
     if reader.problems or machine is None:
-        raise _input_error(source, name, reader, settings)
+        raise input_error(source, name, reader, settings)
     return machine
 
 
@@ -265,7 +265,7 @@ def entry_at(entry: object, step: str | int) -> object:
     return None
 
 
-def _input_error(source: str, name: str, reader: Reader, settings: Sequence[Setting]) -> InputError:
+def input_error(source: str, name: str, reader: Reader, settings: Sequence[Setting] = ()) -> InputError:
     """Return the error that tells every problem, in the order of the lines."""
     lines = locate(source)
     found = []

@@ -198,7 +198,8 @@ class Table(NamedTuple):
     def written_default(self, name: str, beside: Values) -> Any:  # noqa: ANN401 - as a file has it
         """Return the default of a key as a file would state it, None where it has none or does not apply."""
         entry = self.keys.get(name)
-        if entry is None or self._foreign(entry, beside) or not beside.keys().isdisjoint(entry.instead_of):
+        excluding = (one for one in beside if one in self.keys and name in self.keys[one].instead_of)
+        if entry is None or self._foreign(entry, beside) or any(excluding):
             return None
         one = entry.default
         return one.values.get(beside[one.key]) if isinstance(one, By) else one

@@ -1,0 +1,168 @@
+"""A file written out is read again and gives the same numbers; what cannot be said so is refused with its reason."""
+
+from __future__ import annotations
+
+import math
+import runpy
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from crankwork import analyse, read, template, template_names
+from crankwork.description.expand import expanded
+from crankwork.errors import CrankworkError, InputError
+
+ROOT = Path(__file__).parents[2]
+plausible_file = runpy.run_path(str(ROOT / "tests" / "doors" / "plausible.py"))["plausible_file"]
+FILES = {
+    **{name: template(name) for name in template_names()},
+    **{one.stem: one.read_text("utf-8") for one in sorted((ROOT / "examples").glob("*.toml"))},
+    **{one.stem: one.read_text("utf-8") for one in sorted((ROOT / "tests" / "machines").glob("*.toml"))},
+}
+# column of a crank gear, and that of the linkage that it stands for
+COLUMNS = {
+    "piston_displacement": ("slider_displacement.piston", 1),
+    "piston_velocity": ("slider_velocity.piston", 1),
+    "piston_acceleration": ("slider_acceleration.piston", 1),
+    "cylinder_volume": ("cylinder_volume.cylinder", 1),
+    "gas_pressure": ("gas_pressure.cylinder", 1),
+    "side_force": ("normal_force.piston", 1),
+    "crank_torque": ("balancing_torque", -1),
+    "reduced_inertia_1": ("reduced_inertia_1", 1),
+}
+VALUES = {
+    "indicated_work": "indicated_work.cylinder",
+    "indicated_power": "indicated_power.cylinder",
+    "swept_volume": "swept_volume.cylinder",
+    "clearance_volume": "clearance_volume.cylinder",
+    "flywheel_inertia": "flywheel_inertia.exact",
+}
+
+
+def kind(text):
+    values = tomllib.loads(text)
+    if "crank" in values and "transfer" not in values and "rod" in values:
+        method = values.get("method", {}).get("kinematics", "exact")
+        return "gear" if not {"engine", "cycle"} & set(values) and method == "exact" else "unsaid"
+    return "unsaid" if "transfer" in values else "linkage"
+
+
+def of_kind(wanted):
+    return [pytest.param(text, id=name) for name, text in FILES.items() if kind(text) == wanted]
+
+
+def written(tmp_path, text, name="machine"):
+    path = tmp_path / f"{name}.toml"
+    path.write_text(text, "utf-8")
+    return path
+
+
+def numbers_of_a_gear_are_those_of_its_linkage(tmp_path, text):
+    path = written(tmp_path, text)
+    out = expanded(path)
+    again = written(tmp_path, out, "again")
+    assert expanded(again) == out
+    gear, linkage = analyse(read(path)), analyse(read(again))
+    for key, (other, sign) in COLUMNS.items():
+        if key in gear.columns:
+            size = np.max(np.abs(gear.columns[key]))
+            assert sign * linkage.columns[other] == pytest.approx(gear.columns[key], rel=1e-9, abs=1e-9 * size), key
+    for key, other in VALUES.items():
+        if key in gear.summary:
+            assert linkage.summary[other] == pytest.approx(gear.summary[key], rel=1e-9), key
+
+
+@pytest.mark.parametrize("text", of_kind("gear"))
+def test_a_crank_gear_is_written_out_as_the_linkage_that_it_is(tmp_path, text):
+    numbers_of_a_gear_are_those_of_its_linkage(tmp_path, text)
+
+
+@pytest.mark.parametrize(
+    ("name", "changes"),
+    [
+        ("engine", {"[method]\n": "[method]\npi = 3.14\nweights = true\n"}),
+        ("engine", {"[table]": '[flywheel]\nfluctuation = 0.02\ninertia = "0.3 kg*m2"\n[table]'}),
+        ("compressor", {
+            "# piston_rod_diameter": "piston_rod_diameter", "[gas]": '[gas]\nback_pressure = "0.1 MPa"',
+            'bore = "100 mm"': 'bore = "100 mm"\noffset = "-20 mm"\ninclination = "30 deg"', "# weights": "weights",
+            'mass = "1.4 kg"': 'mass = "10 g/cm2"',
+        }),
+        ("slider-crank", {
+            "small_end_share = 0.275": 'small_end_share = 0.275\nradius_of_gyration = "89 mm"',
+            "# angular_acceleration = \"0 ": "angular_acceleration = \"50 ", "# mass = \"2 kg\"": 'mass = "2 kg"',
+        }),
+        ("slider-crank", {'kinematics = "exact"': 'kinematics = "exact"\nrod = "two-mass"'}),
+        ("slider-crank", {
+            'mass = "1.2 kg"': 'small_end_mass = "0.3 kg"',
+            "small_end_share": 'big_end_mass = "1 kg"\n# small_end_share',
+        }),
+    ],
+)  # fmt: skip
+def test_every_part_of_a_crank_gear_is_written_out(tmp_path, name, changes):
+    text = template(name)
+    for old, new in changes.items():
+        assert old in text
+        text = text.replace(old, new, 1)
+    numbers_of_a_gear_are_those_of_its_linkage(tmp_path, text)
+
+
+@pytest.mark.parametrize("text", of_kind("linkage"))
+def test_a_linkage_stands_for_itself_with_its_defaults(tmp_path, text):
+    path = written(tmp_path, text)
+    out = expanded(path)
+    again = written(tmp_path, out, "again")
+    assert expanded(again) == out
+    assert read(again) == read(path)
+    assert "# by default" in out
+    stated, found = (tomllib.loads(one) for one in (text, out))
+    assert {key for key in stated if key not in found} == set()
+
+
+def test_other_languages_mark_defaults_in_theirs(tmp_path):
+    path = written(tmp_path, template("four-bar"))
+    assert 'direction = "anticlockwise"  # по умолчанию' in expanded(path, (), "ru")
+    assert 'direction = "anticlockwise"  # mặc định' in expanded(path, (), "vi")
+
+
+def test_settings_are_in_what_is_written_out(tmp_path):
+    path = written(tmp_path, template("four-bar"))
+    assert 'radius = "60 mm"' in expanded(path, ["crank.radius=60 mm"])
+
+
+@pytest.mark.parametrize("text", of_kind("unsaid"))
+def test_what_no_table_of_a_linkage_says_is_refused_with_its_reason(tmp_path, text):
+    values = tomllib.loads(text)
+    with pytest.raises(InputError) as refusal:
+        expanded(written(tmp_path, text))
+    told = {problem.key for problem in refusal.value.problems}
+    unsaid = {key for key in ("cycle", "engine", "bearings", "balance", "transfer") if key in values}
+    assert unsaid <= told <= unsaid | {"method.kinematics"}
+    assert all(place.rpartition(":")[2].isdecimal() for place in refusal.value.places)
+
+
+def test_a_mistake_is_told_before_anything_is_written_out(tmp_path):
+    path = written(tmp_path, template("engine").replace('"45 mm"', '"45 apples"'))
+    with pytest.raises(InputError, match=r"crank\.radius"):
+        expanded(path)
+
+
+def test_random_files_stand_for_themselves(tmp_path):
+    seen = 0
+    for number in range(60):
+        text = plausible_file(7, number).text
+        path = written(tmp_path, text)
+        try:
+            machine = read(path)
+            out = expanded(path)
+        except CrankworkError:
+            continue
+        again = written(tmp_path, out, "again")
+        assert expanded(again) == out
+        if machine.linkage is not None:
+            assert read(again) == machine
+        else:
+            assert read(again).speed == pytest.approx(machine.speed, rel=1e-12)
+        seen += not math.isnan(machine.speed)
+    assert seen > 10

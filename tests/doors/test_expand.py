@@ -1,0 +1,55 @@
+"""`check --expand`, and the schema in every language."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from crankwork.description.machine_file import template
+
+
+@pytest.mark.parametrize("name", ["engine", "four-bar"])
+def test_a_file_written_out_can_be_run(crankwork, name):
+    Path("my.toml").write_text(template(name), "utf-8")
+    answer = crankwork("check", "my.toml", "--expand")
+    assert (answer.code, answer.err) == (0, "")
+    assert {"links", "method", "table"} <= tomllib.loads(answer.out).keys()
+    Path("again.toml").write_text(answer.out, "utf-8")
+    assert crankwork("run", "again.toml").code == 0
+
+
+@pytest.mark.parametrize(
+    ("language", "told"),
+    [
+        ("en", "engine: several cylinders on a shaft have throws"),
+        ("ru", "engine: у нескольких цилиндров на валу есть колена"),
+        ("vi", "engine: nhiều xi lanh trên một trục có các khuỷu"),
+    ],
+)
+def test_what_cannot_be_written_out_ends_with_its_reasons(crankwork, language, told):
+    Path("my.toml").write_text(template("whole-engine"), "utf-8")
+    answer = crankwork("check", "my.toml", "--expand", "--lang", language)
+    assert (answer.code, answer.out) == (2, "")
+    assert told in answer.err
+    assert "my.toml:" in answer.err
+    assert ": cycle: " in answer.err
+
+
+def test_a_method_that_is_not_exact_can_be_set_aside(crankwork):
+    Path("my.toml").write_text(template("engine").replace('"exact"', '"textbook"'), "utf-8")
+    answer = crankwork("check", "my.toml", "--expand")
+    assert (answer.code, "--set method.kinematics=exact" in answer.err) == (2, True)
+    assert crankwork("check", "my.toml", "--expand", "--set", "method.kinematics=exact").code == 0
+
+
+@pytest.mark.parametrize(
+    ("language", "told"), [("en", "how fast it turns"), ("ru", "как быстро"), ("vi", "quay nhanh")]
+)
+def test_the_schema_says_what_keys_mean_in_every_language(crankwork, language, told):
+    schema = json.loads(crankwork("schema", "--lang", language).out)
+    speed = schema["anyOf"][0]["properties"]["crank"]["properties"]["speed"]
+    assert told in speed["description"]
+    assert (speed["unit"], speed["maximum"] > speed["minimum"] > 0) == ("rpm", True)
