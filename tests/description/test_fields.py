@@ -106,4 +106,7 @@ def test_the_schema_says_default_range_and_unit():
     step = SCHEMA["anyOf"][0]["properties"]["table"]["properties"]["step"]
     assert (step["default"], step["minimum"], step["maximum"], step["unit"]) == ("10 deg", 0.01, 180.0, "deg")
     shown = json.loads(json_schema("ru"))["anyOf"][0]["properties"]["table"]["properties"]["step"]["description"]
+    cycle = SCHEMA["anyOf"][0]["properties"]["cycle"]["properties"]
+    assert "by default 0.09 MPa with kind = wiebe" in cycle["intake_pressure"]["description"]
+    assert cycle["cut_off"]["description"].endswith("; only with kind = otto | kind = ideal-diesel | kind = dual")
     assert shown.startswith("шаг таблиц; угол; от 0.01 deg до 180 deg")

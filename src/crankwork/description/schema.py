@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from crankwork import units
 from crankwork.description.kinds import Choice, Kind, Measure, Number, Quantity, Reader, Text, is_one_line, shown
-from crankwork.locale import Language, Refusal, texts
+from crankwork.locale import Language, Refusal, say, texts
 
 _MAX_ENTRIES = 10_000
 _LONGEST_NAME = 60
@@ -253,7 +253,8 @@ class Table(NamedTuple):
         properties, beside = {}, {}
         for name, entry in self.keys.items():
             own = entry.kind.schema(language)
-            described = "; ".join(part for part in (self.meaning(name, language), own.get("description")) if part)
+            parts = [self.meaning(name, language), *_applies(entry, language), own.get("description")]
+            described = "; ".join(part for part in parts if part)
             default = {} if entry.default is None or isinstance(entry.default, By) else {"default": entry.default}
             properties[name] = {**own, "description": described, **default}
             if entry.only or entry.instead_of:
@@ -302,6 +303,16 @@ class Values(dict[str, Any]):
     def but(self, **changes: Any) -> Values:  # noqa: ANN401 - each kind has its own type
         """Return these values with others in their place."""
         return Values({**self, **changes}, self.table)
+
+
+def _applies(entry: Key, language: Language) -> Iterator[str]:
+    """Yield in words what must stand beside a key, and a default that follows from it."""
+    for key, values in entry.only.items():
+        yield say("fields.with", language, condition=" | ".join(f"{key} = {one}" for one in values) or key)
+    if isinstance(entry.default, By):
+        for default in dict.fromkeys(entry.default.values.values()):
+            cases = [f"{entry.default.key} = {case}" for case, one in entry.default.values.items() if one == default]
+            yield say("fields.default_with", language, default=default, condition=" | ".join(cases))
 
 
 def means_nothing(key: str, found: object, wanted: tuple[str, ...]) -> Refusal:
