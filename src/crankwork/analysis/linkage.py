@@ -113,7 +113,7 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
         summary |= {key: one.named(key) for key, one in balance_of(driver, memory | summary, machine.mechanism.period)}
     summary |= transient_summary(machine)
     notices += tuple(_of_redundant(machine))
-    if machine.drawn.geared:
+    if isinstance(driver, Crank) and any(one.pressure_angle is None for one in driver.geared):
         notices += (Notice("geared", {}),)
     if machine.mechanism.driver.law is not None:
         notices += (Notice("by_law", {}),)
@@ -164,8 +164,8 @@ def _boundless(keys: Iterable[str], angles: Iterable[float]) -> tuple[Notice, ..
 def _followed(memory: Mapping[str, Known]) -> dict[str, Known]:
     """Return the columns that single values are taken from."""
     kinds = (
-        "slider_displacement", "link_angle", "joint_force", "axial_force", "slider_velocity", "gas_pressure",
-        "gas_force", *_OF_DRIVER, "shaking_force",
+        "slider_displacement", "link_angle", "joint_force", "tooth_force", "axial_force", "slider_velocity",
+        "gas_pressure", "gas_force", *_OF_DRIVER, "shaking_force",
     )  # fmt: skip
     return {key: one for key, one in memory.items() if key in DYNAMICS or key.partition(".")[0] in kinds}
 
@@ -187,7 +187,7 @@ def _summary(
         if is_place and (kind == "slider_displacement" or travel.value < math.pi):
             result[f"{_TRAVEL[kind]}.{name}"] = travel
         if not is_place or rocks(pivoted, key, travel.value):
-            both = is_place or key in DYNAMICS or kind == "gas_force" or key in _OF_DRIVER
+            both = is_place or key in DYNAMICS or kind in ("gas_force", "tooth_force") or key in _OF_DRIVER
             words = ("max", "min") if both else ("max",)
             for word in words:
                 extreme = f"{kind}_{word}{dot}{name}"
@@ -300,7 +300,8 @@ def _groups(columns: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
         "balance": ("shaking_force_x", "shaking_force_y", "shaking_force", "shaking_moment"),
         "speed": ("crank_speed", "kinetic_energy_change"),
         "chambers": ("cylinder_volume", "diagram_pressure", "gas_pressure", "gas_force"),
-        "joint_forces": ("joint_force_x", "joint_force_y", "joint_force", "axial_force", "normal_force",
+        "joint_forces": ("joint_force_x", "joint_force_y", "joint_force", "tooth_force", "separating_force",
+                         "axial_force", "normal_force",
                          "normal_moment"),
     }  # fmt: skip
     groups = {name: tuple(key for key in columns if key.partition(".")[0] in keys) for name, keys in kinds.items()}

@@ -197,6 +197,8 @@ def _forces(solved: SolvedLinkage, running: Running) -> tuple[Known, dict[str, K
             f"joint_force_y.{name}": pin.y,
             f"joint_force.{name}": pin.resultant,
         }
+    for name, (across, apart) in found.teeth.items():
+        columns |= {f"tooth_force.{name}": across, f"separating_force.{name}": apart}
     for name, guide in found.guides.items():
         columns |= {f"normal_force.{name}": guide.normal, f"normal_moment.{name}": guide.moment}
     return found.balancing_torque, columns | along

@@ -77,6 +77,7 @@ _GEARED = Table("geared", {
     "ratio": Key(Number(-1e3, 1e3), required=True),
     "start": _NO_ANGLE,
     "points": Key(Named(_PLACE), required=True),
+    "pressure_angle": Key(Quantity(("angle",), 0.0, math.radians(45))),
     **_TURNING,
 })  # fmt: skip
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -19,7 +20,7 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.dyads import LinkMotion
 from crankwork.kinematics.motion import Motion
 from crankwork.loads.applied import AppliedForce, AppliedLoads, AppliedTorque
-from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, GearedCrank, LinkMotor
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint, group_links, joints, origin_of
 from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
 
@@ -78,10 +79,45 @@ def equilibrium(
     for link, which, value in pushed:
         matrix[:, row[link] + which, -1] = value
     if isinstance(driver, Crank):
-        for k, one in enumerate(driver.geared, start=2 * len(held)):
+        _mesh(matrix[:, :, 2 * len(held) :], driver, row)
+    return Equilibrium(tuple(links), tuple(held), matrix)
+
+
+def _mesh(matrix: Array, driver: Crank, row: Mapping[str, int]) -> None:
+    """Write what gears put on the crank and on those that it turns: a torque, or a force between teeth."""
+    for k, one in enumerate(driver.geared):
+        if one.pressure_angle is None:
             matrix[:, row[one.link] + 2, k] = 1.0
             matrix[:, row[driver.link] + 2, k] = -one.ratio
-    return Equilibrium(tuple(links), tuple(held), matrix)
+            continue
+        # a unit force where both wheels move alike
+        (x, y), reach = _between(driver, one), one.ratio / (one.ratio - 1)
+        length = math.hypot(x, y)
+        for link, sign, lever in ((one.link, 1.0, (reach - 1) * length), (driver.link, -1.0, reach * length)):
+            matrix[:, row[link], k], matrix[:, row[link] + 1, k] = -sign * y / length, sign * x / length
+            matrix[:, row[link] + 2, k] = sign * lever
+
+
+def _between(crank: Crank, one: GearedCrank) -> tuple[float, float]:
+    """Return the way from the axis of a crank to that of a geared one. [m]"""
+    return one.pivot[0] - crank.pivot[0], one.pivot[1] - crank.pivot[1]
+
+
+def _separated(wrenches: dict[str, Wrench], crank: Crank, forces: Array) -> dict[str, Wrench]:
+    """Return what acts on the links with the forces that push wheels apart, through their axes.
+
+    `forces`: between teeth across the lines of centres, shape (n, geared cranks) [N].
+    """
+    found = dict(wrenches)
+    for k, one in enumerate(crank.geared):
+        if one.pressure_angle:
+            x, y = _between(crank, one)
+            size = np.abs(forces[..., k]) * math.tan(one.pressure_angle) / math.hypot(x, y)
+            size = size if one.ratio < 0 else -size
+            for link, sign in ((one.link, 1.0), (crank.link, -1.0)):
+                own = found[link]
+                found[link] = Wrench(own.x + sign * size * x, own.y + sign * size * y, own.moment)
+    return found
 
 
 def _pushed(driver: Driver | None, motion: Motion) -> list[tuple[str, int, Value]]:
@@ -227,6 +263,10 @@ def system_joint_forces(running: Running) -> JointForces:
     system, mechanism = whole_system(running), running.mechanism
     wrenches = {link: Wrench(*one) for link, one in plain_wrenches(running).items()}
     unknowns = solve_positions(system.matrix, system.right_side(wrenches))
+    if isinstance(mechanism.driver, Crank) and any(one.pressure_angle for one in mechanism.driver.geared):
+        between = unknowns[..., 2 * len(system.joints) : -1]
+        wrenches = _separated(wrenches, mechanism.driver, between)
+        unknowns = solve_positions(system.matrix, system.right_side(wrenches))
     reactions = system.reactions(unknowns)
     is_inside = isinstance(mechanism.driver, Cylinder) and not mechanism.driver.halves
     driven = cylinder_force(mechanism, running.motion, reactions, wrenches) if is_inside else unknowns[..., -1]

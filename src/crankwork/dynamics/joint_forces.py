@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from crankwork.dynamics.dyad_forces import (
     OnGuide,
@@ -17,6 +18,7 @@ from crankwork.dynamics.dyad_forces import (
 )
 from crankwork.dynamics.force_passages import bridged_forces
 from crankwork.dynamics.force_system import cylinder_force, opened_group, solved_group
+from crankwork.dynamics.gears import meshes, on_cranks
 from crankwork.dynamics.link_loads import Wrench, Wrenches, arm, link_wrenches, moment_of
 from crankwork.dynamics.reaction import GuideForce, JointForces, PinForce, Reaction, gathered, reaction_wrench
 from crankwork.dynamics.running import Running
@@ -56,13 +58,16 @@ def joint_forces(running: Running) -> JointForces:
             carrier = reaction.joint.other
             if carrier != GROUND and carrier not in links:
                 wrenches.add(carrier, reaction_wrench(reaction, motion, carrier))
-    found |= _at_base(running, every, wrenches)
+    meshing = {one.link: one for one in meshes(driver, motion, wrenches)} if isinstance(driver, Crank) else {}
+    pushed = on_cranks(driver, meshing) if isinstance(driver, Crank) else {}
+    found |= _at_base(running, every, wrenches, pushed)
     if isinstance(driver, Cylinder) and driver.halves:
         guided = _in_barrel(driver, motion, found, wrenches)
         found[guided.joint], every = guided, (*every, guided.joint)
     if not isinstance(driver, LinkMotor):
         torque = _at_driver(running, found, wrenches)
-    return gathered(found, every, torque)
+    teeth = {name: (one.across, one.apart) for name, one in meshing.items()}
+    return replace(gathered(found, every, torque), teeth=teeth)
 
 
 def _loaded(running: Running) -> Wrenches:
@@ -84,8 +89,13 @@ def _at_driver(running: Running, found: Mapping[Joint, Reaction], wrenches: Wren
     return cylinder_force(running.mechanism, motion, found, wrenches)
 
 
-def _at_base(running: Running, every: Sequence[Joint], wrenches: Wrenches) -> dict[Joint, Reaction]:
-    """Return the reactions in the joints of the links that are placed before any group."""
+def _at_base(
+    running: Running, every: Sequence[Joint], wrenches: Wrenches, pushed: Mapping[str, tuple[Value, Value]]
+) -> dict[Joint, Reaction]:
+    """Return the reactions in the joints of the links that are placed before any group.
+
+    `pushed`: by teeth, along the fixed axes [N].
+    """
     found: dict[Joint, Reaction] = {}
     inner = {name for group in running.mechanism.dyads for name in group_links(group)}
     for joint in every:
@@ -93,7 +103,9 @@ def _at_base(running: Running, every: Sequence[Joint], wrenches: Wrenches) -> di
             continue
         held = wrenches[joint.link]
         if isinstance(joint, Pin):
-            found[joint] = PinForce(joint, -held.x, -held.y)
+            x, y = pushed.get(joint.link, (None, None))
+            along = (-held.x if x is None else -held.x - x, -held.y if y is None else -held.y - y)
+            found[joint] = PinForce(joint, *along)
         else:
             cos, sin = running.motion.frames[joint.link][1:3]
             across = named(-force_across(held.y, cos, held.x, sin), f"normal_force.{joint.link}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
@@ -98,6 +98,8 @@ class JointForces:
     # Normal forces and moments of the guides by sliding piece, arrays of shape (n,) [N], [N m]
     guides: Mapping[str, GuideForce]
     balancing_torque: Value  # Torque or force of the driver, positive with its motion, shape (n,) [N m] or [N]
+    # Forces across and along the line of centres between teeth, by geared crank, arrays of shape (n,) [N]
+    teeth: Mapping[str, tuple[Value, Value]] = field(default_factory=dict)
 
 
 def gathered(reactions: Mapping[Joint, Reaction], order: tuple[Joint, ...], balancing_torque: Array) -> JointForces:

@@ -164,6 +164,9 @@ def _geared(crank: GearedCrank, places: Mapping[str, Point], ground: Mapping[str
         ratio=_untyped(given(f"gear_ratio.{name}", crank.ratio, f"{path}.ratio")),
         pivot=ground[pivot] if pivot else _point(f"{name}_pivot", crank.pivot, f"{path}.pivot"),
         start=_stated(f"line_angle.{name}", crank.start, f"{path}.start"),
+        pressure_angle=None
+        if crank.pressure_angle is None
+        else _stated(f"pressure_angle.{name}", crank.pressure_angle, f"{path}.pressure_angle"),
     )
 
 

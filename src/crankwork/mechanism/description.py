@@ -29,7 +29,7 @@ _DRIVERS = ("slider", "cylinder", "between")
 _HALVES = ("barrel", "rod")
 _DRIVER = (*_DRIVERS, *_HALVES, "law")
 _SAME = 1e-12
-_GEARED = ("pivot", "ratio", "start", "points", *_MASS)
+_GEARED = ("pivot", "ratio", "start", "points", "pressure_angle", *_MASS)
 _DIRECTIONS: dict[str, Branch] = {"anticlockwise": 1, "clockwise": -1}
 
 
@@ -295,7 +295,12 @@ class _Reader:
             ratio, start = (self._number(f"{key}.{one}", table.get(one, 0.0)) for one in ("ratio", "start"))
             if not ratio:
                 self._problem(f"{key}.ratio", Refusal("ratio_zero"))
-            crank = GearedCrank(name, ground.get(pivot, (0.0, 0.0)), ratio, start)
+            angle = (
+                self._number(f"{key}.pressure_angle", table["pressure_angle"]) if "pressure_angle" in table else None
+            )
+            if angle is not None and (ratio == 1 or pivot == self._table("crank").get("pivot")):
+                self._problem(f"{key}.pressure_angle", Refusal("wheels_apart"))
+            crank = GearedCrank(name, ground.get(pivot, (0.0, 0.0)), ratio, start, angle)
             points = self._points(key, table)
             if not points:
                 self._problem(f"{key}.points", Refusal("geared_points"))

@@ -101,3 +101,4 @@ class GearedCrank:
     pivot: Point  # [m]
     ratio: float  # Its angular velocity over that of the driving crank, negative where it turns the other way round [-]
     start: float = 0.0  # Direction of its x axis where the driving crank has not turned yet [rad]
+    pressure_angle: float | None = None  # Of teeth that touch those of the driving crank's wheel, if they do [rad]

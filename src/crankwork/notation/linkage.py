@@ -57,6 +57,8 @@ ARGUMENTS: dict[str, Argument] = {
     "k_turn": Argument("half_turns"),
     "r_ky": Argument("arm_y", "{},₂"),
     "M_1": Argument("link_moment"),
+    "F_z": Argument("tooth_force"),
+    "a_w": Argument("link_length"),
     "M_2": Argument("link_moment", "{}₂"),
     "R_x": Argument("joint_force_x"),
     "R_y": Argument("joint_force_y"),

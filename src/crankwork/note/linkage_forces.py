@@ -39,7 +39,9 @@ def forces(material: Material) -> Iterator[Block]:
     yield words.paragraph("reactions")
     yield from worked_at(material, "joint_forces")
     yield from equations(material.lines("joint_forces"), words)
-    keys = any_nonzero(named(columns, "joint_force", "normal_force", "normal_moment"), columns)
+    keys = any_nonzero(
+        named(columns, "joint_force", "tooth_force", "separating_force", "normal_force", "normal_moment"), columns
+    )
     shown = quantity_columns(keys, columns, words)
     yield from position_tables("reactions", material.positions, shown, words, first=material.first, label="reactions")
     yield from material.figures("joint_forces")

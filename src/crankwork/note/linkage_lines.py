@@ -27,7 +27,10 @@ _CHARGES = ("swept_volume", "clearance_volume", "compression_ratio", "gas_mass")
 _CHAMBERS = ("cylinder_volume", "diagram_pressure", "gas_pressure", "gas_force")
 _GAS_WORK = ("indicated_work", "indicated_mean_pressure", "indicated_power")
 _INERTIA = ("link_inertia_force", "link_inertia_torque")
-_JOINTS = ("joint_force_x", "joint_force_y", "joint_force", "axial_force", "normal_force", "normal_moment")
+_JOINTS = (
+    "tooth_force", "separating_force", "joint_force_x", "joint_force_y", "joint_force", "axial_force", "normal_force",
+    "normal_moment",
+)  # fmt: skip
 _REDUCTION = ("reduced_inertia", "kinetic_energy", "reduced_inertia_1", "reduced_torque")
 _WHEEL = ("wittenbauer_slope", "whole_inertia", "flywheel_inertia")
 _TORQUES = ("static_torque", "dynamic_torque", "balancing_torque", "driving_torque")

@@ -44,6 +44,9 @@ ROWS = (
     Quantity("normal_force", "N",
              "Force of a guide on its piece, positive to the left of the direction in which the distance of the piece"
              " counts."),
+    Quantity("tooth_force", "N",
+             "Force between teeth across the line of centres, on the geared crank, to the left seen from the driving."),
+    Quantity("separating_force", "N", "Force between teeth along the line of centres, which pushes them apart."),
     Quantity("normal_moment", "N*m",
              "Moment of a guide on its piece about the origin of the piece, positive anticlockwise."),
     Quantity("pin_radius", "mm", "Radius of a pin in its bearing."),

@@ -1,0 +1,117 @@
+"""Forces between the teeth of geared cranks: by hand, by power, and against one system of all links."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import crankwork
+from crankwork.analysis.chambers import solve_linkage
+from crankwork.analysis.linkage import running_at
+from crankwork.dynamics.force_system import system_joint_forces
+from crankwork.kinematics.memory import remembered_motion
+from crankwork.kinematics.motion import linkage_motion
+
+pytestmark = pytest.mark.elsewhere
+FILE = Path(__file__).parent.parent / "machines" / "toothed-five-bar.toml"
+TEXT = FILE.read_text("utf-8")
+DEGREES = np.arange(2.5, 360.0, 5.0)
+RATIOS = ["-2", "-0.75", "2", "0.5"]
+
+
+def lifted(ratio, angle="20 deg"):
+    """Return the machine with another ratio, its second pivot higher than the first."""
+    text = TEXT.replace("ratio = -2", f"ratio = {ratio}").replace('E = ["180 mm", "0 mm"]', 'E = ["180 mm", "15 mm"]')
+    return crankwork.read_machine(text.replace('"20 deg"', f'"{angle}"'))
+
+
+def test_a_torque_on_the_geared_crank_presses_its_teeth():
+    text = TEXT.partition("[crank]")[0]
+    text += '[crank]\npivot = "O"\npin = "A"\nradius = "60 mm"\nspeed = "240 rpm"\n'
+    text += '[geared.second]\npivot = "E"\nratio = -2\npressure_angle = "20 deg"\npoints = { D = ["45 mm", "0 mm"] }\n'
+    text += (
+        '[links.left]\njoins = ["A", "C"]\nlength = "200 mm"\n[links.right]\njoins = ["D", "C"]\nlength = "210 mm"\n'
+    )
+    text += '[positions]\nC = ["110 mm", "200 mm"]\n'
+    text += '[[loads]]\nkind = "torque"\nlink = "second"\ntorque = ["7 N*m"]\n'
+    results = crankwork.analyse(crankwork.read_machine(text))
+    # pitch radii of 120 and 60 mm
+    across = 7 / 0.06
+    assert np.abs(results["tooth_force.second"]) == pytest.approx(across, rel=1e-13)
+    assert results["separating_force.second"] == pytest.approx(across * math.tan(math.radians(20)), rel=1e-13)
+    for pivot in "OE":
+        assert results[f"joint_force.{pivot}"] == pytest.approx(across / math.cos(math.radians(20)), rel=1e-12)
+    # teeth push the second wheel away from the first, and the bearing holds it
+    assert results["joint_force_x.E"] == pytest.approx(-across * math.tan(math.radians(20)), rel=1e-12)
+    assert results["joint_force_x.O"] == pytest.approx(across * math.tan(math.radians(20)), rel=1e-12)
+
+
+@pytest.mark.parametrize("ratio", RATIOS)
+def test_the_pivots_bear_what_one_system_of_all_links_gives(ratio):
+    one, grid = lifted(ratio), crankwork.CrankGrid.from_degrees(DEGREES)
+    results, moved = crankwork.analyse(one), linkage_motion(one.mechanism, crankwork.CrankGrid.from_degrees(DEGREES))
+    assert max(results.checks.values()) < 1e-12
+    solved = solve_linkage(one, remembered_motion(one.mechanism, moved, one.linkage))
+    system, found = (
+        system_joint_forces(running_at(solved, linkage_motion(one.mechanism, grid))),
+        results.columns_at(DEGREES),
+    )
+    largest = np.max(found["joint_force.O"])
+    for name, joint in (("O", "crank_pivot"), ("E", "second_pivot"), ("A", "A"), ("C", "C"), ("D", "D")):
+        assert found[f"joint_force_x.{name}"] == pytest.approx(system.pins[joint].x, abs=1e-12 * largest)
+        assert found[f"joint_force_y.{name}"] == pytest.approx(system.pins[joint].y, abs=1e-12 * largest)
+
+
+@pytest.mark.parametrize("ratio", RATIOS)
+def test_the_power_of_the_teeth_is_that_of_the_torque_that_passes(ratio):
+    """Where wheels touch both move alike, and what the teeth give the one they take from the other."""
+    results = crankwork.analyse(lifted(ratio))
+    plain = crankwork.analyse(crankwork.read_machine(TEXT.replace('pressure_angle = "20 deg"\n', "").replace(
+        "ratio = -2", f"ratio = {ratio}").replace('E = ["180 mm", "0 mm"]', 'E = ["180 mm", "15 mm"]')))  # fmt: skip
+    found, without = results.columns_at(DEGREES), plain.columns_at(DEGREES)
+    assert found["balancing_torque"] == pytest.approx(without["balancing_torque"], rel=1e-12)
+    i, e = float(ratio), np.array([0.18, 0.015])
+    distance = np.hypot(*e)
+    e, touch = e / distance, i / (i - 1) * distance
+    across, apart = found["tooth_force.second"], found["separating_force.second"]
+    # on the driving pivot: what teeth take there, beside what it bears without them
+    push = np.outer([-e[1], e[0]], across) + np.sign(-i) * np.outer(e, apart)
+    for pivot, sign in (("E", -1.0), ("O", 1.0)):
+        for k, axis in enumerate("xy"):
+            apart_by = found[f"joint_force_{axis}.{pivot}"] - without[f"joint_force_{axis}.{pivot}"]
+            assert apart_by == pytest.approx(sign * push[k], abs=1e-11 * np.max(np.abs(push)))
+    # the velocity of both wheels where they touch
+    assert touch == pytest.approx(i * (touch - distance))
+    assert np.min(apart) >= 0
+    assert apart == pytest.approx(np.abs(across) * math.tan(math.radians(20)), rel=1e-12)
+
+
+def test_without_an_angle_there_is_only_the_force_across():
+    found = crankwork.analyse(lifted("-2", "0 deg")).columns_at(DEGREES)
+    assert not np.any(found["separating_force.second"])
+    assert np.any(found["tooth_force.second"])
+
+
+def test_the_notice_is_for_wheels_that_do_not_touch_only():
+    codes = {one.code for one in crankwork.analyse(crankwork.read(FILE)).notices}
+    assert "geared" not in codes
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        (
+            "ratio = -2",
+            "ratio = 1",
+            r"geared\.second\.pressure_angle: wheels of this ratio on these pivots do not touch",
+        ),
+        ('pivot = "E"', 'pivot = "O"', r"geared\.second\.pressure_angle: wheels"),
+        ('"20 deg"', '"60 deg"', r"geared\.second\.pressure_angle: "),
+    ],
+)
+def test_mistakes_are_told_with_their_place(old, new, told):
+    with pytest.raises(crankwork.InputError, match=told):
+        crankwork.read_machine(TEXT.replace(old, new, 1))
