@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NamedTuple
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
     from crankwork.mechanism.linkage import Linkage
     from crankwork.shaft.motor import GearedMotor
     from crankwork.working_cycle.calculated_cycle import CalculatedPressure
+
+
+_TURN = 360.0
 
 
 class Stated(NamedTuple):
@@ -325,4 +329,4 @@ class Machine:
             return self.gas.cycle
         if self.engine is not None:
             return self.engine.layout.cycle
-        return max(cycle_of(self.chambers), self.mechanism.period)
+        return _TURN * math.lcm(round(cycle_of(self.chambers) / _TURN), round(self.mechanism.period / _TURN))

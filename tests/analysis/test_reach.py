@@ -216,6 +216,61 @@ def test_everything_about_a_kite_covers_its_two_turns():
     assert "720" in moving_drawing(results.machine) or "705" in moving_drawing(results.machine)
 
 
+GEARED = (Path(__file__).parent.parent / "machines" / "geared-five-bar.toml").read_text("utf-8")
+
+
+@pytest.mark.parametrize(("ratio", "turns"), [("-0.5", 2), ("1.5", 2), ("0.25", 4)])
+def test_gears_bring_a_linkage_back_after_some_turns(ratio, turns):
+    """Over all of them constant forces do no work, and everything is as it was."""
+    results = analyse(read_machine(GEARED.replace("ratio = -2", f"ratio = {ratio}")))
+    assert results.grid.degrees[-1] == 360.0 * turns
+    assert results.summary["mean_torque"] == pytest.approx(0.0, abs=1e-11 * results.summary["static_torque_max"])
+    for key in ("joint_force.C", "kinetic_energy", "point_x.C", "balancing_torque"):
+        assert results.columns[key][-1] == pytest.approx(results.columns[key][0], rel=1e-9), key
+    assert [one.values["turns"] for one in results.notices if one.code == "two_turns"] == [turns]
+
+
+def test_gears_that_do_not_bring_it_back_are_told():
+    results = analyse(read_machine(GEARED.replace("ratio = -2", "ratio = 0.7321")))
+    assert results.grid.degrees[-1] == 360.0
+    assert [one.values["ratio"] for one in results.notices if one.code == "no_cycle"] == [0.7321]
+
+
+TANGENT = """
+[fixed_points]
+O = ["0 mm", "0 mm"]
+[crank]
+pivot = "O"
+pin = "A"
+radius = "50 mm"
+speed = "60 rpm"
+start = "20 deg"
+[guides]
+arm = { link = "crank" }
+wall = { through = ["100 mm", "0 mm"], angle = "90 deg" }
+[sliders]
+block = { guide = "arm", pin = "P" }
+ram = { guide = "wall", pin = "P" }
+"""
+
+
+def test_what_runs_away_is_told_with_its_angle():
+    """The pin is at 100 mm times the tangent of the crank's direction, which has none at 90 degrees."""
+    with pytest.raises(CrankworkError) as caught:
+        read_machine(TANGENT)
+    message = caught.value.problems[0].message
+    assert message.name == "runs_away"
+    assert message.values["angle"] % 180 == pytest.approx(70.0, abs=1e-4)
+    assert message.values["name"] in ("block", "ram")
+
+
+def test_beside_a_working_range_the_dead_positions_are_told():
+    codes = {
+        one.code for one in analyse(four_bar(150, 80, 150, 200, of_crank='from = "30 deg"\nto = "60 deg"')).notices
+    }
+    assert {"working_range", "unbounded"} <= codes
+
+
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_a_partial_motion_has_its_plans(language):
     results = analyse(four_bar(150, 80, 150, 200))

@@ -88,10 +88,10 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
     followed = _followed(memory) | dict(smooth_transmissions(machine.mechanism, motion))
     start, end = (0.0, machine.cycle) if found is None else machine.working_range or open_range(found)
     ends = _where_unbounded(machine, found)
+    boundless = unbounded(followed, *ends, machine.cycle if found is None else found.end - found.start)
+    notices += _boundless(boundless, ends[0])
     if machine.working_range is None or found is None:
-        boundless = unbounded(followed, *ends, end - start)
         followed = {key: one for key, one in followed.items() if key not in boundless}
-        notices += _boundless(boundless, ends[0])
     else:
         notices += (Notice("working_range", {"from": start, "to": end}),)
     over = OverCycle(followed, CrankGrid.from_degrees, end - start, start)

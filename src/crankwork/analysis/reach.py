@@ -21,7 +21,7 @@ from crankwork.kinematics.placement import place
 from crankwork.kinematics.travel import Travel, has_steady_crank, near_changes, travel
 from crankwork.machine import Machine
 from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.mechanism import Mechanism
+from crankwork.mechanism.mechanism import Crank, Mechanism, turns_of
 
 # how near to a dead position motions and forces are drawn and checked: a part of the range, at most some degrees
 _NEAREST, _AT_MOST = 0.005, 0.25
@@ -83,8 +83,12 @@ def _told(mechanism: Mechanism, found: Travel | None) -> Iterator[Notice]:
     if changes:
         shown = sorted({round(one % mechanism.period, 6) for one in changes})
         yield Notice("change_points", {"angles": "°, ".join(f"{one:g}" for one in shown)})
-        if mechanism.period > _TURN:
-            yield Notice("two_turns", {"turns": round(mechanism.period / _TURN)})
+    if mechanism.period > _TURN and (found is None or found.is_whole):
+        yield Notice("two_turns", {"turns": round(mechanism.period / _TURN)})
+    geared = mechanism.driver.geared if isinstance(mechanism.driver, Crank) and found is None else ()
+    for one in geared:
+        if not turns_of(one.ratio):
+            yield Notice("no_cycle", {"name": one.link, "ratio": one.ratio})
     for degrees, miss in near_changes(found.circuit) if found else ():
         yield Notice("nearly_change_point", {"angle": degrees, "miss": miss})
 

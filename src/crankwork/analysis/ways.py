@@ -64,7 +64,7 @@ def ways(machine: Machine) -> Ways:
     stated = _stated(mechanism)
     is_all = has_steady_crank(mechanism) and _is_countable(mechanism)
     circuits = all_circuits(mechanism) if is_all else [stated]
-    here, _ = stated.curve.at(np.array([0.0]))
+    here, _ = stated.curve.at(np.array([stated.curve.stated]))
     found: list[Way] = []
     # that of the stated position first
     order = sorted(circuits, key=lambda one: one.curve.nearest(here[0])[1] > _SAME)

@@ -62,7 +62,7 @@ class Part(NamedTuple):
 
 @dataclass(frozen=True)
 class Circuit:
-    """A curve of positions of a linkage; at an arc of zero the position that was stated."""
+    """A curve of positions of a linkage; a closed one begins with the position that was stated."""
 
     mechanism: Mechanism
     curve: Curve
@@ -128,8 +128,9 @@ class Circuit:
         ends = [0.0, *map(float, dead), self.curve.length]
         return [Part(*pair) for pair in pairwise(ends)]
 
-    def branch_at(self, driver: Coordinate, arc: float = 0.0) -> Part:
+    def branch_at(self, driver: Coordinate, arc: float | None = None) -> Part:
         """Return the branch that a position is on, that of the stated position where none is named."""
+        arc = self.curve.stated if arc is None else arc
         for part in self.branches(driver):
             for shift in (0.0, -self.curve.length):
                 moved = Part(part.start + shift, part.end + shift)

@@ -30,6 +30,8 @@ _ITERATIONS = 10
 _AT_CROSSING = 1e-4
 _SAME = 1e-7
 _BIGGEST = 1e3
+# from there on what runs away is followed in steps that grow with it
+_FAR_OUT = 10.0
 _NEAREST_KNOTS = 6
 _ALL_BUT_SINGULAR = 0.1
 
@@ -157,6 +159,7 @@ class Curve:
     is_closed: bool
     crossings: NDArray[np.intp]  # Which knots are change points
     nearly: tuple[Crossing, ...] = ()  # Change points that lengths miss by a little
+    stated: float = 0.0  # Arc of the position from which it was followed
 
     @property
     def length(self) -> float:
@@ -251,7 +254,7 @@ class _Follower:
     def run(self) -> None:
         """Follow the curve."""
         for _ in range(_MOST_STEPS):
-            if self.step < _SHORTEST_STEP or np.max(np.abs(self.here.u)) > _BIGGEST + len(self.knots):
+            if self.step < _SHORTEST_STEP or self._away() > _BIGGEST:
                 return
             following = self._next()
             if following is None:
@@ -263,7 +266,10 @@ class _Follower:
                 if self.is_closed:
                     return
                 self._accept(following)
-        raise GeometryError(Refusal("circuit_lost", links=self.system.equations.names))
+
+    def _away(self) -> float:
+        """Return how far the farthest link has come, in longest lengths."""
+        return float(max(np.max(np.abs(self.here.u[axis::3])) for axis in (0, 1)))
 
     def _next(self) -> _Knot | None:
         """Return the position one step on, or None if the step is too long."""
@@ -282,7 +288,7 @@ class _Follower:
         self.arcs.append(self.arcs[-1] + arc)
         self.knots.append(knot)
         self.here = knot
-        self.step = min(1.5 * self.step, _LONGEST_STEP)
+        self.step = min(1.5 * self.step, _LONGEST_STEP * max(1.0, self._away() / _FAR_OUT))
 
     def _cross(self, following: _Knot) -> None:
         """Go through a change point straight on, or step shorter where it is none."""
@@ -342,4 +348,6 @@ class _Follower:
         )
         crossings = np.concatenate([len(back.arc) - 1 - back.crossings[::-1], len(back.arc) - 1 + ahead.crossings])
         both = back.nearly + ahead.nearly
-        return Curve(self.system, arc, knots, ways, is_closed=False, crossings=crossings, nearly=both)
+        return Curve(
+            self.system, arc, knots, ways, is_closed=False, crossings=crossings, nearly=both, stated=float(back.arc[-1])
+        )

@@ -15,6 +15,7 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dyads import LinkMotion
 from crankwork.kinematics.passages import with_passages
 from crankwork.kinematics.placement import assembled, place
+from crankwork.locale import Refusal
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.mechanism import Crank, Mechanism
@@ -22,6 +23,8 @@ from crankwork.mechanism.mechanism import Crank, Mechanism
 _DENSE = CrankGrid.steps(1.0, 360.0)
 _HEALTHY = 1e-3
 _SAME = 1e-6
+# longest lengths beyond which a link is on its way to infinity
+_RAN_AWAY = 100.0
 _NEAR = 0.05
 _BETWEEN = 400
 _ASIDE = (0.15, 0.08, 0.05)
@@ -50,9 +53,9 @@ def has_steady_crank(mechanism: Mechanism) -> bool:
 
 
 def turns_fully(mechanism: Mechanism) -> bool:
-    """Return whether a linkage can be assembled at and between all angles of a turn."""
+    """Return whether a linkage can be assembled at and between all angles of its period."""
     try:
-        assembled(mechanism, _DENSE)
+        assembled(mechanism, CrankGrid.steps(1.0, mechanism.period))
     except GeometryError:
         return False
     return True
@@ -78,6 +81,8 @@ def _travel(mechanism: Mechanism) -> Travel:
     turns = abs(circuit.turns(mechanism.driver.link))
     branch = circuit.branch_at(driver)
     is_whole = turns > 0 and branch == circuit.whole
+    if not circuit.curve.is_closed and (branch.start <= 0 or branch.end >= circuit.curve.length):
+        raise _endless(circuit, 0 if branch.start <= 0 else -1)
     start, end = sorted(map(float, np.degrees(circuit.values(driver, np.array(branch)))))
     passed = _changes(circuit, branch)
     if not is_whole:
@@ -89,6 +94,23 @@ def _travel(mechanism: Mechanism) -> Travel:
     once = np.where(period - once < _SAME, 0.0, once)
     every = sorted({round(float(one), 9) for one in [*once, *(once[once < _SAME] + period)] if one <= period})
     return Travel(circuit, branch, 0.0, period, turns, tuple(every), stated)
+
+
+def _endless(circuit: Circuit, end: int) -> GeometryError:
+    """Return what is to be said of a curve that does not come back: of its first knots, or of its last ones."""
+    curve, equations = circuit.curve, circuit.curve.system.equations
+    if end == 0:
+        arc, knots = curve.arc[[1, 0]], curve.knots[[1, 0]]
+    else:
+        arc, knots = curve.arc[-2:], curve.knots[-2:]
+    reach = np.hypot(knots[:, 0::3], knots[:, 1::3])
+    name = list(equations.index)[int(np.argmax(reach[1]))]
+    before, last = np.degrees(circuit.values(driver_coordinate(circuit.mechanism), arc))
+    if reach[1].max() < _RAN_AWAY:
+        return GeometryError(Refusal("circuit_long", links=equations.names, angle=abs(last)))
+    # where the reciprocal of its distance comes to nought
+    near, far = 1 / reach.max(axis=1)
+    return GeometryError(Refusal("runs_away", name=name, angle=float(last + (last - before) * far / (near - far))))
 
 
 def _changes(circuit: Circuit, branch: Part) -> Array:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, GearedCrank, Half, Law, LinkMotor
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
 
 
 _TURN = 360.0
+# turns of the crank that results may go over, and how much a ratio of gears may differ from one of whole numbers
+_MOST_TURNS, _SAME_RATIO = 6, 1e-9
 
 
 @dataclass(frozen=True)
@@ -98,8 +101,16 @@ class Mechanism:
 
     @property
     def period(self) -> float:
-        """Crank angle after which it is back where it was; after change points that may be two turns. [deg]"""
-        return max([_TURN, *(one.period for one in self.passages.values() if math.isfinite(one.period))])
+        """Crank angle after which it is back where it was: with gears or change points it may be some turns. [deg]"""
+        passed = [one.period for one in self.passages.values() if math.isfinite(one.period)]
+        geared = self.driver.geared if isinstance(self.driver, Crank) and self.driver.law is None else ()
+        return max([_TURN * math.lcm(*(turns_of(one.ratio) or 1 for one in geared)), *passed])
+
+
+def turns_of(ratio: float) -> int:
+    """Return after how many turns of the crank one that gears turn with it is back too; none for many of them."""
+    nearest = Fraction(ratio).limit_denominator(_MOST_TURNS)
+    return nearest.denominator if abs(ratio - nearest) < _SAME_RATIO else 0
 
 
 def crank_of(driver: Driver) -> Crank:
