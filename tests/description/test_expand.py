@@ -45,7 +45,8 @@ def kind(text):
     values = tomllib.loads(text)
     if "crank" in values and "transfer" not in values and "rod" in values:
         method = values.get("method", {}).get("kinematics", "exact")
-        return "gear" if not {"engine", "cycle"} & set(values) and method == "exact" else "unsaid"
+        is_said = "engine" not in values and values.get("cycle", {}).get("kind") != "wiebe" and method == "exact"
+        return "gear" if is_said else "unsaid"
     return "unsaid" if "transfer" in values else "linkage"
 
 
@@ -137,7 +138,8 @@ def test_what_no_table_of_a_linkage_says_is_refused_with_its_reason(tmp_path, te
     with pytest.raises(InputError) as refusal:
         expanded(written(tmp_path, text))
     told = {problem.key for problem in refusal.value.problems}
-    unsaid = {key for key in ("cycle", "engine", "bearings", "balance", "transfer") if key in values}
+    unsaid = {key for key in ("engine", "bearings", "balance", "transfer") if key in values}
+    unsaid |= {"cycle"} if values.get("cycle", {}).get("kind") == "wiebe" else set()
     assert unsaid <= told <= unsaid | {"method.kinematics"}
     assert all(place.rpartition(":")[2].isdecimal() for place in refusal.value.places)
 

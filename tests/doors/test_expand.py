@@ -35,7 +35,7 @@ def test_what_cannot_be_written_out_ends_with_its_reasons(crankwork, language, t
     assert (answer.code, answer.out) == (2, "")
     assert told in answer.err
     assert "my.toml:" in answer.err
-    assert ": cycle: " in answer.err
+    assert ": bearings: " in answer.err
 
 
 def test_a_method_that_is_not_exact_can_be_set_aside(crankwork):

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, cast
 
+from crankwork.analysis import solve
 from crankwork.description.document import Description, load
 from crankwork.description.kinds import Reader
 from crankwork.description.locate import Places
@@ -14,6 +15,7 @@ from crankwork.description.machine_file import file_keys, input_error, read, set
 from crankwork.description.schema import Table, Values
 from crankwork.description.written import key_text, toml, with_value
 from crankwork.dynamics.masses import CrankGearMasses
+from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.locale import Language, Refusal, say
 from crankwork.machine import Machine
 from crankwork.mechanism.dyads import RRP
@@ -21,7 +23,7 @@ from crankwork.mechanism.mechanism import crank_of
 from crankwork.units import from_si
 
 # of a crank gear, what the tables of a linkage have no words for
-_UNSAID = ("cycle", "engine", "bearings", "balance")
+_UNSAID = ("engine", "bearings", "balance")
 _DIAGRAM = ("pressures", "ambient", "points", "pieces", "measured")
 # tables that may be left out because all of them has a default
 _ALWAYS = ("method", "table")
@@ -53,6 +55,8 @@ def _refuse(stated: Mapping[str, Any], machine: Machine, reader: Reader) -> None
     for key in _UNSAID:
         if key in stated and not (key == "engine" and is_alone):
             reader.complain(key, Refusal(f"unsaid_{key}"))
+    if machine.gas is not None and machine.gas.calculated is not None and not _drawn(machine)[1]:
+        reader.complain("cycle", Refusal("unsaid_cycle"))
     if machine.transfer is None and not machine.method.is_exact:
         reader.complain("method.kinematics", Refusal("unsaid_method"))
 
@@ -149,24 +153,53 @@ def _chambers(values: Mapping[str, Any], machine: Machine) -> Iterator[tuple[str
     cylinder, gas = machine.cylinder, machine.gas
     if cylinder is None or gas is None:
         return
-    bore = _unit(cylinder.bore, "mm")
-    room = {
-        key: values["cylinder"][key] for key in ("clearance_volume", "compression_ratio") if key in values["cylinder"]
-    }
-    made = {key: values["gas"][key] for key in _DIAGRAM if key in values["gas"]}
+    bore, ratio, volume = _unit(cylinder.bore, "mm"), cylinder.compression_ratio, cylinder.clearance_volume
+    room: dict[str, Any] = {"compression_ratio": ratio} if ratio else {}
+    room |= {"clearance_volume": _unit(volume, "cm3")} if volume else {}
+    stated = (
+        _calculated(machine) if gas.calculated else {key: one for key, one in values["gas"].items() if key in _DIAGRAM}
+    )
+    plain = {key: one for key, one in stated.items() if isinstance(one, str)}
     period = f"{gas.cycle:g} deg"
-    tables = {key: made.pop(key) for key in ("points", "measured") if key in made}
-    pieces = made.pop("pieces", None)
-    yield "chambers.cylinder", {"slider": "piston", "bore": bore, "sense": 1, **room, "period": period, **made}
-    yield from ((f"chambers.cylinder.{key}", one) for key, one in tables.items())
-    if pieces is not None:
-        yield "chambers.cylinder.pieces", pieces
+    yield "chambers.cylinder", {"slider": "piston", "bore": bore, "sense": 1, **room, "period": period, **plain}
+    yield from ((f"chambers.cylinder.{key}", one) for key, one in stated.items() if key not in plain)
     if cylinder.piston_rod_diameter:
         rod, back = _unit(cylinder.piston_rod_diameter, "mm"), values["gas"]["back_pressure"]
         yield (
             "chambers.crank_end",
             {"slider": "piston", "bore": bore, "rod_diameter": rod, "sense": -1, "pressure": back},
         )
+
+
+def _calculated(machine: Machine) -> dict[str, Any]:
+    """Return the diagram of a calculated cycle: its points and laws, none where it has no corners."""
+    points, pieces = _drawn(machine)
+    ambient = _unit(machine.gas.ambient, "Pa") if machine.gas else ""
+    return {
+        "pressures": "absolute", "ambient": ambient,
+        "points": {name: _point(one) for name, one in points.items()},
+        "pieces": [_given(law=one.law, points=list(one.points), exponent=one.exponent, reference=one.reference)
+                   for one in pieces],
+    }  # fmt: skip
+
+
+def _drawn(machine: Machine) -> tuple[Mapping[str, DiagramPoint], tuple[Piece, ...]]:
+    space = solve(machine, machine.method).space
+    return space.calculated.drawn if space is not None and space.calculated is not None else ({}, ())
+
+
+def _point(one: DiagramPoint) -> dict[str, Any]:
+    return _given(
+        angle=None if one.angle is None else f"{one.angle:.15g} deg",
+        stroke=one.stroke,
+        pressure=None if one.pressure is None else _unit(one.pressure, "Pa"),
+        volume=None if one.volume is None else _unit(one.volume, "cm3"),
+    )
+
+
+def _given(**values: Any) -> dict[str, Any]:  # noqa: ANN401 - as a file states them
+    """Return the values that there are."""
+    return {key: one for key, one in values.items() if one is not None}
 
 
 def _place(x: float, y: float) -> list[str]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple, Protocol
 
 from crankwork.formula.known import Known, Total, Use, absent, in_order
-from crankwork.loads.indicator import IndicatorDiagram, VolumeAt
+from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, VolumeAt
 
 CycleKind = Literal["petrol", "diesel", "otto", "ideal-diesel", "dual"]
 Notice = tuple[str, Mapping[str, float | str]]
@@ -63,6 +63,8 @@ class Calculated(NamedTuple):
     memory: Mapping[str, Known]
     notices: tuple[tuple[str, Mapping[str, float | str]], ...]  # What the reader should know: code and values
     theoretical: IndicatorDiagram | None = None  # The diagram before its corners were rounded
+    # Points and laws that give the diagram; empty where it is none of corners
+    drawn: tuple[Mapping[str, DiagramPoint], tuple[Piece, ...]] = ({}, ())
     peak: Mapping[str, Known] = {}  # What stands behind the greatest pressure of a release of heat, by key
 
     @property

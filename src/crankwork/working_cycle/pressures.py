@@ -39,12 +39,12 @@ class CornerPressure:
         sharp = _remembering(sharp, cycle.corners)
         notices = (*cycle.notices, ("cycle_speed", {}))
         if self.timing is None:
-            return Calculated(sharp, cycle.memory, notices, sharp)
+            return Calculated(sharp, cycle.memory, notices, sharp, (points, pieces))
         found = rounded_diagram(_theory(cycle.corners), self.timing, self.rounding, volume_at, dead_centres)
         key = "filling_factor.diagram"
         memory = {**cycle.memory, key: Known(Found(found.filling_factor, "integral", cycle.corners), key)}
         rounded = _remembering(found.diagram, cycle.corners)
-        return Calculated(rounded, memory, (*notices, *found.notices), sharp)
+        return Calculated(rounded, memory, (*notices, *found.notices), sharp, (found.points, found.pieces))
 
     def motored(
         self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
