@@ -18,9 +18,9 @@ pytestmark = pytest.mark.elsewhere
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 
 
-def four_bar(*lengths, start=0.0, more="", of_crank="", mass=True):
+def four_bar(*lengths, start=0.0, more="", of_crank="", mass="1 kg"):
     crank, coupler, rocker, ground = lengths
-    centre = 'mass = "1 kg"\ncentre = ["40 mm", "0 mm"]' if mass else ""
+    centre = f'mass = "{mass}"\ncentre = ["40 mm", "0 mm"]' if mass else ""
     return read_machine(f"""
 [fixed_points]
 O = ["0 mm", "0 mm"]
@@ -117,9 +117,17 @@ def test_a_parallelogram_turns_fully():
     assert results.unmet == ()
 
 
+def test_a_force_that_is_nothing_beside_the_others_has_its_limit_at_a_change_point():
+    """Of a coupler of a milligram rounding is all that remains; the rocker turns about its pivot at a steady speed."""
+    rocker = 'mass = "1 kg"\ncentre = ["75 mm", "0 mm"]'
+    results = analyse(four_bar(150, 500, 150, 500, more=rocker, mass="1e-6 kg"))
+    assert results.columns["joint_force.B"] == pytest.approx(np.full(len(results.grid), 0.075 * math.tau**2), rel=1e-6)
+    assert np.isfinite([one for key, one in results.summary.items() if key.startswith("joint_force")]).all()
+
+
 def test_forces_of_a_loaded_parallelogram_are_not_told_where_they_have_no_limit():
     load = '[[loads]]\nkind = "torque"\nlink = "rocker"\ntorque = ["10 N*m"]'
-    results = analyse(four_bar(300, 1000, 300, 1000, more=load, mass=False))
+    results = analyse(four_bar(300, 1000, 300, 1000, more=load, mass=None))
     grid = results.grid
     at = np.abs(grid.sin) > 1e-9
     # the coupler pulls with the torque over its distance from the pivot

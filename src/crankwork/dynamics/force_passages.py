@@ -34,8 +34,9 @@ def bridged_forces(reactions: dict[Joint, Reaction], passage: Passage) -> dict[J
     for bridge in passage.bridges:
         nodes = _nodes(bridge)
         values = Program(varying)(CrankGrid.from_degrees(bridge.degrees + nodes))
-        width = bridge.width
-        found = {key: _limit(bridge.degrees, nodes, one) for key, one in values.items()}
+        # a force that is nothing beside the others is not smooth, for rounding
+        width, spare = bridge.width, _SMOOTH * max(float(np.max(np.abs(one))) for one in values.values())
+        found = {key: _limit(bridge.degrees, nodes, one, spare) for key, one in values.items()}
         if any(one is None for one in found.values()):
             width, unknown = _ITSELF, Polynomial(bridge.degrees, _ITSELF, (np.nan,))
             found = dict.fromkeys(values, unknown)
@@ -63,11 +64,11 @@ def _nodes(bridge: Bridge) -> Array:
     return np.concatenate([-beside, beside[::-1]])
 
 
-def _limit(degrees: float, nodes: Array, values: Array) -> Polynomial | None:
-    """Return the polynomial through values on both sides of a change point, or None if they are not of one."""
+def _limit(degrees: float, nodes: Array, values: Array, spare: float) -> Polynomial | None:
+    """Return the polynomial through values on both sides of a change point, or None if it misses one by too much."""
     reach = float(np.max(np.abs(nodes)))
     powers = chebyshev.chebvander(nodes / reach, _DEGREE)
     found = np.linalg.lstsq(powers, values, rcond=None)[0]
-    if not np.max(np.abs(powers @ found - values)) <= _SMOOTH * np.max(np.abs(values)):
+    if not np.max(np.abs(powers @ found - values)) <= spare:
         return None
     return Polynomial(degrees, reach, tuple(map(float, found)))
