@@ -168,3 +168,17 @@ def test_random_files_stand_for_themselves(tmp_path):
             assert read(again).speed == pytest.approx(machine.speed, rel=1e-12)
         seen += not math.isnan(machine.speed)
     assert seen > 10
+
+
+def test_measured_pressure_is_that_of_a_chamber(tmp_path):
+    samples = "".join(f"{angle},{1 + math.exp(-(((angle - 370) / 40) ** 2)):.6f}\n" for angle in range(0, 721, 5))
+    (tmp_path / "pressure.csv").write_text(samples, "utf-8")
+    text = template("engine")
+    start, end = text.index("[gas.points]"), text.index("[method]")
+    measured = '[gas.measured]\nfile = "pressure.csv"\npressure_unit = "bar"\nshift = "0 deg"\n\n'
+    numbers_of_a_gear_are_those_of_its_linkage(tmp_path, text[:start] + measured + text[end:])
+
+
+def test_an_engine_of_one_cylinder_is_a_crank_gear(tmp_path):
+    text = template("engine").replace("[method]", '[engine]\nlayout = "inline"\ncylinders = 1\n\n[method]')
+    numbers_of_a_gear_are_those_of_its_linkage(tmp_path, text)
