@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from crankwork.dynamics.efficiency import Series
     from crankwork.dynamics.redundant import RedundantLink
     from crankwork.dynamics.tabulated import Differences, TabulatedBody
+    from crankwork.kinematics.travel import Travel
     from crankwork.loads.load import Load
     from crankwork.mechanism.linkage import Linkage
     from crankwork.shaft.motor import GearedMotor
@@ -301,6 +302,8 @@ class Machine:
     working_range: tuple[float, float] | None = None
     engine: Engine | None = None
     notices: tuple[tuple[str, Mapping[str, float | str]], ...] = ()
+    # How far its crank gets, where the description has followed that
+    way: Travel | None = field(default=None, compare=False, repr=False)
     # The numbers of the description by their paths: `crank.stroke`; a machine may be made without one
     stated: Mapping[str, Stated] = field(default_factory=dict, compare=False, repr=False)
 

@@ -39,7 +39,7 @@ from crankwork.kinematics.instant_centres import absent_where_still, pivoted_lin
 from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.quality import FourBarType, grashof
-from crankwork.kinematics.travel import Travel, passing
+from crankwork.kinematics.travel import Travel, way_through
 from crankwork.locale import Refusal
 from crankwork.machine import Machine
 from crankwork.mechanism.driver import Law, LinkMotor
@@ -78,7 +78,8 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
     Columns, summary, checks and notices; of a crank that does not turn fully between its dead positions. `grid`:
     ascending crank angles within one cycle; the machine's own table otherwise [rad].
     """
-    machine = replace(machine, mechanism=passing(machine.mechanism))
+    mechanism, way = way_through(machine.mechanism, machine.way)
+    machine = replace(machine, mechanism=mechanism, way=way or machine.way)
     reached = reachable(machine, _DENSE_STEP)
     table, found = _table(machine, reached, grid), reached.travel
     motion = remembered_motion(machine.mechanism, reached.motion, machine.linkage)

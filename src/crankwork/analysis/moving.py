@@ -15,7 +15,7 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.piston import as_slider_crank
 from crankwork.kinematics.transfer import PointMotion
-from crankwork.kinematics.travel import has_steady_crank, passing, travel, turns_fully
+from crankwork.kinematics.travel import way_through
 from crankwork.machine import Machine
 from crankwork.mechanism.mechanism import Mechanism
 
@@ -103,10 +103,9 @@ class Course(NamedTuple):
 
 def course(mechanism: Mechanism, frames: int) -> Course:
     """Return how the crank of a moving drawing goes: round, or to and fro between its dead positions."""
-    mechanism = passing(mechanism)
-    if not has_steady_crank(mechanism) or turns_fully(mechanism):
+    mechanism, found = way_through(mechanism)
+    if found is None or found.is_whole:
         return Course(np.arange(frames + 1) * mechanism.period / frames, mechanism, turns=True)
-    found = travel(mechanism)
     low, high = open_range(found)
     swung = (1 - np.cos(math.tau * np.arange(frames + 1) / frames)) / 2
     return Course(low + (high - low) * swung, mechanism, turns=False)

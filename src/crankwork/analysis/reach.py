@@ -56,7 +56,7 @@ def reachable(machine: Machine, step: float) -> Reached:
         # a law either passes what its linkage reaches, or has to be changed
         if not has_steady_crank(mechanism):
             raise
-        found = travel(mechanism)
+        found = travel(mechanism, machine.way)
         if found.is_whole:
             raise
         notices = [Notice("partial", {"message": error.args[0], "from": found.start, "to": found.end})]
@@ -66,7 +66,7 @@ def reachable(machine: Machine, step: float) -> Reached:
         return Reached(moved, found, (*notices, *_told(mechanism, found)))
     margins = [np.min(one.value) / one.scale for one in place(mechanism, whole).closures]
     is_near = has_steady_crank(mechanism) and min(margins, default=1.0) < _NEARLY_SINGULAR
-    return Reached(moved, None, tuple(_told(mechanism, travel(mechanism) if is_near else None)))
+    return Reached(moved, None, tuple(_told(mechanism, travel(mechanism, machine.way) if is_near else None)))
 
 
 def _inside(found: Travel, step: float) -> CrankGrid:

@@ -14,7 +14,7 @@ from crankwork.description.chamber_build import build_chambers
 from crankwork.description.driver_build import build_law, check_driver, check_gas, check_halves, check_loads
 from crankwork.description.gas_build import ReadMeasured
 from crankwork.description.kinds import Measure, Reader
-from crankwork.description.linkage_reach import checked_motion, passing_if_assembled, told_redundant, with_starts
+from crankwork.description.linkage_reach import checked_motion, told_redundant, way_if_assembled, with_starts
 from crankwork.description.positions_build import settled, told_positions
 from crankwork.description.redundant_build import fitting, geometry_of, taken_out
 from crankwork.description.schema import Values
@@ -74,11 +74,11 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
     transient = _transient(values, loads, reader)
     if reader.problems or mechanism is None or linkage is None:
         return None
-    mechanism = passing_if_assembled(mechanism)
+    mechanism, way = way_if_assembled(mechanism)
     redundant = fitting(linkage, carried, values, reader)
     if reader.problems:
         return None
-    loads = with_starts(loads, values, mechanism)
+    loads = with_starts(loads, values, mechanism, way)
     if values["method"]["weights"]:
         loads = (*loads, Weight(method.gravity))
     crank, table = values["crank"], values["table"]
@@ -90,6 +90,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
         title=values["title"] or "",
         loads=loads,
         redundant=redundant,
+        way=way,
         notices=notices,
         chambers=chambers,
         charges=charges,

@@ -18,7 +18,7 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.curves import EQUAL
 from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.placement import place
-from crankwork.kinematics.travel import Travel, has_steady_crank, passing, travel, turns_fully
+from crankwork.kinematics.travel import Travel, has_steady_crank, travel, turns_fully, way_through
 from crankwork.loads.load import Load, applied_loads
 from crankwork.loads.process import ProcessForce
 from crankwork.locale import Refusal
@@ -32,12 +32,12 @@ _STEP = 1.0
 _MOST_TURNS = 10_000
 
 
-def passing_if_assembled(mechanism: Mechanism) -> Mechanism:
-    """Return a linkage that passes its change points; where it cannot be assembled, that is told later."""
+def way_if_assembled(mechanism: Mechanism) -> tuple[Mechanism, Travel | None]:
+    """Return a linkage that passes its change points, and its way; where it cannot be assembled, that is told later."""
     try:
-        return passing(mechanism)
+        return way_through(mechanism)
     except GeometryError:
-        return mechanism
+        return mechanism, None
 
 
 def told_redundant(linkage: Linkage, problems: list[Problem]) -> list[Problem]:
@@ -69,9 +69,8 @@ def fit(without: Linkage, member: Member, freedom: object) -> Refusal | None:
     name = member.name
     others = [one.name for one in without.members if not one.guide]
     try:
-        mechanism = passing(mechanism)
-        found = None if turns_fully(mechanism) else travel(mechanism)
-        ends = (0.0, 360.0) if found is None else open_range(found)
+        mechanism, found = way_through(mechanism)
+        ends = (0.0, 360.0) if found is None or found.is_whole else open_range(found)
         points = linkage_motion(mechanism, CrankGrid.from_degrees(np.linspace(*ends, 361))).points
     except GeometryError:
         return None
@@ -131,20 +130,20 @@ def _working_range(crank: Values, found: Travel | None, reader: Reader) -> tuple
     return low, high
 
 
-def with_starts(loads: tuple[Load, ...], values: Values, mechanism: Mechanism) -> tuple[Load, ...]:
+def with_starts(loads: tuple[Load, ...], values: Values, mechanism: Mechanism, way: Travel | None) -> tuple[Load, ...]:
     """Return the loads, process forces counted from the beginning of the working stroke where no start is given."""
     swept = None
     result = []
     for load, written in zip(loads, values["loads"], strict=True):
         if isinstance(load, ProcessForce) and load.against == "stroke" and "start" not in written:
-            swept = swept or _swept(mechanism)
+            swept = swept or _swept(mechanism, way)
             if load.slider in swept:
                 load = replace(load, start=swept[load.slider][0 if load.forward > 0 else 1])  # noqa: PLW2901
         result.append(load)
     return tuple(result)
 
 
-def _swept(mechanism: Mechanism) -> dict[str, tuple[float, float]]:
+def _swept(mechanism: Mechanism, way: Travel | None) -> dict[str, tuple[float, float]]:
     """Return the least and the greatest distance of every slider, none where the linkage cannot be assembled. [m]"""
     try:
         if turns_fully(mechanism):
@@ -152,7 +151,7 @@ def _swept(mechanism: Mechanism) -> dict[str, tuple[float, float]]:
             return {name: (float(np.min(way[0])), float(np.max(way[0]))) for name, way in moved.sliders.items()}
         if not has_steady_crank(mechanism):
             return {}
-        found = travel(mechanism)
+        found = travel(mechanism, way)
     except GeometryError:
         return {}
     each = {name: found.circuit.extent(way, found.branch) for name, way in found.circuit.sliders.items()}

@@ -91,7 +91,7 @@ class OverCycle:
         self._program, self._angles_at = program or Program(knowns), angles_at
         self._row = {key: at for at, key in enumerate(knowns)}
         self.knowns = dict(knowns)
-        self._is_root = np.array([_is_root(one) for one in knowns.values()])
+        self._is_root = np.array([_is_root(one) for one in knowns.values()], dtype=bool)
         self.breaks = breaks_of(knowns.values(), cycle, start)
         parts = np.maximum(1, np.ceil(np.diff(self.breaks) / _WIDTH - 1e-9)).astype(int)
         within = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)

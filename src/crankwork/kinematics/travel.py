@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -61,20 +61,14 @@ def turns_fully(mechanism: Mechanism) -> bool:
     return True
 
 
-def travel(mechanism: Mechanism) -> Travel:
-    """Return how far the crank gets from the position at an angle of zero, or from the first that can be assembled."""
-    found = next((found for one, found in tuple(_RECENT) if one == mechanism), None)
-    if found is None:
-        found = _travel(mechanism)
-        _RECENT.append((mechanism, found))
-    return found
+def travel(mechanism: Mechanism, known: Travel | None = None) -> Travel:
+    """Return how far the crank gets from the position at an angle of zero, or from the first that can be assembled.
 
-
-# what is read is looked at several times before it is analysed
-_RECENT: deque[tuple[Mechanism, Travel]] = deque(maxlen=4)
-
-
-def _travel(mechanism: Mechanism) -> Travel:
+    `known`: what was found before, which is taken if it was found of this mechanism.
+    """
+    mechanism = replace(mechanism, passages={})
+    if known is not None and known.circuit.mechanism == mechanism:
+        return known
     stated = _stated(mechanism)
     circuit = circuit_through(mechanism, stated)
     driver = driver_coordinate(mechanism)
@@ -193,10 +187,19 @@ def near_changes(circuit: Circuit) -> list[tuple[float, float]]:
 
 def passing(mechanism: Mechanism) -> Mechanism:
     """Return a linkage that passes the change points on its way, as itself where it has none."""
+    return way_through(mechanism)[0]
+
+
+def way_through(mechanism: Mechanism, known: Travel | None = None) -> tuple[Mechanism, Travel | None]:
+    """Return a linkage that passes the change points on its way, as itself where it has none, and that way.
+
+    No way where there is nothing to pass and the crank turns fully. `known`: what was found of the way before.
+    """
     if not has_steady_crank(mechanism) or turns_fully(mechanism):
-        return mechanism
-    found = travel(mechanism)
+        return mechanism, None
+    found = travel(mechanism, known)
     if not found.changes:
-        return mechanism
+        return mechanism, found
     ends = (found.start, found.end)
-    return with_passages(mechanism, found.changes, ends, found.stated, is_whole=found.is_whole)
+    mechanism = replace(mechanism, passages={})
+    return with_passages(mechanism, found.changes, ends, found.stated, is_whole=found.is_whole), found
