@@ -21,15 +21,24 @@ from crankwork.cylinders.articulated_forces import (
     knuckle_acceleration_along,
     slave_forces,
 )
-from crankwork.cylinders.bearings import big_end_tangential_force, big_end_weight
+from crankwork.cylinders.bearings import (
+    big_end_inertia_force,
+    big_end_tangential_force,
+    big_end_weight,
+    crankpin_radial_force,
+    crankpin_tangential_force,
+    piston_pin_force,
+)
 from crankwork.dynamics import piston_forces as forces
 from crankwork.dynamics.masses import CrankGearMasses, reciprocating_mass, rotating_mass
+from crankwork.dynamics.reaction import joint_force
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value
 from crankwork.formula.known import Known, absent, given
 from crankwork.formula.replay import Program
 from crankwork.kinematics import slider_crank
 from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.piston import only_rod
 
 FORCES = (
     "gas_pressure", "gas_force", "inertia_acceleration", "inertia_force", "weight_force", "transverse_weight",
@@ -57,6 +66,8 @@ def cylinder_memory(solved: SolvedCylinder) -> dict[str, Known]:
     if solved.machine.masses is not None or solved.space is not None:
         memory |= _by_key(_axial_forces(solved, moving))
         memory |= _by_key(_slave_forces(solved, moving) if solved.slave is not None else _rod_forces(solved, moving))
+    if "piston_force" in memory and solved.slave is None:
+        memory |= _by_key(_in_joints(solved, moving))
     if solved.machine.masses is not None:
         memory |= _by_key(cylinder_reduction(moving))
     return memory
@@ -127,6 +138,46 @@ def _rod_forces(solved: SolvedCylinder, moving: MovingCylinder) -> Iterator[Know
     weight = next((one for one in rotating if one.key == "rotating_torque"), absent("rotating_torque"))
     yield forces.crank_torque(rod.tangential, r, weight)
     yield forces.overturning_moment(rod.side, memory["pin_distance"], P, e)
+
+
+def _in_joints(solved: SolvedCylinder, moving: MovingCylinder) -> Iterator[Known]:
+    """Yield the forces in the joints by the names that they have in a linkage, x towards the crankpin at 90 degrees.
+
+    Those of the crankpin on the rod, and of the rod and of the guide on the piston.
+    """
+    memory, angle = moving.memory, moving.angle
+    pin, piston = _joint_names(solved)
+    radial, tangential = memory["radial_force"], memory["tangential_force"]
+    mass, along = absent("piston_mass"), absent("weight_force.piston")
+    side = -memory["side_force"]
+    if solved.machine.masses is not None:
+        mass, big = memory["piston_mass"], memory["rod_big_end_mass"]
+        inertia = big_end_inertia_force(big, moving.lengths.crank_radius, moving.speed)
+        weight = memory.get("big_end_weight", absent("big_end_weight"))
+        radial = crankpin_radial_force(radial, inertia, weight)
+        if "big_end_tangential_force" in memory:
+            tangential = crankpin_tangential_force(tangential, memory["big_end_tangential_force"])
+        if solved.machine.has_gravity:
+            g = given("gravity", solved.method.gravity, "method.gravity")
+            cos, sin = origins.inclination(solved.machine)
+            along = forces.weight_force(mass, g, cos).named("weight_force.piston")
+            beside = forces.transverse_weight(mass, g, sin).named("transverse_weight.piston")
+            side = side - beside if beside.value else side
+    acceleration = memory.get("inertia_acceleration", memory["piston_acceleration"])
+    yield (radial * angle.sin - tangential * angle.cos).named(f"joint_force_x.{pin}")
+    yield (radial * angle.cos + tangential * angle.sin).named(f"joint_force_y.{pin}")
+    yield joint_force(tangential, radial).named(f"joint_force.{pin}")
+    pressed = piston_pin_force(memory.get("gas_force", absent("gas_force")), mass, acceleration, along)
+    yield side.named(f"joint_force_x.{piston}")
+    yield pressed.named(f"joint_force_y.{piston}")
+    yield joint_force(side, pressed).named(f"joint_force.{piston}")
+    yield (-memory["side_force"]).named(f"normal_force.{piston}")
+
+
+def _joint_names(solved: SolvedCylinder) -> tuple[str, str]:
+    """Return the names of the crankpin and of the piston pin of a crank gear."""
+    rod = only_rod(solved.machine.mechanism)
+    return ("crank_pin", "piston_pin") if rod is None else (rod.joint, rod.slider)
 
 
 def _couple(solved: SolvedCylinder, moving: MovingCylinder, length: Value) -> Iterator[Known]:
