@@ -261,29 +261,32 @@ class OverCycle:
     @cached_property
     def largest_and_least(self) -> dict[str, tuple[Extreme, Extreme]]:
         """The largest and the least of every column: where they stand by the polynomials, replayed there."""
-        places = [self._may_stand(sign) for sign in (1.0, -1.0)]
-        # where one may stand counts for the other too, so that no largest is below its least
-        rows, angles = (np.concatenate([one[at] for one in places]) for at in (0, 1))
+        count = len(self._row)
+        rows, angles, equal = self._may_stand()
         every = distinct(angles)
         values = self._program.rows(self._angles_at(every), self._row)
-        largest, least = (
-            self._first_of_equal(_Places(rows, angles, place.equal), every, sign * values)
-            for place, sign in zip(places, (1.0, -1.0), strict=True)
-        )
+        # where one may stand counts for the other too, so that no largest is below its least
+        either = _Places(np.concatenate([rows, (rows + count) % (2 * count)]), np.tile(angles, 2), equal)
+        first = self._first_of_equal(either, every, np.concatenate([values, -values]))
         return {
             key: (Extreme(float(column[one]), float(every[one])), Extreme(float(column[other]), float(every[other])))
-            for key, column, one, other in zip(self._row, values, largest, least, strict=True)
+            for key, column, one, other in zip(self._row, values, first[:count], first[count:], strict=True)
         }
 
-    def _may_stand(self, sign: float) -> _Places:
-        """Return where the largest of columns, times a sign, may stand."""
-        at_ends = sign * (self._coefficients @ _AT_LOOK[[0, -1]].T)
+    def _may_stand(self) -> _Places:
+        """Return where the largest of columns may stand, and then the largest of what is opposite to each."""
+        at_ends = self._coefficients @ _AT_LOOK[[0, -1]].T
+        at_ends = np.concatenate([at_ends, -at_ends])
         top, least = at_ends.max(axis=(1, 2), initial=-np.inf), at_ends.min(axis=(1, 2), initial=np.inf)
-        is_high = sign * self._coefficients[:, :, 0] + self._rise >= (top - self._spare(top - least))[:, None]
+        high, middle = top - self._spare(top - least), self._coefficients[:, :, 0]
         # what no polynomial follows is rounding, and its peaks are none
-        rough = np.maximum(self._left / _ROUGH, _ZERO) * self._scale[:, None]
-        row, interval = np.nonzero(is_high & (self._rise > rough))
-        inside = sign * self._coefficients[row, interval]
+        is_smooth = self._rise > np.maximum(self._left / _ROUGH, _ZERO) * self._scale[:, None]
+        is_high = (np.concatenate([middle, -middle]) + np.tile(self._rise, (2, 1)) >= high[:, None]).reshape(
+            2, *middle.shape
+        )
+        side, row, interval = np.nonzero(is_high & is_smooth)
+        inside = np.where(side[:, None], -1.0, 1.0) * self._coefficients[row, interval]
+        row = row + side * len(self._row)
         looked = inside @ _AT_LOOK.T
         np.maximum.at(top, row, looked.max(axis=1))
         one, u = self._peaks(inside, looked, looked >= (top - _NEAR_TOP * (top - least))[row, None])
@@ -294,7 +297,8 @@ class OverCycle:
         before, after = np.roll(at_ends[:, :, 1], 1, axis=1), at_ends[:, :, 0]
         at_edges = np.maximum(before, after) >= high[:, None]
         edge = np.nonzero(np.append(at_edges, at_edges[:, :1], axis=1))
-        jump = np.nonzero((np.abs(after - before) > _JUMP * self._scale[:, None]) & (after >= high[:, None]))
+        jumps = np.abs(after - before) > _JUMP * np.tile(self._scale, 2)[:, None]
+        jump = np.nonzero(jumps & (after >= high[:, None]))
         row, interval, u = (one[at_peaks >= high[row]] for one in (row, interval, u))
         peaks = (self._low[interval] + self._high[interval]) / 2 + (self._high - self._low)[interval] / 2 * u
         beyond = np.nextafter(self._low[jump[1]], np.inf)
@@ -305,8 +309,9 @@ class OverCycle:
         )
 
     def _plain(self, values: Array) -> Array:
-        """Return one value of each column for one of what follows it."""
-        return np.where(self._is_root, np.sign(values) * np.sqrt(np.abs(values)), values)
+        """Return values of columns, or of columns and what is opposite to them, for values of what follows them."""
+        is_root = np.tile(self._is_root, values.size // self._is_root.size)
+        return np.where(is_root, np.sign(values) * np.sqrt(np.abs(values)), values)
 
     def _peaks(self, coefficients: Array, looked: Array, is_high: NDArray[np.bool_]) -> tuple[NDArray[np.intp], Array]:
         """Return which polynomials have a peak that is high up, and the places of peaks, from -1 to 1."""
@@ -323,8 +328,8 @@ class OverCycle:
 
     def _spare(self, span: Array) -> Array:
         """Return how far below the top of each column one place of its polynomials may be and count as the largest."""
-        most = (_UNSURE + 4 * self._left.max(axis=1, initial=0.0)) * self._scale
-        return np.asarray(np.minimum(most, np.maximum(_NEAR_TOP * span, _CONVERGED * self._scale)))
+        scale, left = np.tile(self._scale, 2), np.tile(self._left.max(axis=1, initial=0.0), 2)
+        return np.asarray(np.minimum((_UNSURE + 4 * left) * scale, np.maximum(_NEAR_TOP * span, _CONVERGED * scale)))
 
     def _first_of_equal(self, places: _Places, every: Array, values: Array) -> NDArray[np.intp]:
         """Return for each row at which of the angles its value is largest, of those that it may stand at."""
