@@ -59,3 +59,7 @@ def test_the_polynomials_of_a_root_are_not_given_out_for_it() -> None:
     with pytest.raises(TypeError, match="square root"):
         found.polynomials("size")
     assert np.ptp(found.at("size", np.arange(360.0))) < 1e-15
+
+
+def test_nothing_to_follow_is_nothing() -> None:
+    assert over().largest_and_least == {}

@@ -30,7 +30,8 @@ CASES = [(file, way) for file in FILES for way in ("exact", "textbook")]
 DIMENSIONS = tuple({one.dimension for one in UNITS.values()})
 # what no key of a file states
 CONSTANTS = {
-    "compressor_exponent", "cooler_drop", "cooling_exponent", "cooling_factor", "cycle_angle", "exhaust_exponent",
+    "branch", "compressor_exponent", "cooler_drop", "cooling_exponent", "cooling_factor", "cycle_angle",
+    "exhaust_exponent",
     "gear_meshes", "heat_zero_temperature",
     "hydrogen_share", "lower_pairs", "molar_gas_constant", "moving_links", "polytropic_exponent",
     "specific_gas_constant",

@@ -261,6 +261,8 @@ class OverCycle:
     @cached_property
     def largest_and_least(self) -> dict[str, tuple[Extreme, Extreme]]:
         """The largest and the least of every column: where they stand by the polynomials, replayed there."""
+        if not self._row:
+            return {}
         count = len(self._row)
         rows, angles, equal = self._may_stand()
         every = distinct(angles)
@@ -310,7 +312,7 @@ class OverCycle:
 
     def _plain(self, values: Array) -> Array:
         """Return values of columns, or of columns and what is opposite to them, for values of what follows them."""
-        is_root = np.tile(self._is_root, values.size // self._is_root.size)
+        is_root = np.resize(self._is_root, values.shape)
         return np.where(is_root, np.sign(values) * np.sqrt(np.abs(values)), values)
 
     def _peaks(self, coefficients: Array, looked: Array, is_high: NDArray[np.bool_]) -> tuple[NDArray[np.intp], Array]:
