@@ -29,6 +29,8 @@ _FEWEST = 33
 # how near extremes are looked for, and how much what has no bound grows on the way there
 _EDGE = 1e-6
 _ASIDE = (1e-4, 1e-7)
+# as good as the angle itself [deg]
+_ITSELF = 1e-7
 _GROWS = 10.0
 _NEARLY_SINGULAR = 1e-3
 _TURN = 360.0
@@ -109,19 +111,21 @@ def open_range(found: Travel) -> tuple[float, float]:
 
 
 def unbounded(columns: Mapping[str, Known], ends: Iterable[float], towards: Iterable[float], width: float) -> list[str]:
-    """Return the columns that grow beyond all bounds towards some crank angles.
+    """Return the columns that grow beyond all bounds towards some crank angles, or have no value there.
 
     `ends`: the angles; `towards`: on which side of each the motion is, 1 or -1; `width`: what is small against it
     [deg].
     """
-    degrees = np.array([[end + side * width * one for one in _ASIDE] for end, side in zip(ends, towards, strict=True)])
+    aside = np.array([*(width * np.array(_ASIDE)), _ITSELF])
+    degrees = np.array([end + side * aside for end, side in zip(ends, towards, strict=True)])
     if not degrees.size or not columns:
         return []
     values = Program(columns)(CrankGrid.from_degrees(degrees.ravel()))
     found = []
     for key, column in values.items():
-        far, near = np.abs(column.reshape(degrees.shape)).T
-        if not np.all(near <= _GROWS * far + 1e-9 * np.max(far)):
+        far, near, there = np.abs(column.reshape(degrees.shape)).T
+        # at a change point without a common limit a column has no value
+        if not (np.all(near <= _GROWS * far + 1e-9 * np.max(far)) and np.isfinite(there).all()):
             found.append(key)
     return found
 
