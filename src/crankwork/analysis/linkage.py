@@ -121,6 +121,7 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
     # where links pass through a line, that is told already
     notices += () if machine.mechanism.passages else unusual
     columns = absent_where_still(Program(memory)(table))
+    memory = {key: one for key, one in memory.items() if key in columns or not key.startswith("instant_centre_")}
     values = {key: one.value for key, one in summary.items()}
     memory |= {**summary, **between}
     return Results(solved, table, columns, values, checks, notices, _groups(columns), memory=memory)
