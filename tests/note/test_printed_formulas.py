@@ -188,9 +188,9 @@ def missed(step) -> str:
         return ""
     printed, *terms = (keyed_in(one) for one in (re.split("[\u00a0°%]", value)[0], *terms_of(before[-1])))
     largest = max(map(abs, (printed, *terms)))
-    if step.value == 0 and "" in getattr(step, "noise", ()):
-        return "" if abs(sum(terms)) <= 1e-10 * max(largest, 1) else f"{before[-1]} is not zero"
     place = 10.0 ** (math.floor(math.log10(largest)) - 5) if largest else 0.0
+    if step.value == 0 and "" in getattr(step, "noise", ()):
+        return "" if abs(sum(terms)) <= max(2 * place, 1e-10) else f"{before[-1]} is not zero"
     return "" if abs(sum(terms) - printed) <= 2.0000001 * place else f"{before[-1]} = {sum(terms):.10g}, not {value}"
 
 

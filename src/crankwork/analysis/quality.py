@@ -22,6 +22,8 @@ FOLLOWED = ("transmission_cosine", "pressure_sine")
 # beyond these forces grow, and a linkage may jam [deg]
 _USUAL = (40.0, 140.0)
 _TURN = 360.0
+# what rounding leaves a cosine of links in line short of one
+_IN_LINE = 1e-13
 _LOOK, _STILL = np.linspace(-1.0, 1.0, 17), 1e-9
 
 
@@ -56,8 +58,8 @@ def _pairs(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, str, Lin
 
 
 def _in_line(found: Known, formula: Callable[[Known], Known], limit: float) -> Known:
-    """Return the angle of an extreme cosine or sine, which rounding may leave beyond the limits of both."""
-    if abs(found.value) < 1:
+    """Return the angle of an extreme cosine or sine, which rounding may leave beside the limits of both."""
+    if abs(found.value) < 1 - _IN_LINE:
         return formula(found)
     return Known(Found(limit, "in_line", (found,)))
 
