@@ -162,7 +162,7 @@ def through_zero(axes: Axes, *values: Array) -> None:
     low = min(0.0, *(float(np.nanmin(one)) for one in values))
     high = max(0.0, *(float(np.nanmax(one)) for one in values))
     margin = 0.05 * (high - low) or 1.0
-    axes.set_ylim(low - margin if low < 0 else 0, high + margin if high > 0 else 0)
+    axes.set_ylim(low - margin if low < 0 else 0, high + margin if high > 0 or low == 0 else 0)
     if low < 0 < high:
         axes.spines["bottom"].set_visible(False)
         axes.tick_params(axis="x", length=0)
