@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from crankwork.dynamics.reaction import joint_force
-from crankwork.formula.known import KnownAngle, given
+from crankwork.formula.known import Known, KnownAngle, Pieces, given
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.kinematics.crank_grid import CrankGrid
 
@@ -63,3 +63,19 @@ def test_the_polynomials_of_a_root_are_not_given_out_for_it() -> None:
 
 def test_nothing_to_follow_is_nothing() -> None:
     assert over().largest_and_least == {}
+
+
+@pytest.mark.parametrize("apart", [0.3, 0.02, 1e-3, 1e-6])
+def test_the_mean_of_a_size_that_vanishes_just_beside_a_break(apart: float) -> None:
+    """Between the break and the first node of the interval, where its values show nothing of the corner."""
+    beside = Known(Pieces([120.0, 360.0], (given("", 1.0), given("", 1.0))))
+    for at in (120.0 + apart, 120.0 - apart):
+        found = over(size=joint_force(beside * ANGLE.shifted(-at).sin, given("", 0.0)))
+        assert found.mean("size", "mean").value == pytest.approx(2 / math.pi, rel=1e-11)
+
+
+def test_a_size_of_little_beside_another_has_its_extremes_where_they_are() -> None:
+    small = joint_force(1e-7 * ANGLE.shifted(-33.0).cos, given("", 2e-8))
+    found = over(size_of_small=small, size_of_large=joint_force(ANGLE.cos, given("", 3.0)))
+    largest, least = found.largest_and_least["size.small"]
+    assert (largest.at % 180, least.at % 180) == pytest.approx((33.0, 123.0), abs=1e-5)

@@ -44,8 +44,10 @@ _PLATEAU = 1e-13
 _UNSURE = 1e-9
 _NEAR_TOP = 0.05
 _ROUGH = 0.05
-# of the largest column of its quantity, below which a column may be nothing but rounding
+# of the largest column of its quantity: a column below is followed as far as rounding lets it
 _SMALL = 1e-3
+# what a root may miss between the nodes, where squares of rounding are what vanishes
+_LITTLE = 0.1
 _STEPS = 60
 # Newton's next step would be the square of this
 _SETTLED = 1e-9
@@ -101,7 +103,7 @@ class OverCycle:
         coefficients = self._fit(low, high)
         size = np.max(np.abs(coefficients).sum(axis=2), axis=1)
         size = size[[self._row[size_of.get(key, key)] for key in self._row]]
-        self._scale = np.maximum(np.maximum(size, self._of_quantity(size)), 1e-300)
+        self._scale = np.maximum(np.maximum(size, self._of_rounding(size)), 1e-300)
         rounding = np.zeros(coefficients.shape[:2], dtype=bool)
         done = []
         for cut in range(_CUTS):
@@ -140,11 +142,12 @@ class OverCycle:
         values = values.reshape(-1, _NODES.size)
         return np.asarray((values @ _FROM_VALUES.T).reshape(len(self._row), low.size, _NODES.size))
 
-    def _of_quantity(self, size: Array) -> Array:
-        """Return for each column what counts beside the largest one of its quantity."""
+    def _of_rounding(self, size: Array) -> Array:
+        """Return for each column what of it is not rounding beside the largest one of its quantity."""
         kinds = [key.partition(".")[0] for key in self._row]
         largest = {kind: max(one for one, of in zip(size, kinds, strict=True) if of == kind) for kind in set(kinds)}
-        return _SMALL * np.array([largest[kind] for kind in kinds])
+        of_kind = np.array([largest[kind] for kind in kinds])
+        return _SMALL * np.where(self._is_root, np.sqrt(size * of_kind), of_kind)
 
     def _left_out(self, coefficients: Array) -> Array:
         return np.asarray((np.abs(coefficients[:, :, -2]) + np.abs(coefficients[:, :, -1])) / self._scale[:, None])
@@ -163,17 +166,20 @@ class OverCycle:
         limit = _CONVERGED * np.sqrt(self._scale)
         row, of = np.nonzero(self._is_root[:, None] & np.ones(widths.size, dtype=bool))
         low, high = np.full(row.size, -1.0), np.ones(row.size)
-        squares = self._coefficients[row, of] @ _AT_NODES.T
+        squares = self._coefficients[row, of] @ np.concatenate([_AT_NODES, _AT_LOOK]).T
         for cut in range(_CUTS + 1):
-            fitted = np.sqrt(np.maximum(squares, 0.0)) @ _FROM_VALUES.T
-            is_coarse = (np.abs(fitted[:, -2]) + np.abs(fitted[:, -1]) > limit[row]) & (cut < _CUTS)
+            roots = np.sqrt(np.maximum(squares, 0.0))
+            fitted = roots[:, : _NODES.size] @ _FROM_VALUES.T
+            # a corner beyond the outermost node shows between the nodes only
+            missed = np.max(np.abs(roots[:, _NODES.size :] - fitted @ _AT_LOOK.T), axis=1, initial=0.0)
+            is_coarse = (np.abs(fitted[:, -2]) + np.abs(fitted[:, -1]) + _LITTLE * missed > limit[row]) & (cut < _CUTS)
             np.add.at(result, row, np.where(is_coarse, 0.0, widths[of] * (high - low) / 2 * fitted[:, 0]))
             row, of = np.tile(row[is_coarse], _PARTS), np.tile(of[is_coarse], _PARTS)
             between = np.linspace(low[is_coarse], high[is_coarse], _PARTS + 1)
             low, high = between[:-1].ravel(), between[1:].ravel()
             if not row.size:
                 break
-            u = (low + high) / 2 + (high - low) / 2 * _NODES[:, None]
+            u = (low + high) / 2 + (high - low) / 2 * np.concatenate([_NODES, _LOOK])[:, None]
             squares = legendre.legval(u, self._coefficients[row, of].T, tensor=False).T
         return result
 
