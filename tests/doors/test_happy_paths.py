@@ -18,7 +18,8 @@ from crankwork.units import UNITS
 
 SHEET = {"x": "http://schemas.openxmlformats.org/spreadsheetml/2006/main"}
 ENGINES = ("engine", "slider-crank", "compressor", "whole-engine")
-EXAMPLES = Path(__file__).parents[2] / "examples"
+ROOT = Path(__file__).parents[2]
+EXAMPLES = ROOT / "examples"
 
 
 def _table(name: str, folder: str = "out") -> tuple[list[str], list[list[float]]]:
@@ -162,6 +163,13 @@ def test_the_workbook_holds_the_same_numbers_as_the_tables(crankwork, machine_fi
         assert len(values) == len(expected)
         # the workbook writes 16 digits
         assert [pytest.approx(row, rel=1e-15, abs=1e-300) for row in expected] == values
+
+
+def test_the_explanation_in_the_readme_is_the_one_that_is_given(crankwork) -> None:
+    command = ("explain", "examples/spark-engine.toml", "side_force", "--at", "390")
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert f"`crankwork {' '.join(command)}`" in readme
+    assert f"```\n{crankwork(command[0], str(ROOT / command[1]), *command[2:]).out}```" in readme
 
 
 def test_three_lines_of_python_give_the_results() -> None:
