@@ -191,11 +191,11 @@ def _checks(solved: SolvedCylinder, summary: Mapping[str, float], samples: Sampl
             result["torque_of_energy"] = apart(dense["crank_torque"], _torque_of_energy(solved, dense))
     if solved.space is not None and not solved.machine.angular_acceleration:
         work = summary["mean_torque"] * math.radians(solved.machine.cycle)
-        result["work"] = abs(work - summary["indicated_work"]) / _moved_work(solved, summary)
+        result["work"] = abs(work - summary["indicated_work"]) / moved_work(solved, summary)
     calculated = solved.space.calculated if solved.space is not None else None
     if calculated is not None and "first_law_residual" in calculated.values:
         residual, heat = calculated.values["first_law_residual"], calculated.values["fuel_heat"]
-        result["first_law"] = abs(residual) / max(heat, _moved_work(solved, summary))
+        result["first_law"] = abs(residual) / max(heat, moved_work(solved, summary))
     return result
 
 
@@ -214,10 +214,10 @@ def _allowed(solved: SolvedCylinder, summary: Mapping[str, float]) -> dict[str, 
     """Return how far the work of the torque may be from that of the gas by the error of the torque that is stated."""
     if "crank_torque_error" not in summary or solved.space is None:
         return {}
-    return {"work": summary["crank_torque_error"] * math.radians(solved.machine.cycle) / _moved_work(solved, summary)}
+    return {"work": summary["crank_torque_error"] * math.radians(solved.machine.cycle) / moved_work(solved, summary)}
 
 
-def _moved_work(solved: SolvedCylinder, summary: Mapping[str, float]) -> float:
+def moved_work(solved: SolvedCylinder, summary: Mapping[str, float]) -> float:
     """Return the most work that the torque could do over a cycle; what it does in the end may be nothing."""
     largest = max(abs(summary["crank_torque_max"]), abs(summary["crank_torque_min"]))
     return largest * math.radians(solved.machine.cycle) or 1.0

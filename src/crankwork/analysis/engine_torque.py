@@ -200,16 +200,16 @@ def harmonics_listing(harmonics: Mapping[str, Known]) -> Listing:
     return Listing({key: np.array(values) for key, values in columns.items()})
 
 
-def torque_checks(whole: WholeEngine, torque: EngineTorque, samples: Samples) -> dict[str, float]:
-    """Return the residuals between sums over cylinders, phase stars and the total."""
+def torque_checks(whole: WholeEngine, torque: EngineTorque, samples: Samples, moved: float) -> dict[str, float]:
+    """Return the residuals between sums over cylinders, phase stars and the total.
+
+    `moved`: the most work that the torque of a cylinder could do [J].
+    """
     works = [one.space.work for one in whole.cylinders if one.space is not None]
     result = {}
     if len(works) == len(whole.cylinders) and not whole.machine.angular_acceleration:
         work = torque.excess.work_per_cycle
-        # what one cylinder does to and fro, and they all
-        angle = np.linspace(0.0, torque.one.cycle, _SAMPLES)
-        moved = len(works) * torque.one.cycle * float(np.mean(np.abs(torque.one(angle)))) or 1.0
-        result["engine_work"] = abs(work - sum(works)) / moved
+        result["engine_work"] = abs(work - sum(works)) / (len(works) * moved)
     count = _common_samples(whole.layout)
     if whole.is_uniform and len(whole.cylinders) > 1 and count:
         degrees: Array = np.arange(float(count)) * (whole.layout.cycle / count)

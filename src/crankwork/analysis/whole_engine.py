@@ -8,7 +8,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from crankwork.analysis.cylinders import WholeEngine, whole_engine
-from crankwork.analysis.engine import analyse_engine
+from crankwork.analysis.engine import analyse_engine, moved_work
 from crankwork.analysis.engine_balance import balance_checks, balance_listing, balance_memory, engine_balance
 from crankwork.analysis.engine_bearings import (
     bearing_columns,
@@ -138,7 +138,7 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
         summary={**results.summary, **summary},
         checks={
             **results.checks,
-            **torque_checks(whole, torque, samples),
+            **torque_checks(whole, torque, samples, moved_work(results.solved, results.summary)),
             **balance_checks(whole, balance, samples),
             **thrown,
         },

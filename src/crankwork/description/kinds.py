@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import unicodedata
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 from typing import Any, NamedTuple, Protocol
 
 from crankwork import units
@@ -14,6 +15,14 @@ _MAX_PROBLEMS = 50
 # what is nearer to zero than this is zero, and nothing is divided by it
 _NOTHING = 1e-30
 _OF_NUMBERS = "+-0123456789.,eE \t"
+
+
+def _in_range(limit: float, rounding: str) -> str:
+    """Return a limit in six digits, rounded so that it may be written."""
+    near = f"{limit:.6g}"
+    if math.isclose(float(near), limit, rel_tol=1e-9):
+        return near
+    return f"{float(Context(prec=6, rounding=rounding).create_decimal(limit)):.6g}"
 
 
 class Measure(NamedTuple):
@@ -103,7 +112,9 @@ class Quantity(NamedTuple):
         return Measure(number if abs(number) > _NOTHING else 0.0, dimension, value.lstrip(_OF_NUMBERS).rstrip())
 
     def _holds(self, number: float) -> bool:
-        return (self.low < number if self.above else self.low <= number) and number <= self.high
+        # a limit in another unit may be off by rounding
+        at_end = math.isclose(number, self.high) or (math.isclose(number, self.low) and not self.above)
+        return self.low < number < self.high or at_end
 
     def _out_of_range(self, value: str, dimension: str) -> Refusal:
         low, high = (f'"{one}"' for one in self._range(dimension))
@@ -112,8 +123,8 @@ class Quantity(NamedTuple):
     def _range(self, dimension: str) -> tuple[str, str]:
         """Return the least and the largest value with a unit."""
         unit = units.EXAMPLES[dimension].split()[1]
-        low, high = (f"{units.from_si(one, unit):.6g} {unit}" for one in (self.low, self.high))
-        return low, high
+        low, high = units.from_si(self.low, unit), units.from_si(self.high, unit)
+        return f"{_in_range(low, ROUND_CEILING)} {unit}", f"{_in_range(high, ROUND_FLOOR)} {unit}"
 
     def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of a text with a unit; its range in that unit is for forms, and as words for readers."""
