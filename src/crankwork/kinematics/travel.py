@@ -164,7 +164,7 @@ def _stated(mechanism: Mechanism) -> float:
     """Return a crank angle on the branch that the position at zero is on, well away from where it ends. [deg]"""
     if any(isinstance(group, Chain) for group in mechanism.dyads):
         return 0.0
-    stretches = assembled_stretches(mechanism)
+    stretches = [one for one in assembled_stretches(mechanism) if one[1] > one[0]]
     if not stretches:
         assembled(mechanism, _DENSE)
     here = [one for one in stretches if one[0] <= 0.0 < one[1]]
