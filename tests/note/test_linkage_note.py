@@ -134,19 +134,21 @@ def test_values_of_steps_are_those_of_the_results():
 HEADINGS = {
     "ru": [
         "Задание и исходные данные", "Структурный анализ механизма", "Кинематический анализ механизма",
-        "Силовой расчёт механизма", "Приведение масс и сил", "Статический, динамический и суммарный движущий моменты",
+        "Качественные показатели механизма", "Силовой расчёт механизма", "Уравновешивание механизма",
+        "Приведение масс и сил", "Статический, динамический и суммарный движущий моменты",
         "Выбор двигателя", "Расчёт маховика", "Закон движения кривошипа", "Проверка результатов", "Заключение",
         "Список литературы", "Приложение. Результаты расчёта за оборот кривошипа",
     ],
     "vi": [
         "Nhiệm vụ và số liệu cho trước", "Phân tích cấu trúc cơ cấu", "Phân tích động học cơ cấu",
-        "Phân tích lực cơ cấu",
+        "Các chỉ tiêu chất lượng của cơ cấu", "Phân tích lực cơ cấu", "Cân bằng cơ cấu",
         "Thu gọn khối lượng và lực", "Mômen tĩnh, mômen động và mômen dẫn động", "Chọn động cơ", "Tính bánh đà",
         "Quy luật chuyển động của tay quay", "Kiểm tra kết quả", "Kết luận", "Tài liệu tham khảo",
         "Phụ lục: kết quả tính trong một vòng quay",
     ],
     "en": [
-        "Task and data", "Main results", "Structure", "Kinematics of the mechanism", "Forces in the joints",
+        "Task and data", "Main results", "Structure", "Kinematics of the mechanism",
+        "Quality of the mechanism", "Forces in the joints", "Balance of the mechanism",
         "Reduced masses and forces", "Static, dynamic and driving torque", "Choice of the motor",
         "Design of the flywheel",
         "Law of motion", "Checks", "References", "Appendix: results over the whole turn",
@@ -168,7 +170,7 @@ def test_a_school_gives_its_order_to_another_language():
 
 @pytest.mark.parametrize(
     ("name", "tables", "equations", "figures"),
-    [("press", 5, 42, 2), ("press-geometry", 17, 219, 7), ("andrews-squeezer", 25, 363, 6)],
+    [("press", 5, 42, 2), ("press-geometry", 23, 239, 7), ("andrews-squeezer", 31, 393, 6)],
 )
 def test_how_many_tables_equations_and_figures_a_note_has(name, tables, equations, figures):
     found = note(name, language="ru", figures=True)
@@ -262,10 +264,72 @@ def test_a_linkage_that_does_not_turn_fully_keeps_the_numbers_of_its_positions(t
     assert re.fullmatch(why, notices.items[0][0]), notices.items[0][0]
 
 
+def test_what_a_crank_reaches_that_does_not_turn_fully_is_told(tmp_path):
+    whole = four_bar(tmp_path, ("62.5 mm", "150 mm"))
+    found = note_of(whole, NoteOptions(language="ru", figures=False))
+    assert table(found, "reach").rows == [("coupler", "°", "22,5337", "80,0249"), ("rocker", "°", "181,668", "–")]
+    assert "Уравновешивание механизма" in headings(found)
+    # what counterweight is best is asked of whole turns only
+    assert "orders" not in {one.label for one in found.blocks if isinstance(one, Table)}
+    text = " ".join(str(run) for one in found.blocks if isinstance(one, Paragraph) for run in one.runs)
+    assert "97,2003°" in text
+
+
+def template_results(name: str) -> crankwork.Results:
+    return crankwork.analyse(crankwork.read_machine(template(name)))
+
+
+def test_ends_and_time_ratio_of_a_shaper_are_those_of_its_lever():
+    found = note_of(template_results("crank-shaper"), NoteOptions(figures=False))
+    rows = {row[0]: [float(one.replace("−", "-")) for one in row[2:]] for row in table(found, "ends").rows}
+    # a lever touched by the circle of the crank: radius 50 mm, pivot 150 mm below
+    reach = np.degrees(np.arcsin(50 / 150))
+    ends = (90 - reach, 270 - reach, 90 + reach, 90 + reach, 2 * reach, (180 + 2 * reach) / (180 - 2 * reach))
+    assert rows["lever"] == pytest.approx(ends, abs=0.06)
+    assert rows["ram"][-1] == pytest.approx(ends[-1], rel=1e-5)
+
+
+def test_extreme_transmission_angles_are_worked_where_crank_and_frame_are_in_line():
+    whole = template_results("four-bar")
+    found = note_of(whole, NoteOptions(figures=False))
+    worked = {one.step.key: one.step.value for one in found.blocks if isinstance(one, Equation)}
+    for end, base in (("min", 200 - 62.5), ("max", 200 + 62.5)):
+        cosine = (175**2 + 112.5**2 - base**2) / (2 * 175 * 112.5)
+        assert worked[f"transmission_angle_{end}.B"] == pytest.approx(np.arccos(cosine), rel=1e-12)
+    (row,) = table(found, "limits").rows
+    assert row == ("B", "51.7534", "0", "130.601", "180")
+
+
+def test_instant_centres_are_worked_where_their_link_turns_and_left_out_where_not():
+    whole = template_results("crank-shaper")
+    found = note_of(whole, NoteOptions(figures=False))
+    (shown,) = [one for one in found.blocks if isinstance(one, Table) and one.caption == "Instant centres"]
+    assert [row[0] for row in shown.rows if row[2:] == ("–", "–")] == ["0", "6", "12"]
+    worked = {one.step.key: one.step.value for one in found.blocks if isinstance(one, Equation)}
+    # on the normal of the ram's guide in D, and on the lever through C
+    at = whole.columns_at([30.0])
+    assert worked["instant_centre_x.link"] == pytest.approx(at["point_x.D"][0], rel=1e-12)
+    slope = np.tan(at["link_angle.lever"][0])
+    height = at["point_y.C"][0] + slope * (worked["instant_centre_x.link"] - at["point_x.C"][0])
+    assert worked["instant_centre_y.link"] == pytest.approx(height, rel=1e-9)
+
+
+def test_the_counterweight_stands_after_the_shaking_force():
+    found = note("beta-stirling")
+    worked = {one.step.key: one.step.value for one in found.blocks if isinstance(one, Equation)}
+    sizes = worked["shaking_force_x"], worked["shaking_force_y"]
+    assert worked["shaking_force"] == pytest.approx(np.hypot(*sizes), rel=1e-12)
+    # masses that swing sinusoidally along x: half of each is taken out by one that turns against it
+    turning = 0.4 * 0.03 + 0.9 * 0.025 * np.exp(-1j * np.radians(60))
+    assert worked["counterweight_moment"] == pytest.approx(abs(turning) / 2, rel=1e-9)
+    assert column(table(found, "orders"), 1) == pytest.approx([abs(turning) * 94.24778**2, 0, 0], abs=1e-3)
+
+
 def test_a_linkage_without_masses_has_its_motion_only(tmp_path):
     whole = four_bar(tmp_path, (r", mass.*?centre = (\[.*?\]|\"P\")", ""))
     assert headings(note_of(whole, NoteOptions(language="en", figures=False))) == [
-        "Task and data", "Main results", "Structure", "Kinematics of the mechanism", "References",
+        "Task and data", "Main results", "Structure", "Kinematics of the mechanism",
+        "Quality of the mechanism", "References",
         "Appendix: results over the whole turn",
     ]  # fmt: skip
 

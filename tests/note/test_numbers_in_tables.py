@@ -12,7 +12,7 @@ import pytest
 from crankwork.analysis import Results
 from crankwork.analysis.whole_engine import as_engine
 from crankwork.description.machine_file import template_names
-from crankwork.formula.known import in_order
+from crankwork.formula.known import Found, in_order
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.note.contents import note_of
@@ -88,6 +88,8 @@ class Held:
             listed += [("crank_angle", grid.angle) for grid in grids]
         self.columns = [one for key, column in listed for one in in_units(key, np.asarray(column, dtype=float), area)]
         single = [(one.key, one.value) for one in in_order(results.memory.values()) if not one.varies]
+        reached = [one.node.at for one in in_order(results.memory.values()) if isinstance(one.node, Found)]
+        single += [("", at) for at in reached if at is not None]
         single += [*results.summary.items(), *results.checks.items()]
         single += [("", 100 * one) for key, one in results.summary.items() if key.startswith("heat_share")]
         single += [

@@ -121,7 +121,10 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
     # where links pass through a line, that is told already
     notices += () if machine.mechanism.passages else unusual
     columns = absent_where_still(Program(memory)(table))
-    memory = {key: one for key, one in memory.items() if key in columns or not key.startswith("instant_centre_")}
+    # of a link that never turns
+    none = {key for key, one in columns.items() if key.startswith("instant_centre_") and np.isnan(one).all()}
+    columns = {key: one for key, one in columns.items() if key not in none}
+    memory = {key: one for key, one in memory.items() if key not in none}
     values = {key: one.value for key, one in summary.items()}
     memory |= {**summary, **between}
     return Results(solved, table, columns, values, checks, notices, _groups(columns), memory=memory)

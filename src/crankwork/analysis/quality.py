@@ -19,8 +19,9 @@ from crankwork.mechanism.dyads import RRP, RRR
 from crankwork.mechanism.mechanism import Mechanism
 
 FOLLOWED = ("transmission_cosine", "pressure_sine")
-# beyond these forces grow, and a linkage may jam [deg]
-_USUAL = (40.0, 140.0)
+# beyond these forces grow, and a linkage may jam; of pressure angles the largest [deg]
+USUAL = (40.0, 140.0)
+USUAL_PRESSURE = 90.0 - USUAL[0]
 _TURN = 360.0
 # what rounding leaves a cosine of links in line short of one
 _IN_LINE = 1e-13
@@ -87,9 +88,9 @@ def quality_of(over: OverCycle) -> tuple[dict[str, Known], tuple[Notice, ...]]:
             result[f"transmission_angle_min.{name}"] = found["min"]
         worst = [math.degrees(one.value) for one in found.values()]
         told += [
-            Notice("transmission", {"name": name, "angle": one, "low": _USUAL[0], "high": _USUAL[1]})
+            Notice("transmission", {"name": name, "angle": one, "low": USUAL[0], "high": USUAL[1]})
             for one in worst
-            if not _USUAL[0] <= one <= _USUAL[1]
+            if not USUAL[0] <= one <= USUAL[1]
         ]
     return result, tuple(told)
 

@@ -130,8 +130,15 @@ class Results:
             Columns by key. [SI]
         """
         grid = angles if isinstance(angles, CrankGrid) else CrankGrid.from_degrees(angles)
-        wanted = self.columns if keys is None else keys
-        return Program({key: self.memory[key] for key in wanted if key in self.memory})(grid)
+        wanted = [key for key in (self.columns if keys is None else keys) if key in self.memory]
+        if not any(key.startswith("instant_centre_") for key in wanted):
+            return Program({key: self.memory[key] for key in wanted})(grid)
+        # engines do not load it
+        from crankwork.kinematics.instant_centres import absent_where_still  # noqa: PLC0415
+
+        rates = [key for key in self.memory if key.startswith("link_angular_velocity.")]
+        found = absent_where_still(Program({key: self.memory[key] for key in (*wanted, *rates)})(grid))
+        return {key: found[key] for key in wanted}
 
     def moment(self, at: float = 0.0, mark: str = "") -> Moment:
         """Return the lines of the memory at a crank angle.

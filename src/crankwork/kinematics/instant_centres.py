@@ -48,15 +48,12 @@ def instant_centres(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str,
 
 
 def absent_where_still(columns: Mapping[str, Array]) -> dict[str, Array]:
-    """Return columns without the instant centres of links that do not turn at that moment, or at all."""
+    """Return columns without the instant centres of links where they do not turn."""
     rates = {key: np.abs(one) for key, one in columns.items() if key.startswith("link_angular_velocity.")}
-    largest = max((float(np.max(one)) for one in rates.values()), default=0.0)
+    largest = max((float(np.max(one, initial=0.0)) for one in rates.values()), default=0.0)
     result = dict(columns)
     for key, values in columns.items():
         kind, _, name = key.partition(".")
         if kind in {"instant_centre_x", "instant_centre_y"}:
-            turns = rates[f"link_angular_velocity.{name}"] > _STANDS * largest
-            result[key] = np.where(turns, values, np.nan)
-            if not turns.any():
-                del result[key]
+            result[key] = np.where(rates[f"link_angular_velocity.{name}"] > _STANDS * largest, values, np.nan)
     return result

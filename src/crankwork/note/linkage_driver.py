@@ -12,7 +12,7 @@ from crankwork.note.chambers import given_chambers
 from crankwork.note.document import Block, Citation, ItemList, Paragraph, Reference, Runs, Table
 from crankwork.note.linkage_data import links_and_places, method, outer_load
 from crankwork.note.linkage_material import Material
-from crankwork.note.linkage_motion import worked_at
+from crankwork.note.linkage_motion import instant_centres, worked_at
 from crankwork.note.linkage_tables import any_nonzero, equations, position_tables, quantity_columns
 from crankwork.note.linkage_words import Words, named
 from crankwork.units import from_si
@@ -103,6 +103,7 @@ def driven_motion(material: Material) -> Iterator[Block]:
     ):
         shown = quantity_columns(keys, columns, words)
         yield from position_tables(caption, degrees, shown, words, first=material.first)
+    yield from instant_centres(material)
     yield from material.figures("driver", "sliders")
     if "velocity_plan" in material.drawn:
         yield words.heading("polygons", 2)

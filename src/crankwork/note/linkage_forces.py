@@ -8,13 +8,15 @@ import numpy as np
 
 from crankwork.analysis import Array
 from crankwork.analysis.linkage import torque_by_routes
-from crankwork.note.document import Block, Citation
+from crankwork.note.document import Block, Citation, Reference, Table
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_motion import worked_at
 from crankwork.note.linkage_tables import Column, any_nonzero, equations, position_tables, quantity_columns
 from crankwork.note.linkage_words import Words, named
 
 _STATICS, _WORK, _RUNNING, _EFFICIENCY = (f"artobolevsky_1988, ch. {one}" for one in (13, 15, 16, 14))
+_BALANCE = "den_hartog_1956, ch. 5"
+_SHAKING = ("shaking_force_x", "shaking_force_y", "shaking_force", "shaking_moment")
 _TORQUES = ("static_torque", "dynamic_torque", "balancing_torque", "driving_torque")
 
 
@@ -64,6 +66,31 @@ def _lever(material: Material) -> Iterator[Block]:
 def _route(name: str, values: Array, words: Words) -> Column:
     heading = (*words.titled("balancing_torque"), f", {words.term(name)}")
     return Column(heading, words.column_texts(values.tolist(), digits=5))
+
+
+def balance(material: Material) -> Iterator[Block]:
+    """Yield the section about what the moving masses do to the foundation, and the best counterweight on the crank."""
+    words, columns, summary = material.words, material.columns, material.results.summary
+    if "shaking_force" not in columns:
+        return
+    yield words.heading("linkage_balance")
+    yield words.paragraph("shaking", source=Citation(_BALANCE))
+    yield from worked_at(material, "shaking")
+    yield from equations(material.lines("shaking"), words)
+    shown = quantity_columns(any_nonzero(_SHAKING, columns), columns, words)
+    yield from position_tables("shaking", material.positions, shown, words, first=material.first, label="shaking")
+    orders = named(summary, "free_force")
+    if not orders:
+        return
+    yield words.paragraph("free_forces", table=Reference("orders"))
+    sizes = words.column_texts([summary[key] for key in orders], digits=6)
+    rows = [(key.partition(".")[2], size) for key, size in zip(orders, sizes, strict=True)]
+    yield Table(
+        words.caption("linkage_orders"), ((words.column("order_of_turn"),), words.titled("free_force")), rows,
+        align="cr", label="orders",
+    )  # fmt: skip
+    yield words.paragraph("counterweight")
+    yield from equations(material.lines("counterweight"), words)
 
 
 def reduction(material: Material) -> Iterator[Block]:

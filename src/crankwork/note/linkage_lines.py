@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
 import numpy as np
 
@@ -32,6 +33,10 @@ _JOINTS = (
     "normal_moment",
 )  # fmt: skip
 _REDUCTION = ("reduced_inertia", "kinetic_energy", "reduced_inertia_1", "reduced_torque")
+_CENTRES = ("instant_centre_x", "instant_centre_y")
+_SHAKING = ("shaking_force_x", "shaking_force_y", "shaking_force", "shaking_moment")
+_COUNTERWEIGHT = ("counterweight_moment", "counterweight_angle")
+WORST_ANGLES = ("transmission_angle_min", "transmission_angle_max", "pressure_angle_max")
 _WHEEL = ("wittenbauer_slope", "whole_inertia", "flywheel_inertia")
 _TORQUES = ("static_torque", "dynamic_torque", "balancing_torque", "driving_torque")
 
@@ -45,11 +50,15 @@ def linkage_lines(results: Results, degrees: float | None = None) -> tuple[Group
         Group("speed", told.lines(["speed"]) if results.method.pi != math.pi else ()),
         told.group("driver", _DRIVER),
         told.group("motion", _MOTION),
+        _centres(results, told),
+        Group("transmission", tuple(_transmission(results))),
         Group("charges", told.lines(_CHARGES)),
         told.group("chambers", _CHAMBERS),
         Group("gas_work", told.lines(_GAS_WORK)),
         Group("inertia_loads", told.of(_inertia(results)), told.degrees),
         told.group("joint_forces", _JOINTS),
+        told.group("shaking", _SHAKING),
+        Group("counterweight", told.lines(_COUNTERWEIGHT)),
         told.group("driver_force", ("driver_force", "driver_torque", "driver_power")),
         told.group("reduction", _REDUCTION),
         told.group("torques", _TORQUES),
@@ -86,6 +95,54 @@ class _Told:
     def group(self, name: str, kinds: Iterable[str]) -> Group:
         """Return these lines as a group."""
         return Group(name, self.lines(kinds), self.degrees)
+
+
+def _centres(results: Results, told: _Told) -> Group:
+    """Return the instant centres of links; where one of them does not turn, at the nearest position where all do."""
+    keys = [key for key in results.columns if key.partition(".")[0] in _CENTRES]
+    degrees = results.grid.degrees
+    turning = np.all([np.isfinite(results.columns[key]) for key in keys], axis=0)
+    shown = degrees[turning & ((degrees == told.degrees) | (degrees % _DEGREES == 0))] if keys else degrees[:0]
+    if not shown.size:
+        return Group("instant_centres", ())
+    nearest = float(shown[np.argmin(np.abs(shown - told.degrees))])
+    moment = results.moment(nearest)
+    return Group("instant_centres", tuple(moment.step(results.memory[key]) for key in keys), nearest)
+
+
+class Extreme(NamedTuple):
+    """The extreme of a column: its key, what it is and how it came about, and where it is reached. [deg]"""
+
+    key: str
+    known: Known
+    at: float
+
+
+def extreme_of(results: Results, key: str) -> Extreme | None:
+    """Return the extreme that a single value is, or that it is made of; none if it is not made of one."""
+    for one in in_order([results.memory[key]]) if key in results.memory else ():
+        if isinstance(one.node, Found) and one.node.at is not None:
+            return Extreme(one.key, one, one.node.at)
+    return None
+
+
+def worst_angles(results: Results) -> Iterator[str]:
+    """Yield the extreme transmission angles between links, and pressure angles at guides."""
+    for key in results.summary:
+        kind, _, name = key.partition(".")
+        # beside a guide the transmission angle is what the pressure angle leaves of a right angle
+        if kind in WORST_ANGLES and (kind == WORST_ANGLES[-1] or f"{WORST_ANGLES[-1]}.{name}" not in results.summary):
+            yield key
+
+
+def _transmission(results: Results) -> Iterator[Line]:
+    """Yield each extreme angle after its cosine or sine where that is reached."""
+    moment = results.moment()
+    for key in worst_angles(results):
+        extreme = extreme_of(results, key)
+        if extreme is not None:
+            yield moment.step(extreme.known)
+            yield moment.step(results.memory[key])
 
 
 def _inertia(results: Results) -> Iterator[Known]:

@@ -80,7 +80,8 @@ class Material:
         key = next((one for one in largest if one in self.columns), None)
         if (self.machine.loads or self.machine.chambers) and key is not None:
             # in a change point forces may not be determined
-            is_told = np.all([np.isfinite(one) for one in self.columns.values()], axis=0)
+            told = [one for name, one in self.columns.items() if not name.startswith("instant_centre_")]
+            is_told = np.all(np.isfinite(told), axis=0)
             degrees = float(self.positions[int(np.argmax(np.where(is_told, np.abs(self.columns[key]), -1.0)))])
         return {one.name: one for one in linkage_lines(self.results, degrees)}
 

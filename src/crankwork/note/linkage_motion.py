@@ -11,6 +11,7 @@ from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_tables import Column, equations, position_tables, quantity_columns
 from crankwork.note.linkage_words import named
 
+_CENTRES = "khurmi_gupta_2005, ch. 6"
 _SOURCE = "artobolevsky_1988, ch. 4"
 _MOVING = ("point_velocity", "link_angular_velocity", "slider_velocity")
 _ACCELERATING = ("point_acceleration", "link_angular_acceleration", "slider_acceleration", "coriolis_acceleration")
@@ -41,9 +42,26 @@ def kinematics(material: Material) -> Iterator[Block]:
     yield from position_tables("velocities", degrees, velocities, words, first=material.first)
     accelerations = quantity_columns(named(columns, *_ACCELERATING), columns, words)
     yield from position_tables("accelerations", degrees, accelerations, words, first=material.first)
+    yield from instant_centres(material)
     if material.drawn:
         yield words.heading("polygons", 2)
         yield from material.figures("velocity_plan", "acceleration_plan", "sliders")
+
+
+def instant_centres(material: Material) -> Iterator[Block]:
+    """Yield where links turn about that have no fixed pivot, worked at one position and at all of them."""
+    words, columns = material.words, material.columns
+    keys = [
+        f"instant_centre_{axis}.{key.partition('.')[2]}" for key in named(columns, "instant_centre_x") for axis in "xy"
+    ]
+    if not keys:
+        return
+    yield words.heading("instant_centres", 2)
+    yield words.paragraph("instant_centres", source=Citation(_CENTRES))
+    yield from worked_at(material, "instant_centres")
+    yield from equations(material.lines("instant_centres"), words)
+    shown = quantity_columns(keys, columns, words)
+    yield from position_tables("instant_centres", material.positions, shown, words, first=material.first)
 
 
 def worked_at(material: Material, group: str) -> Iterator[Block]:

@@ -10,9 +10,10 @@ from crankwork.note.chambers import chambers
 from crankwork.note.document import Block, Contents, Note, PageBreak, TitlePage
 from crankwork.note.linkage_data import structural_analysis, task
 from crankwork.note.linkage_driver import driven_forces, driven_motion, driven_task
-from crankwork.note.linkage_forces import forces, reduction, torques
+from crankwork.note.linkage_forces import balance, forces, reduction, torques
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_motion import kinematics, law_of_motion
+from crankwork.note.linkage_quality import quality
 from crankwork.note.linkage_shaft import appendix, checks, conclusion, flywheel, motor, sources
 from crankwork.note.linkage_tables import explained
 from crankwork.note.options import NoteOptions
@@ -20,16 +21,17 @@ from crankwork.note.options import NoteOptions
 Section = Callable[[Material], Iterator[Block]]
 
 _COURSE: tuple[Section, ...] = (
-    task, structural_analysis, kinematics, chambers, forces, reduction, torques, motor, flywheel, law_of_motion, checks,
-    conclusion, sources, appendix,
+    task, structural_analysis, kinematics, quality, chambers, forces, balance, reduction, torques, motor, flywheel,
+    law_of_motion, checks, conclusion, sources, appendix,
 )  # fmt: skip
 # engineers who read English want the results before the way to them
 _REPORT: tuple[Section, ...] = (
-    task, conclusion, structural_analysis, kinematics, chambers, forces, reduction, torques, motor, flywheel,
-    law_of_motion, checks, sources, appendix,
+    task, conclusion, structural_analysis, kinematics, quality, chambers, forces, balance, reduction, torques, motor,
+    flywheel, law_of_motion, checks, sources, appendix,
 )  # fmt: skip
 _DRIVEN: tuple[Section, ...] = (
-    driven_task, structural_analysis, driven_motion, chambers, driven_forces, checks, conclusion, sources, appendix,
+    driven_task, structural_analysis, driven_motion, quality, chambers, driven_forces, checks, conclusion, sources,
+    appendix,
 )  # fmt: skip
 # the tables keep the numbers that courses of machines give them
 _OF_TABLE: tuple[Section, ...] = (

@@ -104,10 +104,7 @@ def conclusion(material: Material) -> Iterator[Block]:
     yield words.paragraph("conclusion", table=Reference("summary"))
     rows = [_row(key, results, words) for key in results.summary if not _is_angle(key)]
     titles: list[Runs] = [(words.column(one),) for one in ("quantity", "value", "unit")]
-    symbol, _, unit = words.place(0.0)
-    titles.append(
-        (words.column("at") + " ", symbol, ", °" if unit == "deg" else f", {printed_unit(unit, words.language)}")
-    )
+    titles.append(words.reached_at())
     yield Table(words.caption("summary"), tuple(titles), rows, align="lrcr", label="summary")
 
 

@@ -50,6 +50,11 @@ class Words(NoteWords):
             return Math(self.symbol("time")), degrees / 360.0 * self.period, "s"
         return Math(self.symbol("crank_angle")), degrees, "deg"
 
+    def reached_at(self) -> Runs:
+        """Return the heading of a column of positions at which values are reached."""
+        symbol, _, unit = self.place(0.0)
+        return (self.column("at") + " ", symbol, ", °" if unit == "deg" else f", {printed_unit(unit, self.language)}")
+
     def heading(self, key: str, level: int = 1, label: str = "") -> Heading:
         """Return a heading of a section; those of bibliography and appendix have no number."""
         return Heading(

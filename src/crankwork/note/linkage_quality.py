@@ -1,0 +1,147 @@
+"""How good a linkage is: range, ends and time ratio of what moves to and fro, transmission and pressure angles."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from crankwork.analysis.quality import USUAL, USUAL_PRESSURE
+from crankwork.note.document import Block, Citation, Reference, Runs, Table
+from crankwork.note.linkage_lines import WORST_ANGLES, extreme_of, worst_angles
+from crankwork.note.linkage_material import Material
+from crankwork.note.linkage_tables import equations, position_tables, quantity_columns
+from crankwork.note.linkage_words import Words, named
+from crankwork.note.printed_units import printed_unit
+from crankwork.report.language import displayed, key_unit
+
+_SOURCE = "norton_2012, ch. 4"
+_TRAVEL = {"slider_displacement": "slider_stroke", "link_angle": "link_swing"}
+_ANGLES = ("transmission_angle", "pressure_angle")
+_NONE = "–"
+
+
+def quality(material: Material) -> Iterator[Block]:
+    """Yield the section about range, ends, time ratio, transmission and pressure angles."""
+    found = [*_range(material), *_ends(material), *_transmission(material)]
+    if found:
+        yield material.words.heading("quality")
+        yield from found
+
+
+def _range(material: Material) -> Iterator[Block]:
+    """Yield how far a crank gets that does not turn fully, and what it moves, on its branch and on the circuit."""
+    words, summary = material.words, material.results.summary
+    if "crank_range" not in summary:
+        return
+    ends = {name: words.amount(summary[f"crank_range_{name}"], "deg") for name in ("start", "end")}
+    yield words.paragraph("crank_range", value=words.amount(summary["crank_range"], "deg"), **ends)
+    rows = []
+    for kind in _TRAVEL.values():
+        for key in named(summary, kind, f"{kind}_circuit"):
+            name = key.partition(".")[2]
+            row = (
+                name,
+                _unit(material, key),
+                *(_value(material, f"{one}.{name}") for one in (kind, f"{kind}_circuit")),
+            )
+            if row not in rows:
+                rows.append(row)
+    if rows:
+        yield words.paragraph("reach", table=Reference("reach"))
+        titles: tuple[Runs, ...] = tuple((words.column(one),) for one in ("link", "unit", "on_branch", "on_circuit"))
+        yield Table(words.caption("reach"), titles, rows, align="lcrr", label="reach")
+
+
+def _ends(material: Material) -> Iterator[Block]:
+    """Yield both ends of what slides or rocks, the way between them, and the ratio of the times of both strokes."""
+    words, summary = material.words, material.results.summary
+    rows = []
+    for kind, travel in _TRAVEL.items():
+        for key in named(summary, f"{kind}_min"):
+            name = key.partition(".")[2]
+            ends = [f"{kind}_{word}.{name}" for word in ("min", "max")]
+            shown = [text for end in ends for text in (_value(material, end), _place(material, end))]
+            ways = [_value(material, f"{one}.{name}") for one in (travel, "time_ratio")]
+            rows.append((name, _unit(material, key), *shown, *ways))
+    if not rows:
+        return
+    has_ratio = any(key.startswith("time_ratio.") for key in summary)
+    yield words.paragraph("ends", table=Reference("ends"))
+    if has_ratio:
+        yield words.paragraph("time_ratio")
+    at = words.reached_at()
+    titles: list[Runs] = [(words.column("link"),), (words.column("unit"),), (words.column("least"),), at]
+    titles += [(words.column("largest"),), at, (words.column("travel"),), words.titled("time_ratio")]
+    if not has_ratio:
+        titles, rows = titles[:-1], [row[:-1] for row in rows]
+    yield Table(words.caption("ends"), tuple(titles), rows, align="lc" + "r" * (len(titles) - 2), label="ends")
+
+
+def _transmission(material: Material) -> Iterator[Block]:
+    """Yield the extreme transmission and pressure angles, worked where they are reached, and all over the positions."""
+    words, columns = material.words, material.columns
+    keys = named(columns, *_ANGLES)
+    if not keys:
+        return
+    yield words.heading("transmission", 2)
+    if named(columns, "transmission_angle"):
+        low, high = (words.number(one) + "°" for one in USUAL)
+        yield words.paragraph("transmission", source=Citation(_SOURCE), low=low, high=high)
+    if named(columns, "pressure_angle"):
+        yield words.paragraph("pressure", source=Citation(_SOURCE), limit=words.number(USUAL_PRESSURE) + "°")
+    yield from _worst(material)
+    shown = quantity_columns(keys, columns, words)
+    yield from position_tables("transmission_angles", material.positions, shown, words, first=material.first)
+
+
+def _worst(material: Material) -> Iterator[Block]:
+    """Yield the extreme angles, each worked where it is reached, and all of them in a table."""
+    words = material.words
+    extremes = [(key, extreme_of(material.results, key)) for key in worst_angles(material.results)]
+    if not extremes:
+        return
+    yield words.paragraph("worst_angles")
+    for key, extreme in extremes:
+        if extreme is not None:
+            symbol, place, unit = words.place(extreme.at)
+            name, value = key.partition(".")[2], _with_unit(place, unit, words)
+            yield words.paragraph("worst_angle", name=name, place=symbol, value=value)
+            lines = [one for one in material.lines("transmission") if one.key in (extreme.key, key)]
+            yield from equations(lines, words)
+    yield _limits(material)
+
+
+def _limits(material: Material) -> Table:
+    """Return the extreme angles of every pin and slider, each with where it is reached."""
+    words, summary = material.words, material.results.summary
+    kinds = [one for one in WORST_ANGLES if named(summary, one)]
+    names = dict.fromkeys(key.partition(".")[2] for key in named(summary, *kinds))
+    rows = [
+        (
+            name,
+            *(text for one in kinds for text in (_value(material, f"{one}.{name}"), _place(material, f"{one}.{name}"))),
+        )
+        for name in names
+    ]
+    titles: list[Runs] = [(words.column("transmitting"),)]
+    for one in kinds:
+        titles += [words.titled(one, "deg"), words.reached_at()]
+    return Table(words.caption("limits"), tuple(titles), rows, align="l" + "r" * (len(titles) - 1), label="limits")
+
+
+def _value(material: Material, key: str) -> str:
+    summary = material.results.summary
+    return material.words.number(displayed(key, summary[key])) if key in summary else _NONE
+
+
+def _unit(material: Material, key: str) -> str:
+    return printed_unit(key_unit(key), material.words.language)
+
+
+def _place(material: Material, key: str) -> str:
+    """Return the crank angle or time at which an extreme is reached."""
+    found = extreme_of(material.results, key)
+    return _NONE if found is None else material.words.number(material.words.place(found.at)[1], digits=4)
+
+
+def _with_unit(value: float, unit: str, words: Words) -> str:
+    return words.number(value) + ("°" if unit == "deg" else f"\u00a0{printed_unit(unit, words.language)}")
