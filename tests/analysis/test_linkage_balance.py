@@ -44,6 +44,7 @@ def test_half_the_mass_of_a_yoke_turns_with_the_crank(crank):
     summary = analyse(read_machine(YOKE.format(crank=crank))).summary
     assert summary["shaking_force_max"] == pytest.approx(4 * 0.05 * 100, rel=1e-12)
     assert summary["free_force.1"] == pytest.approx(20, rel=1e-12)
-    assert summary["free_force.2"] == pytest.approx(0, abs=1e-12)
+    # of a force that only turns with the crank rounding leaves nothing in the other orders
+    assert [summary[f"free_force.{order}"] for order in (2, 3, 4)] == [0.0, 0.0, 0.0]
     assert summary["counterweight_moment"] == pytest.approx(4 * 0.05 / 2, rel=1e-12)
     assert abs(summary["counterweight_angle"]) == pytest.approx(math.pi, rel=1e-12)

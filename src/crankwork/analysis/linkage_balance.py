@@ -16,7 +16,9 @@ from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.mechanism.mechanism import Crank
 
-_ORDERS = (1, 2, 4)
+_ORDERS = (1, 2, 3, 4)
+# share of the largest force that rounding leaves of nothing
+_NOTHING = 1e-13
 _SAMPLES = 1440
 
 
@@ -45,11 +47,13 @@ def balance_of(driver: Crank, memory: Mapping[str, Known], period: float) -> Ite
     columns = Program(dict(zip("xy", of, strict=True)))(grid)
     force = columns["x"] + 1j * columns["y"]
     coefficients = np.fft.fft(force) / _SAMPLES
+    coefficients[np.abs(coefficients) <= _NOTHING * np.max(np.abs(force))] = 0.0
     for order in _ORDERS:
         both = abs(coefficients[order * turns]) + abs(coefficients[-order * turns])
         yield f"free_force.{order}", Known(Found(float(both), "harmonic", of))
     forward = complex(coefficients[driver.direction * turns])
     moment = Known(Found(abs(forward) / memory["speed"].value ** 2, "fourier", of))
     yield "counterweight_moment", moment
-    angle = math.remainder(cmath.phase(-forward) - driver.start, math.tau)
-    yield "counterweight_angle", Known(Found(angle, "fourier", of))
+    if forward:
+        angle = math.remainder(cmath.phase(-forward) - driver.start, math.tau)
+        yield "counterweight_angle", Known(Found(angle, "fourier", of))
