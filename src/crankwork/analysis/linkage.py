@@ -48,6 +48,7 @@ from crankwork.mechanism.mechanism import Crank, Driver
 from crankwork.mechanism.structure import mobility
 
 _DENSE_STEP = 1.0
+_STANDS = 1e-12
 _TRAVEL = {"slider_displacement": "slider_stroke", "link_angle": "link_swing"}
 _MOST_COEFFICIENTS = 10_000_000
 _OF_DRIVER = (
@@ -186,6 +187,10 @@ def _summary(
         kind, dot, name = key.partition(".")
         largest, least = (extremes[f"{kind}_{word}{dot}{name}"] for word in ("max", "min"))
         travel, is_place = largest - least, kind in _TRAVEL
+        size = 1.0 if kind == "link_angle" else max(abs(largest.value), abs(least.value))
+        if is_place and travel.value <= _STANDS * size:
+            # what only rounding moves stands
+            travel = Known(Found(0.0, "range", (largest, least)))
         # of a crank that turns back its limits say so
         if is_place and not is_whole:
             continue
