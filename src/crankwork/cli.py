@@ -159,6 +159,8 @@ def check(
     file: str, language: Language, settings: tuple[str, ...], *, circuits: bool, as_json: bool, expand: bool
 ) -> None:
     """Say what a machine file describes, or every mistake in it at once."""
+    if expand and (circuits or as_json):
+        raise CrankworkError(_refusal("expand_alone"))
     if expand:
         from crankwork.description.expand import expanded
 

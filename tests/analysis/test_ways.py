@@ -152,3 +152,11 @@ def test_what_is_no_linkage_has_none(name):
     machine = read_machine(template("engine")) if name == "engine" else read(ROOT / "examples/press.toml")
     with pytest.raises(CrankworkError, match="leave --circuits out"):
         ways(machine)
+
+
+@pytest.mark.parametrize("halves", [("rod",), ("barrel", "rod")])
+def test_masses_of_a_cylinder_do_not_change_where_it_gets(halves):
+    boom = (ROOT / "examples/excavator-boom.toml").read_text("utf-8")
+    mass = '{ mass = "80 kg", inertia = "30 kg*m2", centre = ["0.6 m", "20 mm"] }'
+    heavy = boom.replace("[driver]", "\n".join(["[driver]", *(f"{name} = {mass}" for name in halves)]))
+    assert ways(read_machine(heavy)) == ways(read_machine(boom))

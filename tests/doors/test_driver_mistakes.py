@@ -1,5 +1,6 @@
 """What is wrong with a driver is told at its line, with what to write instead."""
 
+import math
 import re
 
 import pytest
@@ -226,3 +227,19 @@ def test_the_files_without_mistakes_are_computed(text):
     assert results.notices[0].code == "by_law"
     assert results["time"][-1] == results.summary["period"]
     assert not results.unmet
+
+
+@pytest.mark.parametrize("dead_at", [1, 2])
+@pytest.mark.parametrize("first", ["table", "3-4-5", "cycloidal", "parabolic"])
+def test_a_law_that_ends_at_a_dead_position_is_refused_whichever_segment_it_is(first, dead_at):
+    """Segments that end between whole degrees of the period; the boom points away from the foot of its cylinder."""
+    ends = {1: "1.7 m", 2: "1.3 m", dead_at: f"{1.8 + math.hypot(0.6, 0.5):.16g} m"}
+    samples = ', at = [0.4], values = ["1.5 m"]' if first == "table" else ""
+    law = f"""law = [
+    {{ kind = "{first}", to = "{ends[1]}", over = "2 s"{samples} }},
+    {{ kind = "constant", to = "{ends[2]}", over = "4.91 s" }},
+]"""
+    text = BOOM.replace(BOOM[BOOM.index("law =") : BOOM.index("\n[links.boom]")], law)
+    with pytest.raises(crankwork.InputError, match="dead position") as caught:
+        crankwork.read_machine(text)
+    assert [one.key for one in caught.value.problems] == ["driver.law"]

@@ -45,6 +45,14 @@ def test_a_method_that_is_not_exact_can_be_set_aside(crankwork):
     assert crankwork("check", "my.toml", "--expand", "--set", "method.kinematics=exact").code == 0
 
 
+@pytest.mark.parametrize("also", [("--circuits",), ("--json",), ("--circuits", "--json")])
+def test_a_file_is_written_out_alone(crankwork, also):
+    Path("my.toml").write_text(template("four-bar"), "utf-8")
+    answer = crankwork("check", "my.toml", "--expand", *also)
+    assert (answer.code, answer.out) == (2, "")
+    assert "leave out --circuits and --json" in answer.err
+
+
 @pytest.mark.parametrize(
     ("language", "told"), [("en", "how fast it turns"), ("ru", "как быстро"), ("vi", "quay nhanh")]
 )

@@ -152,6 +152,13 @@ def test_a_setting_is_read_as_in_the_file(crankwork, machine_file, setting, key,
     assert _summary(crankwork("run", machine_file(), "--json", "--set", setting))[key]["value"] == pytest.approx(value)
 
 
+def test_a_setting_of_a_list_is_named_for_its_entries(crankwork, machine_file) -> None:
+    file = machine_file(name="whole-engine")
+    answer = crankwork("run", file, "--set", "engine.misfire=[6]")
+    assert answer.code == 2
+    assert answer.mistakes[0].startswith("--set engine.misfire[1]: there is no cylinder 6; write numbers from 1 to 4")
+
+
 def test_a_setting_reaches_into_lists(crankwork, machine_file) -> None:
     name, setting = machine_file(), "gas.pieces[3].exponent=1.3"
     plain, changed = (_summary(crankwork("run", name, "--json", *one)) for one in ((), ("--set", setting)))

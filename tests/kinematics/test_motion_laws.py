@@ -6,7 +6,7 @@ import pytest
 from crankwork.formula.known import breaks_of
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.motion_laws import clock, law_at, remembered_law
+from crankwork.kinematics.motion_laws import clock, extent, law_at, remembered_law
 from crankwork.mechanism.driver import Law, Segment
 
 KINDS = (
@@ -82,3 +82,20 @@ def test_extremes_and_time_of_a_law():
     assert found["a"][0].value == pytest.approx(10 / 3**0.5 * 0.25, rel=1e-12)
     assert found["t"][0].value == 2.5
     assert q.key == "driver_angle"
+
+
+def test_the_extent_of_a_law_is_that_between_all_angles():
+    points = ((0.3, 0.17), (0.55, 0.18), (0.8, 0.11))
+    law = Law((Segment("table", 0.19, 0.29, points=points), Segment("cycloidal", 0.165, 0.71)), 6.9, 0.165)
+    segments_end, finely = 360.0 * 0.29, law_at(law, CrankGrid.steps(1e-3, 360.0)).position
+    assert extent(law) == pytest.approx((finely.min(), finely.max()), abs=1e-11)
+    # an end between two steps of a degree, and an overshoot of the table
+    assert law_at(law, CrankGrid.from_degrees([segments_end])).position[0] == pytest.approx(extent(law)[1], abs=1e-12)
+    assert extent(law)[0] < 0.11 - 1e-4
+
+
+def test_the_extent_of_a_rest_is_one_place():
+    assert extent(Law((Segment("dwell", 0.4, 0.5), Segment("table", 0.4, 0.5, points=((0.5, 0.4),))), 1.0, 0.4)) == (
+        0.4,
+        0.4,
+    )

@@ -293,7 +293,7 @@ def _concerns(blamed: str, key: str, lines: Mapping[str, int]) -> bool:
     made = [blamed, *(blamed[:at] for at, mark in enumerate(blamed) if mark == ".")]
     return (
         blamed == key
-        or blamed.startswith(f"{key}.")
+        or blamed.startswith((f"{key}.", f"{key}["))
         or any(key.startswith(f"{one}.") and one not in lines for one in made)
     )
 

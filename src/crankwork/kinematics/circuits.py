@@ -215,8 +215,11 @@ def _system(mechanism: Mechanism, placed: Placed) -> tuple[PositionEquations, Ar
         chain = group if isinstance(group, Chain) else as_chain(group, placed.links, 0.0)
         points |= {link.name: dict(link.points) for link in chain.links}
         slides += chain.slides
+    halves = {half.link for half in mechanism.halves}
     for one in mechanism.points:
-        points[one.link].setdefault(one.name, (one.along, one.across))
+        # centres of barrel and rod move as the cylinder does
+        if one.link not in halves:
+            points[one.link].setdefault(one.name, (one.along, one.across))
     frames = {name: (*_place_of(placed.links[name].origin), _angle_of(placed.links[name])) for name in points}
     if isinstance(driver, Crank):
         turned = driver.direction * float(placed.grid.angle[0])

@@ -305,3 +305,20 @@ def _program(law: Law) -> Program:
 def law_at(law: Law, grid: CrankGrid) -> Transfer:
     """Return coordinate, rate and second rate of a driver at angles of its period, arrays of shape (n,)."""
     return Transfer(*_program(law)(grid).values())
+
+
+def extent(law: Law) -> tuple[float, float]:
+    """Return the least and the greatest coordinate of a driver over its period, wherever in time they are."""
+    passed = [law.start, *(one.to for one in law.segments)]
+    for segment, one in zip(law.segments, _ways(law), strict=True):
+        # of the other laws none leaves what lies between its ends
+        if segment.kind == "table":
+            passed += [place for _, place in segment.points]
+            begin = 0.0
+            for piece in one.pieces:
+                share = np.polynomial.Polynomial(piece.coefficients)
+                stops = share.deriv().trim().roots()
+                at = stops[np.isreal(stops)].real
+                passed += (one.origin + one.way * share(at[(at > begin) & (at < piece.end)])).tolist()
+                begin = piece.end
+    return min(passed), max(passed)

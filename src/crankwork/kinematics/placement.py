@@ -37,7 +37,7 @@ from crankwork.kinematics.dyads import (
     straight,
 )
 from crankwork.kinematics.loops import ChainPath
-from crankwork.kinematics.motion_laws import law_at
+from crankwork.kinematics.motion_laws import extent, law_at
 from crankwork.kinematics.sliding_dyads import prp_motion, rpp_motion, rpr_motion
 from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.locale import Refusal
@@ -49,6 +49,8 @@ from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
 from crankwork.mechanism.passage import Passage
 
 _STANDS = 1e-12
+# positions of a driver with a law at which a linkage is looked at, between which it is as well
+_LOOKED_AT = 361
 
 
 @dataclass
@@ -260,10 +262,10 @@ def assembled(mechanism: Mechanism, grid: CrankGrid) -> Placed:
     law = mechanism.driver.law
     if law is None:
         return _assembled_at(mechanism, grid)
-    passed = law_at(law, CrankGrid.steps(1.0, 360.0)).position
+    least, greatest = extent(law)
     # a coordinate that only rounding changes stands
-    stands = np.ptp(passed) <= _STANDS * max(1.0, float(np.max(np.abs(passed))))
-    ways = passed[:1] if stands else np.linspace(passed.min(), passed.max(), passed.size)
+    stands = greatest - least <= _STANDS * max(1.0, abs(least), abs(greatest))
+    ways = np.array([law.start]) if stands else np.linspace(least, greatest, _LOOKED_AT)
     whole = CrankGrid.from_radians(ways)
     placed = place_at(mechanism, whole)
     closures = Closures(mechanism)
