@@ -201,7 +201,12 @@ def _ends(machine: Machine, wanted: Transient, motion: Motion, reader: Reader) -
 
 def _unassembled_key(machine: Machine, grid: CrankGrid) -> str:
     """Return the key of the first link of the group that can be assembled nowhere."""
-    for group, closure in zip(machine.mechanism.dyads, place(machine.mechanism, grid).closures, strict=True):
+    try:
+        closures = place(machine.mechanism, grid).closures
+    except GeometryError:
+        # a group of class III that is not even assembled once
+        return "links"
+    for group, closure in zip(machine.mechanism.dyads, closures, strict=True):
         if unassembled(closure) is not None:
             names = [one.name for one in group.links] if isinstance(group, Chain) else vars(group).values()
             member = next(one for one in machine.drawn.members if one.name in names)
