@@ -214,6 +214,25 @@ def test_each_cylinder_may_have_a_file_of_samples(tmp_path):
         crankwork.read_machine(text, folder=tmp_path)
 
 
+@pytest.mark.parametrize(
+    ("settings", "told"),
+    [
+        ([], "torque_of_cycle"),
+        (["engine.misfire=[1]"], "cycle_in_every"),
+        (["engine.misfire=[1, 2, 3, 4]"], "cycle_in_every"),
+        (["engine.pressure_factors=[1, 0.9, 1, 1]"], "cycle_in_every"),
+        (["engine.pressure_factors=[0.9, 0.9, 0.9, 0.9]"], "cycle_in_every"),
+        (["engine.pressure_factors=[1, 1, 1, 1]"], "torque_of_cycle"),
+        (["crank.angular_acceleration=1e4 rad/s2"], ""),
+        (["crank.angular_acceleration=1e4 rad/s2", "engine.misfire=[2]"], "cycle_in_every"),
+    ],
+)
+def test_the_calculation_of_the_cycle_is_compared_with_cylinders_as_calculated_that_turn_evenly(settings, told):
+    results = crankwork.analyse(of(FOUR, *settings))
+    codes = {one.code for one in results.notices} & {"torque_of_cycle", "cycle_in_every"}
+    assert codes == ({told} if told else set())
+
+
 def test_a_machine_says_what_a_cylinder_is_solved_for():
     machine = of(FOUR, "engine.misfire=[1]")
     assert solve(machine, machine.method).space.calculated.values["effective_power"] > 50e3

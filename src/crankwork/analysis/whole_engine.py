@@ -130,8 +130,7 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
         from crankwork.analysis.engine_routes import throw_residuals  # noqa: PLC0415 - few engines have such rods
 
         thrown = throw_residuals(whole, memory)
-    told = [*torque.notices, *(() if whole.engine.gases else _torque_against_cycle(results.summary, summary))]
-    told += _of_gases(whole, results.notices)
+    told = [*torque.notices, *_against_cycle(whole, results.summary, summary), *_of_gases(whole, results.notices)]
     return replace(
         results,
         columns={**results.columns, **columns},
@@ -201,12 +200,17 @@ def _belongs(table: str, key: str) -> bool:
     return table != "bearings" or not key.startswith("crankpin_torque")
 
 
-def _torque_against_cycle(one: Mapping[str, float], whole: Mapping[str, float]) -> tuple[Notice, ...]:
-    """Return how far the mean torque is from that of the calculation of the cycle."""
+def _against_cycle(whole: WholeEngine, one: Mapping[str, float], summary: Mapping[str, float]) -> Iterator[Notice]:
+    """Yield how far the mean torque is from that of the calculated cycle, or that this is of other cylinders."""
     if not {"effective_torque", "mechanical_efficiency"} <= set(one):
-        return ()
-    cycle, mean = one["effective_torque"] / one["mechanical_efficiency"], whole["mean_total_torque"]
-    return (Notice("torque_of_cycle", {"torque": mean, "cycle": cycle, "percent": 100 * (mean / cycle - 1)}),)
+        return
+    gases = whole.engine.gases
+    if whole.engine.misfires or any(gas is not gases[0] or gas.factor != 1 for gas in gases):
+        yield Notice("cycle_in_every", {})
+    elif not whole.machine.angular_acceleration:
+        # a mean torque less what the parts take up is not that of the gas
+        cycle, mean = one["effective_torque"] / one["mechanical_efficiency"], summary["mean_total_torque"]
+        yield Notice("torque_of_cycle", {"torque": mean, "cycle": cycle, "percent": 100 * (mean / cycle - 1)})
 
 
 _FOUR_STROKES = 720.0
