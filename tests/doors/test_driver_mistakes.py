@@ -145,6 +145,13 @@ MISTAKES = {
         "driver.law[1].speed",
         "dwell",
     ),
+    "a law that stands": (
+        BOOM,
+        'start = "1.3 m"\nlaw = [{ kind = "3-4-5"',
+        'law = [{ kind = "constant"',
+        "driver.start",
+        "give start",
+    ),
     "a table without values": (BOOM, '"3-4-5"', '"table", at = [0.5]', "driver.law[1].at", "as many values"),
     "a table that falls": (
         BOOM,

@@ -82,6 +82,9 @@ def build_law(values: Values, reader: Reader) -> Law | None:
     filled = [float(places[0])]
     for place in places[1:]:
         filled.append(filled[-1] if place is None else float(place))
+    if "start" not in driver and not _moves([one for _, one in segments], filled):
+        reader.complain("driver.start", Refusal("law_stands"))
+        return None
     if min(filled) <= 0 and "cylinder" in driver:
         reader.complain("driver.law", Refusal("cylinder_short"))
         return None
@@ -97,6 +100,12 @@ def build_law(values: Values, reader: Reader) -> Law | None:
         for (_, one), to, time in zip(segments, filled[1:], times, strict=True)
     )  # fmt: skip
     return Law(made, period, filled[0])
+
+
+def _moves(segments: list[Values], places: list[float]) -> bool:
+    """Return whether any segment ends or passes elsewhere than where the law begins."""
+    passed = (place.value for one in segments for place in one["values"])
+    return any(place != places[0] for place in itertools.chain(places, passed))
 
 
 def _place(table: Values, key: str, path: str, wanted: str, reader: Reader) -> float | None:
