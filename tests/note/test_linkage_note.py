@@ -325,6 +325,22 @@ def test_the_counterweight_stands_after_the_shaking_force():
     assert column(table(found, "orders"), 1) == pytest.approx([abs(turning) * 94.24778**2, 0, 0], abs=1e-3)
 
 
+_WHOLE = {"en": "(one|the|whole) turn\\b", "ru": "оборот( |;|$)", "vi": "một vòng quay|cả vòng quay"}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_linkage_between_dead_positions_is_not_said_to_turn(tmp_path, language):
+    found = note_of(four_bar(tmp_path, ("62.5 mm", "150 mm")), NoteOptions(language=language))
+    runs = [str(run) for one in found.blocks if isinstance(one, Paragraph) for run in one.runs]
+    seen = [text for one in found.blocks if isinstance(one, Figure) for text in (one.caption, one.alt)]
+    captions = [one.caption for one in found.blocks if isinstance(one, Table)]
+    said = [*runs, *seen, *captions, *headings(found)]
+    assert say("sentences.task_partial", language) in " ".join(runs)
+    assert say("headings.appendix_partial", language) in headings(found)
+    assert any(one.startswith(say("captions.reactions_partial", language)) for one in captions)
+    assert not [one for one in said if re.search(_WHOLE[language], one)]
+
+
 def test_a_linkage_without_masses_has_its_motion_only(tmp_path):
     whole = four_bar(tmp_path, (r", mass.*?centre = (\[.*?\]|\"P\")", ""))
     assert headings(note_of(whole, NoteOptions(language="en", figures=False))) == [

@@ -29,7 +29,7 @@ def task(material: Material) -> Iterator[Block]:
     words, machine = material.words, material.machine
     crank = machine.mechanism.crank
     yield words.heading("task")
-    yield words.paragraph("task")
+    yield words.paragraph("task_partial" if words.is_partial else "task")
     (turning,) = words.sentence("clockwise" if crank.direction < 0 else "anticlockwise")
     yield words.paragraph(
         "crank",

@@ -33,7 +33,7 @@ class Material:
     @cached_property
     def words(self) -> Words:
         """The words of the language."""
-        return Words(self.options.language, self.results.period)
+        return Words(self.options.language, self.results.period, is_partial="crank_range" in self.results.summary)
 
     @property
     def machine(self) -> Machine:

@@ -137,13 +137,14 @@ def appendix(material: Material) -> Iterator[Block]:
     if len(degrees) == len(material.positions) and np.allclose(degrees, material.positions):
         # the sections before have the same tables
         return
-    yield words.heading("driver_appendix" if words.period else "linkage_appendix")
+    over = "period" if words.period else "partial" if words.is_partial else "turn"
+    yield words.heading(f"appendix_{over}")
     for caption, keys in (
         ("torques_all", any_nonzero(_DYNAMICS, columns)),
         ("driver_all", [key for key in columns if key.startswith("driver_")]),
         ("motion_all", named(columns, *_MOTION)),
         (
-            "reactions_period" if words.period else "reactions_all",
+            f"reactions_{over}",
             any_nonzero(named(columns, "joint_force", "axial_force", "normal_force", "normal_moment"), columns),
         ),
     ):

@@ -38,11 +38,14 @@ _WITHIN = str.maketrans({".": ",", "/": ":", "′": "'", "″": "'"})
 
 
 class Words(NoteWords):
-    """What the note of a linkage says, in one language; positions are times where a law with a period drives. [s]"""
+    """What the note of a linkage says, in one language; positions are times where a law with a period drives. [s]
 
-    def __init__(self, language: Language, period: float = 0.0) -> None:
+    `is_partial`: whether the crank goes to and fro between dead positions.
+    """
+
+    def __init__(self, language: Language, period: float = 0.0, *, is_partial: bool = False) -> None:
         super().__init__(language)
-        self.period = period
+        self.period, self.is_partial = period, is_partial
 
     def place(self, degrees: float) -> tuple[Math, float, str]:
         """Return symbol, value and unit of a position: a crank angle, or a time."""
@@ -57,9 +60,8 @@ class Words(NoteWords):
 
     def heading(self, key: str, level: int = 1, label: str = "") -> Heading:
         """Return a heading of a section; those of bibliography and appendix have no number."""
-        return Heading(
-            level, self.title(key), numbered=key not in ("sources", "linkage_appendix", "driver_appendix"), label=label
-        )
+        numbered = not key.startswith(("sources", "appendix"))
+        return Heading(level, self.title(key), numbered=numbered, label=label)
 
     def caption(self, key: str, part: int = 1) -> str:
         """Return the caption of a table; from the second part on it says that it goes on."""
