@@ -220,3 +220,45 @@ def test_a_crank_that_follows_a_law_is_the_crank_at_that_angle():
     remembered = Program(columns(remembered_motion(swung, linkage_motion(swung, DENSE))))(GRID)
     for key, value in expected.items():
         assert remembered[key] == pytest.approx(value, rel=1e-13, abs=1e-14), key
+
+
+@pytest.mark.parametrize("branch", [1, -1])
+@pytest.mark.parametrize("is_swapped", [False, True])
+def test_links_with_a_motor_between_them_pass_the_line(is_swapped, branch):
+    """The angle between the links goes round more than once; the third side alone says where they are."""
+    sides, opened, ground = (0.15, 0.26), branch * 2.4, 0.3
+    links, own = (("l2", "l1"), sides[::-1]) if is_swapped else (("l1", "l2"), sides)
+    law = Law((Segment("constant", 7.0, 0.6), Segment("constant", -1.0, 0.4)), 5.0, -1.0)
+    angle = -opened if is_swapped else opened
+    motor = Mechanism(
+        LinkMotor(links, "A", own, angle, law),
+        (
+            RRR("O", "B", "C", "third_side", "l3", 0.4, 0.2),
+            RRR("O", "C", "A", "l1", "l2", *sides, branch=branch),
+        ),
+        ground={"O": (0.0, 0.0), "B": (ground, 0.0)},
+    )
+    grid = CrankGrid.from_degrees(np.linspace(0.0, 360.0, 500))
+    motion, q = linkage_motion(motor, grid), law_at(law, grid).position
+    gamma = angle + q if not is_swapped else -(angle + q)
+    side = np.sqrt(sides[0] ** 2 + sides[1] ** 2 - 2 * sides[0] * sides[1] * np.cos(gamma))
+    base = motion.links["third_side"].position
+    inside = np.arctan2(sides[1] * np.sin(gamma), sides[0] - sides[1] * np.cos(gamma))
+    first, second = motion.links["l1"], motion.links["l2"]
+    assert np.cos(first.position - base - inside) == pytest.approx(1.0, abs=1e-14)
+    assert np.cos(second.position - first.position - gamma) == pytest.approx(1.0, abs=1e-14)
+    there = motion.points["C"]
+    assert np.hypot(there.x.position, there.y.position) == pytest.approx(side, rel=1e-13)
+    # rates by differences of the same motion
+    step = 1e-4
+    ahead, behind = (linkage_motion(motor, CrankGrid.from_degrees(grid.degrees[1:-1] + d)) for d in (step, -step))
+    rate = np.gradient(q, grid.degrees)[1:-1]
+    smooth = np.abs(grid.degrees[1:-1] - 216.0) > 1.0
+    for name in ("l1", "l2", "third_side", "l3"):
+        for order in (0, 1):
+            grown = (ahead.links[name][order] - behind.links[name][order]) / (2 * step)
+            expected = motion.links[name][order + 1][1:-1] * rate
+            assert grown[smooth] == pytest.approx(expected[smooth], rel=2e-5, abs=2e-6)
+    replayed = Program(columns(remembered_motion(motor, linkage_motion(motor, DENSE))))(grid)
+    for key, value in columns(motion).items():
+        assert replayed[key] == pytest.approx(value, rel=1e-12, abs=1e-12), key

@@ -8,9 +8,10 @@ from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import absent, is_known, named
 from crankwork.kinematics import plane_motion as plane
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.dyads import LinkMotion, fixed_point, is_nothing
+from crankwork.kinematics.dyads import LinkMotion, Opened, fixed_point, is_nothing
 from crankwork.kinematics.transfer import Transfer
 from crankwork.mechanism.driver import GearedCrank, LinkMotor
+from crankwork.mechanism.dyads import RRR
 from crankwork.mechanism.mechanism import Crank
 
 _SOURCE = "artobolevsky_1988, ch. 4"
@@ -32,6 +33,38 @@ def third_side_1(l_i: Value, l_k: Value, sin_g: Value, l_s: Value) -> Value:
 def third_side_2(l_i: Value, l_k: Value, cos_g: Value, l_1: Value, l_s: Value) -> Value:
     """Second derivative of the third side of a triangle by the angle between the other two."""
     return (l_i * l_k * cos_g - l_1**2) / l_s
+
+
+@formula("doubled_area", _SOURCE)
+def opened_area(l_s: Value, l_1: Value) -> Value:
+    """Twice the area of a triangle whose third side grows with the angle across from it."""
+    return l_s * l_1
+
+
+@formula("link_angle_1", _SOURCE)
+def opened_rate(theta_1: Value, l_i: Value, l_k: Value, l_s: Value) -> Value:
+    """First transfer function of the first of two sides of a triangle, by the angle between them."""
+    return theta_1 + ((l_i**2 - l_k**2) / l_s**2 - 1) / 2
+
+
+@formula("link_angle_2", _SOURCE)
+def opened_rate_1(theta_2: Value, l_1: Value, theta_k1: Value, theta_1: Value, l_s: Value) -> Value:
+    """Second transfer function of two sides of a triangle, by the angle between them."""
+    return theta_2 - l_1 * (1 + 2 * (theta_k1 - theta_1)) / l_s
+
+
+def opened_pair(motor: LinkMotor, dyad: RRR, line: LinkMotion, length: Transfer) -> Opened:
+    """Return what a dyad of the two links of a motor follows from the third side of their triangle.
+
+    It serves in line as anywhere, where the formulas of a dyad are nought by nought. `line`: the frame of the third
+    side, `length`: its length.
+    """
+    is_first = dyad.link_a == motor.links[0]
+    area = opened_area(length.position, length.position_1)
+    first = opened_rate(line.angle_1, *motor.sides, length.position)
+    rates = (first, first + 1.0) if is_first else (first + 1.0, first)
+    rate_1 = opened_rate_1(line.angle_2, length.position_1, first, line.angle_1, length.position)
+    return Opened(area if is_first else -area, *rates, rate_1)
 
 
 def third_side_motion(motor: LinkMotor, grid: CrankGrid) -> Transfer:

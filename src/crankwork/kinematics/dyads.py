@@ -298,6 +298,15 @@ def straight(key: str, value: Any) -> Any:  # noqa: ANN401, ARG001 - a known or 
     return value
 
 
+class Opened(NamedTuple):
+    """What the angle between the two links of an RRR dyad gives, where that is what drives."""
+
+    area: Value  # Twice the area of the triangle, h of the dyad [m2]
+    rate_a: Value
+    rate_b: Value
+    rate_1: Value  # Of both
+
+
 class RRRMotion(NamedTuple):
     """Where the two links of an RRR dyad meet, and their frames."""
 
@@ -316,6 +325,7 @@ def rrr_motion(
     b: PointMotion,
     lengths: Mapping[str, Transfer] = _CONSTANT,
     through: Through = straight,
+    opened: Opened | None = None,
 ) -> RRRMotion:
     """Return the motion of the joint and the links of an RRR dyad (artobolevsky_1988, ch. 4).
 
@@ -326,7 +336,8 @@ def rrr_motion(
     h = u x v = branch sqrt(((p + q)^2 - d^2)(d^2 - (p - q)^2)) / 2, twice the area of the triangle, and
     u = (c d + h J d) / d^2. The loop a' + theta_a' J u = b' + theta_b' J v gives theta_a' = (b' - a') v / h and
     theta_b' = (b' - a') u / h, its derivative the same with b'' - a'' + theta_a'^2 u - theta_b'^2 v. `lengths`: of
-    links whose length changes; what it adds to their ends is taken off b' - a' and b'' - a''.
+    links whose length changes; what it adds to their ends is taken off b' - a' and b'' - a''. `opened`: of a motor
+    between the two, which moves them through a line as well.
     """
     name, changing = dyad.point, [lengths.get(link) for link in (dyad.link_a, dyad.link_b)]
     p, q = (
@@ -337,7 +348,8 @@ def rrr_motion(
     (bx, bx_1, bx_2), (by, by_1, by_2) = b
     dx, dy = named(bx - ax, f"distance_x.{name}"), named(by - ay, f"distance_y.{name}")
     square = named(joint_distance_square(dx, dy), f"joint_distance_square.{name}")
-    h = named(doubled_area(dyad.branch, p, q, square), f"doubled_area.{name}")
+    h = doubled_area(dyad.branch, p, q, square) if opened is None else opened.area
+    h = named(h, f"doubled_area.{name}")
     c, k = named(foot_ratio(p, q, square), f"foot_ratio.{name}"), named(h / square, f"height_ratio.{name}")
     ux, uy = rrr_arm_x(c, dx, k, dy), rrr_arm_y(c, dy, k, dx)
     ux, uy = through("arm_x", ux), through("arm_y", uy)
@@ -350,7 +362,11 @@ def rrr_motion(
         if one is not None:
             ex, ey = ex + sign * (one.position_1 * cos), ey + sign * (one.position_1 * sin)
     ex, ey = named(ex, f"distance_x_1.{name}"), named(ey, f"distance_y_1.{name}")
-    rate_a, rate_b = through("rate_a", rrr_rate(ex, vx, ey, vy, h)), through("rate_b", rrr_rate(ex, ux, ey, uy, h))
+    if opened is None:
+        rate_a, rate_b = rrr_rate(ex, vx, ey, vy, h), rrr_rate(ex, ux, ey, uy, h)
+    else:
+        rate_a, rate_b = opened.rate_a, opened.rate_b
+    rate_a, rate_b = through("rate_a", rate_a), through("rate_b", rate_b)
     rate_a, rate_b = named(rate_a, f"link_angle_1.{dyad.link_a}"), named(rate_b, f"link_angle_1.{dyad.link_b}")
     ex, ey = bx_2 - ax_2, by_2 - ay_2
     turning = ((rate_a, cos_a, sin_a, -1.0), (rate_b, cos_b, sin_b, 1.0))
@@ -360,14 +376,17 @@ def rrr_motion(
             ex, ey = ex + sign * stretch[0], ey + sign * stretch[1]
     ex = named(closing_x(ex, rate_a, ux, rate_b, vx), f"closing_x.{name}")
     ey = named(closing_x(ey, rate_a, uy, rate_b, vy), f"closing_y.{name}")
-    rate_a_1, rate_b_1 = rrr_rate(ex, vx, ey, vy, h), rrr_rate(ex, ux, ey, uy, h)
+    if opened is None:
+        rate_a_1, rate_b_1 = rrr_rate(ex, vx, ey, vy, h), rrr_rate(ex, ux, ey, uy, h)
+    else:
+        rate_a_1 = rate_b_1 = opened.rate_1
     rate_a_1, rate_b_1 = through("rate_a_1", rate_a_1), through("rate_b_1", rate_b_1)
     rate_a_1, rate_b_1 = named(rate_a_1, f"link_angle_2.{dyad.link_a}"), named(rate_b_1, f"link_angle_2.{dyad.link_b}")
 
     link_a = LinkMotion(a, cos_a, sin_a, rate_a, rate_a_1)
     link_b = LinkMotion(b, cos_b, sin_b, rate_b, rate_b_1)
     point = carried(link_a, ux, uy) if changing[0] is None else carried(link_b, vx, vy)
-    return RRRMotion(point, link_a, link_b, _rrr_closure(p, q, square))
+    return RRRMotion(point, link_a, link_b, _rrr_closure(p, q, square, is_opened=opened is not None))
 
 
 def stretch_of(length: Transfer, rate: Value, cos: Value, sin: Value, name: str) -> tuple[Value, Value]:
@@ -382,9 +401,12 @@ def _largest(value: Any) -> float:  # noqa: ANN401 - a float, a column or a comp
     return value if np.ndim(value) == 0 else float(np.max(value))
 
 
-def _rrr_closure(p: Value, q: Value, square: Value) -> Closure | None:
+def _rrr_closure(p: Value, q: Value, square: Value, *, is_opened: bool) -> Closure | None:
     if is_known(square):
         return None
+    if is_opened:
+        # in any direction that its ends have
+        return Closure(square, _largest((p + q) ** 2), square)
     return Closure(((p + q) ** 2 - square) * (square - (p - q) ** 2), _largest((2 * p * q) ** 2), square)
 
 

@@ -17,7 +17,7 @@ from crankwork.kinematics.assembly import refusal, singular_between, unassembled
 from crankwork.kinematics.bridges import over_bridges, passed_branch
 from crankwork.kinematics.chain_memory import remembered_chain
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.driving import geared_motion, third_side_motion
+from crankwork.kinematics.driving import geared_motion, opened_pair, third_side_motion
 from crankwork.kinematics.dyads import (
     Closure,
     LinkMotion,
@@ -190,7 +190,10 @@ def _place_group(mechanism: Mechanism, index: int, placed: Placed) -> Closure | 
         through = over_bridges(passage, placed.grid)
     match group:
         case RRR() as dyad:
-            rrr = rrr_motion(dyad, points[dyad.joint_a], points[dyad.joint_b], placed.lengths, through)
+            ends, driver, opened = (points[dyad.joint_a], points[dyad.joint_b]), mechanism.driver, None
+            if isinstance(driver, LinkMotor) and {dyad.link_a, dyad.link_b} == {*driver.links}:
+                opened = opened_pair(driver, dyad, links[driver.link], placed.lengths[driver.link])
+            rrr = rrr_motion(dyad, *ends, placed.lengths, through, opened)
             points[dyad.point], links[dyad.link_a], links[dyad.link_b] = rrr.point, rrr.link_a, rrr.link_b
             return rrr.closure
         case RRP() as dyad:
