@@ -210,8 +210,9 @@ def test_the_mean_of_the_unrolled_load_is_that_of_the_summary(results, drawn):
     degrees, load = graph.curves["pin_1"]
     # the curve is drawn straight from degree to degree
     assert np.trapezoid(load, degrees) / degrees[-1] == pytest.approx(results.summary[key], rel=1e-4)
-    assert graph.curves["max"][1][0] == load.max()
-    assert graph.curves["min"][1][0] == load.min()
+    # other cylinders are replayed at the same angles but for rounding
+    assert graph.curves["max"][1][0] == pytest.approx(load.max(), rel=1e-14)
+    assert graph.curves["min"][1][0] == pytest.approx(load.min(), rel=1e-14)
 
 
 def test_main_journals_share_one_scale(results, drawn):
