@@ -57,15 +57,13 @@ class _Drawing:
         self.frames: dict[str, tuple[complex, complex]] = {}  # origin and direction of each link
         self.moving: list[str] = []  # points that something can hang on
         self.placed: list[str] = []  # joints whose positions are stated
-        self.count = 0
-        self.wrong, self.parts = "", ()
+        self.count, self.wrong, self.parts = 0, "", ()
 
     def all(self) -> None:
         """Draw the whole of it."""
         draw = self.draw
-        driver = draw.choice((*(self.crank,) * 7, self.crank_by_law, self.slider, self.cylinder, self.motor,
-                              self.geared))  # fmt: skip
-        driver()
+        others = (self.crank_by_law, self.slider, self.cylinder, self.motor, self.geared)
+        draw.choice((self.crank,) * 7 + others)()
         kinds = (self.rrr, self.rrr, self.rrr, self.rrp, self.rrp, self.rpr, self.rpp, self.prp, self.ternary,
                  self.on_rocker, self.double)  # fmt: skip
         least = 0 if self.values["links"] else 1
@@ -493,9 +491,9 @@ class _Drawing:
         if draw.random() < 0.2:
             self.values["efficiency"] = {"chain": [0.95, [0.9, 0.97]]}
         if draw.random() < 0.15:
-            self.values["motor"] = {"rated_power": f"{10 ** draw.uniform(-1, 2):.4g} kW", "rated_speed": "1430 rpm",
-                                    "overload": 2.2, "pole_pairs": 2,
-                                    "ratio": round(draw.uniform(1, 60), 2)}  # fmt: skip
+            power, ratio = f"{10 ** draw.uniform(-1, 2):.4g} kW", round(draw.uniform(1, 60), 2)
+            fixed = {"rated_speed": "1430 rpm", "overload": 2.2, "pole_pairs": 2}
+            self.values["motor"] = {"rated_power": power, **fixed, "ratio": ratio}
         if draw.random() < 0.05:
             self.values["transient"] = {"torque": f"{draw.uniform(1, 50):.4g} N*m", "time": "0.2 s"}
         if draw.random() < 0.2:

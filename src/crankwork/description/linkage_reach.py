@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -13,9 +14,11 @@ from crankwork.description.kinds import Reader
 from crankwork.description.schema import Values
 from crankwork.dynamics.reduction import reduced_inertia
 from crankwork.errors import CrankworkError, GeometryError, Problem
+from crankwork.formula.over_cycle import OverCycle
 from crankwork.kinematics.assembly import unassembled
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.curves import EQUAL
+from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.placement import place
 from crankwork.kinematics.travel import Travel, has_steady_crank, travel, turns_fully, way_through
@@ -29,7 +32,6 @@ from crankwork.mechanism.linkage import GROUND, Linkage, Member
 from crankwork.mechanism.mechanism import Mechanism
 
 _STEP = 1.0
-_NEWTON = 6
 _MOST_TURNS = 10_000
 
 
@@ -148,7 +150,10 @@ def _swept(mechanism: Mechanism, way: Travel | None) -> dict[str, tuple[float, f
     """Return the least and the greatest distance of every slider, none where the linkage cannot be assembled. [m]"""
     try:
         if turns_fully(mechanism):
-            return _ends_of_strokes(mechanism)
+            motion = remembered_motion(mechanism, linkage_motion(mechanism, CrankGrid.steps(_STEP, 360.0)))
+            slides: dict[str, Any] = {name: slide.position for name, slide in motion.sliders.items()}
+            over = OverCycle(slides, CrankGrid.from_degrees, 360.0)
+            return {name: (least.value, largest.value) for name, (largest, least) in over.largest_and_least.items()}
         if not has_steady_crank(mechanism):
             return {}
         found = travel(mechanism, way)
@@ -156,26 +161,6 @@ def _swept(mechanism: Mechanism, way: Travel | None) -> dict[str, tuple[float, f
         return {}
     each = {name: found.circuit.extent(way, found.branch) for name, way in found.circuit.sliders.items()}
     return {name: (extent.least, extent.greatest) for name, extent in each.items()}
-
-
-def _ends_of_strokes(mechanism: Mechanism) -> dict[str, tuple[float, float]]:
-    """Return the least and the greatest distance of every slider of a crank that turns fully. [m]"""
-    grid = CrankGrid.steps(_STEP, 360.0)
-    moved = linkage_motion(mechanism, grid).sliders
-    rows = np.array([[np.argmin(way[0]), np.argmax(way[0])] for way in moved.values()], dtype=np.intp).reshape(-1, 2)
-    at = grid.angle[rows]
-    for _ in range(_NEWTON):
-        there = linkage_motion(mechanism, CrankGrid.from_radians(at.ravel())).sliders
-        for row, way in enumerate(there.values()):
-            own = slice(2 * row, 2 * row + 2)
-            rate, bend = np.asarray(way[1])[own], np.asarray(way[2])[own]
-            step = np.divide(rate, bend, out=np.zeros(2), where=np.abs(rate) < math.radians(_STEP) * np.abs(bend))
-            at[row] -= step
-    ends = np.array([np.asarray(way[0])[2 * row : 2 * row + 2] for row, way in enumerate(there.values())])
-    return {
-        name: (min(float(np.min(way[0])), float(end[0])), max(float(np.max(way[0])), float(end[1])))
-        for (name, way), end in zip(moved.items(), ends, strict=True)
-    }
 
 
 def _ends(machine: Machine, wanted: Transient, motion: Motion, reader: Reader) -> bool:
