@@ -75,6 +75,8 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     ],
     "time": [(1.0, "s с"), (1e-3, "ms мс"), (60.0, "min мин")],
     "stiffness": [(1.0, "N/m Н/м"), (1e3, "N/mm kN/m Н/мм кН/м")],
+    "damping": [(1.0, "N*s/m N·s/m Н·с/м Н*с/м"), (1e3, "kN*s/m N*s/mm кН·с/м кН*с/м")],
+    "angular_damping": [(1.0, "N*m*s/rad N·m·s/rad N*m*s N·m·s Н·м·с/рад Н*м*с/рад Н·м·с Н*м*с")],
     "force": [(1.0, "N Н"), (1e3, "kN кН"), (1e6, "MN МН"), (KGF, "kgf кгс kG"), (4.4482216152605, "lbf")],
     "torque": [
         (1.0, "N*m N·m Nm N.m Н·м Н*м Нм Н.м"),

@@ -405,7 +405,7 @@ class _Drawing:
         carried = self.carried()
         force = 10 ** draw.uniform(0, 4)
         for _ in range(draw.choice((1, 1, 2, 3))):
-            kind = draw.choice(("force", "torque", "spring", "process", "slider spring"))
+            kind = draw.choice(("force", "torque", "spring", "process", "held slider"))
             if kind == "force":
                 loads.append({"kind": kind, "point": draw.choice(points), "x": f"{draw.uniform(-force, force):.5g} N",
                               "y": f"{draw.uniform(-force, force):.5g} N"})  # fmt: skip
@@ -431,9 +431,14 @@ class _Drawing:
                     one["force"] = [f"{force:.5g} N"]
                 one["acts"] = draw.choice(("forward", "both"))
                 loads.append(one)
-            elif kind == "slider spring" and carried:
-                loads.append({"kind": "spring", "slider": draw.choice(carried), "stiffness": "1500 N/m",
-                              "free_length": "10 mm"})  # fmt: skip
+            elif kind == "held slider" and carried:
+                held = draw.choice(
+                    (
+                        {"kind": "spring", "stiffness": "1500 N/m", "free_length": "10 mm"},
+                        {"kind": "damper", "damping": "200 N*s/m"},
+                    )
+                )
+                loads.append({"slider": draw.choice(carried), **held})
         self.values["loads"] = loads
         pistons = [one for one in carried if "driver" not in self.values]
         if pistons and draw.random() < 0.35:

@@ -13,9 +13,11 @@ from crankwork.kinematics.bodies import body_motions
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.loads.load import (
+    Damper,
     ForceOnPoint,
     ProcessForce,
     ProcessForceAtPoint,
+    SliderDamper,
     SliderSpring,
     Spring,
     TorqueOnLink,
@@ -184,6 +186,30 @@ class TestSpring:
         assert reduced_torque(moved, loads) == pytest.approx(-derivative(50 * way**2 + 7 * way), abs=1e-9)
 
 
+class TestDamper:
+    """What a damper takes is its coefficient times the square of the rate of its length."""
+
+    def test_between_points_takes_the_square_of_the_rate_of_its_length(self):
+        bar = four_bar(0.05, 0.2, 0.12, 0.18)
+        moved = linkage_motion(bar, GRID)
+        x, y = (one.position for one in moved.points["crank_pin"])
+        rate = derivative(np.hypot(x - 0.18, y))
+        found = reduced_torque(moved, applied_loads(bar, moved, [Damper("rocker_pivot", "crank_pin", 40.0)], -3.0))
+        assert found == pytest.approx(3.0 * 40.0 * rate**2, abs=1e-9)
+
+    def test_ends_that_meet_have_no_direction(self):
+        moved = linkage_motion(CRANK, GRID)
+        with pytest.raises(GeometryError, match="ends of the damper"):
+            applied_loads(CRANK, moved, [Damper("crank_pin", "crank_pin", 1.0)])
+
+    @pytest.mark.parametrize("name", ["ram", "block"])
+    def test_on_a_guide(self, shaper, name):
+        mechanism, moved = shaper
+        rate = derivative(moved.sliders[name].position)
+        found = reduced_torque(moved, applied_loads(mechanism, moved, [SliderDamper(name, 40.0)], 3.0))
+        assert found == pytest.approx(-3.0 * 40.0 * rate**2, abs=1e-9)
+
+
 class TestWeight:
     def test_pulls_each_body_at_its_centre(self):
         press = slotted_press()
@@ -224,6 +250,8 @@ def test_rates_of_a_table_are_read_where_there_are_no_frames():
         TorqueOnLink("nowhere", 1.0),
         ProcessForce("nowhere", np.cos),
         ProcessForceAtPoint("nowhere", 0.0, np.cos),
+        Damper("nowhere", "tip", 1.0),
+        SliderDamper("nowhere", 1.0),
         Spring("nowhere", "tip", 1.0, 1.0),
         Spring("tip", "nowhere", 1.0, 1.0),
         SliderSpring("nowhere", 1.0),

@@ -69,7 +69,8 @@ def _by_law(solved: SolvedLinkage, motion: Motion, law: Law) -> dict[str, Known]
     columns |= {**dict(_moving(machine, motion, rate, second)), **solved.filling.columns}
     if machine.mechanism.bodies or machine.loads or machine.chambers:
         mechanism = given_mechanism(machine.mechanism, machine.linkage)
-        loads = applied_loads(mechanism, motion, machine.loads).also(solved.filling.loads(mechanism, motion))
+        loads = applied_loads(mechanism, motion, machine.loads, rate)
+        loads = loads.also(solved.filling.loads(mechanism, motion))
         torque, forces = _forces(solved, Running(mechanism, motion, rate, loads, second))
         driven = torque.named(DRIVEN[machine.mechanism.driver.turns])
         columns |= {driven.key: driven, "driver_power": driver_power(driven, rate), **forces}
@@ -148,7 +149,8 @@ def _at_work(solved: SolvedLinkage, motion: Motion, w: Known, eps: Known) -> dic
     """Return reduction, torques and forces in joints."""
     machine = solved.machine
     mechanism = given_mechanism(machine.mechanism, machine.linkage)
-    loads = applied_loads(mechanism, motion, machine.loads).also(solved.filling.loads(mechanism, motion))
+    loads = applied_loads(mechanism, motion, machine.loads, w)
+    loads = loads.also(solved.filling.loads(mechanism, motion))
     beside = _stated("reduced_inertia.drive", machine.drive.inertia, "crank.inertia")
     inertia = reduced_inertia(mechanism, motion, beside)
     reduced: Known = reduced_torque(motion, loads)

@@ -29,11 +29,11 @@ def running_at(solved: SolvedLinkage, motion: Motion) -> Running:
 
 def _without(solved: SolvedLinkage, motion: Motion) -> Running:
     machine = solved.machine
-    loads = applied_loads(machine.mechanism, motion, machine.loads)
-    loads = loads.also(solved.filling.loads(machine.mechanism, motion))
     w, eps = solved.speed, machine.angular_acceleration
     if motion.driver is not None:
         _, w, eps = motion.driver
+    loads = applied_loads(machine.mechanism, motion, machine.loads, w)
+    loads = loads.also(solved.filling.loads(machine.mechanism, motion))
     return Running(machine.mechanism, motion, w, loads, eps)
 
 

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.loads.chamber import Chamber, face_owners
+from crankwork.loads.damper import Damper, SliderDamper
 from crankwork.loads.load import Load
 from crankwork.loads.process import ForceOnPoint, ProcessForce, ProcessForceAtPoint, TorqueOnLink
 from crankwork.loads.spring import SliderSpring, Spring
@@ -19,8 +20,8 @@ from crankwork.machine import Machine
 class StatedLoad(NamedTuple):
     """A load as a description states it."""
 
-    kind: str  # `slider`, `point`, `force`, `torque`, `spring`, `slider_spring` or `weight`
-    names: Mapping[str, str]  # What it acts on: `name`, and the `other` end of a spring
+    kind: str  # `slider`, `point`, `force`, `torque`, `spring`, `damper`, either with `slider_`, or `weight`
+    names: Mapping[str, str]  # What it acts on: `name`, and the `other` end of a spring or damper
     # Values and the units in which they are told; of a table its largest, none of a law that is a program [SI]
     amounts: Mapping[str, tuple[float | None, str]]
 
@@ -45,6 +46,11 @@ def _stated(load: Load) -> StatedLoad:
             return StatedLoad("spring", {"name": load.start, "other": load.end}, amounts)
         case SliderSpring():
             return StatedLoad("slider_spring", {"name": load.slider}, {"stiffness": (load.stiffness, "N/m")})
+        case Damper():
+            amounts = {"damping": (load.damping, "N*s/m")}
+            return StatedLoad("damper", {"name": load.start, "other": load.end}, amounts)
+        case SliderDamper():
+            return StatedLoad("slider_damper", {"name": load.slider}, {"damping": (load.damping, "N*s/m")})
         case Weight():
             return StatedLoad("weight", {}, {"gravity": (load.gravity, "m/s2")})
 

@@ -24,6 +24,7 @@ from crankwork.dynamics.efficiency import Parallel, Series, efficiency
 from crankwork.dynamics.tabulated import TabulatedBody
 from crankwork.errors import MethodError
 from crankwork.kinematics.memory import remembered_motion
+from crankwork.loads.damper import Damper, SliderDamper
 from crankwork.loads.indicator import DiagramError
 from crankwork.loads.load import Load
 from crankwork.loads.process import ForceOnPoint, ProcessForce, TorqueOnLink
@@ -43,6 +44,7 @@ _STEP = 1.0
 _LEAST_EFFICIENCY = 1e-4
 _REVOLUTION = math.tau + 1e-9
 _OF_SPRING = ("stiffness", "free_length", "preload")
+_ENDED = ("spring", "damper")
 _RATES = ("speed", "angular_acceleration", "from", "to")
 
 
@@ -281,10 +283,10 @@ def _loads(values: Values, linkage: Linkage | None, reader: Reader) -> tuple[Loa
 
 def _check_load(key: str, load: Values, linkage: Linkage | None, reader: Reader) -> bool:
     """Complain of ends of springs, of tables that are none, and of names that stand for nothing."""
-    if load["kind"] == "spring" and ("between" in load) == ("slider" in load):
-        reader.complain(f"{key}.between", Refusal("spring_ends"))
+    if load["kind"] in _ENDED and ("between" in load) == ("slider" in load):
+        reader.complain(f"{key}.between", Refusal(f"{load['kind']}_ends"))
     if len(set(load["between"] or "  x")) < 2:
-        reader.complain(f"{key}.between", Refusal("spring_twice", point=load["between"][0]))
+        reader.complain(f"{key}.between", Refusal(f"{load['kind']}_twice", point=load["between"][0]))
     _check_table(key, load, reader)
     if linkage is not None:
         _check_names(key, load, linkage, reader)
@@ -339,6 +341,11 @@ def _load(load: Values) -> Load:
             return ForceOnPoint(load["point"], load.si("x"), load.si("y"), load["link"] or "")
         case "torque":
             return TorqueOnLink(load["link"], _curve(load, "torque"))
+        case "damper" if "slider" in load:
+            return SliderDamper(load["slider"], load.si("damping"))
+        case "damper":
+            start, end = load["between"]
+            return Damper(start, end, load.si("damping"))
         case _ if "slider" in load:
             return SliderSpring(load["slider"], *(load.si(key) for key in _OF_SPRING))
     return Spring(*load["between"], *(load.si(key) for key in _OF_SPRING))

@@ -103,14 +103,16 @@ _GUIDE = Table("guide", {
     "link": Key(_NAME),
 })  # fmt: skip
 
-_PROCESS, _PUSH, _TURNS, _SPRING = ({"kind": (one,)} for one in ("process", "force", "torque", "spring"))
-_BY_COLUMN = {"kind": ("process", "torque")}
+_PROCESS, _PUSH, _TURNS, _SPRING, _DAMPER = (
+    {"kind": (one,)} for one in ("process", "force", "torque", "spring", "damper")
+)
+_BY_COLUMN, _BETWEEN = {"kind": ("process", "torque")}, {"kind": ("spring", "damper")}
 _LOAD = Table("load", {
-    "kind": Key(Choice(("process", "force", "torque", "spring")), required=True),
-    "slider": Key(_NAME, required=("process",), only={"kind": ("process", "spring")}),
+    "kind": Key(Choice(("process", "force", "torque", "spring", "damper")), required=True),
+    "slider": Key(_NAME, required=("process",), only={"kind": ("process", "spring", "damper")}),
     "point": Key(_NAME, required=True, only=_PUSH),
     "link": Key(_NAME, required=("torque",), only={"kind": ("force", "torque")}),
-    "between": Key(ListOf(_NAME, fewest=2, most=2), only=_SPRING),
+    "between": Key(ListOf(_NAME, fewest=2, most=2), only=_BETWEEN),
     "x": Key(_FORCE, default="0 N", only=_PUSH),
     "y": Key(_FORCE, default="0 N", only=_PUSH),
     "against": Key(Choice(("stroke", "angle")), default="stroke", only=_PROCESS),
@@ -124,6 +126,7 @@ _LOAD = Table("load", {
     "stiffness": Key(Quantity(("stiffness",), 0.0, 1e12), required=True, only=_SPRING),
     "free_length": Key(Quantity(("length",), 0.0, 1e3), default="0 mm", only=_SPRING),
     "preload": Key(_FORCE, default="0 N", only=_SPRING),
+    "damping": Key(Quantity(("damping",), 0.0, 1e12), required=True, only=_DAMPER),
 })  # fmt: skip
 
 _EFFICIENCY = Table("efficiency", {

@@ -82,6 +82,25 @@ def force_at(
     return AppliedLoads((AppliedForce(link, motion.points[point], x, y),))
 
 
+def force_between(
+    mechanism: Mechanism,
+    motion: Motion,
+    points: tuple[str, str],
+    pull: tuple[Value, Value],
+    links: tuple[str, str] = ("", ""),
+) -> AppliedLoads:
+    """Return a pull on the first of two points towards the second, and its opposite on the second.
+
+    `pull`: components along the fixed axes [N]; `links`: those that the points are of, as `force_at` takes them.
+    """
+    name = ".".join(points)
+    x, y = (named(one, f"load_{axis}.{name}") for axis, one in zip("xy", pull, strict=True))
+    back = named(-x, f"load_x.{name}.end"), named(-y, f"load_y.{name}.end")
+    return force_at(mechanism, motion, points[0], (x, y), links[0]).also(
+        force_at(mechanism, motion, points[1], back, links[1])
+    )
+
+
 def force_along_guide(motion: Motion, slider: str, force: Value, own: str = "") -> AppliedForce:
     """Return a force on a sliding piece, along its guide and through the origin of its frame.
 

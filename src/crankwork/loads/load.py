@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from crankwork.formula.expression import Value
 from crankwork.kinematics.motion import Motion
 from crankwork.loads.applied import AppliedLoads, together
+from crankwork.loads.damper import Damper, SliderDamper, point_damper, slider_damper
 from crankwork.loads.process import (
     ForceOnPoint,
     ProcessForce,
@@ -21,10 +23,12 @@ from crankwork.loads.weight import Weight, weight
 from crankwork.mechanism.mechanism import Mechanism
 
 __all__ = [
+    "Damper",
     "ForceOnPoint",
     "Load",
     "ProcessForce",
     "ProcessForceAtPoint",
+    "SliderDamper",
     "SliderSpring",
     "Spring",
     "TorqueOnLink",
@@ -32,15 +36,23 @@ __all__ = [
     "applied_loads",
 ]
 
-Load = ProcessForce | ProcessForceAtPoint | ForceOnPoint | TorqueOnLink | Spring | SliderSpring | Weight
+Load = (
+    ProcessForce | ProcessForceAtPoint | ForceOnPoint | TorqueOnLink | Spring | SliderSpring | Damper | SliderDamper
+    | Weight
+)  # fmt: skip
 
 
-def applied_loads(mechanism: Mechanism, motion: Motion, loads: Iterable[Load]) -> AppliedLoads:
-    """Return the forces at moving points [N] and the torques on links [N m] that act on a mechanism."""
-    return together(_applied(load, mechanism, motion, f"loads[{number}]") for number, load in enumerate(loads, start=1))
+def applied_loads(mechanism: Mechanism, motion: Motion, loads: Iterable[Load], speed: Value = 0.0) -> AppliedLoads:
+    """Return the forces at moving points [N] and the torques on links [N m] that act on a mechanism.
+
+    `speed`: rate of the driver's coordinate, which dampers follow [rad/s] or [m/s].
+    """
+    return together(
+        _applied(load, mechanism, motion, speed, f"loads[{number}]") for number, load in enumerate(loads, start=1)
+    )
 
 
-def _applied(load: Load, mechanism: Mechanism, motion: Motion, path: str) -> AppliedLoads:
+def _applied(load: Load, mechanism: Mechanism, motion: Motion, speed: Value, path: str) -> AppliedLoads:
     match load:
         case ProcessForce():
             return process_force(load, motion, path)
@@ -54,5 +66,9 @@ def _applied(load: Load, mechanism: Mechanism, motion: Motion, path: str) -> App
             return point_spring(load, mechanism, motion, path)
         case SliderSpring():
             return slider_spring(load, mechanism, motion, path)
+        case Damper():
+            return point_damper(load, mechanism, motion, speed, path)
+        case SliderDamper():
+            return slider_damper(load, mechanism, motion, speed, path)
         case Weight():
             return weight(load, mechanism, motion)

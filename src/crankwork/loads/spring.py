@@ -10,7 +10,7 @@ from crankwork.errors import GeometryError
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import absent, given, is_known, named
 from crankwork.kinematics.motion import Motion
-from crankwork.loads.applied import AppliedLoads, check_name, force_at, force_on_slider
+from crankwork.loads.applied import AppliedLoads, check_name, force_between, force_on_slider
 from crankwork.locale import Refusal
 from crankwork.mechanism.mechanism import Mechanism
 
@@ -79,11 +79,10 @@ def point_spring(load: Spring, mechanism: Mechanism, motion: Motion, path: str =
         raise GeometryError(Refusal("spring_shut", start=load.start, end=load.end))
     stiffness, free, preload = _stated(load, load.free_length, name, length, path)
     force = named(spring_force(stiffness, length, free, preload), f"spring_force.{name}")
-    x, y = named(x / length * force, f"load_x.{name}"), named(y / length * force, f"load_y.{name}")
-    back = named(-x, f"load_x.{name}.end"), named(-y, f"load_y.{name}.end")
-    return force_at(mechanism, motion, load.start, (x, y), load.start_link).also(
-        force_at(mechanism, motion, load.end, back, load.end_link)
-    )
+    return force_between(
+        mechanism, motion, (load.start, load.end), (x / length * force, y / length * force),
+        (load.start_link, load.end_link),
+    )  # fmt: skip
 
 
 def slider_spring(load: SliderSpring, mechanism: Mechanism, motion: Motion, path: str = "") -> AppliedLoads:

@@ -105,6 +105,8 @@ ARGUMENTS: dict[str, Argument] = {
     "s": Argument("spring_length"),
     "s_0": Argument("spring_length", "{}₀"),
     "F_0": Argument("spring_force", "{}₀"),
+    "d": Argument("damping"),
+    "v_l": Argument("damper_velocity"),
     "E_k": Argument("kinetic_energy"),
     "M_sum": Argument("crank_torque_sum"),
     "M_d": Argument("load_torque"),

@@ -32,6 +32,7 @@ _PARTS = frozenset(
         "piece",
         "end",
         "from",
+        "damper",
     )
 )
 _WITHIN = str.maketrans({".": ",", "/": ":", "′": "'", "″": "'"})

@@ -59,6 +59,10 @@ ROWS = (
     Quantity("spring_stiffness", "N/m", "Force over elongation."),
     Quantity("spring_length", "mm", "Distance of the ends of a spring."),
     Quantity("spring_force", "N", "Pull of a spring, positive as it draws its ends together."),
+    Quantity("damping", "N*s/m", "Force over a velocity."),
+    Quantity("damper_length", "mm", "Distance of the ends of a damper."),
+    Quantity("damper_velocity", "m/s", "Rate of the distance of the ends of a damper."),
+    Quantity("damper_force", "N", "Pull of a damper, positive as it draws its ends together."),
     # motion of any linkage
     Quantity("point_x", "mm", "Coordinate along the fixed x axis."),
     Quantity("point_y", "mm", "Coordinate along the fixed y axis."),
