@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import runpy
 import tomllib
 from pathlib import Path
@@ -10,9 +11,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from crankwork import analyse, read, template, template_names
+from crankwork import CrankGrid, analyse, read, template, template_names
+from crankwork.analysis.cylinders import whole_engine
+from crankwork.analysis.solved import solve
 from crankwork.description.expand import expanded
 from crankwork.errors import CrankworkError, InputError
+from crankwork.formula.replay import Program
 
 ROOT = Path(__file__).parents[2]
 plausible_file = runpy.run_path(str(ROOT / "tests" / "doors" / "plausible.py"))["plausible_file"]
@@ -45,8 +49,8 @@ def kind(text):
     values = tomllib.loads(text)
     if "crank" in values and "transfer" not in values and "rod" in values:
         method = values.get("method", {}).get("kinematics", "exact")
-        is_said = "engine" not in values and values.get("cycle", {}).get("kind") != "wiebe" and method == "exact"
-        return "gear" if is_said else "unsaid"
+        is_said = values.get("cycle", {}).get("kind") != "wiebe" and method == "exact"
+        return ("engine" if "engine" in values else "gear") if is_said else "unsaid"
     return "unsaid" if "transfer" in values else "linkage"
 
 
@@ -109,6 +113,96 @@ def test_every_part_of_a_crank_gear_is_written_out(tmp_path, name, changes):
     numbers_of_a_gear_are_those_of_its_linkage(tmp_path, text)
 
 
+# column of each cylinder of an engine, and that of the linkage that the engine stands for
+OF_CYLINDERS = {
+    "piston_displacement": "slider_displacement.piston_",
+    "cylinder_volume": "cylinder_volume.cylinder_",
+    "gas_pressure": "gas_pressure.cylinder_",
+    "side_force": "normal_force.piston_",
+}
+
+
+def numbers_of_an_engine_are_those_of_its_linkage(tmp_path, text, settings=()):
+    path = written(tmp_path, text)
+    out = expanded(path, settings)
+    again = written(tmp_path, out, "again")
+    assert expanded(again) == out
+    machine = read(path, settings)
+    engine, linkage = analyse(machine), analyse(read(again))
+    whole = whole_engine(solve(machine, machine.method))
+    # beside the corners of diagrams, where one side or the other is meant
+    degrees = np.arange(0.3, machine.cycle, 7.5)
+
+    def same(found, wanted, what):
+        assert found == pytest.approx(wanted, rel=1e-9, abs=1e-9 * np.max(np.abs(wanted))), what
+
+    def of_linkage(key):
+        return linkage.columns_at(degrees, [key])[key]
+
+    # what the engine gives is what the driver need not, who also speeds up the flywheel
+    torque = engine.columns_at(degrees, ["total_torque"])["total_torque"]
+    same(-of_linkage("balancing_torque"), torque - machine.drive.inertia * machine.angular_acceleration, "torque")
+    for key, other in OF_CYLINDERS.items():
+        if whole.has(key):
+            own = whole.each(key, degrees)
+            if key == "side_force":
+                # the wall of a master rod bears what articulated ones pass on to it
+                for number in whole.has("knuckle_side_force"):
+                    passed = whole.of(number, "knuckle_side_force")
+                    own[whole.layout.places[number - 1].master - 1] += Program({"": passed})(
+                        CrankGrid.from_degrees(degrees)
+                    )[""]
+            for number, values in enumerate(own, start=1):
+                same(of_linkage(f"{other}{number}"), values, f"{key}.{number}")
+    for key in (one for one in engine.memory if one.startswith("crankpin_load.") and one.count(".") == 1):
+        pin = key.replace("crankpin_load.", "A")
+        names = [one for one in linkage.memory if re.fullmatch(rf"joint_force_x\.{pin}(_rod_\d+)?", one)]
+        x, y = (sum(of_linkage(one.replace("_x", part)) for one in names) for part in ("_x", "_y"))
+        same(np.hypot(x, y), engine.columns_at(degrees, [key])[key], key)
+    whole_inertia = engine.memory.get("total_reduced_inertia")
+    if whole_inertia is not None:
+        same(
+            of_linkage("reduced_inertia"), Program({"": whole_inertia})(CrankGrid.from_degrees(degrees))[""], "inertia"
+        )
+    assert linkage.summary["mean_torque"] == pytest.approx(-work_per_angle(engine, machine), rel=1e-9)
+
+
+def work_per_angle(engine, machine):
+    """Return the mean torque of the gas."""
+    return engine.summary["engine_indicated_power"] / (machine.speed * machine.method.pi / math.pi)
+
+
+@pytest.mark.parametrize("text", of_kind("engine"))
+def test_an_engine_of_many_cylinders_is_written_out_as_the_linkage_that_it_is(tmp_path, text):
+    numbers_of_an_engine_are_those_of_its_linkage(tmp_path, text)
+
+
+WHOLE, V_TWO = template("whole-engine"), FILES["v-two"]
+SPLIT = {
+    'layout = "V"': 'layout = "V"\nfiring_order = [1, 2]\npin_offset = "30 deg"',
+    'bank_angle = "90 deg"': 'bank_angle = "60 deg"',
+}
+
+
+@pytest.mark.parametrize(
+    ("text", "changes", "settings"),
+    [
+        (WHOLE, {}, ["engine.misfire=[3]", "engine.pressure_factors=[1.0, 0.93, 1.0, 1.05]"]),
+        (FILES["radial-five"], {}, ["engine.misfire=[2, 4]"]),
+        (FILES["radial-five"], {}, ["engine.misfire=[1]", "cycle.motored=ambient"]),
+        (FILES["narrow-v6"], {}, ["crank.angular_acceleration=200 rad/s2", "method.weights=true"]),
+        (V_TWO, {}, ["crank.angular_acceleration=200 rad/s2", "method.weights=true", "cylinder.inclination=-45 deg"]),
+        (V_TWO, SPLIT, []),
+        (V_TWO, SPLIT, ["crank.angular_acceleration=200 rad/s2"]),
+    ],
+)
+def test_every_part_of_an_engine_is_written_out(tmp_path, text, changes, settings):
+    for old, new in changes.items():
+        assert old in text
+        text = text.replace(old, new, 1)
+    numbers_of_an_engine_are_those_of_its_linkage(tmp_path, text, settings)
+
+
 @pytest.mark.parametrize("text", of_kind("linkage"))
 def test_a_linkage_stands_for_itself_with_its_defaults(tmp_path, text):
     path = written(tmp_path, text)
@@ -138,7 +232,7 @@ def test_what_no_table_of_a_linkage_says_is_refused_with_its_reason(tmp_path, te
     with pytest.raises(InputError) as refusal:
         expanded(written(tmp_path, text))
     told = {problem.key for problem in refusal.value.problems}
-    unsaid = {key for key in ("engine", "bearings", "balance", "transfer") if key in values}
+    unsaid = {key for key in ("transfer",) if key in values}
     unsaid |= {"cycle"} if values.get("cycle", {}).get("kind") == "wiebe" else set()
     assert unsaid <= told <= unsaid | {"method.kinematics"}
     assert all(place.rpartition(":")[2].isdecimal() for place in refusal.value.places)

@@ -56,6 +56,13 @@ MISTAKES = {
         "chambers.cylinder.pressure",
         "says the same as points and pieces",
     ),
+    "late constant": (
+        ATKINSON,
+        FLYWHEEL,
+        '[chambers.crankcase]\nslider = "piston"\nbore = "70 mm"\npressure = "0 MPa"\ndelay = "9 deg"\n[flywheel]',
+        "chambers.crankcase.delay",
+        "comes neither early nor late",
+    ),
     "pressure of a sealed chamber": (
         STIRLING,
         HOT,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -52,6 +53,29 @@ STEAM = {
     "d": DiagramPoint(stroke=1.0, pressure=1.2e5), "e": DiagramPoint(stroke=0.0, pressure=8e5),
 }  # fmt: skip
 LAWS = (Piece("constant", ("a", "b")), Piece("polytropic", ("b", "c"), 1.1), Piece("constant", ("d", "e")))
+
+
+def test_a_diagram_may_come_later_and_its_pressure_be_greater():
+    # the axis of the cylinder is turned by as much as its diagram comes later
+    later, around = 130.0, 1e5
+    points = {
+        "a": DiagramPoint(0.0, 9e5), "b": DiagramPoint(40.0), "c": DiagramPoint(stroke=1.0),
+        "d": DiagramPoint(stroke=1.0, pressure=around), "e": DiagramPoint(stroke=0.0, pressure=9e5),
+    }  # fmt: skip
+    gear = slider_crank(RADIUS, LENGTH)
+    crank = replace(gear.crank, start=math.pi / 2 + math.radians(later))
+    face = (Face("piston_pin", BORE, sense=-1),)
+    chamber = Chamber(face, 2e-3, ambient=around, points=points, pieces=LAWS, delay=later, factor=1.1)
+    found = fill(replace(gear, driver=crank), {"one": chamber})
+    own = (ANGLES - later) % 360
+    volume, burnt = (2e-3 + AREA * piston(at) for at in (own, 40.0))
+    pressure = np.select([own <= 40, own <= 180], [9e5, 9e5 * (burnt / volume) ** 1.1], around)
+    assert columns(found)["cylinder_volume.one"] == pytest.approx(volume, rel=1e-12)
+    assert columns(found)["diagram_pressure.one"] == pytest.approx(pressure, rel=1e-12)
+    assert columns(found)["gas_pressure.one"] == pytest.approx(1.1 * (pressure - around), rel=1e-12)
+    least, largest = 2e-3, 2e-3 + AREA * 2 * RADIUS
+    done = 9e5 * (burnt - least) + 9e5 * burnt / 0.1 * (1 - (burnt / largest) ** 0.1) - around * (largest - least)
+    assert single(found, "indicated_work.one") == pytest.approx(1.1 * done, rel=1e-12)
 
 
 @pytest.fixture(scope="module")

@@ -76,7 +76,7 @@ def indicators(results: Results) -> dict[str, Indicator]:
 def _against(filling: Filling, name: str, chamber: Chamber) -> float:
     """Return the work on what is around a chamber, nothing where its volume comes back. [J]"""
     ends = Program({"": filling.columns[f"cylinder_volume.{name}"]})(CrankGrid.from_degrees([0.0, 360.0]))[""]
-    return chamber.ambient * float(ends[1] - ends[0])
+    return chamber.factor * chamber.ambient * float(ends[1] - ends[0])
 
 
 def gas_check(solved: SolvedLinkage, motion: Motion) -> dict[str, float]:

@@ -141,7 +141,7 @@ def _kind(machine: Machine, engine: Engine, at: int) -> _Kind:
     gas = next((one for one, gas in enumerate(engine.gases) if gas is engine.gases[at]), 0)
     if not (machine.has_gravity or machine.angular_acceleration):
         return _Kind(slave, offset, gas)
-    first = next(one for one in places if one.crankpin == places[at].crankpin)
+    first = next(one for one in places if one.throw == places[at].throw)
     return _Kind(slave, offset, gas, places[at].axis - places[0].axis, places[at] is first)
 
 

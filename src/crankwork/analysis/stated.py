@@ -71,6 +71,8 @@ class StatedChamber(NamedTuple):
     kind: str  # Where its pressure comes from: `charge`, `constant`, `samples` or `laws`
     names: Mapping[str, str]  # The `name` of the charge, the `file` of samples, or the `count` of laws
     amounts: Mapping[str, tuple[float, str]]  # Values and the units in which they are told [SI]
+    factor: float = 1.0  # Of its gauge pressure
+    delay: float = 0.0  # By which its diagram comes later [rad]
 
 
 class StatedCharge(NamedTuple):
@@ -113,5 +115,5 @@ def _stated_chamber(name: str, chamber: Chamber, machine: Machine) -> StatedCham
         amounts = {"cycle": (math.radians(chamber.cycle), "deg") if law is None else (law.period, "s")}
     return StatedChamber(
         name, tuple((one.slider, one.sense) for one in chamber.faces), face_owners(name, chamber), chamber.ambient,
-        kind, names, amounts,
+        kind, names, amounts, chamber.factor, math.radians(chamber.delay),
     )  # fmt: skip

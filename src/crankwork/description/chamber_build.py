@@ -47,6 +47,8 @@ def build_chambers(
             names_ambient="ambient" in one or not is_absolute,
             cycle=float(one["period"].split()[0]),
             pressure=one.si("pressure"),
+            delay=round(math.degrees(one.si("delay") or 0.0), 9),
+            factor=one["pressure_factor"],
             temperature=one.si("temperature"),
             **diagram._asdict(),
         )
@@ -82,7 +84,7 @@ def _check_pressure(path: str, chamber: Values, charge: Values | None, reader: R
     """Complain of a chamber without a pressure, with more than one, and of what belongs to another kind of it."""
     own = [key for key in _OWN_PRESSURE if key in chamber]
     if charge is not None:
-        for key in (*own, "pressures", "period"):
+        for key in (*own, "pressures", "period", "delay", "pressure_factor"):
             if key in chamber:
                 reader.complain(f"{path}.{key}", Refusal("chamber_sealed"))
     else:
@@ -92,6 +94,8 @@ def _check_pressure(path: str, chamber: Values, charge: Values | None, reader: R
             reader.complain(path, Refusal("chamber_pressure", path=path))
         elif own and "pressure" not in own:
             check_parts(chamber, path, reader)
+        if "delay" in chamber and "pressure" in own:
+            reader.complain(f"{path}.delay", Refusal("delay_constant"))
     if "temperature" in chamber and (charge is None or "exponent" in charge):
         reader.complain(f"{path}.temperature", Refusal("temperature_unused"))
     elif charge is not None and "exponent" not in charge and "temperature" not in chamber:

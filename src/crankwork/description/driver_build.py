@@ -53,7 +53,11 @@ def check_gas(values: Values, reader: Reader) -> None:
     """Complain of gas whose pressure counts by the crank angle, which a driver with a law has not."""
     for name, one in values.get("chambers", {}).items():
         path, table = f"chambers.{name}", one or {}
-        keys = [key for key in ("measured", "period") if key in table and (key, table[key]) != ("period", "360 deg")]
+        keys = [
+            key
+            for key in ("measured", "period", "delay")
+            if key in table and (key, table[key]) != ("period", "360 deg")
+        ]
         points = table.get("points", {}).items()
         keys += [f"points.{point}.angle" for point, placed in points if placed and "angle" in placed]
         for key in keys:

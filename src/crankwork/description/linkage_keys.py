@@ -170,8 +170,10 @@ _CHAMBER = Table("chamber", {
     "period": Key(Choice(("360 deg", "720 deg")), default="360 deg"),
     "ambient": Key(Quantity(("pressure",), 0.0, 1e10), default=AMBIENT),
     "pressure": Key(_PRESSURE, instead_of=("points", "pieces", "measured")),
+    "pressure_factor": Key(Number(0.0, 10.0), default=1.0),
     "pressures": PRESSURES,
     **DIAGRAM,
+    "delay": Key(_TURN),
     "temperature": _TEMPERATURE,
 })  # fmt: skip
 

@@ -39,6 +39,8 @@ class Chamber:
     points: Mapping[str, DiagramPoint] = field(default_factory=dict)
     pieces: tuple[Piece, ...] = ()
     measured: MeasuredPressure | None = None
+    delay: float = 0.0  # Crank angle by which its diagram comes later [deg]
+    factor: float = 1.0  # Of the gauge pressure
     # Added to measured angles; step at which they are resampled
     angle_shift: float = 0.0
     resample: float | None = None

@@ -120,6 +120,9 @@ def filled(
             around = given(f"ambient_pressure.{name}", ambient, f"chambers.{name}.ambient")
             acting = gas.gauge_pressure(pressures[name], around).named(acting.key)
             told += [("ambient", {"pressure": ambient / 1e6})] * (not chambers[name].names_ambient)
+        if chambers[name].factor != 1:
+            factor = given(f"pressure_factor.{name}", chambers[name].factor, f"chambers.{name}.pressure_factor")
+            acting = (acting * factor).named(acting.key)
         columns += [space.volume, pressures[name], acting]
         for wall in space.walls:
             key = wall.area.key.replace("piston_area", "gas_force", 1)
@@ -239,8 +242,12 @@ def _of_its_own(
     if chamber.pressure is not None:
         pressure = given(key, chamber.pressure, f"{path}.pressure")
         # nothing where the volume comes back
-        done = chamber.pressure * float(np.diff(space.volume_at(np.array([0.0, _TURN])))[0])
+        done = chamber.factor * chamber.pressure * float(np.diff(space.volume_at(np.array([0.0, _TURN])))[0])
         return pressure, Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}"), told
+
+    def own_volume_at(degrees: Array) -> Array:
+        return space.volume_at(degrees + chamber.delay)
+
     if chamber.measured is not None:
         diagram, cycles, wrap = measured_diagram(
             chamber.measured, chamber.cycle, shift=chamber.angle_shift, step=chamber.resample, path=path
@@ -248,13 +255,14 @@ def _of_its_own(
         told += [("cycles_averaged", {"cycles": cycles})] * (cycles > 1)
         told += [("wrap", {"step": wrap})] * wrap_is_rough(diagram, wrap)
     else:
+        centres = tuple(sorted((one - chamber.delay) % _TURN for one in space.dead_centres))
         diagram = solve_diagram(
-            chamber.points, chamber.pieces, chamber.cycle, space.volume_at, dead_centres=space.dead_centres, path=path
+            chamber.points, chamber.pieces, chamber.cycle, own_volume_at, dead_centres=centres, path=path
         )
         told += [_jump(point, at, step, law) for point, at, step in diagram.jumps]
-    pressure = remembered_pressure(_repeated(diagram, whole), space.volume, path)
-    work = Known(Found(diagram.work(space.volume_at), "work", (pressure, space.volume)), f"indicated_work.{name}")
-    return pressure, work, told
+    pressure = remembered_pressure(_repeated(diagram.later(chamber.delay), whole), space.volume, path)
+    done = chamber.factor * diagram.work(own_volume_at)
+    return pressure, Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}"), told
 
 
 def _jump(point: str, degrees: float, step: float, law: Law | None) -> Told:

@@ -31,6 +31,8 @@ VolumeAt = Callable[[Array], Array]
 _CLOSING = 1e-3
 # pieces that end nearer than this to where the next begins leave no gap [deg]
 _SAME_ANGLE = 1e-5
+# parts of pieces that are shorter are rounding [deg]
+_SAME_ROUNDED = 1e-9
 # share of the stroke by which a volume may miss that of a dead centre
 _SAME_PLACE = 1e-12
 # places at which a volume is looked at that does not seem to change
@@ -160,6 +162,20 @@ class IndicatorDiagram:
         """
         ends = volume_at(np.array([(one.start, one.end) for one in self.segments]).ravel()).reshape(-1, 2)
         return sum(one.work(volume_at, volume) for one, volume in zip(self.segments, ends, strict=True))
+
+    def later(self, by: float) -> IndicatorDiagram:
+        """Return the diagram of which every pressure comes later by a crank angle, the cycle closed. [deg]"""
+        cycle = self.segments[-1].end
+        by %= cycle
+        moved = []
+        for turn, one in itertools.product((by - cycle, by), self.segments):
+            start, end = max(one.start + turn, 0.0), min(one.end + turn, cycle)
+            if end - start > _SAME_ROUNDED:
+                moved.append(replace(one, start=start, end=end, knots=one.knots + turn))
+        moved[-1] = replace(moved[-1], end=cycle)
+        named = {name: ((angle + by) % cycle, pressure) for name, (angle, pressure) in self.named.items()}
+        jumps = tuple((name, (angle + by) % cycle, step) for name, angle, step in self.jumps)
+        return IndicatorDiagram(tuple(moved), named, jumps) if by else self
 
     def pressure(self, degrees: Array, volume: Array) -> Array:
         """Return the pressure at ascending crank angles within one cycle. [Pa]"""

@@ -54,7 +54,12 @@ def _given(chamber: StatedChamber, material: Material) -> Iterator[str]:
     )
     yield words.number(in_display_unit("ambient_pressure", [chamber.ambient])[0])
     amounts = {name: words.amount(value, unit) for name, (value, unit) in chamber.amounts.items()}
-    yield say(f"sentences.of_{chamber.kind}", words.language, **chamber.names, **amounts)
+    told = say(f"sentences.of_{chamber.kind}", words.language, **chamber.names, **amounts)
+    if chamber.delay:
+        told = say("sentences.of_later", words.language, text=told, delay=words.amount(chamber.delay, "deg"))
+    if chamber.factor != 1:
+        told = say("sentences.of_factor", words.language, text=told, factor=words.number(chamber.factor))
+    yield told
 
 
 def _amount(volume: float, temperature: float | None, words: Words) -> str:

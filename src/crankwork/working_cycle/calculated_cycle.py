@@ -11,6 +11,8 @@ from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Vol
 
 CycleKind = Literal["petrol", "diesel", "otto", "ideal-diesel", "dual"]
 Notice = tuple[str, Mapping[str, float | str]]
+# points of a diagram and the laws between them
+Drawn = tuple[Mapping[str, DiagramPoint], tuple[Piece, ...]]
 
 
 class Corners(NamedTuple):
@@ -64,7 +66,7 @@ class Calculated(NamedTuple):
     notices: tuple[tuple[str, Mapping[str, float | str]], ...]  # What the reader should know: code and values
     theoretical: IndicatorDiagram | None = None  # The diagram before its corners were rounded
     # Points and laws that give the diagram; empty where it is none of corners
-    drawn: tuple[Mapping[str, DiagramPoint], tuple[Piece, ...]] = ({}, ())
+    drawn: Drawn = ({}, ())
     peak: Mapping[str, Known] = {}  # What stands behind the greatest pressure of a release of heat, by key
 
     @property

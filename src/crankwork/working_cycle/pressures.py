@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from crankwork.formula.known import Found, Known, absent
-from crankwork.loads.indicator import IndicatorDiagram, Segment, VolumeAt, solve_diagram
-from crankwork.working_cycle.calculated_cycle import Calculated, CalculatedCycle, Corners
+from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Segment, VolumeAt, solve_diagram
+from crankwork.working_cycle.calculated_cycle import Calculated, CalculatedCycle, Corners, Drawn
 from crankwork.working_cycle.gas_exchange import constant_pressure
 from crankwork.working_cycle.heat_data import HeatReleaseData
 from crankwork.working_cycle.heat_release import HeatReleaseResult, heat_release
@@ -46,20 +46,18 @@ class CornerPressure:
         rounded = _remembering(found.diagram, cycle.corners)
         return Calculated(rounded, memory, (*notices, *found.notices), sharp, (found.points, found.pieces))
 
-    def motored(
-        self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
-    ) -> IndicatorDiagram:
+    def motored(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
         """Return the diagram of a cylinder in which nothing burns: expansion goes back along the compression line."""
         del volume_rate_at
         one = self.cycle.corners
         corners = one._replace(p_z=one.p_c, p_b=one.p_a, n2=one.n1, rho=absent("cut_off", 1.0))
         if self.timing is not None:
             theory = _theory(corners)
-            diagram = motored_diagram(theory, self.timing, self.rounding, volume_at, dead_centres)
+            drawn, diagram = motored_diagram(theory, self.timing, self.rounding, volume_at, dead_centres)
         else:
             drawn = theoretical_diagram(corners, self.cycle.angle, volume_at, dead_centres)
             diagram = solve_diagram(*drawn, self.cycle.angle, volume_at, dead_centres=dead_centres)
-        return _remembering(diagram, corners)
+        return Calculated(_remembering(diagram, corners), {}, (), drawn=drawn)
 
 
 def _theory(corners: Corners) -> dict[str, float]:
@@ -96,12 +94,10 @@ class HeatReleasePressure:
         """Return the diagram in a cylinder."""
         return self._solved(volume_at, volume_rate_at, dead_centres).calculated
 
-    def motored(
-        self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
-    ) -> IndicatorDiagram:
+    def motored(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
         """Return the diagram of a cylinder in which nothing burns: no heat is released, and walls take theirs."""
         cold = replace(self.data, heat=0.0, fuel_per_cycle=0.0)
-        return HeatReleasePressure(cold).pressure(volume_at, volume_rate_at, dead_centres).diagram
+        return HeatReleasePressure(cold).pressure(volume_at, volume_rate_at, dead_centres)
 
     def _solved(
         self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
@@ -134,6 +130,9 @@ class MisfirePressure:
         found = self.of.pressure(volume_at, volume_rate_at, dead_centres)
         if self.ambient is not None:
             diagram = IndicatorDiagram((constant_pressure(0.0, self.angle, self.ambient),), {})
+            ends = {"o": DiagramPoint(0.0, self.ambient.value), "o'": DiagramPoint(self.angle)}
+            drawn: Drawn = ends, (Piece("constant", ("o", "o'")),)
         else:
-            diagram = self.of.motored(volume_at, volume_rate_at, dead_centres)
-        return found._replace(diagram=diagram, theoretical=None)
+            cold = self.of.motored(volume_at, volume_rate_at, dead_centres)
+            diagram, drawn = cold.diagram, cold.drawn
+        return found._replace(diagram=diagram, theoretical=None, drawn=drawn)

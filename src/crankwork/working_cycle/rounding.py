@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Segment, VolumeAt, solve_diagram
-from crankwork.working_cycle.calculated_cycle import Notice
+from crankwork.working_cycle.calculated_cycle import Drawn, Notice
 from crankwork.working_cycle.gas_exchange import clipped
 from crankwork.working_cycle.rounded_pieces import without_auxiliary, written
 from crankwork.working_cycle.rounding_corners import (
@@ -74,13 +74,14 @@ def motored_diagram(
     rounding: Rounding,
     volume_at: VolumeAt,
     dead_centres: tuple[float, float],
-) -> IndicatorDiagram:
-    """Return the diagram of a cylinder in which nothing burns, the exchange of gas as where it does.
+) -> tuple[Drawn, IndicatorDiagram]:
+    """Return what is drawn, and the diagram, where nothing burns, the exchange of gas as where it does.
 
     `theory`: that of the rounded diagram, its expansion along the line of compression [SI].
     """
     corners = corners_of(theory, replace(timing, ignition_advance=0.0), rounding, volume_at, dead_centres)
-    return without_auxiliary(_drawn(corners._replace(kind="motored"), 1.0)[2])
+    points, pieces, diagram = _drawn(corners._replace(kind="motored"), 1.0)
+    return (points, pieces), without_auxiliary(diagram)
 
 
 def _peak_level(corners: RoundedCorners) -> tuple[float, tuple[Notice, ...]]:

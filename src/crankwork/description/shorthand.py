@@ -1,0 +1,255 @@
+"""What a crank gear, or an engine of several on one shaft, is shorthand for: the tables of a linkage with chambers."""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+from crankwork.analysis import solve
+from crankwork.analysis.cylinders import whole_engine
+from crankwork.analysis.solved import SolvedCylinder
+from crankwork.cylinders.articulated import slave_stroke
+from crankwork.cylinders.layout import Place
+from crankwork.dynamics.masses import CrankGearMasses
+from crankwork.loads.indicator import DiagramPoint, Piece
+from crankwork.machine import Gas, Machine
+from crankwork.units import from_si
+
+_DIAGRAM = ("points", "pieces", "measured")
+_COUNTED = ("pressures", "ambient")
+_ALONE = Place(number=1, axis=0.0, crankpin=0, throw=0, pin_angle=0.0, position=0.0, firing_angle=0.0)
+
+
+class Gear(NamedTuple):
+    """The crank gear of one cylinder among those of an engine.
+
+    `head`: direction from the shaft to its head, the crank turning clockwise from that of cylinder 1 [deg]; `own`: what
+    its names end with; `joint`: the pin that its rod turns on.
+    """
+
+    solved: SolvedCylinder
+    place: Place
+    head: float
+    own: str
+    joint: str
+
+    @property
+    def pin(self) -> str:
+        """The name of its piston pin."""
+        return f"B{self.own[1:]}"
+
+    @property
+    def length(self) -> float:
+        """Length of its rod. [m]"""
+        return self.solved.lengths.rod_length if self.solved.slave is None else self.solved.slave.length
+
+    @property
+    def offset(self) -> float:
+        """Offset of its axis, positive towards the crankpin at 90 degrees. [m]"""
+        return self.solved.lengths.offset if self.solved.slave is None else self.solved.slave.offset
+
+    @property
+    def top(self) -> float:
+        """How far its piston pin is from the shaft, along its axis, at top dead centre. [m]"""
+        if self.solved.slave is not None:
+            return slave_stroke(self.solved.lengths, self.solved.slave).top
+        return math.sqrt((self.length + self.solved.lengths.crank_radius) ** 2 - self.offset**2)
+
+    def at(self, along: float, across: float) -> complex:
+        """Return a place so far from the shaft along its axis, and across it to where the offset counts. [m]"""
+        return complex(along, -across) * _direction(self.head)
+
+    def pin_beyond(self, joint: complex) -> complex:
+        """Return where the piston pin is while its rod is at a joint. [m]"""
+        seen = joint / _direction(self.head)
+        return self.at(seen.real + math.sqrt(self.length**2 - (seen.imag + self.offset) ** 2), self.offset)
+
+
+def gears_of(machine: Machine) -> list[Gear]:
+    """Return the crank gears of an engine, that of cylinder 1 first."""
+    solved = solve(machine, machine.method)
+    if machine.engine is None or len(machine.engine.layout.places) == 1:
+        return [Gear(solved, _ALONE, _head(machine, 0.0, 0.0), "", "A")]
+    first, *_ = places = machine.engine.layout.places
+    return [
+        Gear(
+            one,
+            place,
+            _head(machine, place.axis, first.axis),
+            f"_{place.number}",
+            f"A{place.crankpin + 1}" if one.slave is None else f"C{place.number}",
+        )
+        for one, place in zip(whole_engine(solved).cylinders, places, strict=True)
+    ]
+
+
+def _head(machine: Machine, axis: float, first: float) -> float:
+    """Return the direction of a head, upright unless a lean of cylinder 1 is stated or weights count. [deg]"""
+    leaning = machine.cylinder.inclination if machine.cylinder is not None else 0.0
+    if leaning or machine.has_gravity:
+        axis += math.degrees(leaning) - first
+    return round(90.0 - axis, 9)
+
+
+def linkage_tables(values: Mapping[str, Any], machine: Machine) -> Iterator[tuple[str, Any]]:
+    """Yield the keys of a linkage and their values, as a file states them."""
+    yield "format", 2
+    yield from ((key, values[key]) for key in ("title", "decimal_mark") if key in values)
+    gears = gears_of(machine)
+    yield "fixed_points", {"O": _place(0)}
+    yield "crank", _crank(values["crank"], machine, gears)
+    for one in gears:
+        yield f"links.rod{one.own}", _rod(one, gears)
+    for one in gears:
+        through = one.at(one.top, one.offset)
+        yield f"guides.bore{one.own}", {"through": _place(through), "angle": f"{one.head + 180:.15g} deg"}
+    mass = machine.masses.piston if machine.masses else 0.0
+    for one in gears:
+        weighing = {"mass": _unit(mass, "kg")} if mass else {}
+        yield f"sliders.piston{one.own}", {"guide": f"bore{one.own}", "pin": one.pin, **weighing}
+    yield "positions", {name: _place(at) for name, at in _positions(gears)}
+    for one in gears:
+        yield from _chambers(values, one)
+    if "fluctuation" in values.get("flywheel", {}):
+        yield "flywheel", {"fluctuation": values["flywheel"]["fluctuation"]}
+    method = {
+        key: one for key, one in values.get("method", {}).items() if key in ("kinematics", "pi", "gravity", "weights")
+    }
+    yield from ((key, one) for key, one in (("method", method), ("table", values.get("table"))) if one)
+
+
+def _crank(stated: Mapping[str, Any], machine: Machine, gears: list[Gear]) -> dict[str, Any]:
+    """Return the crank with all its pins, and half the mass of a throw at each of two pins that it has."""
+    radius, pins = gears[0].solved.lengths.crank_radius, dict[str, complex]()
+    throws = {one.place.crankpin: one.place.throw for one in gears}
+    for one in gears:
+        pins.setdefault(f"A{one.place.crankpin + 1}", radius * _direction(-one.place.pin_angle))
+    crank: dict[str, Any] = {"pivot": "O", "pin": gears[0].joint, "radius": _unit(radius, "mm")}
+    crank |= {key: stated[key] for key in ("speed", "angular_acceleration") if key in stated}
+    crank |= {"start": f"{gears[0].head:.15g} deg", "direction": "clockwise"}
+    if len(pins) > 1:
+        crank["points"] = {name: _place(at) for name, at in pins.items() if name != gears[0].joint}
+    throw = machine.masses.crank if machine.masses else 0.0
+    shares = [throw / list(throws.values()).count(at) for at in throws.values()]
+    mass = math.fsum(shares)
+    turning = mass * radius**2 + machine.drive.inertia
+    if mass:
+        centre = sum(share * at for share, at in zip(shares, pins.values(), strict=True)) / mass
+        crank |= {"mass": _unit(mass, "kg"), "centre": gears[0].joint if len(pins) == 1 else _place(centre)}
+    return crank | ({"inertia": _unit(turning, "kg*m2")} if turning else {})
+
+
+def _rod(gear: Gear, gears: list[Gear]) -> dict[str, Any]:
+    """Return the rod as a link from pin to piston pin, its inertia that of its masses where it is not given."""
+    rod: dict[str, Any] = {"joins": [gear.joint, gear.pin], "length": _unit(gear.length, "mm")}
+    knuckles = {
+        one.joint: _place(one.solved.slave.knuckle_radius * _direction(-one.solved.slave.knuckle_angle))
+        for one in gears
+        if one.solved.slave is not None and one.place.master == gear.place.number
+    }
+    rod |= {"points": knuckles} if knuckles else {}
+    machine = gear.solved.machine
+    masses = machine.masses or CrankGearMasses()
+    mass = masses.rod_small_end + masses.rod_big_end
+    if not mass:
+        return rod
+    centre = masses.rod_small_end / mass * gear.length
+    inertia = mass * centre * (gear.length - centre)
+    inertia += masses.rod_inertia_excess if machine.method.rod == "rigid" else 0.0
+    return rod | {"mass": _unit(mass, "kg"), "centre": _place(centre), "inertia": _unit(inertia, "kg*m2")}
+
+
+def _positions(gears: list[Gear]) -> Iterator[tuple[str, complex]]:
+    """Yield where the piston pins are at a crank angle of zero. [m]"""
+    start, rods = gears[0].head, dict[int, tuple[complex, complex]]()
+    for one in sorted(gears, key=lambda gear: gear.place.master):
+        slave = one.solved.slave
+        if slave is None:
+            joint = one.solved.lengths.crank_radius * _direction(start - one.place.pin_angle)
+            rods[one.place.number] = joint, one.pin_beyond(joint)
+        else:
+            joint, beyond = rods[one.place.master]
+            rod = (beyond - joint) / abs(beyond - joint)
+            joint += slave.knuckle_radius * rod * _direction(-slave.knuckle_angle)
+        yield one.pin, one.pin_beyond(joint)
+
+
+def _chambers(values: Mapping[str, Any], gear: Gear) -> Iterator[tuple[str, Any]]:
+    """Yield the chamber of the gas in a cylinder, and that of the pressure beside a piston rod."""
+    cylinder, gas = gear.solved.machine.cylinder, gear.solved.machine.gas
+    if cylinder is None or gas is None:
+        return
+    face = {"slider": f"piston{gear.own}", "bore": _unit(cylinder.bore, "mm")}
+    room: dict[str, Any] = {"sense": 1}
+    room |= {"compression_ratio": cylinder.compression_ratio} if cylinder.compression_ratio else {}
+    room |= {"clearance_volume": _unit(cylinder.clearance_volume, "cm3")} if cylinder.clearance_volume else {}
+    stated = _calculated(gear.solved, gas) if gas.calculated else _stated(values["gas"], gas)
+    plain: dict[str, Any] = {key: one for key, one in stated.items() if isinstance(one, str)}
+    plain |= {"pressure_factor": gas.factor} if gas.factor != 1 else {}
+    if "pressure" not in stated:
+        plain["period"] = f"{gas.cycle:g} deg"
+        plain |= {"delay": f"{gear.place.firing_angle:.15g} deg"} if gear.place.firing_angle else {}
+    name = f"chambers.cylinder{gear.own}"
+    yield name, {**face, **room, **plain}
+    yield from ((f"{name}.{key}", one) for key, one in stated.items() if key not in plain)
+    if cylinder.piston_rod_diameter:
+        rod, back = _unit(cylinder.piston_rod_diameter, "mm"), values["gas"]["back_pressure"]
+        yield f"chambers.crank_end{gear.own}", {**face, "rod_diameter": rod, "sense": -1, "pressure": back}
+
+
+def _stated(table: Mapping[str, Any], gas: Gas) -> dict[str, Any]:
+    """Return the diagram of a cylinder as the description has it, or the pressure of one that stays open."""
+    counted = {key: table[key] for key in _COUNTED if key in table}
+    diagram: Any = functools.reduce(lambda inner, name: inner[name], gas.path.split(".")[1:], table)
+    if isinstance(diagram, str):
+        return counted | {"pressure": _unit(gas.points["o"].pressure or 0.0, "Pa")}
+    return counted | {key: one for key, one in diagram.items() if key in _DIAGRAM}
+
+
+def _calculated(solved: SolvedCylinder, gas: Gas) -> dict[str, Any]:
+    """Return the diagram of a calculated cycle: its points and laws, none where it has no corners."""
+    points, pieces = drawn(solved)
+    return {
+        "pressures": "absolute", "ambient": _unit(gas.ambient, "Pa"),
+        "points": {name: _point(one) for name, one in points.items()},
+        "pieces": [_given(law=one.law, points=list(one.points), exponent=one.exponent, reference=one.reference)
+                   for one in pieces],
+    }  # fmt: skip
+
+
+def drawn(solved: SolvedCylinder) -> tuple[Mapping[str, DiagramPoint], tuple[Piece, ...]]:
+    """Return points and laws of a calculated cycle."""
+    space = solved.space
+    return space.calculated.drawn if space is not None and space.calculated is not None else ({}, ())
+
+
+def _point(one: DiagramPoint) -> dict[str, Any]:
+    return _given(
+        angle=None if one.angle is None else f"{one.angle:.15g} deg",
+        stroke=one.stroke,
+        pressure=None if one.pressure is None else _unit(one.pressure, "Pa"),
+        volume=None if one.volume is None else _unit(one.volume, "cm3"),
+    )
+
+
+def _given(**values: Any) -> dict[str, Any]:  # noqa: ANN401 - as a file states them
+    """Return the values that there are."""
+    return {key: one for key, one in values.items() if one is not None}
+
+
+def _direction(degrees: float) -> complex:
+    """Return the direction at an angle from the x-axis, anticlockwise."""
+    radians = math.radians(degrees)
+    return complex(math.cos(radians), math.sin(radians))
+
+
+def _place(at: complex) -> list[str]:
+    return [_unit(at.real, "mm"), _unit(at.imag, "mm")]
+
+
+def _unit(value: float, unit: str) -> str:
+    # what is nearer to zero than rounding is zero
+    shown = from_si(value, unit) if abs(value) > 1e-15 else 0.0
+    return f"{shown:.15g} {unit}"
