@@ -209,7 +209,8 @@ def _summary(
     if (machine.loads or machine.chambers) and is_whole and law is None:
         result["mean_torque"] = over.mean("static_torque", "mean_torque")
     result |= gas_summary(solved)
-    return {key: one.named(key) for key, one in result.items()}
+    # that of an engine, of the same key, is what it gives
+    return {key: one.named("mean_driving_torque" if key == "mean_torque" else key) for key, one in result.items()}
 
 
 def _given_values(machine: Machine) -> dict[str, Known]:

@@ -13,6 +13,7 @@ from crankwork.quantities import QUANTITIES, Language
 _MEANS: Mapping[str, str] = MappingProxyType(
     {
         "mean_torque": "crank_torque",
+        "mean_driving_torque": "static_torque",
         "mean_total_torque": "total_torque",
         "mean_crankpin_load": "crankpin_load",
         "mean_bearing_load": "bearing_load",

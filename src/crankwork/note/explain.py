@@ -32,7 +32,7 @@ from crankwork.note.equations import OF_LINKS, line_parts, shown_values, value_s
 from crankwork.note.legends import words_of
 from crankwork.note.numbering import Numbering
 from crankwork.quantities import QUANTITIES, Language, base_key, cycle
-from crankwork.report.language import label, number
+from crankwork.report.language import label, number, told_as
 from crankwork.sources import cite
 from crankwork.units import UNITS, from_si, to_si
 
@@ -68,7 +68,7 @@ def explanation(
         value = 0.0
     where = "" if at is None or asked else f"({places(degrees)})"
     shown = " = ".join([f"{value_symbol(key, language)}{where}", *_values(key, value, language)])
-    head = [f"{capital(label(key, language)) if _has_label(key) else key}: {shown}"]
+    head = [f"{capital(label(told_as(key, results), language)) if _has_label(key) else key}: {shown}"]
     if explained is None:
         return "\n".join([*head, "", say("explain.no_memory", language)]) + "\n"
     return "\n".join([*head, *_Printed(explained, places, place)]) + "\n"
@@ -80,7 +80,10 @@ def key_lines(results: Results, language: Language = "en") -> list[str]:
     wide = max(map(len, keys))
     sign = f"({QUANTITIES['time' if results.period else 'crank_angle'].symbol(language)})"
     varying = {key for key in keys if key in results.columns and results.memory[key].varies}
-    return [f"{key:<{wide}}  {sign if key in varying else '   '}  {label(key, language)}".rstrip() for key in keys]
+    return [
+        f"{key:<{wide}}  {sign if key in varying else '   '}  {label(told_as(key, results), language)}".rstrip()
+        for key in keys
+    ]
 
 
 def place_text(origin: Origin, language: Language) -> str:

@@ -13,7 +13,7 @@ from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_tables import any_nonzero, equations, position_tables, quantity_columns
 from crankwork.note.linkage_words import Words, named
 from crankwork.note.printed_units import printed_unit
-from crankwork.report.language import displayed, key_unit, label
+from crankwork.report.language import displayed, key_unit, label, told_as
 from crankwork.report.notices import notice_text
 
 _DYNAMICS = (
@@ -118,7 +118,7 @@ def _row(key: str, results: Results, words: Words) -> tuple[str, ...]:
     angle = results.summary.get(f"{kind}_angle{dot}{name}") if kind.endswith(("_max", "_min")) else None
     at = results.summary.get(f"{kind}_time{dot}{name}") if angle is None else float(np.degrees(angle))
     return (
-        label(key, words.language) if not key.startswith("flywheel_inertia.") else _wheel(key, words),
+        label(told_as(key, results), words.language) if not key.startswith("flywheel_inertia.") else _wheel(key, words),
         words.number(displayed(key, results.summary[key])),
         printed_unit(key_unit(key), words.language) or "–",
         "" if at is None else words.number(at, digits=4),

@@ -19,6 +19,8 @@ ROWS = (
     Quantity("reduced_torque", "N*m",
              "Torque on the crank that does the work of the loads, positive with the rotation."),
     Quantity("static_torque", "N*m", "Torque on the crank that balances the loads, without masses and losses."),
+    Quantity("mean_driving_torque", "N*m",
+             "Mean of the static torque over the cycle: what a driver must give, negative where the machine gives it."),
     Quantity("dynamic_torque", "N*m", "Torque on the crank that changes the speed of the masses."),
     Quantity("driving_torque", "N*m", "Torque of the motor on the crank with the losses of the joints."),
     Quantity("balancing_torque", "N*m",

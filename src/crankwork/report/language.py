@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from crankwork.locale import decimal, has_text, say, texts
 from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.units import from_si
+
+if TYPE_CHECKING:
+    from crankwork.analysis import Results
 
 _RAISED = str.maketrans("0123456789-−", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻")
 # what is found in several ways
@@ -70,6 +74,11 @@ def displayed(key: str, value: float, *, per_area: float | None = None) -> float
 
 def _is_per_area(key: str) -> bool:
     return not _is_angle(key) and not _is_time(key) and bool(QUANTITIES[base_key(key)].per_area_unit)
+
+
+def told_as(key: str, results: Results) -> str:
+    """Return the key whose name a single value has: of a linkage the mean torque is what its driver must give."""
+    return results.memory[key].key if key == "mean_torque" else key
 
 
 def label(key: str, language: Language) -> str:

@@ -17,6 +17,7 @@ from crankwork.report.language import (
     number,
     rounded,
     symbol,
+    told_as,
     unit_name,
 )
 from crankwork.report.notices import notice_text
@@ -52,7 +53,7 @@ def summary_text(results: Results, *, language: Language = "en", per_area: bool 
         lines.append(say("report.per_area", language))
     rows = [
         (
-            label(key, language),
+            label(told_as(key, results), language),
             symbol(key, language),
             number(displayed(key, value, per_area=area), language),
             unit_name(key_unit(key, per_area=per_area), language),
@@ -124,7 +125,7 @@ def description_text(machine: Machine, results: Results, language: Language = "e
     keys = [key for key in summary if not any(part in key for part in ("_max", "_min")) and not key.endswith("_error")]
     rows = [
         (
-            label(key, language),
+            label(told_as(key, results), language),
             symbol(key, language),
             number(displayed(key, summary[key]), language),
             unit_name(key_unit(key), language),
