@@ -33,20 +33,25 @@ def firing_memory(whole: WholeEngine) -> dict[str, Known]:
             ("firing_angle", place.firing_angle, "engine.firing_order"),
         ):
             found[f"{key}.{place.number}"] = given(f"{key}.{place.number}", math.radians(degrees), path)
-    return found | _intervals(whole, found) | _sizes(whole, found)
+    sizes = _sizes(whole, found)
+    return found | _intervals(whole, found | sizes) | sizes
 
 
 def _intervals(whole: WholeEngine, found: Mapping[str, Known]) -> dict[str, Known]:
-    """Return the firing interval; of uneven firing that of each cylinder, up to the next."""
+    """Return the firing interval; of uneven firing that of each cylinder, up to the next.
+
+    Where offsets differ a cylinder fires at its own top dead centre.
+    """
     layout, cycle = whole.layout, origins.cycle_angle(whole.machine)
     if is_even(firing_intervals(layout)):
         return {"firing_interval": even_firing_interval(cycle, found["cylinder_count"])}
+    kind = "top_dead_centre_angle" if any(place.top for place in layout.places) else "firing_angle"
     order, result = layout.firing_order, {}
     for number, following in zip(order, (*order[1:], order[0]), strict=True):
-        key, after = f"firing_interval.{number}", found[f"firing_angle.{following}"]
-        if following == order[0]:
+        key, fired, after = f"firing_interval.{number}", found[f"{kind}.{number}"], found[f"{kind}.{following}"]
+        if after.value <= fired.value:
             after = after + cycle if after.value else cycle
-        result[key] = (after - found[f"firing_angle.{number}"]).named(key)
+        result[key] = (after - fired).named(key)
     return result
 
 

@@ -28,7 +28,10 @@ from crankwork.locale import Refusal
 
 
 class Seat(NamedTuple):
-    """Where a cylinder sits: number, bank and throw from 0, axis and split of its crankpin [deg], position [m]."""
+    """Where a cylinder sits: number, bank and throw from 0, axis and split of its crankpin [deg], position [m].
+
+    `top`: its own crank angle at top dead centre, from its axis [deg].
+    """
 
     number: int
     bank: int
@@ -36,6 +39,12 @@ class Seat(NamedTuple):
     axis: float
     pin_offset: float
     position: float
+    top: float = 0.0
+
+    @property
+    def dead_centre(self) -> float:
+        """Where its crankpin stands at its top dead centre. [deg]"""
+        return self.axis + self.top
 
 
 def arranged(
@@ -53,7 +62,7 @@ def arranged(
 
     At the crank angle phi of cylinder 1 from its own axis, the crankpin of cylinder k stands at
     phi + axis_1 + pin_k, so its own crank angle is phi - (axis_k - axis_1 - pin_k): the bracket is its firing angle,
-    up to a whole turn.
+    up to a whole turn. It fires at its top dead centre, which an offset moves from its axis.
     """
     seats = _seats(banks)
     if strokes not in (2, 4):
@@ -72,7 +81,8 @@ def arranged(
     else:
         values = {"order": order_text(order), "intervals": angle_list(steps)}
         notices = () if uneven else (LayoutNotice("uneven_intervals", values),)
-    layout = Layout(banks.kind, _places(banks, seats, pins, firing), cycle, order, _journals(seats, banks.spacing))
+    own = [wrapped(angle + seats[0].top - seat.top, cycle) for angle, seat in zip(firing, seats, strict=True)]
+    layout = Layout(banks.kind, _places(banks, seats, pins, own), cycle, order, _journals(seats, banks.spacing))
     return layout, notices
 
 
@@ -95,7 +105,8 @@ def _seats(banks: Banks) -> list[Seat]:
             number = bank * per_bank + at + 1 if banks.numbering == "banks" else at * rows + bank + 1
             throw = at * rows + bank if banks.own_throws else at
             along = (at - (per_bank - 1) / 2) * banks.spacing + (bank - (rows - 1) / 2) * banks.stagger
-            seats.append(Seat(number, bank, throw, axis, bank * banks.pin_offset, along))
+            top = banks.tops[number - 1] if banks.tops else 0.0
+            seats.append(Seat(number, bank, throw, axis, bank * banks.pin_offset, along, top))
     return sorted(seats)
 
 
@@ -115,7 +126,7 @@ def _pins_of_even_firing(
 ) -> list[float]:
     """Return the crankpins that even intervals need, or raise if those of one throw disagree with its pins."""
     firing = even_angles(order, cycle)
-    pins = [wrapped(seat.axis - seats[0].axis - firing[seat.number - 1]) for seat in seats]
+    pins = [wrapped(seat.dead_centre - seats[0].dead_centre - firing[seat.number - 1]) for seat in seats]
     throws: dict[int, float] = {}
     for seat, pin in zip(seats, pins, strict=True):
         if seat.bank == 0 or banks.own_throws:
@@ -173,7 +184,7 @@ def _or(first: str, other: str) -> Refusal:
 
 
 def _dead_centres(seats: Sequence[Seat], pins: Sequence[float]) -> list[float]:
-    return [wrapped(seat.axis - seats[0].axis - pin) for seat, pin in zip(seats, pins, strict=True)]
+    return [wrapped(seat.dead_centre - seats[0].dead_centre - pin) for seat, pin in zip(seats, pins, strict=True)]
 
 
 def _firing(seats: Sequence[Seat], pins: Sequence[float], order: tuple[int, ...], cycle: float) -> tuple[float, ...]:
@@ -190,7 +201,7 @@ def _firing(seats: Sequence[Seat], pins: Sequence[float], order: tuple[int, ...]
     if len({seat.throw for seat in seats}) == len(seats):
         needed = even_angles(order, cycle)
         pairs = zip(seats, needed, strict=True)
-        throws = {seat.throw: wrapped(seat.axis - seats[0].axis - angle) for seat, angle in pairs}
+        throws = {seat.throw: wrapped(seat.dead_centre - seats[0].dead_centre - angle) for seat, angle in pairs}
         quoted = ", ".join(f'"{throws[at]:.7g} deg"' for at in sorted(throws))
         name = "order_refused_both" if ways else "order_refused_throws"
         raise LayoutError("engine.firing_order", Refusal(name, **told, throws=quoted))
@@ -207,7 +218,7 @@ def _places(banks: Banks, seats: Sequence[Seat], pins: Sequence[float], firing: 
     for seat, pin, angle in zip(seats, pins, firing, strict=True):
         crankpin = seat.throw if common or banks.own_throws else seat.throw * rows + seat.bank
         master = masters[seat.throw] if banks.articulated and seat.bank else 0
-        places.append(Place(seat.number, seat.axis, crankpin, seat.throw, pin, seat.position, angle, master))
+        places.append(Place(seat.number, seat.axis, crankpin, seat.throw, pin, seat.position, angle, master, seat.top))
     return tuple(places)
 
 

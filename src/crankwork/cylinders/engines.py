@@ -12,7 +12,7 @@ from crankwork.cylinders.standard_orders import StandardOrder, radial_order
 from crankwork.locale import Refusal
 
 
-def inline(
+def inline(  # noqa: PLR0913 - each argument is a key of the description
     cylinders: int,
     order: Sequence[int],
     *,
@@ -20,9 +20,12 @@ def inline(
     throws: Sequence[float] | None = None,
     strokes: int = 4,
     uneven: bool = False,
+    tops: tuple[float, ...] = (),
 ) -> tuple[Layout, tuple[LayoutNotice, ...]]:
-    """Return an inline engine; throws [deg] and uneven intervals as for `arranged`."""
-    return arranged(Banks("inline", cylinders, spacing=spacing), order, strokes=strokes, throws=throws, uneven=uneven)
+    """Return an inline engine; throws [deg], uneven intervals and `tops` as for `arranged`."""
+    return arranged(
+        Banks("inline", cylinders, spacing=spacing, tops=tops), order, strokes=strokes, throws=throws, uneven=uneven
+    )
 
 
 def vee(  # noqa: PLR0913 - each argument is a key of the description
@@ -39,6 +42,7 @@ def vee(  # noqa: PLR0913 - each argument is a key of the description
     uneven: bool = False,
     articulated: bool = False,
     own_throws: bool = False,
+    tops: tuple[float, ...] = (),
 ) -> tuple[Layout, tuple[LayoutNotice, ...]]:
     """Return a V engine, two cylinders to a throw or `own_throws`; throws [deg] and uneven intervals as for `arranged`.
 
@@ -50,7 +54,7 @@ def vee(  # noqa: PLR0913 - each argument is a key of the description
     if own_throws:
         # cylinders of both banks take turns along the shaft
         spacing, bank_stagger = 2 * spacing, bank_stagger or spacing
-    banks = Banks("V", cylinders, axes, spacing, bank_stagger, pin_offset, numbering, own_throws, articulated)
+    banks = Banks("V", cylinders, axes, spacing, bank_stagger, pin_offset, numbering, own_throws, articulated, tops)
     return arranged(banks, order, strokes=strokes, throws=throws, uneven=uneven)
 
 
@@ -64,6 +68,7 @@ def boxer(  # noqa: PLR0913 - each argument is a key of the description
     throws: Sequence[float] | None = None,
     strokes: int = 4,
     uneven: bool = False,
+    tops: tuple[float, ...] = (),
 ) -> tuple[Layout, tuple[LayoutNotice, ...]]:
     """Return a boxer engine: two opposed banks, each cylinder with a throw of its own.
 
@@ -71,11 +76,13 @@ def boxer(  # noqa: PLR0913 - each argument is a key of the description
     along the shaft unless `bank_stagger` says otherwise [m]. All else as for `vee`.
     """
     stagger = spacing if bank_stagger is None else bank_stagger
-    banks = Banks("boxer", cylinders, (-90.0, 90.0), 2 * spacing, stagger, numbering=numbering, own_throws=True)
+    banks = Banks(
+        "boxer", cylinders, (-90.0, 90.0), 2 * spacing, stagger, numbering=numbering, tops=tops, own_throws=True
+    )
     return arranged(banks, order, strokes=strokes, throws=throws, uneven=uneven)
 
 
-def radial(
+def radial(  # noqa: PLR0913 - each argument is a key of the description
     cylinders: int,
     order: Sequence[int] | None = None,
     *,
@@ -83,6 +90,7 @@ def radial(
     span: float = 0.0,
     strokes: int = 4,
     uneven: bool = False,
+    tops: tuple[float, ...] = (),
 ) -> tuple[Layout, tuple[LayoutNotice, ...]]:
     """Return one row of a radial engine, numbered with the rotation, all rods on one crankpin.
 
@@ -92,7 +100,7 @@ def radial(
     """
     if not 0 <= master <= cylinders:
         raise LayoutError("engine.master", Refusal("master_absent", number=master, count=cylinders))
-    banks = Banks("radial", cylinders, tuple(at * 360 / cylinders for at in range(cylinders)), span)
+    banks = Banks("radial", cylinders, tuple(at * 360 / cylinders for at in range(cylinders)), span, tops=tops)
     order = radial_order(cylinders, strokes) if order is None else order
     layout, notices = arranged(banks, order, strokes=strokes, throws=(0.0,), uneven=uneven)
     places = tuple(replace(one, master=0 if one.number == master else master) for one in layout.places)

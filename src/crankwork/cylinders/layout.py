@@ -24,9 +24,10 @@ class Place:
     # Distance of its axis along the shaft from the middle between the outermost cylinders, positive
     # towards higher throws [m]
     position: float
-    # Crank angle of cylinder 1 by which it comes after cylinder 1, at least 0 and less than the cycle [deg]
+    # Crank angle of cylinder 1 by which its own, from its axis, comes after, at least 0 and less than the cycle [deg]
     firing_angle: float
     master: int = 0  # Number of the cylinder whose rod carries its rod, 0 if its rod turns on the crankpin itself
+    top: float = 0.0  # Its own crank angle where it fires: at top dead centre, which an offset moves [deg]
 
 
 @dataclass(frozen=True)
@@ -56,3 +57,5 @@ class Banks:
     numbering: str = "banks"  # banks: along the first bank, then the next. pairs: across the banks, throw by throw
     own_throws: bool = False  # Whether every cylinder has a throw of its own, as in a boxer
     articulated: bool = False  # Whether the rods of a throw hang on the rod of its first cylinder
+    # Own crank angle of each cylinder by number at top dead centre, where offsets that differ move it [deg]
+    tops: tuple[float, ...] = ()

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.cylinders.firing import intervals
+from crankwork.cylinders.firing import intervals, wrapped
 from crankwork.cylinders.layout import Layout, Place
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
@@ -93,5 +93,7 @@ def torques_along_shaft(torques: Sequence[Value], layout: Layout) -> TorquesAlon
 
 
 def firing_intervals(layout: Layout) -> tuple[float, ...]:
-    """Return the angles from each firing to the next, in the firing order. [deg]"""
-    return intervals([layout.places[number - 1].firing_angle for number in layout.firing_order], layout.cycle)
+    """Return the angles from each firing to the next, in the firing order, each at its own top dead centre. [deg]"""
+    first, cycle = layout.places[0].top, layout.cycle
+    fired = [wrapped(place.firing_angle + place.top - first, cycle) for place in layout.places]
+    return intervals([fired[number - 1] for number in layout.firing_order], cycle)

@@ -48,7 +48,7 @@ def build_engine(
     if reader.doubts(*(f"engine.{key}" for key in doubtful)) or len(table) < 2:
         return None
     try:
-        layout, notices = _layout(table, round(cycle / 180))
+        layout, notices = _layout(table, round(cycle / 180), _tops(table, lengths))
     except LayoutError as error:
         reader.complain(error.key, error.args[0])
         return None
@@ -89,7 +89,17 @@ def _clean(degrees: float) -> float:
     return round(degrees, 9)
 
 
-def _layout(table: Values, strokes: int) -> tuple[Layout, tuple[LayoutNotice, ...]]:
+def _tops(table: Values, lengths: tuple[float, float, float] | None) -> tuple[float, ...]:
+    """Return where offsets that differ put the top dead centres of the cylinders, from their axes. [deg]"""
+    offsets = [one.value for one in table["offsets"] if one]
+    if lengths is None or len(offsets) != int(table["cylinders"]) or len(set(offsets)) == 1:
+        return ()
+    if not all(turns_fully(SliderCrank(*lengths[:2], one)) for one in offsets):
+        return ()
+    return tuple(math.degrees(math.asin(one / (lengths[0] + lengths[1]))) for one in offsets)
+
+
+def _layout(table: Values, strokes: int, tops: tuple[float, ...]) -> tuple[Layout, tuple[LayoutNotice, ...]]:
     """Return the layout that the keys describe."""
     kind, cylinders = table["layout"], int(table["cylinders"])
     throws = [_clean(math.degrees(one.value)) for one in table["throws"] if one] if "throws" in table else None
@@ -101,7 +111,7 @@ def _layout(table: Values, strokes: int) -> tuple[Layout, tuple[LayoutNotice, ..
         order = list(usual.order)
         throws = throws or list(usual.throws)
     options: dict[str, Any] = {
-        "spacing": table.si("spacing") or 0.0, "strokes": strokes, "uneven": table["uneven"],
+        "spacing": table.si("spacing") or 0.0, "strokes": strokes, "uneven": table["uneven"], "tops": tops,
     }  # fmt: skip
     articulated = "articulated" in table
     match kind:
@@ -123,7 +133,8 @@ def _layout(table: Values, strokes: int) -> tuple[Layout, tuple[LayoutNotice, ..
         case "boxer":
             return boxer(cylinders, order, bank_stagger=stagger, throws=throws, **options)
     axes = tuple(_clean(math.degrees(one.value)) for one in table["bank_angles"] if one)
-    banks = Banks("W", cylinders, axes, options.pop("spacing"), stagger or 0.0, numbering=options.pop("numbering"))
+    sizes = {"numbering": options.pop("numbering"), "tops": options.pop("tops")}
+    banks = Banks("W", cylinders, axes, options.pop("spacing"), stagger or 0.0, **sizes)
     return arranged(banks, order, throws=throws, **options)
 
 

@@ -6,8 +6,8 @@ from crankwork.quantities.quantity import Quantity
 
 ROWS = (
     # layout
-    Quantity("firing_interval", "deg", "Angle of the crankshaft from one firing to the next."),
-    Quantity("firing_angle", "deg", "Crank angle by which a cylinder fires after cylinder 1."),
+    Quantity("firing_interval", "deg", "Crank angle from one firing to the next, each at its own top dead centre."),
+    Quantity("firing_angle", "deg", "Crank angle by which that of a cylinder comes after that of cylinder 1."),
     Quantity("cylinder_number", "", "Number of the cylinder."),
     Quantity("bank_axis", "deg", "From the reference direction of the engine, positive with the rotation."),
     Quantity("crankpin_angle", "deg", "Angle of the crankpin ahead of that of cylinder 1, positive with the rotation."),
