@@ -11,6 +11,8 @@ import pytest
 import crankwork
 from crankwork.analysis.engine_routes import _bodies, _running
 from crankwork.analysis.solved import solve
+from crankwork.description.expand import expanded
+from crankwork.description.shorthand import gears_of
 from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.kinematics.piston import only_rod
@@ -48,3 +50,36 @@ def test_they_are_no_further_columns_and_every_cylinder_has_its_own():
     load = results.value("crankpin_load.1", 390.0)
     assert results.value("joint_force.crank_pin", 390.0) == pytest.approx(load, rel=1e-13)
     assert results.value("joint_force.crank_pin.3", 570.0) == pytest.approx(results.value("crankpin_load.3", 570.0))
+
+
+@pytest.mark.parametrize(
+    ("name", "settings"),
+    [
+        ("examples/radial-five", []),
+        ("examples/radial-five", ["engine.misfire=[1]"]),
+        ("tests/machines/radial-heavy", []),
+    ],
+)
+def test_those_of_articulated_rods_are_those_of_the_linkage_that_they_are(tmp_path, name, settings):
+    """The master's joints bear what the others pass on; x and y are those of each cylinder."""
+    path = ROOT / f"{name}.toml"
+    (tmp_path / "linkage.toml").write_text(expanded(path, settings), "utf-8")
+    machine = crankwork.read(path, settings)
+    engine, linkage = (crankwork.analyse(one) for one in (machine, crankwork.read(tmp_path / "linkage.toml")))
+    for gear in gears_of(machine):
+        number = gear.place.number
+        own = f".{number}" if number > 1 else ""
+        upright = np.exp(1j * np.radians(gear.head - 90))
+        for pin, joint in (("knuckle_pin" if own else "crank_pin", gear.joint), ("piston_pin", gear.pin)):
+            force = _column(linkage, f"joint_force_x.{joint}") + 1j * _column(linkage, f"joint_force_y.{joint}")
+            size = np.max(np.abs(force))
+            for key, wanted in (("_x", (force / upright).real), ("_y", (force / upright).imag), ("", np.abs(force))):
+                assert _column(engine, f"joint_force{key}.{pin}{own}") == pytest.approx(wanted, abs=1e-9 * size)
+        # the guide of the linkage goes downwards
+        normal = _column(linkage, f"normal_force.piston_{number}")
+        found = _column(engine, f"normal_force.piston_pin{own}")
+        assert found == pytest.approx(-normal, abs=1e-9 * np.max(np.abs(normal)))
+
+
+def _column(results, key):
+    return results.columns_at(DEGREES, [key])[key]

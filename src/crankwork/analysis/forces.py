@@ -66,7 +66,7 @@ def cylinder_memory(solved: SolvedCylinder) -> dict[str, Known]:
     if solved.machine.masses is not None or solved.space is not None:
         memory |= _by_key(_axial_forces(solved, moving))
         memory |= _by_key(_slave_forces(solved, moving) if solved.slave is not None else _rod_forces(solved, moving))
-    if "piston_force" in memory and solved.slave is None:
+    if "piston_force" in memory:
         memory |= _by_key(_in_joints(solved, moving))
     if solved.machine.masses is not None:
         memory |= _by_key(cylinder_reduction(moving))
@@ -143,30 +143,31 @@ def _rod_forces(solved: SolvedCylinder, moving: MovingCylinder) -> Iterator[Know
 def _in_joints(solved: SolvedCylinder, moving: MovingCylinder) -> Iterator[Known]:
     """Yield the forces in the joints by the names that they have in a linkage, x towards the crankpin at 90 degrees.
 
-    Those of the crankpin on the rod, and of the rod and of the guide on the piston.
+    Those of the crankpin or the knuckle pin on the rod, and of the rod and of the guide on the piston.
     """
     memory, angle = moving.memory, moving.angle
-    pin, piston = _joint_names(solved)
-    radial, tangential = memory["radial_force"], memory["tangential_force"]
+    pin, piston = joint_names(solved)
     mass, along = absent("piston_mass"), absent("weight_force.piston")
     side = -memory["side_force"]
     if solved.machine.masses is not None:
-        mass, big = memory["piston_mass"], memory["rod_big_end_mass"]
-        inertia = big_end_inertia_force(big, moving.lengths.crank_radius, moving.speed)
-        weight = memory.get("big_end_weight", absent("big_end_weight"))
-        radial = crankpin_radial_force(radial, inertia, weight)
-        if "big_end_tangential_force" in memory:
-            tangential = crankpin_tangential_force(tangential, memory["big_end_tangential_force"])
+        mass = memory["piston_mass"]
         if solved.machine.has_gravity:
             g = given("gravity", solved.method.gravity, "method.gravity")
             cos, sin = origins.inclination(solved.machine)
             along = forces.weight_force(mass, g, cos).named("weight_force.piston")
             beside = forces.transverse_weight(mass, g, sin).named("transverse_weight.piston")
             side = side - beside if beside.value else side
+    if solved.slave is None:
+        radial, tangential = _on_crankpin(solved, moving)
+        yield (radial * angle.sin - tangential * angle.cos).named(f"joint_force_x.{pin}")
+        yield (radial * angle.cos + tangential * angle.sin).named(f"joint_force_y.{pin}")
+        yield joint_force(tangential, radial).named(f"joint_force.{pin}")
+    else:
+        x, y = (-memory[f"knuckle_force_{way}"] for way in "yx")
+        yield x.named(f"joint_force_x.{pin}")
+        yield y.named(f"joint_force_y.{pin}")
+        yield joint_force(x, y).named(f"joint_force.{pin}")
     acceleration = memory.get("inertia_acceleration", memory["piston_acceleration"])
-    yield (radial * angle.sin - tangential * angle.cos).named(f"joint_force_x.{pin}")
-    yield (radial * angle.cos + tangential * angle.sin).named(f"joint_force_y.{pin}")
-    yield joint_force(tangential, radial).named(f"joint_force.{pin}")
     pressed = piston_pin_force(memory.get("gas_force", absent("gas_force")), mass, acceleration, along)
     yield side.named(f"joint_force_x.{piston}")
     yield pressed.named(f"joint_force_y.{piston}")
@@ -174,10 +175,24 @@ def _in_joints(solved: SolvedCylinder, moving: MovingCylinder) -> Iterator[Known
     yield (-memory["side_force"]).named(f"normal_force.{piston}")
 
 
-def _joint_names(solved: SolvedCylinder) -> tuple[str, str]:
-    """Return the names of the crankpin and of the piston pin of a crank gear."""
+def _on_crankpin(solved: SolvedCylinder, moving: MovingCylinder) -> tuple[Known, Known]:
+    """Return radial and tangential force of a rod on the crankpin, with the mass and the weight of its big end."""
+    memory = moving.memory
+    radial, tangential = memory["radial_force"], memory["tangential_force"]
+    if solved.machine.masses is not None:
+        inertia = big_end_inertia_force(memory["rod_big_end_mass"], moving.lengths.crank_radius, moving.speed)
+        weight = memory.get("big_end_weight", absent("big_end_weight"))
+        radial = crankpin_radial_force(radial, inertia, weight)
+        if "big_end_tangential_force" in memory:
+            tangential = crankpin_tangential_force(tangential, memory["big_end_tangential_force"])
+    return radial, tangential
+
+
+def joint_names(solved: SolvedCylinder) -> tuple[str, str]:
+    """Return the names of the pin that the rod of a cylinder turns on, and of its piston pin."""
     rod = only_rod(solved.machine.mechanism)
-    return ("crank_pin", "piston_pin") if rod is None else (rod.joint, rod.slider)
+    pin, piston = ("crank_pin", "piston_pin") if rod is None else (rod.joint, rod.slider)
+    return (pin if solved.slave is None else "knuckle_pin"), piston
 
 
 def _couple(solved: SolvedCylinder, moving: MovingCylinder, length: Value) -> Iterator[Known]:

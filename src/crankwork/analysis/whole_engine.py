@@ -125,11 +125,13 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
     whole_values = {key: one for key, one in {**firing, **works}.items() if key in _WHOLE_VALUES}
     single = {**whole_values, **torque.summary, **bearing_summary(whole, loads)}
     summary = {key: one.value for key, one in single.items()}
-    thrown = dict[str, float]()
+    thrown, joints = dict[str, float](), dict[str, Known]()
     if any(whole.engine.slaves):
+        from crankwork.analysis.engine_joints import master_joints  # noqa: PLC0415 - few engines have such rods
         from crankwork.analysis.engine_routes import throw_residuals  # noqa: PLC0415 - few engines have such rods
 
         thrown = throw_residuals(whole, memory)
+        joints = {one.key: one for one in master_joints(whole, memory)}
     told = [*torque.notices, *_against_cycle(whole, results.summary, summary), *_of_gases(whole, results.notices)]
     return replace(
         results,
@@ -151,6 +153,7 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
             **works,
             **memory,
             **{key: one for key, one in _of_unlike(whole).items() if key not in memory},
+            **joints,
             **loads,
             **harmonics,
             **balanced,
