@@ -56,6 +56,33 @@ MISTAKES = {
         "chambers.cylinder.pressure",
         "says the same as points and pieces",
     ),
+    "heat without a clearance": (
+        ATKINSON,
+        FLYWHEEL,
+        (
+            '[chambers.other]\nslider = "piston"\nbore = "70 mm"\n[chambers.other.cycle]\nkind = "wiebe"\n'
+            'cycle_heat = "1 kJ"\n[flywheel]'
+        ),
+        "chambers.other",
+        "gas needs its smallest volume",
+    ),
+    "heat over an area": (
+        ATKINSON,
+        FLYWHEEL,
+        (
+            '[chambers.other]\nslider = "piston"\narea = "30 cm2"\ncompression_ratio = 9\n[chambers.other.cycle]\n'
+            'kind = "wiebe"\ncycle_heat = "1 kJ"\n[flywheel]'
+        ),
+        "chambers.other.cycle",
+        "needs the bore of its cylinder",
+    ),
+    "heat and points": (
+        ATKINSON,
+        "sense = -1",
+        'sense = -1\ncycle = { kind = "wiebe", cycle_heat = "1 kJ" }',
+        "chambers.cylinder.cycle",
+        "says the same as",
+    ),
     "late constant": (
         ATKINSON,
         FLYWHEEL,

@@ -68,7 +68,7 @@ class StatedChamber(NamedTuple):
     faces: tuple[tuple[str, int], ...]  # Sliding pieces and the senses in which they move
     owners: tuple[str, ...]  # What follows a key in the name of what belongs to each face
     ambient: float  # Pressure on the other side [Pa]
-    kind: str  # Where its pressure comes from: `charge`, `constant`, `samples` or `laws`
+    kind: str  # Where its pressure comes from: `charge`, `constant`, `samples`, `heat` or `laws`
     names: Mapping[str, str]  # The `name` of the charge, the `file` of samples, or the `count` of laws
     amounts: Mapping[str, tuple[float, str]]  # Values and the units in which they are told [SI]
     factor: float = 1.0  # Of its gauge pressure
@@ -109,6 +109,8 @@ def _stated_chamber(name: str, chamber: Chamber, machine: Machine) -> StatedCham
         kind, amounts = "constant", {"pressure": (chamber.pressure, "MPa")}
     elif chamber.measured is not None:
         kind, names = "samples", {"file": chamber.measured.file or "–"}
+    elif chamber.released is not None:
+        kind, amounts = "heat", {"cycle": (math.radians(chamber.cycle), "deg")}
     else:
         kind, names = "laws", {"count": str(len(chamber.pieces))}
         law = machine.mechanism.driver.law

@@ -8,12 +8,12 @@ from collections.abc import Iterator, Mapping
 from crankwork.description.gas_build import ReadMeasured, build_diagram, check_parts
 from crankwork.description.kinds import Reader
 from crankwork.description.schema import Values, means_nothing
-from crankwork.loads.chamber import Chamber, Charge, DeadVolume, Face
+from crankwork.loads.chamber import Chamber, Charge, DeadVolume, Face, PressureOfHeat
 from crankwork.locale import Refusal
 from crankwork.mechanism.driver import DrivingSlider
 from crankwork.mechanism.linkage import Linkage
 
-_OWN_PRESSURE = ("pressure", "points", "pieces", "measured")
+_OWN_PRESSURE = ("pressure", "points", "pieces", "measured", "cycle")
 _AMOUNTS = ("mean_pressure", "pressure", "mass")
 
 
@@ -37,7 +37,7 @@ def build_chambers(
         diagram = build_diagram(one, path, reader, read_measured)
         if not faces or any(problem.key.startswith(path) for problem in reader.problems):
             continue
-        is_absolute = one["pressures"] == "absolute" or name in holder
+        is_absolute = one["pressures"] == "absolute" or name in holder or "cycle" in one
         counted = one.but(pressures="absolute") if is_absolute else one
         chambers[name] = Chamber(
             faces=faces,
@@ -49,10 +49,27 @@ def build_chambers(
             pressure=one.si("pressure"),
             delay=round(math.degrees(one.si("delay") or 0.0), 9),
             factor=one["pressure_factor"],
+            released=_released(one, faces, values["crank"], path, reader),
             temperature=one.si("temperature"),
             **diagram._asdict(),
         )
     return chambers, {} if reader.problems else {name: _charge(one) for name, one in sealed.items()}
+
+
+def _released(
+    chamber: Values, faces: tuple[Face, ...], crank: Values, path: str, reader: Reader
+) -> PressureOfHeat | None:
+    """Return the release of heat that gives the pressure of a chamber, if it has one."""
+    if "cycle" not in chamber or "speed" not in crank:
+        return None
+    from crankwork.description.cycle_build import build_heat_release  # noqa: PLC0415 - few chambers have one
+
+    if {"clearance_volume", "compression_ratio"}.isdisjoint(chamber):
+        if not reader.doubts(f"{path}.clearance_volume", f"{path}.compression_ratio"):
+            reader.complain(path, Refusal("gas_volume"))
+        return None
+    angle = float(chamber["period"].split()[0])
+    return build_heat_release(chamber["cycle"], angle, faces[0].bore, crank["speed"].value, path, reader)
 
 
 def _faces(path: str, chamber: Values, sliders: set[str] | None, reader: Reader) -> Iterator[Face]:
@@ -88,11 +105,16 @@ def _check_pressure(path: str, chamber: Values, charge: Values | None, reader: R
             if key in chamber:
                 reader.complain(f"{path}.{key}", Refusal("chamber_sealed"))
     else:
-        if chamber["pressures"] != "absolute" and "ambient" in chamber and not reader.doubts(f"{path}.pressures"):
+        if (
+            chamber["pressures"] != "absolute"
+            and "ambient" in chamber
+            and "cycle" not in own
+            and not reader.doubts(f"{path}.pressures")
+        ):
             reader.complain(f"{path}.ambient", means_nothing("pressures", "gauge", ("absolute",)))
         if not own and not reader.doubts(*(f"{path}.{key}" for key in _OWN_PRESSURE), "charges"):
             reader.complain(path, Refusal("chamber_pressure", path=path))
-        elif own and "pressure" not in own:
+        elif own and {"pressure", "cycle"}.isdisjoint(own):
             check_parts(chamber, path, reader)
         if "delay" in chamber and "pressure" in own:
             reader.complain(f"{path}.delay", Refusal("delay_constant"))

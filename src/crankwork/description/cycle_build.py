@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import Any, Literal, NamedTuple, cast
 
 import numpy as np
@@ -68,7 +68,8 @@ def _built(values: Values, table: Values, ratio: float, pi: float) -> Cycle:
     ambient = table.si("ambient_pressure")
     pressure: CalculatedPressure
     if kind == "wiebe":
-        pressure = HeatReleasePressure(_heat_release(values, table, angle))
+        bore, speed = values["cylinder"].si("bore"), values["crank"]["speed"].value
+        pressure = HeatReleasePressure(heat_release_data(table, angle, bore, speed))
     else:
         if kind in _IDEAL:
             cycle = ideal_cycle(_ideal(table, ratio, angle))
@@ -204,7 +205,21 @@ def _with_ratio(values: Values, ratio: float) -> Values:
     return values.but(cylinder=values["cylinder"].but(compression_ratio=ratio))
 
 
-def _heat_release(values: Values, table: Values, angle: float) -> HeatReleaseData:
+def build_heat_release(
+    table: Values, angle: float, bore: float | None, speed: float, chamber: str, reader: Reader
+) -> HeatReleasePressure | None:
+    """Return what gives the pressure of a chamber by a release of heat, or None after complaints.
+
+    `angle`: of its cycle [deg]; `speed`: of the crank [rad/s]; `chamber`: where the description has it.
+    """
+    try:
+        return HeatReleasePressure(replace(heat_release_data(table, angle, bore, speed), chamber=chamber))
+    except CrankworkError as error:
+        reader.complain(f"{chamber}.cycle", error.args[0])
+        return None
+
+
+def heat_release_data(table: Values, angle: float, bore: float | None, speed: float) -> HeatReleaseData:
     """Return the data of a release of heat; what is not given stays as usual."""
     timing = table["timing"]
     given: dict[str, Any] = {
@@ -233,12 +248,11 @@ def _heat_release(values: Values, table: Values, angle: float) -> HeatReleaseDat
         raise CrankworkError(Refusal("cycle_heat_twice", names=", ".join(of_fuel)))
     if given["heat"] is None and not {"fuel_mass", "heating_value"} <= set(of_fuel):
         raise CrankworkError(Refusal("cycle_heat_missing"))
-    bore = values["cylinder"].si("bore")
     if bore is None:
         raise CrankworkError(Refusal("cycle_bore_missing"))
     return HeatReleaseData(
         bore=bore,
-        rotational_speed=values["crank"]["speed"].value * 30 / math.pi,
+        rotational_speed=speed * 30 / math.pi,
         shut_pressure=table.si("intake_pressure"),
         shut_temperature=table.si("intake_temperature"),
         cycle=angle,

@@ -55,7 +55,7 @@ def check_gas(values: Values, reader: Reader) -> None:
         path, table = f"chambers.{name}", one or {}
         keys = [
             key
-            for key in ("measured", "period", "delay")
+            for key in ("measured", "cycle", "period", "delay")
             if key in table and (key, table[key]) != ("period", "360 deg")
         ]
         points = table.get("points", {}).items()

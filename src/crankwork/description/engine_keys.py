@@ -144,3 +144,19 @@ CYCLE = Table("cycle", {
     "motored": Key(Choice(("compressed", "ambient")), default="compressed"),
     "source": Key(Text()),
 })  # fmt: skip
+
+# of a chamber, whose period and pressure around stand beside it
+HEAT_RELEASE = Table("cycle", {
+    "kind": Key(Choice(("wiebe",)), required=True),
+    **{
+        name: CYCLE.keys[name]
+        for name in (
+            "intake_pressure", "intake_temperature", "residual_pressure", "adiabatic_exponent", "timing",
+            "combustion_start", "combustion_duration", "shape", "fuel_mass", "heating_value", "wall_temperature",
+            "source",
+        )
+    },
+    "burning_efficiency": CYCLE.keys["burning_efficiency"]._replace(only={"fuel_mass": ()}),
+    # none where nothing burns
+    "cycle_heat": Key(Quantity(("energy",), 0.0, 1e9)),
+})  # fmt: skip

@@ -6,13 +6,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from crankwork.analysis import solve
 from crankwork.description.document import Description, load
 from crankwork.description.kinds import Reader
 from crankwork.description.locate import Places
 from crankwork.description.machine_file import file_keys, input_error, read, settings_of
 from crankwork.description.schema import Table, Values
-from crankwork.description.shorthand import drawn, linkage_tables
+from crankwork.description.shorthand import linkage_tables
 from crankwork.description.written import key_text, toml, with_value
 from crankwork.locale import Language, Refusal, say
 from crankwork.machine import Machine
@@ -46,17 +45,10 @@ def expanded(path: str | Path, overrides: Sequence[str] = (), language: Language
     return _with_defaults(description, say("check.by_default", language))
 
 
-def _is_drawn(machine: Machine) -> bool:
-    """Return whether points and laws give the pressure of a calculated cycle."""
-    return bool(drawn(solve(machine, machine.method))[1])
-
-
 def _refuse(machine: Machine, reader: Reader) -> None:
     """Complain of everything that no table of a linkage says."""
     if machine.transfer is not None:
         reader.complain("transfer", Refusal("unsaid_transfer"))
-    if machine.gas is not None and machine.gas.calculated is not None and not _is_drawn(machine):
-        reader.complain("cycle", Refusal("unsaid_cycle"))
     if machine.transfer is None and not machine.method.is_exact:
         reader.complain("method.kinematics", Refusal("unsaid_method"))
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import get_args
 
+from crankwork.description.engine_keys import HEAT_RELEASE
 from crankwork.description.keys import AMBIENT, DIAGRAM, METHOD, NO_ACCELERATION, PRESSURES, TABLE, TITLE
 from crankwork.description.kinds import Choice, Number, Quantity, Text
 from crankwork.description.schema import Key, ListOf, Named, NameOr, Nested, NumberOr, Table
@@ -169,10 +170,11 @@ _CHAMBER = Table("chamber", {
     "compression_ratio": Key(Number(1.0001, 1e4), instead_of=("clearance_volume",)),
     "period": Key(Choice(("360 deg", "720 deg")), default="360 deg"),
     "ambient": Key(Quantity(("pressure",), 0.0, 1e10), default=AMBIENT),
-    "pressure": Key(_PRESSURE, instead_of=("points", "pieces", "measured")),
+    "pressure": Key(_PRESSURE, instead_of=("points", "pieces", "measured", "cycle")),
     "pressure_factor": Key(Number(0.0, 10.0), default=1.0),
     "pressures": PRESSURES,
     **DIAGRAM,
+    "cycle": Key(HEAT_RELEASE, instead_of=("points", "pieces", "measured", "pressure")),
     "delay": Key(_TURN),
     "temperature": _TEMPERATURE,
 })  # fmt: skip

@@ -12,13 +12,16 @@ from crankwork.analysis.cylinders import whole_engine
 from crankwork.analysis.solved import SolvedCylinder
 from crankwork.cylinders.articulated import slave_stroke
 from crankwork.cylinders.layout import Place
+from crankwork.description.engine_keys import HEAT_RELEASE
 from crankwork.dynamics.masses import CrankGearMasses
-from crankwork.loads.indicator import DiagramPoint, Piece
+from crankwork.loads.indicator import DiagramPoint
 from crankwork.machine import Gas, Machine
 from crankwork.units import from_si
+from crankwork.working_cycle.pressures import MisfirePressure
 
 _DIAGRAM = ("points", "pieces", "measured")
 _COUNTED = ("pressures", "ambient")
+_OF_FUEL = ("fuel_mass", "heating_value", "burning_efficiency", "cycle_heat")
 _ALONE = Place(number=1, axis=0.0, crankpin=0, throw=0, pin_angle=0.0, position=0.0, firing_angle=0.0)
 
 
@@ -185,7 +188,7 @@ def _chambers(values: Mapping[str, Any], gear: Gear) -> Iterator[tuple[str, Any]
     room: dict[str, Any] = {"sense": 1}
     room |= {"compression_ratio": cylinder.compression_ratio} if cylinder.compression_ratio else {}
     room |= {"clearance_volume": _unit(cylinder.clearance_volume, "cm3")} if cylinder.clearance_volume else {}
-    stated = _calculated(gear.solved, gas) if gas.calculated else _stated(values["gas"], gas)
+    stated = _calculated(values["cycle"], gear.solved, gas) if gas.calculated else _stated(values["gas"], gas)
     plain: dict[str, Any] = {key: one for key, one in stated.items() if isinstance(one, str)}
     plain |= {"pressure_factor": gas.factor} if gas.factor != 1 else {}
     if "pressure" not in stated:
@@ -208,21 +211,20 @@ def _stated(table: Mapping[str, Any], gas: Gas) -> dict[str, Any]:
     return counted | {key: one for key, one in diagram.items() if key in _DIAGRAM}
 
 
-def _calculated(solved: SolvedCylinder, gas: Gas) -> dict[str, Any]:
-    """Return the diagram of a calculated cycle: its points and laws, none where it has no corners."""
-    points, pieces = drawn(solved)
-    return {
-        "pressures": "absolute", "ambient": _unit(gas.ambient, "Pa"),
+def _calculated(stated: Mapping[str, Any], solved: SolvedCylinder, gas: Gas) -> dict[str, Any]:
+    """Return the diagram of a calculated cycle: the release of heat that gives it, or its points and laws."""
+    around = {"pressures": "absolute", "ambient": _unit(gas.ambient, "Pa")}
+    points, pieces = solved.space.calculated.drawn if solved.space and solved.space.calculated else ({}, ())
+    if not pieces:
+        released = {key: one for key, one in stated.items() if key in HEAT_RELEASE.keys}
+        if isinstance(gas.calculated, MisfirePressure):
+            released = {key: one for key, one in released.items() if key not in _OF_FUEL} | {"cycle_heat": "0 J"}
+        return around | {"cycle": released}
+    return around | {
         "points": {name: _point(one) for name, one in points.items()},
         "pieces": [_given(law=one.law, points=list(one.points), exponent=one.exponent, reference=one.reference)
                    for one in pieces],
     }  # fmt: skip
-
-
-def drawn(solved: SolvedCylinder) -> tuple[Mapping[str, DiagramPoint], tuple[Piece, ...]]:
-    """Return points and laws of a calculated cycle."""
-    space = solved.space
-    return space.calculated.drawn if space is not None and space.calculated is not None else ({}, ())
 
 
 def _point(one: DiagramPoint) -> dict[str, Any]:

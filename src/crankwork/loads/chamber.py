@@ -4,10 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Protocol
 
-from crankwork.loads.indicator import DiagramPoint, Piece
+from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, VolumeAt
 from crankwork.loads.measured import MeasuredPressure
 from crankwork.mechanism.dyads import Branch
+
+
+class PressureOfHeat(Protocol):
+    """A release of heat, waiting for the volume of a chamber."""
+
+    def diagram_in(
+        self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
+    ) -> tuple[IndicatorDiagram, tuple[tuple[str, Mapping[str, float | str]], ...]]:
+        """Return the diagram in absolute pressure, and what the reader should know of it."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +35,8 @@ class Face:
 class Chamber:
     """A space whose walls move, and the gas in it. [m3], [Pa], [deg], [K]
 
-    Its pressure is constant, a diagram of points and pieces, measured, or that of a charge which is sealed in it.
+    Its pressure is constant, a diagram of points and pieces, measured, that of a release of heat, or that of a charge
+    which is sealed in it.
     """
 
     faces: tuple[Face, ...]
@@ -41,6 +52,7 @@ class Chamber:
     measured: MeasuredPressure | None = None
     delay: float = 0.0  # Crank angle by which its diagram comes later [deg]
     factor: float = 1.0  # Of the gauge pressure
+    released: PressureOfHeat | None = None  # A release of heat that gives its pressure
     # Added to measured angles; step at which they are resampled
     angle_shift: float = 0.0
     resample: float | None = None

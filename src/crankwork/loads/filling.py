@@ -245,8 +245,12 @@ def _of_its_own(
         done = chamber.factor * chamber.pressure * float(np.diff(space.volume_at(np.array([0.0, _TURN])))[0])
         return pressure, Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}"), told
 
+    # where its diagram begins: that of a release of heat at the dead centre nearest to where it is stated
+    top, bottom = _ends_of_stroke(space, chamber.delay) if chamber.released is not None else (0.0, 0.0)
+    begins = chamber.delay + top
+
     def own_volume_at(degrees: Array) -> Array:
-        return space.volume_at(degrees + chamber.delay)
+        return space.volume_at(degrees + begins)
 
     if chamber.measured is not None:
         diagram, cycles, wrap = measured_diagram(
@@ -254,15 +258,30 @@ def _of_its_own(
         )
         told += [("cycles_averaged", {"cycles": cycles})] * (cycles > 1)
         told += [("wrap", {"step": wrap})] * wrap_is_rough(diagram, wrap)
+    elif chamber.released is not None:
+        rate = Program({"": space.volume_1})
+        diagram, notices = chamber.released.diagram_in(
+            own_volume_at,
+            lambda degrees: rate(CrankGrid.from_degrees(degrees + begins))[""],
+            (0.0, (bottom - top) % _TURN),
+        )
+        told += notices
     else:
         centres = tuple(sorted((one - chamber.delay) % _TURN for one in space.dead_centres))
         diagram = solve_diagram(
             chamber.points, chamber.pieces, chamber.cycle, own_volume_at, dead_centres=centres, path=path
         )
         told += [_jump(point, at, step, law) for point, at, step in diagram.jumps]
-    pressure = remembered_pressure(_repeated(diagram.later(chamber.delay), whole), space.volume, path)
+    pressure = remembered_pressure(_repeated(diagram.later(begins), whole), space.volume, path)
     done = chamber.factor * diagram.work(own_volume_at)
     return pressure, Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}"), told
+
+
+def _ends_of_stroke(space: _Space, delay: float) -> tuple[float, float]:
+    """Return where the volume is least and largest, counted from a crank angle, the least nearest to it. [deg]"""
+    volumes = space.volume_at(np.array(space.dead_centres))
+    least, largest = (float(space.dead_centres[at(volumes)]) - delay for at in (np.argmin, np.argmax))
+    return (least + _TURN / 2) % _TURN - _TURN / 2, largest
 
 
 def _jump(point: str, degrees: float, step: float, law: Law | None) -> Told:

@@ -175,10 +175,10 @@ def closed_gas(
     shut, begin, end = (one.start for one in stages(data, dead_centres))
     clearance, largest, shut_volume = (float(one) for one in volume_at(np.array([*dead_centres, shut])))
     _give(worked, data)
-    _give_sizes(worked, clearance, largest)
+    _give_sizes(worked, clearance, largest, data)
     worked.known["V_1"] = volume_when(worked, shut_volume, shut).named("cylinder_volume.1")
     turn = Known(Found(math.radians(dead_centres[0] + 360.0), "dead_centre"), "top_dead_centre_angle")
-    advance = given("burning_advance", math.radians(data.burning_advance), "cycle.combustion_start")
+    advance = given("burning_advance", math.radians(data.burning_advance), data.stated_at("cycle.combustion_start"))
     worked.known["burning_start"] = (turn - advance).named("burning_start")
     for key in ("head_area", "crown_area"):
         worked.known.setdefault(key, worked["piston_area"])
@@ -203,11 +203,11 @@ def closed_gas(
     )
 
 
-def _give_sizes(worked: Worked, clearance: float, largest: float) -> None:
+def _give_sizes(worked: Worked, clearance: float, largest: float, data: HeatReleaseData) -> None:
     """Take area, volumes and mean speed of the piston, of the stroke and the compression ratio of the cylinder."""
     area = gas_formulas.piston_area(math.pi, worked["bore"])
-    stroke = given("stroke", (largest - clearance) / area.value, "crank.stroke")
-    ratio = given("compression_ratio", largest / clearance, "cylinder.compression_ratio")
+    stroke = given("stroke", (largest - clearance) / area.value, data.stated_at("crank.stroke"))
+    ratio = given("compression_ratio", largest / clearance, data.stated_at("cylinder.compression_ratio"))
     swept, speed = gas_formulas.swept_volume(area, stroke), mean_piston_speed(stroke, worked["rotational_speed"])
     found = (area, swept, gas_formulas.clearance_volume(swept, ratio), speed)
     worked.known |= {one.key: one for one in found}
@@ -245,14 +245,14 @@ def _give(worked: Worked, data: HeatReleaseData) -> None:
     ):
         value = getattr(data, name)
         if value is not None and (data.heat is None or name not in _OF_FUEL):
-            worked.given(key, value, path)
+            worked.given(key, value, data.stated_at(path))
     if not data.heat_ratio_slope:
         worked.absent("gas_heat_ratio_slope")
-    worked.given("burning_duration", math.radians(data.burning_duration), "cycle.combustion_duration")
+    worked.given("burning_duration", math.radians(data.burning_duration), data.stated_at("cycle.combustion_duration"))
     # states of a quantity that varies go by the argument that stands for them
     worked.known |= {
-        "p_shut": given("cylinder_pressure", data.shut_pressure, "cycle.intake_pressure"),
-        "T_shut": given("cylinder_temperature", data.shut_temperature, "cycle.intake_temperature"),
-        "gamma_cyl_0": given("gas_heat_ratio", data.heat_ratio, "cycle.adiabatic_exponent"),
+        "p_shut": given("cylinder_pressure", data.shut_pressure, data.stated_at("cycle.intake_pressure")),
+        "T_shut": given("cylinder_temperature", data.shut_temperature, data.stated_at("cycle.intake_temperature")),
+        "gamma_cyl_0": given("gas_heat_ratio", data.heat_ratio, data.stated_at("cycle.adiabatic_exponent")),
         "n_p": given("polytropic_exponent", data.motored_exponent),
     }

@@ -52,6 +52,14 @@ class HeatReleaseData:
     # While gas is exchanged; with two strokes the first is that of scavenging [Pa]
     exhaust_pressure: float = 1.1e5
     intake_pressure: float = 0.9e5
+    chamber: str = ""  # Where a description has the chamber that it is in, of a linkage
+
+    def stated_at(self, path: str) -> str:
+        """Return where a description states what that of an engine states at a path."""
+        table, _, name = path.partition(".")
+        if not self.chamber or path in ("", "crank.speed"):
+            return path
+        return {"cycle": f"{self.chamber}.{path}", "cylinder": f"{self.chamber}.{name}"}.get(table, "")
 
 
 class Stage(NamedTuple):

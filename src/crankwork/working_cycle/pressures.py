@@ -8,7 +8,7 @@ import numpy as np
 
 from crankwork.formula.known import Found, Known, absent
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Segment, VolumeAt, solve_diagram
-from crankwork.working_cycle.calculated_cycle import Calculated, CalculatedCycle, Corners, Drawn
+from crankwork.working_cycle.calculated_cycle import Calculated, CalculatedCycle, Corners, Drawn, Notice
 from crankwork.working_cycle.gas_exchange import constant_pressure
 from crankwork.working_cycle.heat_data import HeatReleaseData
 from crankwork.working_cycle.heat_release import HeatReleaseResult, heat_release
@@ -98,6 +98,13 @@ class HeatReleasePressure:
         """Return the diagram of a cylinder in which nothing burns: no heat is released, and walls take theirs."""
         cold = replace(self.data, heat=0.0, fuel_per_cycle=0.0)
         return HeatReleasePressure(cold).pressure(volume_at, volume_rate_at, dead_centres)
+
+    def diagram_in(
+        self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
+    ) -> tuple[IndicatorDiagram, tuple[Notice, ...]]:
+        """Return the diagram in a chamber, and what the reader should know of it."""
+        found = self._solved(volume_at, volume_rate_at, dead_centres).calculated
+        return found.diagram, found.notices
 
     def _solved(
         self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
