@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from crankwork.cylinders.layout import Layout
 from crankwork.dynamics.masses import CrankGearMasses
-from crankwork.loads.chamber import Chamber, Charge, cycle_of
+from crankwork.loads.chamber import Chamber, Charge, cycle_of, least_common
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.loads.measured import MeasuredPressure
 from crankwork.mechanism.mechanism import Mechanism
@@ -332,4 +331,4 @@ class Machine:
             return self.gas.cycle
         if self.engine is not None:
             return self.engine.layout.cycle
-        return _TURN * math.lcm(round(cycle_of(self.chambers) / _TURN), round(self.mechanism.period / _TURN))
+        return least_common(cycle_of(self.chambers), self.mechanism.period)

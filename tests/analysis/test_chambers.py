@@ -231,6 +231,71 @@ def test_two_turns_of_a_linkage_are_those_of_an_engine():
     assert other.value("work_per_cycle") == pytest.approx(-one["indicated_work"], rel=1e-10)
 
 
+GEARED = """
+    [fixed_points]
+    O = ["0 mm", "0 mm"]
+    Q = ["120 mm", "0 mm"]
+    [crank]
+    pivot = "O"
+    pin = "A"
+    radius = "20 mm"
+    speed = "600 rpm"
+    [geared.half]
+    pivot = "Q"
+    ratio = -0.5
+    points = {{ D = ["25 mm", "0 mm"] }}
+    [links]
+    a = {{ joins = ["A", "C"], length = "90 mm" }}
+    b = {{ joins = ["D", "C"], length = "95 mm" }}
+    rod = {{ joins = ["C", "B"], length = "120 mm" }}
+    [guides]
+    bore = {{ through = ["60 mm", "0 mm"], angle = "90 deg" }}
+    [sliders]
+    piston = {{ guide = "bore", pin = "B" }}
+    [positions]
+    C = ["70 mm", "70 mm"]
+    B = ["60 mm", "180 mm"]
+    [chambers.room]
+    slider = "piston"
+    bore = "86 mm"
+    sense = -1
+    compression_ratio = 9
+    pressures = "absolute"
+    period = "{period} deg"
+    [chambers.room.points]
+    {points}
+"""
+
+
+def test_laws_over_one_turn_begin_anew_in_each_of_two():
+    """Stated for both turns one after the other they give the same; there the gas does what its torque does."""
+    points, laws = {1: "", 2: ""}, {1: "", 2: ""}
+    for turn in (0, 1):
+        for name, angle, pressure in (("a", 0, ', pressure = "0.1 MPa"'), ("b", 130, ""), ("c", 240, "")):
+            points[2] += f'{name}{turn} = {{ angle = "{angle + 360 * turn} deg"{pressure} }}\n'
+        pairs = [("polytropic", "a", "b", turn), ("polytropic", "b", "c", turn), ("rounded", "c", "a", turn + 1)]
+        for law, start, end, after in pairs:
+            exponent = "exponent = 1.35\n" if law == "polytropic" else ""
+            laws[2] += f'[[chambers.room.pieces]]\nlaw = "{law}"\npoints = ["{start}{turn}", "{end}{after}"]\n{exponent}'
+        if turn == 0:
+            points[1], laws[1] = points[2] + 'a1 = { angle = "360 deg", pressure = "0.1 MPa" }\n', laws[2]
+    points[2] += 'a2 = { angle = "720 deg", pressure = "0.1 MPa" }\n'
+    once, twice = (
+        crankwork.analyse(crankwork.read_machine(GEARED.format(period=360 * turns, points=points[turns]) + laws[turns]))
+        for turns in (1, 2)
+    )
+    assert [one.values["turns"] for one in once.notices if one.code == "chamber_again"] == [2]
+    assert not [one for one in twice.notices if one.code == "chamber_again"]
+    rows = once.columns_at([100.0, 460.0], ["gas_pressure.room", "cylinder_volume.room"])
+    assert abs(np.diff(rows["cylinder_volume.room"])[0]) > 0.01 * once["swept_volume.room"]
+    for key in ("gas_pressure.room", "gas_force.room", "balancing_torque"):
+        assert once[key] == pytest.approx(twice[key], rel=1e-12, abs=1e-12)
+    for key in ("indicated_work.room", "indicated_power.room", "swept_volume.room"):
+        assert once[key] == pytest.approx(twice[key], rel=1e-12)
+    assert not once.unmet
+    assert once.checks["work"] < 1e-9
+
+
 class TestMeasured:
     """Samples of a smooth pressure beside a slider that moves as a cosine."""
 

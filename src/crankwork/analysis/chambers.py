@@ -17,7 +17,7 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.memory import given_mechanism
 from crankwork.kinematics.motion import Motion
 from crankwork.loads import gas
-from crankwork.loads.chamber import Chamber
+from crankwork.loads.chamber import Chamber, own_cycle
 from crankwork.loads.filling import Filling, filled, rate_by_angle
 from crankwork.machine import Machine
 
@@ -34,7 +34,9 @@ def solve_linkage(machine: Machine, motion: Motion) -> SolvedLinkage:
     method = machine.method
     speed = machine.speed * method.pi / math.pi
     law = machine.mechanism.driver.law
-    return SolvedLinkage(machine, method, speed, filled(machine.chambers, machine.charges, motion, method.pi, law))
+    period = machine.mechanism.period
+    filling = filled(machine.chambers, machine.charges, motion, method.pi, law, period)
+    return SolvedLinkage(machine, method, speed, filling)
 
 
 def gas_summary(solved: SolvedLinkage) -> dict[str, Known]:
@@ -47,6 +49,8 @@ def gas_summary(solved: SolvedLinkage) -> dict[str, Known]:
             power = work / given("period", law.period, "driver.period")
         else:
             cycle = given(f"cycle_angle.{name}", math.radians(chamber.cycle), f"chambers.{name}.period")
+            again = own_cycle(chamber, solved.machine.mechanism.period) / chamber.cycle
+            cycle = cycle if again == 1 else again * cycle.named(f"cycle_angle.{name}.stated")
             power = gas.indicated_power(work, w, cycle)
         found[f"indicated_power.{name}"] = power.named(f"indicated_power.{name}")
     if len(chambers) > 1:
@@ -73,9 +77,9 @@ def indicators(results: Results) -> dict[str, Indicator]:
     return found
 
 
-def _against(filling: Filling, name: str, chamber: Chamber) -> float:
+def _against(filling: Filling, name: str, chamber: Chamber, cycle: float) -> float:
     """Return the work on what is around a chamber, nothing where its volume comes back. [J]"""
-    ends = Program({"": filling.columns[f"cylinder_volume.{name}"]})(CrankGrid.from_degrees([0.0, 360.0]))[""]
+    ends = Program({"": filling.columns[f"cylinder_volume.{name}"]})(CrankGrid.from_degrees([0.0, cycle]))[""]
     return chamber.factor * chamber.ambient * float(ends[1] - ends[0])
 
 
@@ -89,10 +93,11 @@ def gas_check(solved: SolvedLinkage, motion: Motion) -> dict[str, float]:
     if machine.mechanism.driver.law is not None:
         torque = torque * rate_by_angle(motion, machine.mechanism.driver.law)
     over = OverCycle({"": torque}, CrankGrid.from_degrees, machine.cycle)
-    work = sum(
-        filling.singles[f"indicated_work.{name}"].value * machine.cycle / one.cycle - _against(filling, name, one)
-        for name, one in machine.chambers.items()
-    )
+    work = 0.0
+    for name, one in machine.chambers.items():
+        cycle = own_cycle(one, machine.mechanism.period)
+        done = filling.singles[f"indicated_work.{name}"].value - _against(filling, name, one, cycle)
+        work += done * machine.cycle / cycle
     largest, least = over.largest_and_least[""]
     moved = max(largest.value, -least.value) * math.radians(machine.cycle) or 1.0
     return {"work": abs(over.integral("") - work) / moved}

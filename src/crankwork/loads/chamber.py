@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
@@ -9,6 +10,8 @@ from typing import Protocol
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, VolumeAt
 from crankwork.loads.measured import MeasuredPressure
 from crankwork.mechanism.dyads import Branch
+
+_TURN = 360.0
 
 
 class PressureOfHeat(Protocol):
@@ -87,7 +90,20 @@ class Charge:
 
 def cycle_of(chambers: Mapping[str, Chamber]) -> float:
     """Return the crank angle after which every pressure repeats. [deg]"""
-    return max((one.cycle for one in chambers.values()), default=360.0)
+    return max((one.cycle for one in chambers.values()), default=_TURN)
+
+
+def least_common(cycle: float, period: float) -> float:
+    """Return the crank angle after which both what has one period and what has another repeat. [deg]"""
+    return _TURN * math.lcm(round(cycle / _TURN), round(period / _TURN))
+
+
+def own_cycle(chamber: Chamber, period: float) -> float:
+    """Return the crank angle of the indicated work of a chamber: when pressure and volume repeat together. [deg]
+
+    `period`: that of the motion.
+    """
+    return least_common(chamber.cycle, period)
 
 
 def face_owners(name: str, chamber: Chamber) -> tuple[str, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -18,8 +18,8 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import Motion
 from crankwork.loads import gas
 from crankwork.loads.applied import AppliedLoads, force_on_slider, together
-from crankwork.loads.chamber import Chamber, Charge, Face, cycle_of, face_owners
-from crankwork.loads.indicator import DiagramError, IndicatorDiagram, solve_diagram
+from crankwork.loads.chamber import Chamber, Charge, Face, cycle_of, face_owners, least_common, own_cycle
+from crankwork.loads.indicator import DeadCentres, DiagramError, IndicatorDiagram, Segment, VolumeAt, solve_diagram
 from crankwork.loads.measured import measured_diagram, wrap_is_rough
 from crankwork.loads.pressure import at_angle, remembered_pressure
 from crankwork.locale import Refusal
@@ -77,7 +77,7 @@ class _Wall(NamedTuple):
 
 
 class _Space(NamedTuple):
-    """A chamber as it moves, and the crank angles of a turn where its volume turns back. [deg]"""
+    """A chamber as it moves: after which crank angle its volume repeats, and at which it turns back. [deg]"""
 
     walls: tuple[_Wall, ...]
     volume: Known
@@ -85,6 +85,7 @@ class _Space(NamedTuple):
     swept: Known
     clearance: Known
     ratio: Known
+    period: float
     dead_centres: tuple[float, ...]
 
     def volume_at(self, degrees: Array) -> Array:
@@ -93,22 +94,28 @@ class _Space(NamedTuple):
 
 
 def filled(
-    chambers: Mapping[str, Chamber], charges: Mapping[str, Charge], motion: Motion, pi: float, law: Law | None = None
+    chambers: Mapping[str, Chamber],
+    charges: Mapping[str, Charge],
+    motion: Motion,
+    pi: float,
+    law: Law | None = None,
+    period: float = _TURN,
 ) -> Filling:
     """Return the gas of chambers on the sliding pieces of a remembered motion.
 
-    `law`: that of the driver, where it is not a crank that turns fully at the angle of the tables.
+    `law`: that of the driver, where it is not a crank that turns fully at the angle of the tables; `period`: crank
+    angle after which the motion repeats [deg].
     """
     if not chambers:
         return NO_GAS
-    whole = cycle_of(chambers)
-    spaces = _spaces(chambers, motion, pi, law)
+    whole = least_common(cycle_of(chambers), period)
+    spaces = _spaces(chambers, motion, pi, law, period)
     pressures, works, own, told = dict[str, Known](), dict[str, Known](), list[Known](), list[Told]()
     for name, charge in charges.items():
-        pressure, values = _sealed(name, charge, chambers, spaces)
+        pressure, values = _sealed(name, charge, chambers, spaces, period)
         own += values
         pressures |= {one: pressure.named(f"diagram_pressure.{one}") for one in charge.chambers}
-    works |= _works(pressures, spaces)
+    works |= _works(pressures, spaces, period)
     for name, chamber in chambers.items():
         if name not in pressures:
             pressures[name], works[name], notices = _of_its_own(name, chamber, spaces[name], whole, law)
@@ -153,7 +160,9 @@ def rate_by_angle(motion: Motion, law: Law) -> Known:
     return rate * (given("period", law.period, "driver.period") / math.radians(_TURN))
 
 
-def _spaces(chambers: Mapping[str, Chamber], motion: Motion, pi: float, law: Law | None) -> dict[str, _Space]:
+def _spaces(
+    chambers: Mapping[str, Chamber], motion: Motion, pi: float, law: Law | None, period: float
+) -> dict[str, _Space]:
     """Return the chambers as they move."""
     walls = {name: tuple(_walls(name, one, motion, pi)) for name, one in chambers.items()}
     followed = {}
@@ -163,8 +172,8 @@ def _spaces(chambers: Mapping[str, Chamber], motion: Motion, pi: float, law: Law
         rates = [gas.face_volume_1(one.sense, one.area, one.position_1) for one in some]
         rate = total(f"cylinder_volume_1.{name}", rates)
         followed[rate.key] = rate if law is None else (rate * rate_by_angle(motion, law)).named(rate.key)
-    over = OverCycle(followed, CrankGrid.from_degrees, _TURN)
-    return {name: _space(name, chambers[name], some, over) for name, some in walls.items()}
+    over = OverCycle(followed, CrankGrid.from_degrees, period)
+    return {name: _space(name, chambers[name], some, over, period) for name, some in walls.items()}
 
 
 def _walls(name: str, chamber: Chamber, motion: Motion, pi: float) -> Iterator[_Wall]:
@@ -187,7 +196,7 @@ def _area(face: Face, owner: str, path: str, pi: float) -> Known:
     return less.named(key)
 
 
-def _space(name: str, chamber: Chamber, walls: tuple[_Wall, ...], over: OverCycle) -> _Space:
+def _space(name: str, chamber: Chamber, walls: tuple[_Wall, ...], over: OverCycle, period: float) -> _Space:
     travel, rate = f"face_volume.{name}", f"cylinder_volume_1.{name}"
     largest, least = over.largest_and_least[travel]
     if largest.value - least.value <= _NOTHING * max(largest.value, -least.value):
@@ -211,25 +220,25 @@ def _space(name: str, chamber: Chamber, walls: tuple[_Wall, ...], over: OverCycl
         part = gas.face_volume(wall.sense, wall.area, wall.position, start)
         parts.append(part.named(f"face_volume.{name}.{wall.slider}"))
     volume = total(f"cylinder_volume.{name}", parts)
-    centres = [*over.crossings(rate).tolist(), largest.at, least.at, *_at_zero(rate, over)]
-    turning = _apart(centres)
+    centres = [*over.crossings(rate).tolist(), largest.at, least.at, *_at_zero(rate, over, period)]
+    turning = _apart(centres, period)
     at = Program({"": volume})(CrankGrid.from_degrees(turning))[""]
     # where a driver dwells the volume has turned back at the beginning of the dwell
     moves = np.abs(at - np.roll(at, 1)) > _STILL * swept.value
     kept = tuple(one for one, moved in zip(turning, moves.tolist(), strict=True) if moved)
-    return _Space(walls, volume, over.knowns[rate], swept, clearance, ratio, kept)
+    return _Space(walls, volume, over.knowns[rate], swept, clearance, ratio, period, kept)
 
 
-def _at_zero(rate: str, over: OverCycle) -> Iterator[float]:
-    """Yield zero where a volume turns back between one turn and the next."""
-    before, after = over.at(rate, np.array([_TURN - _SAME_ANGLE, _SAME_ANGLE])).tolist()
+def _at_zero(rate: str, over: OverCycle, period: float) -> Iterator[float]:
+    """Yield zero where a volume turns back between one period and the next."""
+    before, after = over.at(rate, np.array([period - _SAME_ANGLE, _SAME_ANGLE])).tolist()
     if before * after < 0:
         yield 0.0
 
 
-def _apart(degrees: list[float]) -> tuple[float, ...]:
-    """Return crank angles within a turn, ascending, those that only rounding has set apart as one."""
-    ordered = sorted(one % _TURN if _TURN - one % _TURN > _SAME_ANGLE else 0.0 for one in degrees)
+def _apart(degrees: list[float], period: float) -> tuple[float, ...]:
+    """Return crank angles within a period, ascending, those that only rounding has set apart as one."""
+    ordered = sorted(one % period if period - one % period > _SAME_ANGLE else 0.0 for one in degrees)
     return tuple(two for one, two in itertools.pairwise([-1.0, *ordered]) if two - one > _SAME_ANGLE)
 
 
@@ -239,41 +248,41 @@ def _of_its_own(
     """Return the pressure that a chamber has by itself, its work over a cycle, and what the reader should know."""
     key, path = f"diagram_pressure.{name}", f"chambers.{name}"
     told: list[Told] = []
+    cycle = own_cycle(chamber, space.period)
     if chamber.pressure is not None:
         pressure = given(key, chamber.pressure, f"{path}.pressure")
         # nothing where the volume comes back
-        done = chamber.factor * chamber.pressure * float(np.diff(space.volume_at(np.array([0.0, _TURN])))[0])
+        done = chamber.factor * chamber.pressure * float(np.diff(space.volume_at(np.array([0.0, cycle])))[0])
         return pressure, Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}"), told
-
+    if cycle > chamber.cycle:
+        told.append(("chamber_again", {"name": name, "cycle": chamber.cycle, "turns": round(space.period / _TURN)}))
     # where its diagram begins: that of a release of heat at the dead centre nearest to where it is stated
     top, bottom = _ends_of_stroke(space, chamber.delay) if chamber.released is not None else (0.0, 0.0)
     begins = chamber.delay + top
-
-    def own_volume_at(degrees: Array) -> Array:
-        return space.volume_at(degrees + begins)
-
+    # where the volume is what it was in an earlier cycle, the diagram is that of then
+    phases = [one % space.period for one in np.arange(0.0, whole, chamber.cycle).tolist()]
     if chamber.measured is not None:
-        diagram, cycles, wrap = measured_diagram(
+        samples, cycles, wrap = measured_diagram(
             chamber.measured, chamber.cycle, shift=chamber.angle_shift, step=chamber.resample, path=path
         )
         told += [("cycles_averaged", {"cycles": cycles})] * (cycles > 1)
-        told += [("wrap", {"step": wrap})] * wrap_is_rough(diagram, wrap)
+        told += [("wrap", {"step": wrap})] * wrap_is_rough(samples, wrap)
+        found = dict.fromkeys(phases, samples)
     elif chamber.released is not None:
-        rate = Program({"": space.volume_1})
-        diagram, notices = chamber.released.diagram_in(
-            own_volume_at,
-            lambda degrees: rate(CrankGrid.from_degrees(degrees + begins))[""],
-            (0.0, (bottom - top) % _TURN),
-        )
-        told += notices
+        found = {}
+        for phase in dict.fromkeys(phases):
+            found[phase], notices = chamber.released.diagram_in(
+                _volume_from(space, begins + phase),
+                _rate_from(space, begins + phase),
+                (0.0, (bottom - top) % space.period),
+            )
+            told += notices
     else:
-        centres = tuple(sorted((one - chamber.delay) % _TURN for one in space.dead_centres))
-        diagram = solve_diagram(
-            chamber.points, chamber.pieces, chamber.cycle, own_volume_at, dead_centres=centres, path=path
-        )
-        told += [_jump(point, at, step, law) for point, at, step in diagram.jumps]
-    pressure = remembered_pressure(_repeated(diagram.later(begins), whole), space.volume, path)
-    done = chamber.factor * diagram.work(own_volume_at)
+        found = {phase: _solved(chamber, space, begins + phase, path) for phase in dict.fromkeys(phases)}
+        told += [_jump(point, phase + at, step, law) for phase, one in found.items() for point, at, step in one.jumps]
+    pressure = remembered_pressure(_joined(found, phases).later(begins), space.volume, path)
+    own = phases[: round(cycle / chamber.cycle)]
+    done = chamber.factor * sum(found[one].work(_volume_from(space, begins + one)) for one in own)
     return pressure, Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}"), told
 
 
@@ -281,7 +290,23 @@ def _ends_of_stroke(space: _Space, delay: float) -> tuple[float, float]:
     """Return where the volume is least and largest, counted from a crank angle, the least nearest to it. [deg]"""
     volumes = space.volume_at(np.array(space.dead_centres))
     least, largest = (float(space.dead_centres[at(volumes)]) - delay for at in (np.argmin, np.argmax))
-    return (least + _TURN / 2) % _TURN - _TURN / 2, largest
+    return (least + space.period / 2) % space.period - space.period / 2, largest
+
+
+def _solved(chamber: Chamber, space: _Space, start: float, path: str) -> IndicatorDiagram:
+    """Return the diagram of a chamber over the cycle that begins at a crank angle of its volume."""
+    centres = DeadCentres(tuple(sorted((one - start) % space.period for one in space.dead_centres)), space.period)
+    volume_at = _volume_from(space, start)
+    return solve_diagram(chamber.points, chamber.pieces, chamber.cycle, volume_at, dead_centres=centres, path=path)
+
+
+def _rate_from(space: _Space, start: float) -> VolumeAt:
+    rate = Program({"": space.volume_1})
+    return lambda degrees: rate(CrankGrid.from_degrees(degrees + start))[""]
+
+
+def _volume_from(space: _Space, start: float) -> VolumeAt:
+    return lambda degrees: space.volume_at(degrees + start)
 
 
 def _jump(point: str, degrees: float, step: float, law: Law | None) -> Told:
@@ -291,28 +316,41 @@ def _jump(point: str, degrees: float, step: float, law: Law | None) -> Told:
     return "jump_time", {"point": point, "time": degrees / _TURN * law.period, "step": step}
 
 
-def _repeated(diagram: IndicatorDiagram, whole: float) -> IndicatorDiagram:
-    """Return a diagram that is passed more than once in a cycle, over all of it."""
-    period = diagram.segments[-1].end
-    later = [
-        replace(one, start=one.start + turn, end=one.end + turn, knots=one.knots + turn)
-        for turn in np.arange(0.0, whole - period / 2, period).tolist()
-        for one in diagram.segments
-    ]
-    return replace(diagram, segments=tuple(later))
+def _joined(found: Mapping[float, IndicatorDiagram], phases: Sequence[float]) -> IndicatorDiagram:
+    """Return the diagrams of cycles that begin at angles of a volume, one behind the other, as one. [deg]
+
+    Points of a later phase have a mark.
+    """
+    segments, named, start = list[Segment](), dict[str, tuple[float, float]](), 0.0
+    for phase in phases:
+        one, mark = found[phase], "′" * list(found).index(phase)
+        segments += [
+            replace(
+                part,
+                start=part.start + start,
+                end=part.end + start,
+                knots=part.knots + start,
+                origin=part.origin and part.origin + mark,
+            )
+            for part in one.segments
+        ]
+        for name, (degrees, pressure) in one.named.items():
+            named.setdefault(name + mark, (degrees + phase, pressure))
+        start += one.segments[-1].end
+    return replace(found[phases[0]], segments=tuple(segments), named=named)
 
 
-def _works(pressures: Mapping[str, Known], spaces: Mapping[str, _Space]) -> dict[str, Known]:
-    """Return the work of a sealed charge in each of its chambers over a turn."""
+def _works(pressures: Mapping[str, Known], spaces: Mapping[str, _Space], period: float) -> dict[str, Known]:
+    """Return the work of a sealed charge in each of its chambers over a period of its volume."""
     if not pressures:
         return {}
     over = OverCycle(
-        {name: one * spaces[name].volume_1 for name, one in pressures.items()}, CrankGrid.from_degrees, _TURN
+        {name: one * spaces[name].volume_1 for name, one in pressures.items()}, CrankGrid.from_degrees, period
     )
     return {
         name: Known(
             # what rounding leaves of a work that comes back is nothing
-            Found(over.mean(name, "").value * math.radians(_TURN), "work", (one, spaces[name].volume)),
+            Found(over.mean(name, "").value * math.radians(period), "work", (one, spaces[name].volume)),
             f"indicated_work.{name}",
         )
         for name, one in pressures.items()
@@ -320,7 +358,7 @@ def _works(pressures: Mapping[str, Known], spaces: Mapping[str, _Space]) -> dict
 
 
 def _sealed(
-    name: str, charge: Charge, chambers: Mapping[str, Chamber], spaces: Mapping[str, _Space]
+    name: str, charge: Charge, chambers: Mapping[str, Chamber], spaces: Mapping[str, _Space], period: float
 ) -> tuple[Known, list[Known]]:
     """Return the pressure of a sealed charge, and its single values."""
     path = f"charges.{name}"
@@ -332,40 +370,40 @@ def _sealed(
     if charge.exponent is not None:
         whole = total(f"cylinder_volume.{name}", [volume for _, volume, _, _ in parts])
         exponent = given(f"polytropic_exponent.{name}", charge.exponent, f"{path}.exponent")
-        return _polytropic(name, charge, whole, exponent), []
+        return _polytropic(name, charge, whole, exponent, period), []
     reduced = []
     for owner, volume, kelvin, place in parts:
         temperature = given(f"cylinder_temperature.{owner}", kelvin or math.nan, f"{place}.temperature")
         reduced.append(gas.reduced_volume(volume, temperature).named(f"reduced_volume.{owner}"))
     whole = total(f"reduced_volume.{name}", reduced)
     constant = given(f"specific_gas_constant.{name}", charge.gas_constant or math.nan, f"{path}.gas_constant")
-    mass = _mass(name, charge, whole, constant)
+    mass = _mass(name, charge, whole, constant, period)
     return gas.isothermal_pressure(mass, constant, whole), [mass]
 
 
-def _mass(name: str, charge: Charge, whole: Known, constant: Known) -> Known:
+def _mass(name: str, charge: Charge, whole: Known, constant: Known, period: float) -> Known:
     """Return the mass of a charge whose parts keep their temperatures."""
     key = f"gas_mass.{name}"
     if charge.mass is not None:
         return given(key, charge.mass, f"charges.{name}.mass")
-    over = _course(name, whole)
+    over = _course(name, whole, period)
     if charge.mean_pressure is None:
         start = at_angle(whole, charge.angle, f"reduced_volume.{name}.start")
     else:
-        mean = math.radians(_TURN) / over.integral("inverse")
+        mean = math.radians(period) / over.integral("inverse")
         start = Known(Found(mean, "harmonic_mean", (whole,)), f"reduced_volume.{name}.mean")
     return gas.charge_mass(_stated(name, charge), start, constant).named(key)  # type: ignore[no-any-return]
 
 
-def _polytropic(name: str, charge: Charge, whole: Known, exponent: Known) -> Known:
+def _polytropic(name: str, charge: Charge, whole: Known, exponent: Known, period: float) -> Known:
     """Return the pressure of a charge that follows a polytrope."""
-    over, stated = _course(name, whole), _stated(name, charge)
+    over, stated = _course(name, whole, period), _stated(name, charge)
     if charge.mean_pressure is None:
         start = at_angle(whole, charge.angle, f"cylinder_volume.{name}.start")
     else:
         start = at_angle(whole, over.largest_and_least[""][1].at, f"cylinder_volume.{name}.start")
         trial = gas.polytropic_pressure(stated, start, whole, exponent)
-        mean = OverCycle({"": trial}, CrankGrid.from_degrees, _TURN).mean("", f"diagram_pressure.{name}.trial")
+        mean = OverCycle({"": trial}, CrankGrid.from_degrees, period).mean("", f"diagram_pressure.{name}.trial")
         stated = (stated * (stated / mean)).named(f"diagram_pressure.{name}.start")
     return gas.polytropic_pressure(stated, start, whole, exponent)  # type: ignore[no-any-return]
 
@@ -376,10 +414,10 @@ def _stated(name: str, charge: Charge) -> Known:
     return given(f"diagram_pressure.{name}.start", charge.pressure or math.nan, f"charges.{name}.pressure")
 
 
-def _course(name: str, whole: Known) -> OverCycle:
+def _course(name: str, whole: Known, period: float) -> OverCycle:
     """Follow the whole volume of a charge, and its inverse; refuse one that vanishes."""
-    over = OverCycle({"": whole}, CrankGrid.from_degrees, _TURN)
+    over = OverCycle({"": whole}, CrankGrid.from_degrees, period)
     largest, least = over.largest_and_least[""]
     if least.value <= _NOTHING * largest.value:
         raise DiagramError(f"charges.{name}", Refusal("charge_empty", angle=least.at))
-    return OverCycle({"": whole, "inverse": 1 / whole}, CrankGrid.from_degrees, _TURN)
+    return OverCycle({"": whole, "inverse": 1 / whole}, CrankGrid.from_degrees, period)

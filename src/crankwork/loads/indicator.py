@@ -11,7 +11,7 @@ import itertools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -74,6 +74,13 @@ class Piece:
     points: tuple[str, ...]
     exponent: float | None = None
     reference: str | None = None
+
+
+class DeadCentres(NamedTuple):
+    """Crank angles where a volume turns back before it repeats, and after which angle it does. [deg]"""
+
+    at: tuple[float, ...]
+    period: float = 360.0
 
 
 @dataclass(frozen=True)
@@ -195,7 +202,7 @@ def solve_diagram(
     cycle: float,
     volume_at: VolumeAt,
     *,
-    dead_centres: tuple[float, ...],
+    dead_centres: tuple[float, ...] | DeadCentres,
     path: str = "gas",
 ) -> IndicatorDiagram:
     """Return the diagram that named points and laws describe.
@@ -203,6 +210,8 @@ def solve_diagram(
     Each piece starts where the one before ends. `dead_centres`: crank angles of one revolution where the volume turns
     back, the least and the largest among them [deg]; `path`: where a description states the diagram.
     """
+    if not isinstance(dead_centres, DeadCentres):
+        dead_centres = DeadCentres(dead_centres)
     solver = _Solver(points, volume_at, dead_centres, cycle, path)
     segments = [replace(solver.segment(at, piece), piece=at + 1) for at, piece in enumerate(pieces)]
     segments += solver.held(segments[-1])
@@ -218,13 +227,13 @@ class _Solver:
         self,
         points: Mapping[str, DiagramPoint],
         volume_at: VolumeAt,
-        dead_centres: tuple[float, ...],
+        dead_centres: DeadCentres,
         cycle: float,
         path: str,
     ) -> None:
         self.points = points
         self.volume_at = volume_at
-        self.dead_centres = dead_centres
+        self.dead_centres, self.period = dead_centres
         self.cycle = cycle
         self.path = path
         self.named: dict[str, tuple[float, float]] = {}
@@ -296,8 +305,8 @@ class _Solver:
         return low + point.stroke * (high - low) if point.stroke is not None else point.volume or 0.0
 
     def _centres_after(self, start: float) -> Array:
-        """Return the dead centres behind a crank angle, those of the next revolution among them. [deg]"""
-        turns = np.arange(0.0, max(self.cycle, start) + 720.0, 360.0)
+        """Return the dead centres behind a crank angle, those of the next period among them. [deg]"""
+        turns = np.arange(0.0, max(self.cycle, start) + 2 * self.period, self.period)
         centres = np.sort(np.concatenate([turns + one for one in self.dead_centres]))
         return np.asarray(centres[np.searchsorted(centres, start + 1e-9) :])
 

@@ -57,8 +57,9 @@ def polytrope_origin(
         at = diagram.named.get(name, (None, 0.0))[0]
         return p_1, Known(Found(state_volume, "at", (volume, *others), at), f"cylinder_volume.{name}"), n_p
     keys = [_of(key, path, name) if name else "" for key in ("diagram_pressure", "cylinder_volume")]
-    p_1 = given(keys[0], pressure, f"{path}.points.{name}.pressure")
-    V_1 = given(keys[1], state_volume, f"{path}.points.{name}.volume")
+    place = f"{path}.points.{_stated(name)}"
+    p_1 = given(keys[0], pressure, f"{place}.pressure")
+    V_1 = given(keys[1], state_volume, f"{place}.volume")
     if name in diagram.named:
         computed = at_angle(volume, diagram.named[name][0], V_1.key)
         if math.isclose(computed.value, state_volume, rel_tol=_SAME_VOLUME):
@@ -66,11 +67,16 @@ def polytrope_origin(
     return p_1, V_1, given("polytropic_exponent", exponent, f"{path}.pieces[{segment.piece}].exponent")
 
 
+def _stated(name: str) -> str:
+    """Return the name of a point as it is stated, without the marks of later cycles."""
+    return name.rstrip("′")
+
+
 def _law(diagram: IndicatorDiagram, segment: Segment, volume: Known, path: str) -> Known:
     match segment.law:
         case "constant":
             name, pressure = segment.origin, float(segment.pressures[0])
-            stated = given(_of("diagram_pressure", path, name), pressure, f"{path}.points.{name}.pressure")
+            stated = given(_of("diagram_pressure", path, name), pressure, f"{path}.points.{_stated(name)}.pressure")
             return segment.of[0] if segment.of else stated
         case "polytropic":
             p_1, V_1, exponent = polytrope_origin(diagram, segment, volume, path)
