@@ -276,7 +276,9 @@ def test_laws_over_one_turn_begin_anew_in_each_of_two():
         pairs = [("polytropic", "a", "b", turn), ("polytropic", "b", "c", turn), ("rounded", "c", "a", turn + 1)]
         for law, start, end, after in pairs:
             exponent = "exponent = 1.35\n" if law == "polytropic" else ""
-            laws[2] += f'[[chambers.room.pieces]]\nlaw = "{law}"\npoints = ["{start}{turn}", "{end}{after}"]\n{exponent}'
+            laws[2] += (
+                f'[[chambers.room.pieces]]\nlaw = "{law}"\npoints = ["{start}{turn}", "{end}{after}"]\n{exponent}'
+            )
         if turn == 0:
             points[1], laws[1] = points[2] + 'a1 = { angle = "360 deg", pressure = "0.1 MPa" }\n', laws[2]
     points[2] += 'a2 = { angle = "720 deg", pressure = "0.1 MPa" }\n'

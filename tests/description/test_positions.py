@@ -104,3 +104,77 @@ def test_a_format_to_come_is_refused_and_nothing_else_is_told():
         "my.toml:2: format: this crankwork knows files up to format 2; write format = 2, or install a newer one"
     )
     assert len(refusal.value.problems) == 1
+
+
+# a cylinder between two moving links, and the two ways to assemble them
+LIFT = """
+{version}
+[fixed_points]
+O = ["0 mm", "0 mm"]
+B = ["400 mm", "0 mm"]
+[driver]
+cylinder = ["P", "R"]
+start = "250 mm"
+law = [{{ kind = "4-5-6-7", to = "260 mm", over = "1 s" }}, {{ kind = "4-5-6-7", to = "250 mm", over = "1 s" }}]
+[links]
+a = {{ joins = ["O", "C"], length = "300 mm", points = {{ P = ["100 mm", "40 mm"] }} }}
+b = {{ joins = ["C", "D"], length = "350 mm" }}
+c = {{ joins = ["B", "D"], length = "280 mm", points = {{ R = ["150 mm", "10 mm"] }} }}
+[positions]
+C = ["{c[0]} mm", "{c[1]} mm"]
+D = ["{d[0]} mm", "{d[1]} mm"]
+[table]
+step = "0.1 s"
+"""
+ONE, OTHER = ((-56.128, -294.703), (120.106, 7.697)), ((283.056, -99.395), (274.916, 250.508))
+
+
+@pytest.mark.parametrize("places", [ONE, OTHER])
+def test_a_cylinder_between_moving_links_is_assembled_near_what_is_stated(places):
+    """The places by another solver (scipy's, from 3600 positions)."""
+    (c, d), rough = places, [(x + 20, y - 20) for x, y in places]
+    machine = read_machine(LIFT.format(version="format = 2", c=rough[0], d=rough[1]))
+    found = analyse(machine).columns_at([0.0], ["point_x.C", "point_y.C", "point_x.D", "point_y.D"])
+    assert [float(one[0]) * 1e3 for one in found.values()] == pytest.approx([*c, *d], abs=0.01)
+
+
+def test_a_start_far_from_where_links_are_assembled_is_told():
+    far = {"c": (60, 290), "d": (400, 280)}
+    told = [one for one in read_machine(LIFT.format(version="", **far)).notices if one[0] == "position_far"]
+    assert [one[1]["name"] for one in told] == ["C", "D"]
+    with pytest.raises(InputError) as refusal:
+        read_machine(LIFT.format(version="format = 2", **far))
+    assert [one.key for one in refusal.value.problems] == ["positions.C", "positions.D"]
+
+
+def test_what_a_group_of_class_iii_hangs_on_is_settled_before_it():
+    """A dyad whose branch is seen only when the link it hangs on has been placed, and a group beyond it."""
+    machine = read_machine("""
+[fixed_points]
+O = ["0 mm", "0 mm"]
+O1 = ["2.722953 mm", "29.784260 mm"]
+O16 = ["26.632188 mm", "-23.191061 mm"]
+O19 = ["1.078395 mm", "11.971423 mm"]
+[links]
+link3 = { joins = ["A", "P2"], length = "40.729325 mm" }
+link4 = { joins = ["O1", "P2"], length = "20.245106 mm", points = { T5 = ["38.874581 mm", "-19.836250 mm"] } }
+link7 = { joins = ["T5", "P6"], length = "47.486238 mm" }
+link9 = { joins = ["A", "P6"], length = "26.900628 mm" }
+link13 = { joins = ["P10", "P11"], length = "14.552081 mm", points = { P12 = ["6.925370 mm", "18.566878 mm"] } }
+link15 = { joins = ["P6", "P10"], length = "15.527924 mm" }
+link17 = { joins = ["O16", "P11"], length = "28.382536 mm" }
+link20 = { joins = ["O19", "P12"], length = "23.620459 mm" }
+[crank]
+pivot = "O"
+pin = "A"
+radius = "8.069956 mm"
+speed = "714.5 rpm"
+[positions]
+P2 = ["20.924789 mm", "38.647525 mm"]
+P6 = ["-0.988234 mm", "25.329686 mm"]
+P10 = ["4.727098 mm", "10.891840 mm"]
+P11 = ["6.099865 mm", "-3.595346 mm"]
+P12 = ["23.864481 mm", "5.748855 mm"]
+""")
+    found = analyse(machine).columns_at([0.0], ["point_x.P12", "point_y.P12"])
+    assert [float(one[0]) * 1e3 for one in found.values()] == pytest.approx([23.864481, 5.748855], abs=1e-4)

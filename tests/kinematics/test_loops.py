@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 
 from crankwork.errors import GeometryError
+from crankwork.kinematics import loops
 from crankwork.kinematics.coordinates import driver_coordinate
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.loops import as_chain
 from crankwork.kinematics.motion import linkage_motion
-from crankwork.kinematics.placement import place
+from crankwork.kinematics.placement import ChainRoot, place
 from crankwork.kinematics.travel import travel
 from crankwork.mechanism.chain import Chain, ChainLink
 from crankwork.mechanism.description import mechanism_from
@@ -135,3 +136,17 @@ def test_a_turn_of_a_triad_is_followed_once(triad):
     for order in range(3):
         assert later.x[order] == pytest.approx(first.x[order], abs=1e-11)
         assert later.y[order] == pytest.approx(first.y[order], abs=1e-11)
+
+
+def test_a_chain_is_followed_on_from_where_it_was(triad, monkeypatch):
+    """Asked for a little more it does not start again, and it gets where it gets when all is asked for at once."""
+    index = next(at for at, group in enumerate(triad.dyads) if isinstance(group, Chain))
+    starts = []
+    begun = loops._start
+    monkeypatch.setattr(loops, "_start", lambda *what: starts.append(1) or begun(*what))
+    root = ChainRoot(triad, index)
+    for degrees in (10.0, 60.0, 200.0, -30.0, 350.0):
+        root(CrankGrid.from_degrees([0.0, degrees]))
+    assert len(starts) == 1
+    at_once = ChainRoot(triad, index)(CrankGrid.from_degrees([-30.0, 60.0, 200.0, 350.0]))
+    assert root(CrankGrid.from_degrees([-30.0, 60.0, 200.0, 350.0])) == pytest.approx(at_once, abs=1e-12)

@@ -13,6 +13,7 @@ from crankwork.description.kinds import Reader
 from crankwork.errors import GeometryError, Problem
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.placement import place
+from crankwork.kinematics.transfer import PointMotion
 from crankwork.locale import Refusal
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.decomposition import mechanism_of
@@ -44,10 +45,7 @@ def settled(linkage: Linkage) -> Settled:
     for _ in mechanism.dyads if mechanism is not None and linkage.positions else ():
         if mechanism is None:
             break
-        try:
-            here = place(mechanism, CrankGrid.from_degrees([0.0])).points
-        except GeometryError:
-            break
+        here = _placed(mechanism)
         places = {name: tuple(float(np.ravel(one.position)[0]) for one in point) for name, point in here.items()}
         solved = {name: (x, y) for name, (x, y) in places.items() if math.isfinite(x) and math.isfinite(y)}
         before = mechanism
@@ -57,28 +55,39 @@ def settled(linkage: Linkage) -> Settled:
     return Settled(None if problems else mechanism, problems, solved)
 
 
+def _placed(mechanism: Mechanism) -> Mapping[str, PointMotion]:
+    """Return the points at the beginning, as far as groups close: a chain may need a branch before it settled first."""
+    for count in range(len(mechanism.dyads), 0, -1):
+        try:
+            return place(replace(mechanism, dyads=mechanism.dyads[:count]), CrankGrid.from_degrees([0.0])).points
+        except GeometryError:
+            continue
+    return {}
+
+
 def told_positions(
     tables: Mapping[str, Any], linkage: Linkage, found: Settled, reader: Reader, *, is_new: bool
 ) -> Iterator[tuple[str, dict[str, float | str]]]:
-    """Yield notices of positions that settle nothing and say something else than lengths and branches.
+    """Yield notices of positions far from where their joints are, unless they settle which branch of a dyad that is.
 
     In files of format 2 (`is_new`) complain of these, and of every position without which all would be the same.
     """
     if found.mechanism is None:
         return
-    settle = _settling(linkage, found.mechanism)
+    branches, starts = _settling(linkage, found.mechanism)
     size = max((math.dist(one, other) for one in found.places.values() for other in found.places.values()), default=0.0)
     for name, stated in linkage.positions.items():
-        if name in settle:
+        if name in branches:
             continue
         if name in found.places and math.dist(stated, found.places[name]) > _ROUGHLY * size:
+            told = "position_far" if name in starts else "position_idle"
             values: dict[str, float | str] = {"name": name}
             values |= dict(zip("xy", (float(f"{1e3 * one:.4g}") for one in found.places[name]), strict=True))
             if is_new:
-                reader.complain(f"positions.{name}", Refusal("position_idle", **values))
+                reader.complain(f"positions.{name}", Refusal(told, **values))
             else:
-                yield "position_idle", values
-        elif is_new and _is_idle(tables, linkage, found.mechanism, name):
+                yield told, values
+        elif is_new and name not in starts and _is_idle(tables, linkage, found.mechanism, name):
             reader.complain(f"positions.{name}", Refusal("position_unused"))
 
 
@@ -93,15 +102,15 @@ def _is_idle(tables: Mapping[str, Any], linkage: Linkage, mechanism: Mechanism, 
     return replace(other, positions={}) == replace(linkage, positions={}) and settled(other).mechanism == mechanism
 
 
-def _settling(linkage: Linkage, mechanism: Mechanism) -> set[str]:
-    """Return the points whose stated positions settle a branch, or where a chain begins."""
-    found: set[str] = set()
+def _settling(linkage: Linkage, mechanism: Mechanism) -> tuple[set[str], set[str]]:
+    """Return the points whose stated positions settle a branch, and those where a chain begins."""
+    branches, starts = set[str](), set[str]()
     for group in mechanism.dyads:
         match group:
             case RRR(point=name) | RRP(slider=name):
-                found |= {name} - set(linkage.branches)
+                branches |= {name} - set(linkage.branches)
             case RPR(link=name):
-                found |= set() if name in linkage.branches else set(linkage.member(name).points)
+                branches |= set() if name in linkage.branches else set(linkage.member(name).points)
             case Chain(links=links):
-                found |= {name for link in links for name in link.points}
-    return found
+                starts |= {name for link in links for name in link.points}
+    return branches, starts

@@ -27,6 +27,10 @@ _SMALLEST_STEP = 1e-4
 _LAST_STEP = 1e-8
 _ITERATIONS = 12
 _FARTHEST = 0.05
+# by how much a stated position may miss what Newton's method finds from it
+_ROUGHLY = 0.25
+# of what loops are open by at a stated position, the part that is closed at first
+_FIRST_PART = 0.1
 
 
 class ChainMotion(NamedTuple):
@@ -60,28 +64,43 @@ class ChainPath:
         self._equations, self._around = ClosingEquations(chain), around
         # by how much a turn of the crank turns the links, where it brings them back
         self._turned: Array | None = None
-        self._reach = float(min(grid.angle.min(), chain.start)), float(max(grid.angle.max(), chain.start))
-        is_long = chain.radian == 1.0 and self._reach[1] - self._reach[0] > 2 * math.tau
+        self._start = _start(self._equations, around(CrankGrid.from_radians([chain.start])))
+        self._knots = [(chain.start, self._start)]
+        self._path = _path(self._knots, self._start)
+        # how far it has been followed, and whether there is no way on behind and ahead
+        self._reach, self._lost = (chain.start, chain.start), [False, False]
+        self.follow(grid)
+
+    def follow(self, grid: CrankGrid) -> None:
+        """Follow the chain as far as some crank angles, on from where that was done already."""
+        before = self._reach
+        self._reach = min(before[0], float(grid.angle.min())), max(before[1], float(grid.angle.max()))
+        is_long = self._equations.chain.radian == 1.0 and self._reach[1] - self._reach[0] > 2 * math.tau
         if is_long and self._repeats():
             return
-        behind, ahead = (_knots(chain, end) for end in self._reach)
-        knots = CrankGrid.from_radians([chain.start, *ahead, *behind])
-        surroundings, size = around(knots), len(knots)
-        start = _start(self._equations, surroundings)
-        walk = _Walk(self._equations, surroundings, around)
-        there = list(walk.along(start, knots.angle, np.arange(1, 1 + len(ahead))))
-        back = list(walk.along(start, knots.angle, np.arange(1 + len(ahead), size)))
-        self._path = _path([*back[::-1], (chain.start, start), *there], start)
+        behind = self._way(0, before[0], self._reach[0])
+        ahead = self._way(-1, before[1], self._reach[1])
+        self._knots = [*behind[::-1], *self._knots, *ahead]
+        self._path = _path(self._knots, self._start)
+
+    def _way(self, side: int, known: float, end: float) -> list[tuple[float, _Solution]]:
+        """Return positions on from the last known on a side, as far as there are any."""
+        if known == end or self._lost[side]:
+            return []
+        angle, at = self._knots[side]
+        found = list(self._walk(angle, at, _knots(self._equations.chain, angle, end)))
+        self._lost[side] = not found or found[-1][0] != end
+        return found
+
+    def _walk(self, angle: float, at: _Solution, knots: Array) -> Iterator[tuple[float, _Solution]]:
+        return _Walk(self._equations, self._around(CrankGrid.from_radians(knots)), self._around).along(angle, at, knots)
 
     def _repeats(self) -> bool:
         """Follow one turn of the crank, and return whether it ends as it began; then it is the same in every other."""
-        chain = self._equations.chain
-        knots = CrankGrid.from_radians([chain.start, *_knots(chain, chain.start + math.tau)])
-        surroundings = self._around(knots)
-        start = _start(self._equations, surroundings)
-        walk = _Walk(self._equations, surroundings, self._around)
-        there = list(walk.along(start, knots.angle, np.arange(1, len(knots))))
-        if not there or there[-1][0] != knots.angle[-1]:
+        chain, start = self._equations.chain, self._start
+        knots = _knots(chain, chain.start, chain.start + math.tau)
+        there = list(self._walk(chain.start, start, knots))
+        if not there or there[-1][0] != knots[-1]:
             return False
         last, scale = there[-1][1], self._equations.scale
         turned = np.zeros_like(start.q[0])
@@ -128,9 +147,9 @@ class ChainPath:
         return _as_motion(self._equations, solution, self._path.determinant, surroundings, at)
 
 
-def _knots(chain: Chain, end: float) -> Array:
-    """Return equal steps of the coordinate from the start to an end, without the start."""
-    return np.linspace(chain.start, end, math.ceil(abs(end - chain.start) / (_STEP * chain.radian)) + 1)[1:]
+def _knots(chain: Chain, start: float, end: float) -> Array:
+    """Return equal steps of the coordinate from a start to an end, without the start."""
+    return np.linspace(start, end, math.ceil(abs(end - start) / (_STEP * chain.radian)) + 1)[1:]
 
 
 class _Path(NamedTuple):
@@ -156,6 +175,11 @@ def _start(equations: ClosingEquations, surroundings: Surroundings) -> _Solution
     chain, here = equations.chain, np.array([0])
     given = np.array([[value for link in chain.links for value in (*link.origin, link.angle)]])
     q, miss = _newton(equations, given, surroundings, here)
+    apart = float(np.max(np.abs(q - given) / equations.scale))
+    if not apart < _ROUGHLY:
+        led = _led(equations, given, surroundings)
+        if led is not None and not np.max(np.abs(led - given) / equations.scale) > apart:
+            q = led
     if not np.isfinite(q).all():
         raise GeometryError(
             Refusal(
@@ -168,6 +192,26 @@ def _start(equations: ClosingEquations, surroundings: Surroundings) -> _Solution
     return _derivatives(equations, q, surroundings, here)
 
 
+def _led(equations: ClosingEquations, given: Array, surroundings: Surroundings) -> Array | None:
+    """Return the position that a stated one is led to while what its loops are open by shrinks, None if there is none.
+
+    Newton's method alone may end far from where it began.
+    """
+    here, q, still, step = np.array([0]), given, 1.0, _FIRST_PART
+    rows = equations.rows(q, None, None, surroundings, here)
+    first = np.stack([row.value.position for row in rows], axis=-1)
+    while still > 0 and step > _SMALLEST_STEP:
+        to = max(still - step, 0.0)
+        rows = equations.rows(q, None, None, surroundings, here)
+        guess = q + _solved(equations.jacobian(rows, 1), (to - still) * first)
+        found, _ = _newton(equations, guess, surroundings, here, to * first)
+        if np.max(np.abs(found - guess) / equations.scale) < _FARTHEST:
+            q, still, step = found, to, 2 * step
+        else:
+            step /= 2
+    return None if still > 0 else q
+
+
 class _Walk(NamedTuple):
     """Follows the crank from knot to knot."""
 
@@ -175,12 +219,10 @@ class _Walk(NamedTuple):
     surroundings: Surroundings
     around: Callable[[CrankGrid], Surroundings]
 
-    def along(self, at: _Solution, angles: Array, knots: Positions) -> Iterator[tuple[float, _Solution]]:
+    def along(self, angle: float, at: _Solution, knots: Array) -> Iterator[tuple[float, _Solution]]:
         """Yield positions at the knots, and between where needed, until there is none that continues the last."""
-        angle = self.equations.chain.start
-        for index in knots:
-            target = float(angles[index])
-            found = _continued(self.equations, at, target - angle, self.surroundings, int(index))
+        for index, target in enumerate(knots.tolist()):
+            found = _continued(self.equations, at, target - angle, self.surroundings, index)
             if found is None:
                 crept = list(self._creep(at, angle, target))
                 yield from crept
@@ -201,7 +243,7 @@ class _Walk(NamedTuple):
             if found is None:
                 step /= 2
             else:
-                angle, at = target, found
+                angle, at, step = target, found, 2 * step
                 yield angle, at
 
 
@@ -223,12 +265,12 @@ def _continued(
 
 
 def _newton(
-    equations: ClosingEquations, guess: Array, surroundings: Surroundings, at: Positions
+    equations: ClosingEquations, guess: Array, surroundings: Surroundings, at: Positions, aim: Array | float = 0.0
 ) -> tuple[Array, Array]:
     """Return the coordinates that close all loops, NaN where none were found, and by how much the guess misses.
 
     The guesses belong to the positions `at` of the surroundings. Those that have converged drop out: after a
-    step shorter than the square root of the rounding, the error is gone.
+    step shorter than the square root of the rounding, the error is gone. `aim`: by how much loops are to stay open.
     """
     q, active = guess.copy(), np.arange(len(guess))
     active = active[np.isfinite(q).all(axis=1)]
@@ -240,7 +282,7 @@ def _newton(
         value = np.stack([row.value.position for row in rows], axis=-1)
         if iteration == 0:
             miss[active] = np.abs(value).max(axis=1)
-        step = _solved(equations.jacobian(rows, active.size), -value)
+        step = _solved(equations.jacobian(rows, active.size), aim - value)
         q[active] += step
         active = active[~(np.max(np.abs(step) / equations.scale, axis=1) < _LAST_STEP)]
     q[active] = np.nan

@@ -246,8 +246,10 @@ class ChainRoot:
     def path(self, grid: CrankGrid) -> ChainPath:
         """Return the way of the chain, followed as far as some crank angles."""
         found = self._paths.get(self._index)
-        if found is None or not found.covers(grid):
+        if found is None:
             found = self._paths[self._index] = ChainPath(self._chain, grid, self.around)
+        elif not found.covers(grid):
+            found.follow(grid)
         return found
 
     def __call__(self, at: CrankGrid | Sequence[Array]) -> Array:
@@ -331,7 +333,7 @@ class Closures:
     """
 
     def __init__(self, mechanism: Mechanism) -> None:
-        self._mechanism = mechanism
+        self._mechanism, self._paths = mechanism, dict[int, ChainPath]()
         self._placed = functools.lru_cache(maxsize=4)(self._place)
 
     def __getitem__(self, index: int) -> Callable[[CrankGrid], Closure]:
@@ -342,7 +344,7 @@ class Closures:
 
     def _place(self, end: int, angles: bytes) -> tuple[Closure, ...]:
         part = replace(self._mechanism, dyads=self._mechanism.dyads[:end])
-        return tuple(place_at(part, CrankGrid.from_radians(np.frombuffer(angles))).closures)
+        return tuple(place_at(part, CrankGrid.from_radians(np.frombuffer(angles)), paths=self._paths).closures)
 
 
 def _title(group: Dyad | Chain) -> Refusal:
