@@ -83,15 +83,46 @@ def test_a_six_bar_has_the_circuits_of_both_its_dyads():
 
 
 @pytest.mark.parametrize("name", ["examples/excavator-boom", "tests/machines/elbow", "tests/machines/driven-slider"])
-def test_of_other_drivers_the_circuit_of_the_stated_position(name):
+def test_of_other_drivers_every_circuit_and_that_of_the_stated_position_first(name):
     machine = read(ROOT / f"{name}.toml")
     found = ways(machine)
-    assert not found.is_all
-    assert {one.circuit for one in found.found} == {1}
-    assert [one.is_stated for one in found.found].count(True) == 1
+    assert found.is_all
+    assert [one.is_stated for one in found.found] == [True, *[False] * (len(found.found) - 1)]
     law = machine.mechanism.driver.law
     stated = found.found[0]
     assert all(stated.start <= one.to <= stated.end for one in law.segments)
+
+
+def test_the_circuits_of_a_driving_slider_are_those_of_the_linkage():
+    """The rod can be put on in two ways, and the slider turns back twice on each circuit."""
+    found = ways(read(ROOT / "tests/machines/driven-slider.toml")).found
+    assert [(one.circuit, one.branch) for one in found] == [(1, 1), (1, 2), (2, 1), (2, 2)]
+    # the second circuit is the mirror image of the first
+    assert found[2].strokes == {}
+    for one, other in zip(found[:2], found[3:1:-1], strict=True):
+        assert other.swings == pytest.approx(one.swings, rel=1e-9)
+        assert other.end - other.start == pytest.approx(one.end - one.start, rel=1e-9)
+
+
+def test_a_motor_between_links_that_turns_fully_does_so():
+    machine = read(ROOT / "tests/machines/elbow.toml")
+    found = ways(machine)
+    assert [(one.circuit, one.turns) for one in found.found] == [(1, 1), (2, 1)]
+    assert "upper–lower turns fully" in ways_text(machine, found)
+
+
+ALMOST = [1e-13, 1e-12, 1e-11, 3e-10, 9e-10]
+
+
+@pytest.mark.parametrize("less", [0.0, *ALMOST, *(-one for one in ALMOST)])
+@pytest.mark.parametrize(
+    ("lengths", "turns"),
+    [((100, 300, 100, 300), [1, 1]), ((100, 300, 300, 100), [2]), ((150, 250, 200, 300), [2])],
+)
+def test_lengths_that_are_equal_but_for_rounding_are_equal(lengths, turns, less):
+    """A parallelogram, a kite, and the linkage whose links fold once."""
+    crank, coupler, rocker, ground = lengths
+    assert [one.turns for one in ways(four_bar(crank, coupler * (1 - less), rocker, ground)).found] == turns
 
 
 def test_the_reach_of_a_cylinder_follows_from_two_sides():

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.errors import CrankworkError
+from crankwork.errors import CrankworkError, GeometryError
 from crankwork.kinematics.circuits import Circuit, Part, all_circuits, circuit_at
 from crankwork.kinematics.coordinates import driver_coordinate, link_angle, rod_of
 from crankwork.kinematics.crank_grid import Array, CrankGrid
@@ -49,7 +49,7 @@ class Ways(NamedTuple):
 
 
 def ways(machine: Machine) -> Ways:
-    """Return every circuit and branch of a linkage of dyads with a crank; of any other those of the stated position.
+    """Return every circuit and branch of a linkage of dyads; of any other those of the stated position.
 
     Examples
     --------
@@ -62,7 +62,7 @@ def ways(machine: Machine) -> Ways:
         raise CrankworkError(Refusal("circuits_of_linkage"))
     mechanism = replace(machine.mechanism, passages={})
     stated = _stated(mechanism)
-    is_all = has_steady_crank(mechanism) and _is_countable(mechanism)
+    is_all = _is_countable(mechanism)
     circuits = all_circuits(mechanism) if is_all else [stated]
     here, _ = stated.curve.at(np.array([stated.curve.stated]))
     found: list[Way] = []
@@ -97,18 +97,20 @@ def _branches(circuit: Circuit, number: int, stated: Array | None) -> Iterator[W
     names = [one for one in circuit.curve.system.equations.index if one not in (link, rod_of(link))]
     is_turning = circuit.mechanism.driver.turns
     for count, part in enumerate(parts, start=1):
+        is_stated = at is not None and _holds(circuit, part, at)
         start, end = sorted(map(float, circuit.values(driver, np.array(part))))
-        turns = abs(circuit.turns(link)) if is_turning and part == circuit.whole else 0
+        if not math.isfinite(start + end):
+            raise GeometryError(Refusal("circuit_lost", links=circuit.curve.system.equations.names))
+        turns = round((end - start) / math.tau) if is_turning and part == circuit.whole else 0
         if turns:
             start, end = 0.0, math.tau * turns
-        elif is_turning and circuit.mechanism.driver.law is None:
+        elif is_turning and not (is_stated and circuit.mechanism.driver.law):
             back = math.tau * round((start + end) / 2 / math.tau)
             start, end = start - back, end - back
         sliders = {name: one for name, one in circuit.sliders.items() if name in names}
         swings = {name: circuit.extent(link_angle(name), part).travel for name in names if name not in sliders}
         swings = {name: one for name, one in swings.items() if one < math.tau - _FULL}
         strokes = {name: circuit.extent(one, part).travel for name, one in sliders.items()}
-        is_stated = at is not None and _holds(circuit, part, at)
         yield Way(number, count, is_stated, start, end, turns, swings, strokes)
 
 

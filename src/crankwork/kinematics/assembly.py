@@ -98,18 +98,18 @@ def _slot_offset(dyad: RPR, square: float) -> float:
 
 
 def singular_between(
-    grid: CrankGrid, closure: Closure, closure_at: Callable[[CrankGrid], Closure]
+    grid: CrankGrid, closure: Closure, closure_at: Callable[[CrankGrid], Closure], singular: float = _SINGULAR
 ) -> Iterator[tuple[int, float]]:
     """Yield the intervals between ascending angles in which a group does not close, and an angle in each. [rad]
 
     Where a smooth function is least it is convex, and there the secants of its neighbours bound it from below.
-    Only an interval in which that bound is negative is looked at more closely.
+    Only an interval in which that bound is negative is looked at more closely. `singular`: what is as good as zero.
     """
     angle = grid.angle
     if angle.size < 3 or closure.value.size != angle.size:
         return
     for index in suspects(angle, closure.value):
-        found = _narrowed(angle[index], angle[index + 1], closure.scale, closure_at)
+        found = _narrowed(angle[index], angle[index + 1], closure.scale * singular, closure_at)
         if found is not None:
             yield int(index), found
 
@@ -128,13 +128,13 @@ def suspects(angle: Array, value: Array) -> NDArray[np.intp]:
     return np.flatnonzero((low <= 0) & (value[:-1] > 0) & (value[1:] > 0))
 
 
-def _narrowed(low: float, high: float, scale: float, closure_at: Callable[[CrankGrid], Closure]) -> float | None:
+def _narrowed(low: float, high: float, singular: float, closure_at: Callable[[CrankGrid], Closure]) -> float | None:
     """Return an angle of a range at which a group does not close, or None, by looking ever closer."""
     for _ in range(12):
         angle = np.linspace(low, high, 33)
         value = np.nan_to_num(closure_at(CrankGrid.from_radians(angle)).value, nan=-1.0)
         worst = int(np.argmin(value))
-        if value[worst] <= _SINGULAR * scale:
+        if value[worst] <= singular:
             return float(angle[worst])
         within = suspects(angle, value)
         if not within.size:

@@ -28,7 +28,7 @@ from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.mechanism.chain import Chain, ChainLink, Gear, Slide
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
 from crankwork.mechanism.dyads import RPR, RRP, RRR, Branch, Guide, Point
-from crankwork.mechanism.mechanism import Crank, Mechanism
+from crankwork.mechanism.mechanism import Crank, Mechanism, turns_of
 
 _BRANCHES: tuple[Branch, Branch] = (1, -1)
 _BETWEEN_KNOTS = 4
@@ -36,6 +36,12 @@ _SCAN = 720
 _STILL = 1e-11
 _BISECTIONS = 60
 _SINGULAR = 1e-13
+# what parts stretches that may belong to two circuits which lengths let cross, or all but cross
+_NEARLY_SINGULAR = 1e-4
+# what is beside a change point on all of a stretch
+_BESIDE = 1e-7
+# how near to infinity a driver is looked at [deg]
+_FROM_ENDS = 0.25
 _SAME = 1e-6
 
 
@@ -251,24 +257,50 @@ def _angle_of(frame: LinkMotion) -> float:
 
 
 def all_circuits(mechanism: Mechanism) -> list[Circuit]:
-    """Return every circuit of a linkage of dyads with a crank; of one with a chain only that of the stated position.
+    """Return every circuit of a linkage of dyads; of one with a chain only that of the stated position.
 
-    Every way to put the dyads together gives stretches of crank angles; each circuit covers some of them.
+    Every way to put the dyads together gives stretches of the driver's coordinate; each circuit covers some of them.
     """
     if any(isinstance(group, Chain) for group in mechanism.dyads):
         return [circuit_through(mechanism)]
     signed = sum(isinstance(group, RRR | RRP | RPR) for group in mechanism.dyads)
-    pieces: list[tuple[tuple[Branch, ...], float, float]] = []
-    circuits: list[Circuit] = []
+    circuits, sweep = list[Circuit](), _sweep(mechanism)
     for signs in product(_BRANCHES, repeat=signed):
-        pieces += [(signs, *ends) for ends in assembled_stretches(with_branches(mechanism, signs))]
-    for signs, start, end in pieces:
         one = with_branches(mechanism, signs)
-        middle = CrankGrid.from_degrees([(start + end) / 2])
-        _, position = _system(one, place_at(one, middle))
-        if all(circuit.curve.nearest(position)[1] > _SAME for circuit in circuits):
-            circuits.append(circuit_at(one, middle))
+        for piece in _stretches(one, sweep):
+            at = sweep.at(np.array([piece.best]))
+            _, position = _system(one, place_at(one, at))
+            if all(circuit.curve.nearest(position)[1] > _SAME for circuit in circuits):
+                circuits.append(circuit_at(one, at))
     return circuits
+
+
+class _Sweep(NamedTuple):
+    """All values of a driver's coordinate, as those of an angle between two. [deg]"""
+
+    start: float
+    end: float
+    at: Callable[[Array], CrankGrid]
+    turns: bool  # Whether it is back at the end where it was at the start
+
+
+def _sweep(mechanism: Mechanism) -> _Sweep:
+    """Return all values of the coordinate of a driver: of one that does not turn by the tangent of part of an angle."""
+    driver = mechanism.driver
+    if isinstance(driver, Crank):
+        geared = [turns_of(one.ratio) or 1 for one in driver.geared]
+        return _Sweep(0.0, 360.0 * math.lcm(*geared), CrankGrid.from_degrees, turns=True)
+    if driver.turns:
+        return _Sweep(0.0, 360.0, CrankGrid.from_degrees, turns=True)
+    system, _ = _system(mechanism, place_at(mechanism, CrankGrid.from_radians([driver.law.start])))
+    size = float(np.max(system.equations.scale))
+    # a length is never below zero
+    middle, part = (180.0, 2.0) if isinstance(driver, DrivingSlider) else (0.0, 4.0)
+
+    def at(degrees: Array) -> CrankGrid:
+        return CrankGrid.from_radians(size * np.tan(np.radians((degrees - middle) / part)))
+
+    return _Sweep(_FROM_ENDS, 360.0 - _FROM_ENDS, at, turns=False)
 
 
 def with_branches(mechanism: Mechanism, signs: Sequence[Branch]) -> Mechanism:
@@ -280,44 +312,63 @@ def with_branches(mechanism: Mechanism, signs: Sequence[Branch]) -> Mechanism:
 
 def assembled_stretches(mechanism: Mechanism) -> list[tuple[float, float]]:
     """Return the crank angles between which dyads of given signs can be assembled, over 360 where they go on. [deg]"""
-    degrees = np.linspace(0.0, 360.0, _SCAN + 1)
-    degrees = np.unique(np.concatenate([degrees, *_narrow(mechanism, degrees)]))
-    works = np.all(_margins(mechanism, degrees) > _SINGULAR, axis=0)
+    sweep = _Sweep(0.0, 360.0, CrankGrid.from_degrees, turns=True)
+    return [(one.start, one.end) for one in _stretches(mechanism, sweep)]
+
+
+class _Stretch(NamedTuple):
+    """Between which values of a sweep something can be assembled, where it closes best, and how well. [deg], [-]"""
+
+    start: float
+    end: float
+    best: float
+    margin: float
+
+
+def _stretches(mechanism: Mechanism, sweep: _Sweep) -> list[_Stretch]:
+    """Return where dyads of given signs can be assembled, in parts where they almost change signs."""
+    degrees = np.linspace(sweep.start, sweep.end, round(_SCAN * max(1.0, (sweep.end - sweep.start) / 360.0)) + 1)
+    degrees = np.unique(np.concatenate([degrees, *_narrow(mechanism, sweep, degrees)]))
+    margins = _margins(mechanism, sweep.at(degrees))
+    works = np.all(margins > _SINGULAR, axis=0)
     cut = np.zeros(len(degrees) - 1, dtype=bool)
-    grid, closures = CrankGrid.from_degrees(degrees), Closures(mechanism)
+    grid, closures = sweep.at(degrees), Closures(mechanism)
     for index, closure in enumerate(place_at(mechanism, grid).closures):
-        for interval, _ in singular_between(grid, closure, closures[index]):
+        for interval, _ in singular_between(grid, closure, closures[index], _NEARLY_SINGULAR):
             cut[interval] = True
-    stretches = []
+    least = margins.min(axis=0)
+    stretches = list[_Stretch]()
     start = None
     for k, one in enumerate(works):
         if one and start is None:
             start = k
         if start is not None and (not one or k == len(works) - 1 or cut[k]):
             last = k if one else k - 1
-            stretches.append((degrees[start], degrees[last]))
+            best = start + int(np.argmax(least[start : last + 1]))
+            stretches.append(_Stretch(*map(float, (degrees[start], degrees[last], degrees[best], least[best]))))
             start = None
-    if len(stretches) > 1 and stretches[0][0] == 0.0 and stretches[-1][1] == 360.0:
-        stretches[0] = (stretches[-1][0] - 360.0, stretches[0][1])
-        stretches.pop()
-    return [(float(a), float(b)) for a, b in stretches]
+    if sweep.turns and len(stretches) > 1 and stretches[0].start == sweep.start and stretches[-1].end == sweep.end:
+        last_one = stretches.pop()
+        stretches[0] = stretches[0]._replace(start=last_one.start - sweep.end)
+    clear = [one for one in stretches if one.margin > _BESIDE]
+    return clear or stretches
 
 
-def _margins(mechanism: Mechanism, degrees: Array) -> Array:
-    """Return how well each group closes at crank angles, below zero where it does not, shape (groups, n)."""
-    closures = place_at(mechanism, CrankGrid.from_degrees(degrees)).closures
+def _margins(mechanism: Mechanism, grid: CrankGrid) -> Array:
+    """Return how well each group closes at values of the driver, below zero where it does not, shape (groups, n)."""
+    closures = place_at(mechanism, grid).closures
     with np.errstate(invalid="ignore"):
-        rows = [np.nan_to_num(one.value / one.scale, nan=-1.0) + np.zeros(len(degrees)) for one in closures]
+        rows = [np.nan_to_num(one.value / one.scale, nan=-1.0) + np.zeros(len(grid)) for one in closures]
     return np.stack(rows)
 
 
-def _narrow(mechanism: Mechanism, degrees: Array) -> Iterator[Array]:
-    """Yield the ends of what can be assembled, and crank angles in what lies between two of a scan. [deg]"""
+def _narrow(mechanism: Mechanism, sweep: _Sweep, degrees: Array) -> Iterator[Array]:
+    """Yield the ends of what can be assembled, and values of a sweep in what lies between two of a scan. [deg]"""
     for count in range(1, len(mechanism.dyads) + 1):
         part = replace(mechanism, dyads=mechanism.dyads[:count])
 
         def margin(at: Array, part: Mechanism = part) -> Array:
-            return np.asarray(_margins(part, at).min(axis=0))
+            return np.asarray(_margins(part, sweep.at(at)).min(axis=0))
 
         values = margin(degrees)
         works = values > _SINGULAR

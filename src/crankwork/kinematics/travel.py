@@ -23,6 +23,8 @@ from crankwork.mechanism.mechanism import Crank, Mechanism
 _DENSE = CrankGrid.steps(1.0, 360.0)
 _HEALTHY = 1e-3
 _SAME = 1e-6
+# a change point that lengths have moved off the end of a period by rounding is there [deg]
+_AT_END = 0.01
 # longest lengths beyond which a link is on its way to infinity
 _RAN_AWAY = 100.0
 _NEAR = 0.05
@@ -85,7 +87,7 @@ def travel(mechanism: Mechanism, known: Travel | None = None) -> Travel:
         return Travel(circuit, branch, start, end, 0, tuple(sorted(inner)), stated)
     period = 360.0 * turns
     once = np.mod(passed, period)
-    once = np.where(period - once < _SAME, 0.0, once)
+    once = np.where(np.minimum(once, period - once) < _AT_END, 0.0, once)
     every = sorted({round(float(one), 9) for one in [*once, *(once[once < _SAME] + period)] if one <= period})
     return Travel(circuit, branch, 0.0, period, turns, tuple(every), stated)
 

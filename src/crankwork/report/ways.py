@@ -8,6 +8,7 @@ from typing import Any
 from crankwork.analysis.ways import MOST_SIGNED, Way, Ways
 from crankwork.locale import say
 from crankwork.machine import Machine
+from crankwork.mechanism.driver import LinkMotor
 from crankwork.quantities import Language
 from crankwork.report.language import number, unit_name
 
@@ -24,6 +25,7 @@ def ways_text(machine: Machine, found: Ways, language: Language = "en") -> str:
 def _line(machine: Machine, way: Way, language: Language) -> str:
     driver = machine.mechanism.driver
     is_angle = driver.turns
+    name = "–".join(driver.links) if isinstance(driver, LinkMotor) else driver.link
 
     def shown(value: float, *, is_turn: bool) -> str:
         unit = "deg" if is_turn else "mm"
@@ -31,16 +33,16 @@ def _line(machine: Machine, way: Way, language: Language) -> str:
         return number(size, language) + ("" if is_turn else " ") + unit_name(unit, language)
 
     if way.turns > 1:
-        moved = say("check.way_turns_many", language, driver=driver.link, turns=way.turns)
+        moved = say("check.way_turns_many", language, driver=name, turns=way.turns)
     elif way.turns:
-        moved = say("check.way_turns", language, driver=driver.link)
+        moved = say("check.way_turns", language, driver=name)
     else:
         ends = {"start": shown(way.start, is_turn=is_angle), "end": shown(way.end, is_turn=is_angle)}
-        moved = say("check.way_between", language, driver=driver.link, **ends)
-    parts = [f"{name} {shown(one, is_turn=True)}" for name, one in way.swings.items()]
-    parts += [f"{name} {shown(one, is_turn=False)}" for name, one in way.strokes.items()]
-    name = "check.way_stated" if way.is_stated else "check.way"
-    said = say(name, language, circuit=way.circuit, branch=way.branch, moved=moved)
+        moved = say("check.way_between", language, driver=name, **ends)
+    parts = [f"{link} {shown(one, is_turn=True)}" for link, one in way.swings.items()]
+    parts += [f"{piece} {shown(one, is_turn=False)}" for piece, one in way.strokes.items()]
+    told = "check.way_stated" if way.is_stated else "check.way"
+    said = say(told, language, circuit=way.circuit, branch=way.branch, moved=moved)
     return f"{said}; {', '.join(parts)}" if parts else said
 
 
