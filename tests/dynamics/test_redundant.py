@@ -164,6 +164,36 @@ def test_it_is_told_and_explained(language):
     assert "third" in web(linkage_note(results, NoteOptions(language=language, figures=False))).decode()
 
 
+def test_without_a_share_everything_but_joint_forces_is_known():
+    """The link does no work: torques are those with any share, and the motion."""
+    shared = crankwork.analyse(crankwork.read_machine(WHEELS.replace("SHARE", "0.5")))
+    results = crankwork.analyse(crankwork.read_machine(WHEELS.replace('share = SHARE\nof = "second"\n', "")))
+    assert [one.values["name"] for one in results.notices if one.code == "redundant_unshared"] == ["third"]
+    assert results.value("mobility") == 0.0
+    assert not results.unmet
+    forces = ("joint_force", "axial_force", "normal_force")
+    assert not [key for key in results.columns if key.startswith(forces)]
+    assert set(results.columns) == {key for key in shared.columns if not key.startswith(forces)}
+    for key, column in results.columns.items():
+        # rounding has no relative error
+        size = max(1e-3, float(np.max(np.abs(shared[key]))))
+        assert column == pytest.approx(shared[key], abs=1e-9 * size), key
+    for language in LANGUAGES:
+        assert "third" in web(linkage_note(results, NoteOptions(language=language, figures=False))).decode()
+
+
+def test_two_links_too_many_without_shares():
+    text = WHEELS.replace('share = SHARE\nof = "second"\n', "").replace(
+        "[crank]", 'R = ["3000 mm", "0 mm"]\n[crank]', 1
+    )
+    text = text.replace(
+        'points = { C = ["2200 mm", "0 mm"] }', 'points = { C = ["2200 mm", "0 mm"], D = ["3000 mm", "0 mm"] }'
+    )
+    fourth = '[links.fourth]\njoins = ["R", "D"]\nlength = "300 mm"\n'
+    results = crankwork.analyse(crankwork.read_machine(text.replace("[[loads]]", fourth + "[[loads]]", 1)))
+    assert {one.values["name"] for one in results.notices if one.code == "redundant_unshared"} == {"third", "fourth"}
+
+
 MISTAKES = {
     "no other": ('of = "second"\n', "", "links.third.of", 'like of = "rod"'),
     "no share": ("share = SHARE\n", "", "links.third.share", "like share = 0.5"),

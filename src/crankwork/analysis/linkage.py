@@ -132,10 +132,14 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
 
 
 def _of_redundant(machine: Machine) -> Iterator[Notice]:
-    """Yield notices of links too many whose part in what is borne is stated."""
+    """Yield notices of links too many, and of what is not known where their part in what is borne is not stated."""
     for one in machine.redundant:
         freedom = float(mobility(machine.whole).value)
-        yield Notice("redundant", {"name": one.member.name, "mobility": freedom, "share": one.share, "other": one.of})
+        if one.share is None:
+            yield Notice("redundant_unshared", {"name": one.member.name, "mobility": freedom})
+        else:
+            shared = {"share": one.share, "other": one.of}
+            yield Notice("redundant", {"name": one.member.name, "mobility": freedom, **shared})
 
 
 def _table(machine: Machine, reached: Reached, grid: CrankGrid | None) -> CrankGrid:

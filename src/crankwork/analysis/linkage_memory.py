@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from crankwork.analysis import origins
 from crankwork.analysis.linkage_balance import shaking
 from crankwork.analysis.quality import transmissions
-from crankwork.analysis.running import remembered_forces
+from crankwork.analysis.running import is_shared, remembered_forces
 from crankwork.analysis.solved import SolvedLinkage
 from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor, remembered_efficiency
 from crankwork.dynamics.force_parts import balancing_torque_of_parts
@@ -190,6 +190,8 @@ def _forces(solved: SolvedLinkage, running: Running) -> tuple[Known, dict[str, K
     The joint of crank and ground has the name of its fixed point.
     """
     found, along = remembered_forces(solved, running)
+    if not is_shared(solved.machine.redundant):
+        return found.balancing_torque, {}
     pivots = {f"{link}_pivot": name for link, name in pivots_of(solved.machine.mechanism).items()}
     columns: dict[str, Known] = {}
     for joint, pin in found.pins.items():

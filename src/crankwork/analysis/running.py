@@ -24,7 +24,14 @@ from crankwork.loads.load import applied_loads
 
 def running_at(solved: SolvedLinkage, motion: Motion) -> Running:
     """Return the linkage at work, with its loads."""
-    return with_redundant(_without(solved, motion), solved.machine.redundant)
+    links = solved.machine.redundant
+    # what bears an unknown part does no work, so that torques are as without it
+    return with_redundant(_without(solved, motion), links if is_shared(links) else ())
+
+
+def is_shared(links: Sequence[RedundantLink]) -> bool:
+    """Return whether it is stated what every redundant link bears, so that joint forces are known."""
+    return all(one.share is not None for one in links)
 
 
 def _without(solved: SolvedLinkage, motion: Motion) -> Running:
@@ -51,17 +58,18 @@ class _Shares:
 def _left(links: Sequence[RedundantLink], forces: Sequence[Known], others: Sequence[Known]) -> Iterator[Known]:
     """Yield by how much forces along redundant links differ from their shares."""
     for one, force, other in zip(links, forces, others, strict=True):
-        share = given(f"force_share.{one.member.name}", one.share, f"links.{one.member.name}.share")
+        share = given(f"force_share.{one.member.name}", one.share or 0.0, f"links.{one.member.name}.share")
         yield (force - share * other).named(f"axial_force.{one.member.name}.left")
 
 
 def remembered_forces(solved: SolvedLinkage, running: Running) -> tuple[JointForces, dict[str, Known]]:
     """Return the joint forces of a mechanism at work with its redundant links, and the forces along links by key.
 
+    Those without redundant links where it is not stated what these bear; then only the driver's is one of the whole.
     What a redundant link bears is found with all others; what is left of its share is noted as an equation.
     """
     links = solved.machine.redundant
-    if not links:
+    if not links or not is_shared(links):
         return joint_forces(running), {}
     root = Root(_Shares(solved))
     forces = [Known(Component(root, k), f"axial_force.{one.member.name}") for k, one in enumerate(links)]

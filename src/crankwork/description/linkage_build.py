@@ -16,7 +16,7 @@ from crankwork.description.gas_build import ReadMeasured
 from crankwork.description.kinds import Measure, Reader
 from crankwork.description.linkage_reach import checked_motion, told_redundant, way_if_assembled, with_starts
 from crankwork.description.positions_build import settled, told_positions
-from crankwork.description.redundant_build import fitting, geometry_of, taken_out
+from crankwork.description.redundant_build import fitting, geometry_of, taken_out, without_unshared
 from crankwork.description.schema import Values
 from crankwork.description.stated import stated_numbers
 from crankwork.dynamics.efficiency import Chain as EfficiencyChain
@@ -58,7 +58,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
     linkage, problems = linkage_from(tables)
     mechanism, notices = None, tuple[tuple[str, dict[str, float | str]], ...]()
     if linkage is not None:
-        linkage, carried = taken_out(linkage, values, reader)
+        linkage, carried = without_unshared(*taken_out(linkage, values, reader))
         found = settled(linkage)
         mechanism, problems = found.mechanism, told_redundant(linkage, found.problems)
         notices = tuple(told_positions(tables, linkage, found, reader, is_new=values["format"] > 1))

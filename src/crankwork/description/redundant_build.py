@@ -1,7 +1,8 @@
-"""Links too many whose part in what is borne is stated: taken out of the linkage, if they fit where it moves."""
+"""Links too many, their part in what is borne stated or not: taken out of the linkage, if they fit where it moves."""
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Mapping
 from dataclasses import replace
@@ -17,6 +18,8 @@ from crankwork.mechanism.linkage import GROUND, Linkage, Member
 from crankwork.mechanism.structure import mobility
 
 _KEYS = ("share", "of")
+# links too many that are found without being told of, and the ways to leave so many out that are tried
+_MOST_UNSHARED, _MOST_TRIED = 3, 100
 
 
 def geometry_of(link: Mapping[str, Any]) -> dict[str, Any]:
@@ -43,6 +46,32 @@ def taken_out(linkage: Linkage, values: Values, reader: Reader) -> tuple[Linkage
     for one in shared:
         _check((linkage, without), one, links[one.name]["of"], reader)
     return without, shared
+
+
+def without_unshared(linkage: Linkage, taken: tuple[Member, ...]) -> tuple[Linkage, tuple[Member, ...]]:
+    """Return a linkage without links too many that fit, have no mass and no share, and all that are taken out.
+
+    The linkage as it is where it moves or nothing is to be taken out. `taken`: those with a share, taken out already.
+    """
+    named = [
+        name
+        for one in (problem.message for problem in mechanism_of(linkage)[1])
+        if isinstance(one, Refusal) and one.name == "stiff_one"
+        for name in one.values["names"]
+    ]
+    count = 1 - round(float(mobility(linkage).value))
+    if not named or not 1 <= count <= _MOST_UNSHARED:
+        return linkage, taken
+    weightless = [one for one in linkage.members if not (one.mass or one.inertia or one.guide)]
+    weightless.sort(key=lambda one: one.name not in named)
+    for some in itertools.islice(itertools.combinations(weightless, count), _MOST_TRIED):
+        without = replace(linkage, members=tuple(one for one in linkage.members if one not in some))
+        if mechanism_of(without)[1]:
+            continue
+        told = [fit(without, one, 0.0) for one in some]
+        if all(one is not None and one.name == "redundant_fits" for one in told):
+            return without, (*taken, *some)
+    return linkage, taken
 
 
 def _check(both: tuple[Linkage, Linkage], one: Member, other: str, reader: Reader) -> None:
@@ -76,12 +105,13 @@ def fitting(linkage: Linkage, members: tuple[Member, ...], values: Values, reade
             reader.complain(f"links.{one.name}", told or Refusal("share_driver", name=one.name))
             continue
         start, end = (point for point in one.points if point in linkage.owners)
+        length = math.dist(one.points[start], one.points[end])
+        if "share" not in values["links"][one.name]:
+            found.append(RedundantLink(one, start, end, length))
+            continue
         other = linkage.member(values["links"][one.name]["of"])
         near, far = _counted(linkage, other, (start, end))
-        length, of_length = (
-            math.dist(one.points[start], one.points[end]),
-            math.dist(other.points[near], other.points[far]),
-        )
+        of_length = math.dist(other.points[near], other.points[far])
         share = values["links"][one.name]["share"]
         found.append(RedundantLink(one, start, end, length, share, other.name, near, far, of_length))
     return tuple(found)

@@ -23,19 +23,23 @@ from crankwork.mechanism.mechanism import Mechanism
 
 @dataclass(frozen=True)
 class RedundantLink:
-    """A link of two joints without which a linkage moves as it does with it; it fits, and only carries."""
+    """A link of two joints without which a linkage moves as it does with it; it fits, and only carries.
+
+    Without a share what it bears is not known, and with it no force in any joint.
+    """
 
     member: Member  # As it is drawn
     # The points that it joins, and their distance [m]
     start: str
     end: str
     length: float
-    share: float  # The force along it over that along another link, both positive where they press [-]
+    # The force along it over that along another link, both positive where they press [-]
+    share: float | None = None
     # That link, the point of it where the force along it counts, its other joint, and their distance [m]
-    of: str
-    of_end: str
-    of_start: str
-    of_length: float
+    of: str = ""
+    of_end: str = ""
+    of_start: str = ""
+    of_length: float = 0.0
 
 
 def with_redundant(running: Running, links: Sequence[RedundantLink]) -> Running:
@@ -64,7 +68,7 @@ def redundant_forces(running: Running, links: Sequence[RedundantLink]) -> Array:
         massless = replace(mechanism, bodies=())
         alone = Running(massless, motion, np.zeros(count), unit, np.zeros(count))
         matrix[:, :, k] = -np.stack(_along_others(alone, links), axis=-1)
-    shares = np.array([link.share for link in links])
+    shares = np.array([link.share or 0.0 for link in links])
     matrix *= shares[:, None]
     matrix += np.eye(len(links))
     found = np.linalg.solve(matrix, (np.stack(without, axis=-1) * shares)[..., None])
