@@ -196,6 +196,18 @@ def test_a_link_too_many_has_no_mass():
         read_machine(both)
 
 
+def test_what_has_a_limit_from_either_side_is_not_told_as_unbounded():
+    """A torque that rises evenly from the change point, over the distance of the coupler from the pivot."""
+    table = 'torque = ["0 N*m", "10 N*m", "0 N*m", "4 N*m"]\nat = ["0 deg", "90 deg", "180 deg", "270 deg"]'
+    load = f'[[loads]]\nkind = "torque"\nlink = "rocker"\n{table}\ncurve = "straight"'
+    results = analyse(four_bar(300, 1000, 300, 1000, more=load, mass=None))
+    beside = results.columns_at([179.99, 180.01], ["joint_force_x.C"])["joint_force_x.C"]
+    assert np.abs(beside) == pytest.approx([20 / math.pi / 0.3, 8 / math.pi / 0.3], rel=1e-6)
+    told = next(one for one in results.notices if one.code == "undetermined")
+    assert told.values == {"angles": "0°, 180°, 360", "quantities": "joint_force"}
+    assert "unbounded" not in {one.code for one in results.notices}
+
+
 def test_the_parallelogram_of_the_examples():
     """Its coupler goes round without turning: half of its centrifugal force at each end, and what the rocker has."""
     results = analyse(crankwork.read(EXAMPLES / "parallelogram.toml"))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Literal, NamedTuple
 
@@ -16,13 +16,14 @@ from crankwork.analysis.linkage_memory import efficiency_of, linkage_memory, spe
 from crankwork.analysis.linkage_speed import transient_summary, turn_of
 from crankwork.analysis.quality import FOLLOWED, quality_of, rocks, smooth_transmissions, time_ratios
 from crankwork.analysis.reach import (
+    Boundless,
     Reached,
+    boundless,
     clear_of_changes,
     limits_of,
     open_range,
     reachable,
     rows_inside,
-    unbounded,
 )
 from crankwork.analysis.results import Results
 from crankwork.analysis.running import running_at
@@ -90,10 +91,10 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
     followed = _followed(memory) | dict(smooth_transmissions(machine.mechanism, motion))
     start, end = (0.0, machine.cycle) if found is None else machine.working_range or open_range(found)
     ends = _where_unbounded(machine, found)
-    boundless = unbounded(followed, *ends, machine.cycle if found is None else found.end - found.start)
-    notices += _boundless(boundless, ends[0])
+    without = boundless(followed, *ends, machine.cycle if found is None else found.end - found.start)
+    notices += tuple(_told_boundless(without))
     if machine.working_range is None or found is None:
-        followed = {key: one for key, one in followed.items() if key not in boundless}
+        followed = {key: one for key, one in followed.items() if not any(key in some for some in without)}
     else:
         notices += (Notice("working_range", {"from": start, "to": end}),)
     over = OverCycle(followed, CrankGrid.from_degrees, end - start, start)
@@ -138,8 +139,9 @@ def _of_redundant(machine: Machine) -> Iterator[Notice]:
         if one.share is None:
             yield Notice("redundant_unshared", {"name": one.member.name, "mobility": freedom})
         else:
-            shared = {"share": one.share, "other": one.of}
-            yield Notice("redundant", {"name": one.member.name, "mobility": freedom, **shared})
+            yield Notice(
+                "redundant", {"name": one.member.name, "mobility": freedom, "share": one.share, "other": one.of}
+            )
 
 
 def _table(machine: Machine, reached: Reached, grid: CrankGrid | None) -> CrankGrid:
@@ -164,11 +166,19 @@ def _where_unbounded(machine: Machine, found: Travel | None) -> tuple[list[float
     return changes, [-1.0 if one == machine.cycle else 1.0 for one in changes]
 
 
-def _boundless(keys: Iterable[str], angles: Iterable[float]) -> tuple[Notice, ...]:
-    """Return the notice of what grows beyond all bounds."""
-    kinds = dict.fromkeys(key.partition(".")[0] for key in keys)
-    shown = "°, ".join(f"{one:.6g}" for one in angles)
-    return (Notice("unbounded", {"angles": shown, "quantities": ", ".join(kinds)}),) if kinds else ()
+def _told_boundless(found: Boundless) -> Iterator[Notice]:
+    """Yield notices of what grows beyond all bounds, and of what has no value."""
+    if found.unbounded:
+        yield Notice("unbounded", _where(found.unbounded))
+    if found.undetermined:
+        yield Notice("undetermined", _where(found.undetermined))
+
+
+def _where(columns: Mapping[str, tuple[float, ...]]) -> dict[str, float | str]:
+    """Return the kinds of some columns, and the crank angles that they are told of."""
+    kinds = dict.fromkeys(key.partition(".")[0] for key in columns)
+    angles = sorted({at for some in columns.values() for at in some})
+    return {"angles": "°, ".join(f"{one:.6g}" for one in angles), "quantities": ", ".join(kinds)}
 
 
 def _followed(memory: Mapping[str, Known]) -> dict[str, Known]:

@@ -110,24 +110,34 @@ def open_range(found: Travel) -> tuple[float, float]:
     return found.start + edge, found.end - edge
 
 
-def unbounded(columns: Mapping[str, Known], ends: Iterable[float], towards: Iterable[float], width: float) -> list[str]:
-    """Return the columns that grow beyond all bounds towards some crank angles, or have no value there.
+class Boundless(NamedTuple):
+    """Columns that have no value somewhere, and at which crank angles. [deg]"""
+
+    unbounded: Mapping[str, tuple[float, ...]]  # They grow beyond all bounds towards it
+    undetermined: Mapping[str, tuple[float, ...]]  # They stay finite, with no limit that both sides have in common
+
+
+def boundless(columns: Mapping[str, Known], ends: Iterable[float], towards: Iterable[float], width: float) -> Boundless:
+    """Return the columns that grow beyond all bounds towards some crank angles, and those that have no value there.
 
     `ends`: the angles; `towards`: on which side of each the motion is, 1 or -1; `width`: what is small against it
     [deg].
     """
     aside = np.array([*(width * np.array(_ASIDE)), _ITSELF])
-    degrees = np.array([end + side * aside for end, side in zip(ends, towards, strict=True)])
+    angles = np.array([*ends])
+    degrees = np.array([end + side * aside for end, side in zip(angles, towards, strict=True)])
     if not degrees.size or not columns:
-        return []
+        return Boundless({}, {})
     values = Program(columns)(CrankGrid.from_degrees(degrees.ravel()))
-    found = []
+    grown, without = dict[str, tuple[float, ...]](), dict[str, tuple[float, ...]]()
     for key, column in values.items():
         far, near, there = np.abs(column.reshape(degrees.shape)).T
+        grows = ~(near <= _GROWS * far + 1e-9 * np.max(far))
         # at a change point without a common limit a column has no value
-        if not (np.all(near <= _GROWS * far + 1e-9 * np.max(far)) and np.isfinite(there).all()):
-            found.append(key)
-    return found
+        missing = ~np.isfinite(there) & ~grows
+        grown |= {key: tuple(angles[grows].tolist())} if grows.any() else {}
+        without |= {key: tuple(angles[missing].tolist())} if missing.any() else {}
+    return Boundless(grown, without)
 
 
 def limits_of(found: Travel, memory: Mapping[str, Known]) -> dict[str, Known]:

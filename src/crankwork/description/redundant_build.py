@@ -12,6 +12,7 @@ from crankwork.description.kinds import Reader
 from crankwork.description.linkage_reach import fit
 from crankwork.description.schema import Values
 from crankwork.dynamics.redundant import RedundantLink
+from crankwork.errors import Problem
 from crankwork.locale import Refusal
 from crankwork.mechanism.decomposition import mechanism_of
 from crankwork.mechanism.linkage import GROUND, Linkage, Member
@@ -53,12 +54,7 @@ def without_unshared(linkage: Linkage, taken: tuple[Member, ...]) -> tuple[Linka
 
     The linkage as it is where it moves or nothing is to be taken out. `taken`: those with a share, taken out already.
     """
-    named = [
-        name
-        for one in (problem.message for problem in mechanism_of(linkage)[1])
-        if isinstance(one, Refusal) and one.name == "stiff_one"
-        for name in one.values["names"]
-    ]
+    named = [one.key.partition(".")[2] for one in mechanism_of(linkage)[1] if _is_stiff(one)]
     count = 1 - round(float(mobility(linkage).value))
     if not named or not 1 <= count <= _MOST_UNSHARED:
         return linkage, taken
@@ -72,6 +68,10 @@ def without_unshared(linkage: Linkage, taken: tuple[Member, ...]) -> tuple[Linka
         if all(one is not None and one.name == "redundant_fits" for one in told):
             return without, (*taken, *some)
     return linkage, taken
+
+
+def _is_stiff(problem: Problem) -> bool:
+    return isinstance(problem.message, Refusal) and problem.message.name == "stiff_one"
 
 
 def _check(both: tuple[Linkage, Linkage], one: Member, other: str, reader: Reader) -> None:
