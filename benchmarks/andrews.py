@@ -1,4 +1,4 @@
-"""Andrews' squeezing mechanism over 0.03 s: crankwork's energy quadrature, timed and compared with 34-digit values.
+"""Andrews' squeezing mechanism over 0.03 s, let go from its file: timed and compared with 34-digit values.
 
 Run with `python benchmarks/andrews.py`. Seven bodies, one degree of freedom, a spring and a constant driving torque:
 problem of the Test Set for IVP solvers (Hairer, Wanner: Solving Ordinary Differential Equations II, ch. VII.7).
@@ -8,54 +8,19 @@ from __future__ import annotations
 
 import math
 import time
+from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
+import crankwork
+from crankwork.analysis.transient import Loose, chart_of
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import linkage_motion
-from crankwork.mechanism.dyads import RRR
-from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, body_at
-from crankwork.shaft.energy_machine import Spring, energy_machine
-from crankwork.shaft.energy_motion import Moment, moment_after
+from crankwork.shaft.transient import FreeMachine, Run
 
-# lengths [m], masses [kg], moments of inertia [kg m2], driving torque [N m], spring [N/m], [m], as printed
-A, B, C = (-0.06934, -0.00227), (-0.03635, 0.03273), (0.014, 0.072)
-DRIVE, STIFFNESS, FREE_LENGTH = 0.033, 4530.0, 0.07785
-START, END = -0.06171389001427645, 0.03
-
-MECHANISM = Mechanism(
-    Crank(0.007, link="K1", pin="R"),
-    (
-        RRR("R", "B", "P", "K2", "K3", 0.028, 0.035, 1),
-        RRR("P", "A", "E", "K4", "K5", 0.02, 0.04, -1),
-        RRR("P", "A", "G", "K6", "K7", 0.02, 0.04, 1),
-    ),
-    ground={"A": A, "B": B, "C": C},
-    points=(
-        LinkPoint("S1", "K1", 0.00092),
-        LinkPoint("S2", "K2", 0.0115),
-        LinkPoint("S3", "K3", 0.01874, 0.01043),
-        LinkPoint("S4", "K4", 0.01421),
-        LinkPoint("S5", "K5", 0.02308, 0.00916),
-        LinkPoint("S6", "K6", 0.01421),
-        LinkPoint("S7", "K7", 0.01228, 0.00449),
-        LinkPoint("D", "K3", 0.018, 0.02),
-    ),
-    bodies=tuple(
-        body_at(f"K{i}", mass, inertia, f"S{i}")
-        for i, mass, inertia in (
-            (1, 0.04325, 2.194e-6),
-            (2, 0.00365, 4.410e-7),
-            (3, 0.02373, 5.255e-6),
-            (4, 0.00706, 5.667e-7),
-            (5, 0.0705, 1.169e-5),
-            (6, 0.00706, 5.667e-7),
-            (7, 0.05498, 1.912e-5),
-        )
-    ),
-)
-SPRINGS = (Spring("C", "D", STIFFNESS, FREE_LENGTH),)
-REPEATS = 200
+MACHINE = crankwork.read(Path(__file__).parents[1] / "examples" / "andrews-squeezer.toml")
+START, END, REPEATS = MACHINE.mechanism.crank.start, 0.03, 20
 
 # 34-digit values of cases/andrews_A03, from an energy quadrature and an extrapolation that agree to 16 digits
 ANGLES = (
@@ -78,9 +43,21 @@ RATES = (
 )
 
 
+class Moment(NamedTuple):
+    """How far the crank has turned, and how fast it turns. [rad], [rad/s]"""
+
+    turn: float
+    speed: float
+
+
+def machine() -> FreeMachine:
+    """Return the mechanism as its crank feels it."""
+    return Loose(crankwork.analyse(MACHINE).solved, chart_of(MACHINE, None)).felt
+
+
 def coordinates(moment: Moment) -> tuple[Array, Array]:
     """Return the seven angles of the test set (beta, Theta, gamma, Phi, delta, Omega, epsilon) and their rates."""
-    frames = linkage_motion(MECHANISM, CrankGrid.from_radians(np.array([moment.angle]))).frames
+    frames = linkage_motion(MACHINE.mechanism, CrankGrid.from_radians(np.array([moment.turn]))).frames
     angle = {name: math.atan2(float(one.sin[0]), float(one.cos[0])) for name, one in frames.items()}
     rate = {name: moment.speed * float(one.angle_1[0]) for name, one in frames.items()}
     delta, epsilon, turn = angle["K5"], angle["K7"] + math.pi / 2, 2 * math.pi
@@ -93,7 +70,7 @@ def coordinates(moment: Moment) -> tuple[Array, Array]:
     ]
     folded = [math.remainder(one, turn) for one in small]
     # Theta turns back once per turn of the crank
-    theta = math.remainder(angle["K2"] - math.pi, turn) - moment.angle
+    theta = math.remainder(angle["K2"] - math.pi, turn) - (START + moment.turn)
     rates = [
         moment.speed,
         rate["K2"] - moment.speed,
@@ -103,40 +80,26 @@ def coordinates(moment: Moment) -> tuple[Array, Array]:
         rate["K6"] - rate["K7"],
         rate["K7"],
     ]
-    return np.array([moment.angle, theta, *folded]), np.array(rates)
+    return np.array([START + moment.turn, theta, *folded]), np.array(rates)
 
 
-def solution(*, fast: bool) -> tuple[Moment, float]:
-    """Return where the mechanism is at the end, and the best time of one solution [s], compilation left out."""
-    best = math.inf
-    machine = energy_machine(MECHANISM, DRIVE, SPRINGS, fast=fast)
-    for _ in range(REPEATS):
+def solution(repeats: int = REPEATS) -> tuple[Moment, float]:
+    """Return where the mechanism is at the end, and the best time of one solution [s]."""
+    best, felt = math.inf, machine()
+    for _ in range(repeats):
         start = time.perf_counter()
-        moment = moment_after(machine, END, angle=START)
+        course = Run(felt, 0.0, 0.0).until(END)
         best = min(best, time.perf_counter() - start)
-    return moment, best
+    turn, speed, _ = course.at(np.array([END]))
+    return Moment(float(turn[0]), float(speed[0])), best
 
 
 def main() -> None:
-    """Print times, errors and energy drift with and without the extra `fast`."""
-    for fast in (False, True):
-        moment, seconds = solution(fast=fast)
-        angles, rates = coordinates(moment)
-        worst, worst_rate = np.max(np.abs(angles / ANGLES - 1)), np.max(np.abs(rates / RATES - 1))
-        print(
-            f"{'fast' if fast else 'NumPy':6}{seconds * 1e3:8.3f} ms   relative error of angles {worst:.1e}, of rates "
-            f"{worst_rate:.1e}, energy drift {energy_drift(fast=fast):.1e}"
-        )
-
-
-def energy_drift(*, fast: bool) -> float:
-    """Return kinetic energy gained less work done, over the former, with the torque integrated on its own. [-]"""
-    machine = energy_machine(MECHANISM, DRIVE, SPRINGS, fast=fast)
-    moment = moment_after(machine, END, angle=START)
-    nodes, weights = np.polynomial.legendre.leggauss(400)
-    half = (moment.angle - START) / 2
-    _, _, slope = machine.state(START + half * (1 + nodes))
-    return abs(half * float(weights @ (DRIVE - slope)) / moment.energy - 1)
+    """Print time and errors."""
+    moment, seconds = solution()
+    angles, rates = coordinates(moment)
+    worst, worst_rate = np.max(np.abs(angles / ANGLES - 1)), np.max(np.abs(rates / RATES - 1))
+    print(f"{seconds * 1e3:8.3f} ms   relative error of angles {worst:.1e}, of rates {worst_rate:.1e}")
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from crankwork.cylinders.layout import Layout
 from crankwork.dynamics.masses import CrankGearMasses
@@ -204,11 +204,40 @@ class Drive:
 
 @dataclass(frozen=True)
 class Transient:
-    """Motion from a crank angle of zero under a constant torque. [N m], [s], [rad/s]"""
+    """A machine let go: from where and how fast, what drives it besides its loads, and how long it is followed.
 
-    torque: float
+    Parameters
+    ----------
+    time : float
+        How long at most. [s]
+    torque : float
+        Constant torque on the crank. [N m]
+    speed, start : float
+        Of the crank at the beginning, and its angle there. [rad/s], [rad]
+    motor : bool
+        Whether the motor drives it.
+    until : str
+        `time`, or before it the first `rest` or the `steady` cycle.
+    step : float or None
+        Of the table. [s]
+    stops : tuple of float
+        Crank angles at which it is stopped, infinite where there is none. [rad]
+    restitution : float
+        Part of the speed that a stop gives back. [-]
+    speeds : tuple of float
+        Speeds whose first time is told. [rad/s]
+    """
+
     time: float
+    torque: float = 0.0
     speed: float = 0.0
+    start: float = 0.0
+    motor: bool = False
+    until: Literal["time", "rest", "steady"] = "time"
+    step: float | None = None
+    stops: tuple[float, float] = (-math.inf, math.inf)
+    restitution: float = 0.0
+    speeds: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)

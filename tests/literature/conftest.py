@@ -2,11 +2,6 @@
 
 Published cases of mechanisms that no machine file expresses, with the reason:
 
-* free oscillations: the simple pendulum from 10 to 80 degrees (physics.gmu.edu/~mrseth/pass6.html) and released from
-  the horizontal (IFToMM benchmark A01). Something always drives; a transient goes on under a torque and stops at a
-  hill of its springs.
-* two wheels, two links and a collar that fall onto a spring (Meriam and Kraige, ex. 6/11): nothing drives, and it
-  ends in an impact.
 * synthesis: the fifteen four-bars through five points (Morgan and Wampler, J. Mech. Des. 112, 1990, problem 7). Files
   have lengths that are known; what a synthesis gives is analysed, like the crank-rocker and the slotted lever made for
   a swing and a time ratio.

@@ -1,4 +1,4 @@
-"""Equation of motion: steady speed with a motor, start, run-down, stall."""
+"""Equation of motion: steady speed with a motor."""
 
 from __future__ import annotations
 
@@ -7,13 +7,11 @@ import math
 import numpy as np
 import pytest
 
-from crankwork.errors import MethodError
 from crankwork.shaft.collocation import integrate, integrate_periodic
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import true_speed
 from crankwork.shaft.motor import AsynchronousMotor, GearedMotor, LinearMotor
 from crankwork.shaft.speed import ReducedMachine, steady_speed
-from crankwork.shaft.transient import run
 
 pytestmark = pytest.mark.elsewhere
 
@@ -68,13 +66,6 @@ class TestSteady:
         assert found.largest >= found.speed.max()
         assert found.fluctuation == pytest.approx(2 * (found.largest - found.least) / (found.largest + found.least))
 
-    def test_a_start_ends_in_the_same_motion(self):
-        started = run(machine())
-        steady = steady_speed(machine(), 11.0)
-        assert started.status == "steady"
-        assert started.speed[-1] == pytest.approx(steady.speed[0], rel=1e-9)
-        assert started.energy_drift < 1e-12
-
     def test_a_soft_motor_is_nearly_a_constant_torque(self):
         """With a motor whose torque hardly changes, w is that of the energy quadrature."""
         soft = LinearMotor(1e-4, 10.0 - LOAD.mean / 1e-4)
@@ -90,53 +81,3 @@ class TestSteady:
 
     def test_no_steady_speed_without_a_motor(self):
         assert steady_speed(ReducedMachine.of_curves(INERTIA, LOAD - LOAD.mean), 10.0).status == "not solved"
-
-
-class TestRunDown:
-    def test_constant_torque(self):
-        down = run(ReducedMachine.of_curves(Curve.constant(2.0), Curve.constant(-4.0)), speed=20.0, angle=0.3)
-        assert down.status == "stopped"
-        assert down.time[-1] == pytest.approx(10.0, rel=1e-11)
-        assert down.angle[-1] == pytest.approx(0.3 + 100.0, rel=1e-13)
-        assert down.speed[-1] == 0.0
-
-    def test_viscous_and_dry_friction(self):
-        down = run(ReducedMachine(lambda at: (2.0 + 0 * at, 0 * at), lambda _, w: -4.0 - 0.5 * w), speed=20.0)
-        assert down.time[-1] == pytest.approx(2 / 0.5 * math.log((4 + 10) / 4), rel=1e-12)
-
-    def test_a_swinging_inertia_spends_the_same_energy(self):
-        down = run(ReducedMachine.of_curves(INERTIA, Curve.constant(-0.7)), speed=8.0)
-        assert down.angle[-1] == pytest.approx(float(INERTIA(0.0)) * 64 / 2 / 0.7, rel=1e-12)
-
-
-class TestFailure:
-    def test_a_stall_names_the_angle(self):
-        heavy = Curve.linear(np.radians([0, 40, 80, 120, 360]), [-5.0, -5.0, -450.0, -5.0, -5.0])
-        stalled = run(machine(0.2, heavy))
-        assert stalled.status == "stalled"
-        assert "75.88 deg" in stalled.message
-        assert stalled.speed[-1] == 0.0
-
-    def test_the_start_is_that_of_another_solver(self):
-        integrate_ivp = pytest.importorskip("scipy.integrate").solve_ivp
-        light = machine(0.2)
-        started = run(light, cycles=2, until_steady=False)
-
-        def rate(_, state):
-            angle, speed = state[:1], state[1:]
-            return [speed[0], light.acceleration(angle, speed)[0]]
-
-        other = integrate_ivp(rate, (0.0, started.time[-1]), [0.0, 0.0], rtol=1e-9, atol=1e-9, max_step=2e-3)
-        assert other.y[:, -1] == pytest.approx((started.angle[-1], started.speed[-1]), rel=1e-6)
-
-    def test_it_does_not_start(self):
-        stuck = run(machine(load=Curve.constant(-400.0)))
-        assert stuck.status == "not started"
-        assert stuck.angle.size == 1
-
-    def test_it_gives_up(self):
-        assert run(machine(1000.0), cycles=3).status == "turning"
-
-    def test_backwards(self):
-        with pytest.raises(MethodError, match="against it"):
-            run(machine(), speed=-1.0)

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from crankwork.analysis.chambers import gas_check, gas_summary, solve_linkage
 from crankwork.analysis.linkage_balance import balance_of
 from crankwork.analysis.linkage_memory import efficiency_of, linkage_memory, speed_of
-from crankwork.analysis.linkage_speed import transient_summary, turn_of
+from crankwork.analysis.linkage_speed import turn_of
 from crankwork.analysis.quality import FOLLOWED, quality_of, rocks, smooth_transmissions, time_ratios
 from crankwork.analysis.reach import (
     Boundless,
@@ -29,6 +29,7 @@ from crankwork.analysis.results import Results
 from crankwork.analysis.running import running_at
 from crankwork.analysis.solved import Notice, SolvedLinkage
 from crankwork.analysis.tabulated import DYNAMICS
+from crankwork.analysis.transient import let_go
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.routes import ROUTES, by_groups
 from crankwork.errors import CrankworkError
@@ -114,7 +115,8 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
     driver = machine.mechanism.driver
     if found is None and "shaking_force" in memory and isinstance(driver, Crank) and driver.law is None:
         summary |= {key: one.named(key) for key, one in balance_of(driver, memory | summary, machine.mechanism.period)}
-    summary |= transient_summary(machine)
+    ran = let_go(solved, found, summary)
+    summary, checks, notices = summary | ran.summary, checks | ran.checks, notices + ran.notices
     notices += tuple(_of_redundant(machine))
     if isinstance(driver, Crank) and any(one.pressure_angle is None for one in driver.geared):
         notices += (Notice("geared", {}),)
@@ -129,7 +131,7 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
     memory = {key: one for key, one in memory.items() if key not in none}
     values = {key: one.value for key, one in summary.items()}
     memory |= {**summary, **between}
-    return Results(solved, table, columns, values, checks, notices, _groups(columns), memory=memory)
+    return Results(solved, table, columns, values, checks, notices, _groups(columns), ran.listings, memory=memory)
 
 
 def _of_redundant(machine: Machine) -> Iterator[Notice]:

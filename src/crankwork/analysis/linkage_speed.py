@@ -14,12 +14,9 @@ from crankwork.formula.known import Found, Known, Table, absent, given
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.loads.spring import Spring
 from crankwork.locale import Refusal
 from crankwork.machine import Machine
 from crankwork.shaft.curve import AtDegrees, Curve
-from crankwork.shaft.energy_machine import energy_machine
-from crankwork.shaft.energy_motion import moment_after
 from crankwork.shaft.fluctuation import excess_work, fluctuation_of_energy, speed_of_energy, true_speed
 from crankwork.shaft.flywheel import (
     Flywheel,
@@ -186,21 +183,3 @@ def _steady(
     if stalls is None:
         return {}, (Notice("no_steady_speed", {"message": run.message}),)
     return {}, (Notice("stalls", {"torque": greatest, "angle": float(np.degrees(stalls))}),)
-
-
-def transient_summary(machine: Machine) -> dict[str, Known]:
-    """Return crank angle and speed after the time of a transient.
-
-    Values by key; none without a transient.
-    """
-    wanted = machine.transient
-    if wanted is None:
-        return {}
-    springs = tuple(load for load in machine.loads if isinstance(load, Spring))
-    moving = energy_machine(machine.mechanism, wanted.torque, springs, inertia=machine.drive.inertia)
-    found = moment_after(moving, wanted.time, speed=wanted.speed)
-    return {
-        "transient_time": given("transient_time", wanted.time, "transient.time"),
-        "final_turn": Known(Found(found.angle, "followed"), "final_turn"),
-        "final_speed": Known(Found(found.speed, "followed"), "final_speed"),
-    }

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crankwork.analysis.reach import open_range, reachable
+from crankwork.analysis.results import Results
 from crankwork.cylinders.throw import throw_mechanism
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import linkage_motion
@@ -18,6 +19,8 @@ from crankwork.kinematics.transfer import PointMotion
 from crankwork.kinematics.travel import way_through
 from crankwork.machine import Machine
 from crankwork.mechanism.mechanism import Mechanism
+
+_MOST_FRAMES = 600
 
 
 class Track(NamedTuple):
@@ -99,6 +102,7 @@ class Course(NamedTuple):
     degrees: Array
     mechanism: Mechanism
     turns: bool  # Whether the crank turns fully; it goes to and fro otherwise
+    own_time: float = 0.0  # How long what is drawn takes, of a machine let go [s]
 
 
 def course(mechanism: Mechanism, frames: int) -> Course:
@@ -117,3 +121,15 @@ def drawn_mechanism(machine: Machine) -> Mechanism:
     if machine.engine is None or lengths is None:
         return machine.mechanism
     return throw_mechanism(machine.engine.layout, lengths, machine.engine.slaves, machine.engine.offsets)
+
+
+def free_course(results: Results) -> Course | None:
+    """Return how the crank of a machine let go moves, at equal times; nothing where its dyads change their branches."""
+    ran = results.listings.get("transient")
+    happened = results.listings.get("transient_events", ran)
+    if ran is None or happened is None or any(name.startswith("dead_position") for name in happened.names):
+        return None
+    time, angle = ran.columns["time"], ran.columns["crank_angle"]
+    # the last row may come sooner after the one before it
+    rows = np.arange(0, len(time) - (len(time) > 2), math.ceil(len(time) / _MOST_FRAMES))
+    return Course(np.degrees(angle[rows]), results.machine.mechanism, turns=True, own_time=float(time[rows[-1]]))

@@ -73,7 +73,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
         check_loads(values, reader)
         check_gas(values, reader)
     drive = _drive(values, reader)
-    transient = _transient(values, loads, reader)
+    transient = _transient(values, reader)
     if reader.problems or mechanism is None or linkage is None:
         return None
     mechanism, way = way_if_assembled(mechanism)
@@ -257,17 +257,28 @@ def _drive(values: Values, reader: Reader) -> Drive:
     return drive
 
 
-def _transient(values: Values, loads: tuple[Load, ...], reader: Reader) -> Transient | None:
+def _transient(values: Values, reader: Reader) -> Transient | None:
     table = values.get("transient")
     if table is None:
         return None
-    if (
-        values["method"]["weights"]
-        or not all(isinstance(one, Spring) and not one.preload for one in loads)
-        or values.get("chambers")
-    ):
-        reader.complain("transient", Refusal("transient_loads"))
-    return Transient(table["torque"].value, table["time"].value, table.si("speed"))
+    has_motor = "motor" in values
+    if table["motor"] and not has_motor:
+        reader.complain("transient.motor", Refusal("transient_motorless"))
+    start, ends = table.si("start"), tuple(one.value for one in table["stops"] or ())
+    if ends and not ends[0] <= start <= ends[1]:
+        reader.complain("transient.stops", Refusal("transient_stops"))
+    return Transient(
+        time=table.si("time"),
+        torque=table.si("torque") or 0.0,
+        speed=table.si("speed"),
+        start=start,
+        motor=has_motor and table.get("motor", "torque" not in table),
+        until=table["until"],
+        step=table.si("step"),
+        stops=ends or (-math.inf, math.inf),
+        restitution=table["restitution"] or 0.0,
+        speeds=tuple(one.value for one in table["speeds"] or ()),
+    )
 
 
 def _loads(values: Values, linkage: Linkage | None, reader: Reader) -> tuple[Load, ...]:

@@ -7,7 +7,7 @@ from typing import get_args
 
 from crankwork.description.engine_keys import HEAT_RELEASE
 from crankwork.description.keys import AMBIENT, DIAGRAM, METHOD, NO_ACCELERATION, PRESSURES, TABLE, TITLE
-from crankwork.description.kinds import Choice, Number, Quantity, Text
+from crankwork.description.kinds import Choice, Flag, Number, Quantity, Text
 from crankwork.description.schema import Key, ListOf, Named, NameOr, Nested, NumberOr, Table
 from crankwork.mechanism.driver import LawKind
 
@@ -145,10 +145,19 @@ _MOTOR = Table("motor", {
     "inertia": _INERTIA,
 })  # fmt: skip
 
+_ANY_SPEED = Quantity(("speed",), -3e4, 3e4)
+_ANY_ANGLE = Quantity(("angle",), -1e4, 1e4)
 _TRANSIENT = Table("transient", {
-    "torque": Key(_TORQUE, required=True),
-    "time": Key(Quantity(("time",), 1e-6, 1e6), required=True),
-    "speed": Key(Quantity(("speed",), 0.0, 3e4), default="0 rpm"),
+    "time": Key(_TIME, required=True),
+    "torque": Key(_TORQUE),
+    "motor": Key(Flag()),
+    "start": _NO_ANGLE,
+    "speed": Key(_ANY_SPEED, default="0 rpm"),
+    "until": Key(Choice(("time", "rest", "steady")), default="time"),
+    "step": Key(_TIME),
+    "speeds": Key(ListOf(_ANY_SPEED, most=20)),
+    "stops": Key(ListOf(_ANY_ANGLE, fewest=2, most=2)),
+    "restitution": Key(Number(0.0, 1.0), default=0.0, only={"stops": ()}),
 })  # fmt: skip
 
 _PRESSURE = Quantity(("pressure",), -1e8, 1e10)

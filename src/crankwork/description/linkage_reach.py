@@ -8,31 +8,29 @@ from typing import Any
 
 import numpy as np
 
-from crankwork.analysis.linkage_speed import transient_summary
-from crankwork.analysis.reach import open_range, reachable
+from crankwork.analysis.reach import Reached, open_range, reachable
 from crankwork.description.kinds import Reader
 from crankwork.description.schema import Values
 from crankwork.dynamics.reduction import reduced_inertia
-from crankwork.errors import CrankworkError, GeometryError, Problem
+from crankwork.errors import GeometryError, Problem
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.kinematics.assembly import unassembled
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.curves import EQUAL
 from crankwork.kinematics.memory import remembered_motion
-from crankwork.kinematics.motion import Motion, linkage_motion
+from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.placement import place
 from crankwork.kinematics.travel import Travel, has_steady_crank, travel, turns_fully, way_through
 from crankwork.loads.load import Load, applied_loads
 from crankwork.loads.process import ProcessForce
 from crankwork.locale import Refusal
-from crankwork.machine import Machine, Transient
+from crankwork.machine import Machine
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.decomposition import mechanism_of
 from crankwork.mechanism.linkage import GROUND, Linkage, Member
 from crankwork.mechanism.mechanism import Mechanism
 
 _STEP = 1.0
-_MOST_TURNS = 10_000
 
 
 def way_if_assembled(mechanism: Mechanism) -> tuple[Mechanism, Travel | None]:
@@ -97,7 +95,7 @@ def _beside(linkage: Linkage, member: Member, joints: list[str]) -> bool:
 
 
 def checked_motion(machine: Machine, crank: Values, reader: Reader) -> Machine | None:
-    """Complain of a linkage that can be assembled nowhere, or whose transient does not come to its end."""
+    """Complain of a linkage that can be assembled nowhere, or that cannot be let go as is asked."""
     try:
         reached = reachable(machine, _STEP)
     except GeometryError as error:
@@ -111,8 +109,8 @@ def checked_motion(machine: Machine, crank: Values, reader: Reader) -> Machine |
     except GeometryError as error:
         reader.complain("loads", error.args[0])
         return None
-    if machine.transient is not None and not _ends(machine, machine.transient, reached.motion, reader):
-        return None
+    if machine.transient is not None:
+        _check_let_go(machine, reached, reader)
     return None if reader.problems else machine
 
 
@@ -163,25 +161,15 @@ def _swept(mechanism: Mechanism, way: Travel | None) -> dict[str, tuple[float, f
     return {name: (extent.least, extent.greatest) for name, extent in each.items()}
 
 
-def _ends(machine: Machine, wanted: Transient, motion: Motion, reader: Reader) -> bool:
-    """Complain of a transient that cannot be followed to its end."""
-    inertia = float(np.mean(reduced_inertia(machine.mechanism, motion).inertia)) + machine.drive.inertia
-    if inertia <= 0:
+def _check_let_go(machine: Machine, reached: Reached, reader: Reader) -> None:
+    """Complain of a transient of what weighs nothing, or that starts where the crank does not get."""
+    wanted, way = machine.transient, reached.travel
+    inertia = np.min(reduced_inertia(machine.mechanism, reached.motion).inertia) + machine.drive.inertia
+    if not inertia > 0:
         reader.complain("transient", Refusal("transient_massless"))
-        return False
-    turns = (wanted.torque / inertia * wanted.time / 2 + wanted.speed) * wanted.time / math.tau
-    if turns > _MOST_TURNS:
-        reader.complain("transient.time", Refusal("transient_long", turns=turns, most=_MOST_TURNS))
-        return False
-    try:
-        transient_summary(machine)
-    except GeometryError as error:
-        reader.complain("transient", error.args[0])
-    except CrankworkError as error:
-        reader.complain("transient", Refusal("transient_ended", mistake=error.args[0]))
-    else:
-        return True
-    return False
+    if wanted is not None and way is not None and not way.start < math.degrees(wanted.start) < way.end:
+        ends = {"low": way.start, "high": way.end}
+        reader.complain("transient.start", Refusal("transient_outside", **ends))
 
 
 def _unassembled_key(machine: Machine, grid: CrankGrid) -> str:

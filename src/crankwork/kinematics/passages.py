@@ -21,8 +21,8 @@ from crankwork.mechanism.mechanism import Mechanism
 from crankwork.mechanism.passage import Bridge, Passage, Polynomial
 
 _TOUCHES = 1e-7
-_DEGREE = 18
-_NODES = 40
+_DEGREE = 12
+_NODES = 80
 _REACHES = 45.0 * 0.75 ** np.arange(14)
 # nodes nearest to the change point lose the most digits, and the formulas beside the polynomials as many
 _NEAREST = 1 / 6

@@ -10,14 +10,14 @@ import numpy as np
 
 from crankwork.errors import GeometryError
 from crankwork.kinematics.circuits import Circuit, Part, assembled_stretches, circuit_through
-from crankwork.kinematics.coordinates import driver_coordinate
+from crankwork.kinematics.coordinates import Stretch, driver_coordinate
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dyads import LinkMotion
 from crankwork.kinematics.passages import with_passages
 from crankwork.kinematics.placement import assembled, place
 from crankwork.locale import Refusal
 from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.dyads import RPR, RRP, RRR
+from crankwork.mechanism.dyads import RPR, RRP, RRR, Branch
 from crankwork.mechanism.mechanism import Crank, Mechanism
 
 _DENSE = CrankGrid.steps(1.0, 360.0)
@@ -160,6 +160,12 @@ def _side(dyad: RRR | RRP | RPR, frames: Mapping[str, LinkMotion]) -> Array:
             a, b = frames[dyad.link], frames[dyad.block]
             x, y = (pin.position - pivot.position for pin, pivot in zip(b.origin, a.origin, strict=True))
             return np.asarray(x * b.cos + y * b.sin)
+
+
+def branches_of(mechanism: Mechanism, there: Stretch) -> tuple[Branch, ...]:
+    """Return the branches of the dyads that can be put together in two ways, at one position of a circuit."""
+    signed = (one for one in mechanism.dyads if isinstance(one, RRR | RRP | RPR))
+    return tuple(1 if float(_side(one, there.frames)[0]) > 0 else -1 for one in signed)
 
 
 def _stated(mechanism: Mechanism) -> float:

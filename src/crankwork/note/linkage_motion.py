@@ -88,10 +88,10 @@ def _transfer_columns(material: Material) -> list[Column]:
 
 
 def law_of_motion(material: Material) -> Iterator[Block]:
-    """Yield the speed of the crank with the flywheel found, or the way from a start, where it is known."""
-    words, summary, transient = material.words, material.results.summary, material.machine.transient
+    """Yield the speed of the crank with the flywheel found, where it is known."""
+    words, summary = material.words, material.results.summary
     has_speed = "crank_speed" in material.columns
-    if not has_speed and transient is None and "steady_speed" not in summary:
+    if not has_speed and "steady_speed" not in summary:
         return
     yield words.heading("law")
     if has_speed:
@@ -105,13 +105,4 @@ def law_of_motion(material: Material) -> Iterator[Block]:
             "steady",
             speed=words.amount(summary["steady_speed"], "rpm"),
             fluctuation=words.number(summary["steady_fluctuation"]),
-        )
-    if transient is not None and "final_speed" in summary:
-        yield words.paragraph(
-            "transient",
-            torque=words.amount(transient.torque, "N*m"),
-            time=words.amount(transient.time, "s"),
-            turn=words.amount(summary["final_turn"], "rad")
-            + f" ({words.number(math.degrees(summary['final_turn']))}°)",
-            speed=words.amount(summary["final_speed"], "rad/s"),
         )

@@ -16,18 +16,19 @@ from crankwork.note.linkage_motion import kinematics, law_of_motion
 from crankwork.note.linkage_quality import quality
 from crankwork.note.linkage_shaft import appendix, checks, conclusion, flywheel, motor, sources
 from crankwork.note.linkage_tables import explained
+from crankwork.note.linkage_transient import transient
 from crankwork.note.options import NoteOptions
 
 Section = Callable[[Material], Iterator[Block]]
 
 _COURSE: tuple[Section, ...] = (
     task, structural_analysis, kinematics, quality, chambers, forces, balance, reduction, torques, motor, flywheel,
-    law_of_motion, checks, conclusion, sources, appendix,
+    law_of_motion, transient, checks, conclusion, sources, appendix,
 )  # fmt: skip
 # engineers who read English want the results before the way to them
 _REPORT: tuple[Section, ...] = (
     task, conclusion, structural_analysis, kinematics, quality, chambers, forces, balance, reduction, torques, motor,
-    flywheel, law_of_motion, checks, sources, appendix,
+    flywheel, law_of_motion, transient, checks, sources, appendix,
 )  # fmt: skip
 _DRIVEN: tuple[Section, ...] = (
     driven_task, structural_analysis, driven_motion, quality, chambers, driven_forces, checks, conclusion, sources,

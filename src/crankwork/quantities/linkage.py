@@ -156,6 +156,7 @@ ROWS = (
     Quantity("transient_time", "s", "Time from the start of a transient."),
     Quantity("final_turn", "rad", "Crank angle from the start of a transient."),
     Quantity("final_speed", "rad/s", "Angular speed of the crank at the end of a transient."),
+    Quantity("potential_energy", "J", "Energy of springs, weights and constant forces."),
     Quantity("steady_fluctuation", "", "Largest less least speed, over the mean of the two, with motor and loads."),
     Quantity("kinetic_energy_change", "J", "Work of loads and driving torque since the start of the cycle."),
     Quantity("crank_speed", "rad/s", "Angular speed of the crank over the cycle."),

@@ -34,17 +34,20 @@ def moving_drawing(
     seconds: float = 4.0,
     frames: int = 72,
     links: Sequence[str] = (),
+    free: Course | None = None,
 ) -> str:
     """Return the mechanism of a machine as an SVG that moves by itself, one revolution after the other, or to and fro.
 
     Lengths are to scale and the motion is exact, points moving on straight lines between frames; strokes, joints,
     blocks and letters have their own size. Links are in the order of their numbers, as `Structure.links` gives them;
-    without them those of a Machine, or group after group.
+    without them those of a Machine, or group after group. `free`: how the crank of a machine let go moves, which is
+    then drawn in its own time.
     """
     if frames < 8 or not 0 < seconds < math.inf:
         raise CrankworkError("a moving drawing needs at least 8 frames and a time above zero")
     mechanism, whole = (machine, None) if isinstance(machine, Mechanism) else (drawn_mechanism(machine), machine)
-    way = course(mechanism, frames)
+    way = free or course(mechanism, frames)
+    seconds, frames = (way.own_time or seconds), len(way.degrees) - 1
     mechanism, moved = way.mechanism, moving(way.mechanism, way.degrees)
     duration, still = f"{seconds:g}s", round(frames * _STILL / mechanism.period)
     if whole is not None and whole.linkage is not None and not links:
@@ -126,5 +129,6 @@ def _description(way: Course, language: Language, seconds: float, links: Sequenc
         members = sorted(skeleton(mechanism, links).members, key=lambda one: one.number)
         texts += [f"{one.number} – {one.name}" for one in members]
     every = "one_period" if period_of(mechanism) else "one_revolution" if way.turns else "to_and_fro"
+    every = "in_its_time" if way.own_time else every
     texts.append(say(f"drawing.{every}", language, seconds=number(seconds, language)))
     return html.escape(_NOT_XML.sub("", "; ".join(texts)))

@@ -21,6 +21,7 @@ from crankwork.report.linkage_energy import speed_curve, wittenbauer
 from crankwork.report.linkage_look import Style
 from crankwork.report.linkage_plan_figures import acceleration_plan, velocity_plan
 from crankwork.report.linkage_positions import position_plans
+from crankwork.report.linkage_transient import transient_figures
 from crankwork.report.summary import results_method
 
 _DENSE_STEP = 2.0
@@ -50,6 +51,7 @@ def linkage_figures(results: Results, *, language: Language = "en") -> dict[str,
     drawn |= _sliders(degrees, known, style)
     drawn |= chamber_figures(results, degrees, known, style)
     drawn |= _dynamics(degrees, known, style)
+    drawn |= transient_figures(results, style)
     if is_whole and machine.drive.fluctuation is not None:
         drawn |= _evenness(machine, degrees, known, results.solved.speed, style)
     return drawn

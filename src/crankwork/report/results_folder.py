@@ -6,6 +6,7 @@ import contextlib
 from collections.abc import Iterator
 
 from crankwork.analysis import Results
+from crankwork.analysis.moving import free_course
 from crankwork.errors import GeometryError, MissingExtraError, missing_extras
 from crankwork.locale import Refusal
 from crankwork.quantities import Language
@@ -47,6 +48,9 @@ def results_folder(
         # a linkage that cannot turn fully has a notice that says so, and no moving drawing
         with contextlib.suppress(GeometryError):
             yield {"machine.svg": moving_drawing(results.machine, language=language).encode()}
+    free = free_course(results)
+    if free is not None:
+        yield {"transient.svg": moving_drawing(results.machine, language=language, free=free).encode()}
     if with_figures and not missing_extras(_FIGURES):
         drawn = figures(results, language=language, per_area=per_area)
         yield {f"figures/{name}.svg": data for name, data in drawn.items()}

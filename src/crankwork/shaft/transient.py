@@ -1,189 +1,326 @@
-"""Start and run-down of a machine: its speed from cycle to cycle, until it is steady, stands still or stalls."""
+"""A machine let go: the motion of one coordinate in time, J q'' + J' q'^2 / 2 = Q, from event to event."""
 
 from __future__ import annotations
 
+import bisect
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import Literal, NamedTuple
 
 import numpy as np
 
-from crankwork.dynamics.reduction import kinetic_energy
-from crankwork.errors import MethodError
 from crankwork.kinematics.crank_grid import Array
-from crankwork.shaft.collocation import WEIGHTS, Panels, integrate
-from crankwork.shaft.speed import ReducedMachine, SpeedRun, Status, energy_drift
+from crankwork.shaft.fitted import Fitted
+from crankwork.shaft.fluctuation import acceleration_of_crank
+from crankwork.shaft.gauss_step import POINTS, Step, gauss_step
+from crankwork.shaft.motor import Motor
 
-# A panel on which the energy falls below this part of what it was may hold the end of the motion.
-_FALL = 0.3
-_SHORTEST = 1e-9
-_HALVINGS = 60
+Way = Literal[1, -1]
+EventWord = Literal[
+    "sets_off", "turns_back", "comes_to_rest", "stop", "reaches_speed", "dead_position", "change_point", "end_of_way",
+    "steady", "interrupted", "many_steps", "lost",
+]  # fmt: skip
+
+RATE = 5
+_TAIL = 1e-12
+_SHARE = 1e-10
+_GROWTH = 2.0
+_SHORTEST = 1e-13
+_LANDINGS = 8
+_LANDED = 1e-15
+MOST_STEPS = 200_000
+_AT_END = 1e-13
+# of the largest speed, what counts as standing after a stop
+_STILL = 1e-6
+
+
+class Event(NamedTuple):
+    """Something that happens: when, what, where and how fast. [s], [unit of the coordinate]"""
+
+    time: float
+    word: EventWord
+    coordinate: float
+    rate: float
+
+
+@dataclass(frozen=True)
+class FreeMachine:
+    """A machine as its coordinate feels it."""
+
+    # Over the coordinate: inertia, potential energy, what loads without one push while it grows and while it falls,
+    # damping, the derivative of the crank angle by it, and last the derivatives of inertia and potential energy
+    reduced: Fitted
+    # Coordinates at which a law of the loads changes, ascending, first and last those of the period or range
+    breaks: tuple[float, ...]
+    torque: float = 0.0  # Constant torque on the crank [N m]
+    motor: Motor | None = None
+    dead: frozenset[float] = frozenset()  # Those of the breaks at which the crank turns back
+    changes: tuple[float, ...] = ()  # Those of change points
+    # Coordinates at which it is stopped, and what part of its speed it then gets back [-]
+    stops: tuple[float, float] = (-math.inf, math.inf)
+    restitution: float = 0.0
+
+    @property
+    def period(self) -> float:
+        """After which all repeats. [unit of the coordinate]"""
+        return self.reduced.period
+
+    def drive(self, speed: Array) -> Array:
+        """Return the torque that drives the crank, at its speeds. [N m]"""
+        own = np.full_like(speed, self.torque)
+        return own if self.motor is None else own + self.motor.torque(speed)
+
+    def acceleration(self, q: Array, v: Array, way: Way, low: float = -math.inf, high: float = math.inf) -> Array:
+        """Return the acceleration of the coordinate while it goes one way, on a stretch between breaks."""
+        J, _, grows, falls, damping, rate, J_1, V_1 = self.reduced(q, low, high)
+        torque = (grows if way > 0 else falls) - V_1 - damping * v + self.drive(rate * v) * rate
+        return np.asarray(acceleration_of_crank(torque, v, J, J_1))
 
 
 @dataclass
-class _Path:
-    """What has been gone through so far."""
+class Course:
+    """What has been gone through: steps, whole periods before each of them, and events."""
 
-    angles: list[float]
-    speeds: list[float]
-    times: list[float]
-    drift: float = 0.0
-    largest: float = 0.0
-    pieces: list[Panels] = field(default_factory=list)
+    steps: list[Step] = field(default_factory=list)
+    turned: list[float] = field(default_factory=list)
+    events: list[Event] = field(default_factory=list)
 
-    def add(self, angle: Array, speed: Array, time: Array) -> None:
-        self.angles += angle[1:].tolist()
-        self.speeds += speed[1:].tolist()
-        self.times += (self.times[-1] + time[1:]).tolist()
+    @property
+    def end(self) -> float:
+        """When it ends. [s]"""
+        return self.steps[-1].time + self.steps[-1].length
 
-
-def run(
-    machine: ReducedMachine, *, angle: float = 0.0, speed: float = 0.0, cycles: int = 1000, until_steady: bool = True
-) -> SpeedRun:
-    """Return how a machine turns from a given speed: a start from rest, a run-down, or anything between.
-
-    Up to steady motion if wanted, to standstill (`stopped` where no motor acts any more is the same as `stalled` where
-    one does, so a machine that has ever gained speed stalls), or to the last cycle. What happens after a standstill,
-    when the load turns the crank back, is not followed (artobolevsky_1988, ch. 15).
-
-    While it turns, the unknown is T = J w^2 / 2 over the crank angle; at rest, where w' is infinite over the angle,
-    it is the crank angle over the speed: dphi/dw = J w / (M - w^2 J' / 2).
-    """
-    if speed < 0:
-        raise MethodError(f"the crank turns with its positive direction; a speed of {speed:g} rad/s is against it")
-    path = _Path([angle], [speed], [0.0])
-    if speed == 0 and not _set_off(machine, path):
-        degrees = math.degrees(angle)
-        moment = float(machine.torque(np.array([angle]), np.array([0.0]))[0])
-        return _told(machine, path, "not started", f"at {degrees:.1f} deg the torque at rest is {moment:.4g} N m")
-    last = path.speeds[-1]
-    for _ in range(cycles):
-        start = path.angles[-1]
-        begin_speed = path.speeds[-1]
-        end = _cycle_end(machine, start, angle)
-        if not _turn(machine, path, end):
-            return _standstill(machine, path)
-        steady = abs(path.speeds[-1] - begin_speed) <= 1e-9 * begin_speed and end - start > 0.999 * machine.cycle
-        if until_steady and steady:
-            return _told(machine, path, "steady", "")
-        last = path.speeds[-1]
-    message = f"not steady after {cycles} cycles, at {last:.6g} rad/s" if until_steady else ""
-    return _told(machine, path, "turning", message)
+    def at(self, times: Array) -> tuple[Array, Array, Array]:
+        """Return coordinate, rate and acceleration at some times."""
+        times = np.asarray(times, dtype=float)
+        starts = np.array([one.time for one in self.steps])
+        which = np.clip(np.searchsorted(starts, times, side="right") - 1, 0, len(starts) - 1)
+        found = np.empty((3, *times.shape))
+        for k in np.unique(which):
+            here = which == k
+            q, v, a = self.steps[k].at(times[here])
+            found[:, here] = q + self.turned[k], v, a
+        return found[0], found[1], found[2]
 
 
-def _cycle_end(machine: ReducedMachine, start: float, first: float) -> float:
-    """Return the next angle that is whole cycles from the first one."""
-    done = math.floor((start - first) / machine.cycle + 1e-9)
-    return first + (done + 1) * machine.cycle
+class _Stretch(NamedTuple):
+    """Coordinates between which one law holds."""
+
+    low: float
+    high: float
 
 
-def _standstill(machine: ReducedMachine, path: _Path) -> SpeedRun:
-    place = math.degrees(path.angles[-1] % machine.cycle)
-    turns = (path.angles[-1] - path.angles[0]) / (2 * math.pi)
-    if path.speeds[-1] > 0:
-        return _told(machine, path, "not solved", f"the motion was lost at a crank angle of {place:.2f} deg")
-    gained = max(path.speeds) > path.speeds[0] * (1 + 1e-12)
-    rest = float(machine.torque(np.array([path.angles[-1]]), np.array([0.0]))[0])
-    message = f"at a crank angle of {place:.2f} deg after {turns:.3f} turns, where the torque at rest is {rest:.4g} N m"
-    if gained:
-        return _told(machine, path, "stalled", f"the machine stalls {message}: the motor is weaker than the load")
-    return _told(machine, path, "stopped", f"the machine stops {message}")
+class Run:
+    """One motion, from a coordinate and a rate."""
 
+    def __init__(self, machine: FreeMachine, coordinate: float, rate: float) -> None:
+        self.machine, self.course = machine, Course()
+        self.time, self.q, self.v, self.base = 0.0, coordinate, rate, 0.0
+        self.way: Way = 1 if rate >= 0 else -1
+        self.largest = abs(rate)
+        self.before: Step | None = None  # The step before under the same law
+        self.is_over = self.is_lost = False
+        self._wrap()
+        if rate == 0:
+            self._set_off()
+        self.stretch = self._stretch_at()
 
-def _told(machine: ReducedMachine, path: _Path, status: Status, message: str) -> SpeedRun:
-    angle, speed, time = np.array(path.angles), np.array(path.speeds), np.array(path.times)
-    low, high = int(np.argmin(speed)), int(np.argmax(speed))
-    return SpeedRun(
-        angle,
-        speed,
-        machine.acceleration(angle, speed),
-        time,
-        status,
-        message,
-        energy_drift=path.drift / path.largest if path.largest else 0.0,
-        least=float(speed[low]),
-        at_least=float(angle[low]),
-        largest=float(speed[high]),
-        at_largest=float(angle[high]),
-    )
+    def until(self, end: float, *, watched: Sequence[float] = (), each: Callable[[Run], bool] | None = None) -> Course:
+        """Go on to a time, or until `each`, asked after every step, says that it is enough. [s]
 
+        `watched`: speeds of the crank whose passing is told [rad/s].
+        """
+        length = end / 100
+        try:
+            while self.time < end * (1 - _AT_END) and not (self.is_over or self.is_lost):
+                if len(self.course.steps) >= MOST_STEPS:
+                    self.tell("many_steps")
+                    return self.course
+                length = self._advance(min(length, end - self.time), watched)
+                if each is not None and each(self):
+                    return self.course
+        except KeyboardInterrupt:
+            self.tell("interrupted")
+            return self.course
+        if self.is_over and self.time < end:
+            self._add(Step(self.time, self.q, 0.0, end - self.time, np.zeros(POINTS)))
+        return self.course
 
-def _turn(machine: ReducedMachine, path: _Path, end: float) -> bool:
-    """Go on to an angle, as many panels at once as go smoothly; False at a standstill."""
-    shortest = _SHORTEST * machine.cycle
-    edges = machine.edges(path.angles[-1], end)
-    count = edges.size - 1
-    while edges.size > 1:
-        if edges[1] - edges[0] < shortest:
-            return False
-        if _advance(machine, path, edges[: count + 1]):
-            edges = edges[count:]
-            count = min(2 * count, edges.size - 1)
-        elif count > 1:
-            count //= 2
-        elif _stop(machine, path, float(edges[1])):
-            return False
+    def _advance(self, length: float, watched: Sequence[float]) -> float:
+        """Take a step, or find that it has to be shorter; return the length to try next."""
+        step = gauss_step(self._law(), self.time, (self.q, self.v), length, self.before)
+        if step is None:
+            self.before = None
+            return self._shorter(length)
+        cut = self._first_cut(step)
+        if cut is not None:
+            time, what = cut
+            step = self._landed(time - self.time, what)
+            if step is None:
+                return self._shorter(length)
+        tail = self._tail(step)
+        if tail > 1:
+            return self._shorter(step.length)
+        self._watch(step, watched)
+        self._add(step)
+        self.before = step
+        self.time, (self.q, self.v) = self.time + step.length, step.end
+        self.largest = max(self.largest, abs(step.rate), abs(self.v))
+        if math.isinf(self.stretch.high):
+            self._wrap()
+        if cut is not None:
+            self.before = None
+            self._happen(cut[1])
+            return length
+        return step.length * min(_GROWTH, 0.9 * math.pow(max(tail, 1e-30), -1 / POINTS))
+
+    def _law(self) -> Callable[[Array, Array], Array]:
+        way, (low, high) = self.way, self.stretch
+        return lambda q, v: self.machine.acceleration(q, v, way, low, high)
+
+    def _tail(self, step: Step) -> float:
+        """Return what a step leaves out, over what it may leave out."""
+        q, v, share = step.tail
+        ends = self.machine.breaks
+        size = self.machine.period if math.isfinite(self.machine.period) else ends[-1] - ends[0]
+        felt = max(q / (_TAIL * size), v / (_TAIL * max(self.largest, abs(step.end[1]), 1e-300)))
+        # polynomials of the coordinate end in rounding, and so does the acceleration
+        return min(felt, share / _SHARE)
+
+    def _shorter(self, length: float) -> float:
+        if length / 2 <= _SHORTEST * max(self.time, 1e-3):
+            self.tell("lost")
+            self.is_lost = True
+        return length / 2
+
+    def _limits(self) -> dict[str, Callable[[Array, Array], Array]]:
+        """Return what changes its sign where the law of the step ends."""
+        low, high = self.stretch
+        stop_low, stop_high = (one - self.base for one in self.machine.stops)
+        found: dict[str, Callable[[Array, Array], Array]] = {}
+        if math.isfinite(high) and self.way > 0:
+            found["high"] = lambda q, _: q - high
+        if math.isfinite(low) and self.way < 0:
+            found["low"] = lambda q, _: q - low
+        if math.isfinite(stop_high):
+            found["stop_high"] = lambda q, _: q - stop_high
+        if math.isfinite(stop_low):
+            found["stop_low"] = lambda q, _: q - stop_low
+        found["turn"] = lambda _, v: v
+        return found
+
+    def _first_cut(self, step: Step) -> tuple[float, str] | None:
+        """Return when the law of a step ends within it, and by what."""
+        cuts = [(time, what) for what, value in self._limits().items() for time in step.crossings(value)[:1]]
+        return min(cuts, default=None)
+
+    def _landed(self, length: float, what: str) -> Step | None:
+        """Return the step that ends where its law does."""
+        value = self._limits()[what]
+        for _ in range(_LANDINGS):
+            step = gauss_step(self._law(), self.time, (self.q, self.v), length)
+            if step is None:
+                return None
+            q, v = step.end
+            miss = float(value(np.array(q), np.array(v)))
+            rate = float(self._law()(np.array([q]), np.array([v]))[0]) if what == "turn" else v
+            if rate == 0 or abs(miss / rate) <= _LANDED * max(self.time, length):
+                break
+            length -= miss / rate
+            if not length > 0:
+                return None
+        return step
+
+    def _happen(self, what: str) -> None:
+        """Go over to the law after an event."""
+        if what in ("stop_high", "stop_low"):
+            self._stopped(1 if what == "stop_high" else -1)
+        elif what == "turn":
+            self.v = 0.0
+            self.tell("turns_back")
+            self._set_off()
         else:
-            edges = np.insert(edges, 1, (edges[0] + edges[1]) / 2)
-    return True
+            self._cross(1 if what == "high" else -1)
+            return
+        self.stretch = self._stretch_at()
 
+    def _cross(self, side: Way) -> None:
+        """Go over into the next stretch."""
+        ends = self.machine.breaks
+        at = self.stretch[0 if side < 0 else 1]
+        self.q = at
+        k = ends.index(at)
+        if math.isinf(self.machine.period) and at in (ends[0], ends[-1]):
+            self.tell("end_of_way")
+            self.is_lost = True
+            return
+        if at in self.machine.dead:
+            self.tell("dead_position")
+        if math.isfinite(self.machine.period) and at == (ends[-1] if side > 0 else ends[0]):
+            self.base += side * self.machine.period
+            self.q -= side * self.machine.period
+            k = 0 if side > 0 else len(ends) - 1
+        low = k if side > 0 else k - 1
+        self.stretch = _Stretch(ends[low], ends[low + 1])
 
-def _advance(machine: ReducedMachine, path: _Path, edges: Array) -> bool:
-    energy = float(kinetic_energy(machine.inertia(edges[:1])[0][0], path.speeds[-1]))
-    # if the speed stayed the same, and the torque with it
-    held = machine.torque(edges, np.full_like(edges, path.speeds[-1]))
-    gain = np.concatenate([[0.0], np.cumsum(np.diff(edges) * (held[1:] + held[:-1]) / 2)])
-    guess = np.maximum(energy + gain, energy * (_FALL if gain[-1] < 0 else 1.0))
-    solved = integrate(machine.power(), edges, energy, guess=guess, positive=True)
-    if not solved.converged or np.min(solved.values) < _FALL * energy:
-        return False
-    pace = 1 / machine.speed(solved.points, solved.inside)
-    time = np.concatenate([[0.0], np.cumsum(np.diff(solved.edges) * (pace @ WEIGHTS))])
-    path.add(solved.edges, machine.speed(solved.edges, solved.values), time)
-    most = float(np.max(solved.values))
-    path.drift += energy_drift(machine, solved) * most
-    path.largest = max(path.largest, most)
-    return True
+    def _stopped(self, side: Way) -> None:
+        self.q = self.machine.stops[max(side, 0)] - self.base
+        self.tell("stop")
+        self.v = -self.machine.restitution * self.v
+        if abs(self.v) <= _STILL * self.largest:
+            self.v = 0.0
+            self.way = 1 if side < 0 else -1
+            away = float(self.machine.acceleration(np.array([self.q]), np.zeros(1), self.way, *self._stretch_at())[0])
+            if away * self.way <= 0:
+                self.tell("comes_to_rest")
+                self.is_over = True
+        else:
+            self.way = 1 if self.v > 0 else -1
 
+    def _set_off(self) -> None:
+        """Find which way it goes from rest, if any."""
+        ways: list[Way] = [1, -1]
+        for way in ways:
+            self.way = way
+            stretch = self._stretch_at()
+            if way * float(self.machine.acceleration(np.array([self.q]), np.zeros(1), way, *stretch)[0]) > 0:
+                return
+        self.tell("comes_to_rest")
+        self.is_over = True
 
-def _by_speed(machine: ReducedMachine, edges: Array, angle: float) -> Panels:
-    """Return the crank angle over the speed."""
+    def _stretch_at(self) -> _Stretch:
+        """Return the stretch between breaks that lies ahead."""
+        ends = self.machine.breaks
+        if len(ends) == 2 and math.isfinite(self.machine.period):
+            return _Stretch(-math.inf, math.inf)
+        k = bisect.bisect_right(ends, self.q) - 1 if self.way > 0 else bisect.bisect_left(ends, self.q) - 1
+        k = min(max(k, 0), len(ends) - 2)
+        return _Stretch(ends[k], ends[k + 1])
 
-    def rate(speed: Array, at: Array) -> Array:
-        J, J_1 = machine.inertia(at)
-        return np.asarray(J * speed / (machine.torque(at, speed) - speed**2 * J_1 / 2))
+    def _wrap(self) -> None:
+        """Bring the coordinate into the first period."""
+        if math.isfinite(self.machine.period):
+            first = self.machine.breaks[0]
+            turns = math.floor((self.q - first) / self.machine.period)
+            self.base += turns * self.machine.period
+            self.q -= turns * self.machine.period
 
-    return integrate(rate, edges, angle)
+    def _watch(self, step: Step, watched: Sequence[float]) -> None:
+        for rate in watched:
+            for time in step.crossings(lambda q, v, rate=rate: self.machine.reduced(q)[RATE] * v - rate):  # type: ignore[misc]
+                q, v, _ = step.at(np.array(time))
+                self.course.events.append(Event(time, "reaches_speed", float(q) + self.base, float(v)))
+        around = (0.0,) if math.isinf(self.machine.period) else (-self.machine.period, 0.0, self.machine.period)
+        for place in (change + turn for change in self.machine.changes for turn in around):
+            for time in step.crossings(lambda q, _, place=place: q - place):  # type: ignore[misc]
+                _, v, _ = step.at(np.array(time))
+                self.course.events.append(Event(time, "change_point", place + self.base, float(v)))
 
+    def tell(self, word: EventWord) -> None:
+        """Note that something happens now."""
+        self.course.events.append(Event(self.time, word, self.q + self.base, self.v))
 
-def _time_by_speed(machine: ReducedMachine, solved: Panels) -> Array:
-    pace = 1 / machine.acceleration(solved.inside, solved.points)
-    return np.concatenate([[0.0], np.cumsum(np.diff(solved.edges) * (pace @ WEIGHTS))])
-
-
-def _set_off(machine: ReducedMachine, path: _Path) -> bool:
-    """Go from rest to a low speed."""
-    angle = path.angles[-1]
-    moment = float(machine.torque(np.array([angle]), np.array([0.0]))[0])
-    if moment <= 0:
-        return False
-    inertia = float(machine.inertia(np.array([angle]))[0][0])
-    corner = float(machine.edges(angle, angle + machine.cycle)[1])
-    speed = math.sqrt(moment * min(corner - angle, machine.cycle / 100) / inertia)
-    for _ in range(_HALVINGS):
-        solved = _by_speed(machine, np.linspace(0.0, speed, 2), angle)
-        ahead = solved.converged and angle < solved.values[-1] <= corner and bool(np.all(solved.rate > 0))
-        if ahead:
-            path.add(solved.values, solved.edges, _time_by_speed(machine, solved))
-            return True
-        speed /= 2
-    return False
-
-
-def _stop(machine: ReducedMachine, path: _Path, end: float) -> bool:
-    """Go from a low speed to rest, if that is where the next panel leads."""
-    solved = _by_speed(machine, np.linspace(path.speeds[-1], 0.0, 3), path.angles[-1])
-    if not solved.converged or np.any(solved.rate >= 0) or not path.angles[-1] < solved.values[-1] <= end + 1e-12:
-        return False
-    path.add(solved.values, solved.edges, _time_by_speed(machine, solved))
-    path.speeds[-1] = 0.0
-    return True
+    def _add(self, step: Step) -> None:
+        self.course.steps.append(step)
+        self.course.turned.append(self.base)
