@@ -217,7 +217,6 @@ MISTAKES = {
     "temperature unused": (STIRLING, MEAN, f"{MEAN}\nexponent = 1.6", "chambers.hot.temperature", "leave it out"),
     "cold": (STIRLING, '"320 K"\nambient', '"-320 degC"\nambient', "chambers.cold.temperature", "out of range"),
     "crank that swings": (ATKINSON, 'length = "124.3 mm"', 'length = "85 mm"', "chambers", "does not turn fully"),
-    "start": (STIRLING, FLYWHEEL, '[transient]\ntorque = "1 N*m"\ntime = "1 s"\n[flywheel]', "transient", "only loads"),
 }
 
 

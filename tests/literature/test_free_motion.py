@@ -132,7 +132,7 @@ def test_the_n_four_bar_over_ten_seconds(count: int) -> None:
     )
 
 
-# two links of 10 kg and 0.375 m between wheels on a floor and a collar of 7 kg on a rod: as a trammel, both links in one
+# two links of 10 kg and 0.375 m between wheels on a floor and a collar of 7 kg: as a trammel, both links in one
 COLLAR = """
 [fixed_points]
 O = ["0 m", "0 m"]

@@ -90,6 +90,7 @@ class Step:
         return found
 
 
+@np.errstate(all="ignore")  # of a step too long anything may come out
 def gauss_step(
     acceleration: Acceleration, time: float, state: tuple[float, float], length: float, before: Step | None = None
 ) -> Step | None:
