@@ -76,6 +76,7 @@ def test_every_linkage_has_its_plans_and_the_curves_of_what_is_known(path):
         expected |= {"sliders"} if any(key.startswith("slider_") for key in results.columns) else set()
         expected |= {"indicator", "chambers"} if results.machine.chambers else set()
         expected |= {"wittenbauer", "speed"} if results.machine.drive.fluctuation else set()
+        expected |= {"transient"} if results.machine.transient else set()
     assert set(drawn) == expected
     for data in drawn.values():
         assert ET.fromstring(data).tag == f"{SVG}svg"  # noqa: S314 - our own bytes
