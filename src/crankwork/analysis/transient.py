@@ -460,27 +460,27 @@ def _power(loose: Loose, course: Course, times: Array) -> Array:
 
 
 def _told(loose: Loose, course: Course) -> Iterator[Notice]:
-    """Yield what happens, the first times of it."""
+    """Yield what keeps it from starting, and what happens on the way: the first time of each."""
+    missing = _missing_torque(loose)
+    stays = bool(course.events) and course.events[0].time == 0 and course.events[0].word == "comes_to_rest"
+    if missing > 0:
+        values: dict[str, float | str] = {"angle": math.degrees(loose.wanted.start), "torque": missing}
+        yield Notice("transient_stays" if stays else "transient_overcome", values)
     counted: Counter[str] = Counter(one.word for one in course.events)
     for word, count in counted.items():
         event = next(one for one in course.events if one.word == word)
         crank = loose.chart.crank(np.array([event.coordinate]))
-        values: dict[str, float | str] = {
-            "time": event.time,
-            "angle": math.degrees(float(crank.position[0])),
-            "speed": float(crank.position_1[0] * event.rate),
-            "count": count,
-        }
-        if word == "comes_to_rest" and event.time == 0:
-            yield Notice("transient_stays", {**values, "torque": _breakaway(loose)})
-        else:
-            yield Notice(f"transient_{word}", values)
+        angle, speed = math.degrees(float(crank.position[0])), float(crank.position_1[0] * event.rate)
+        if not (stays and word == "comes_to_rest" and missing > 0):
+            yield Notice(f"transient_{word}", {"time": event.time, "angle": angle, "speed": speed, "count": count})
 
 
-def _breakaway(loose: Loose) -> float:
-    """Return the torque on the crank that is missing where a machine stays at rest. [N m]"""
+def _missing_torque(loose: Loose) -> float:
+    """Return what more torque on the crank would start a machine at rest the way that it is driven. [N m]"""
+    drive = float(loose.felt.drive(np.zeros(1))[0])
+    if not drive or loose.wanted.speed:
+        return 0.0
     felt, u = loose.felt, np.array([loose.chart.coordinate(loose.wanted.start)])
-    _, _, grows, falls, _, rate, _, slope = felt.reduced(u)
-    grows, falls = grows - slope, falls - slope
-    torque = felt.drive(np.zeros(1))
-    return float(max(-(grows / rate + torque)[0], 0.0)) if torque >= 0 else float(max((falls / rate + torque)[0], 0.0))
+    way: Way = 1 if drive * float(felt.reduced(u)[RATE][0]) > 0 else -1
+    inertia, rate = (float(felt.reduced(u)[row][0]) for row in (0, RATE))
+    return -way * float(felt.acceleration(u, np.zeros(1), way)[0]) * inertia / abs(rate)

@@ -1,0 +1,128 @@
+"""Machines let go, from their files: against integrations and closed forms written here, and what is told of them."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import crankwork
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+PRESS = (EXAMPLES / "press-start.toml").read_text(encoding="utf-8")
+
+pytestmark = pytest.mark.elsewhere
+
+
+def let_go(text: str) -> crankwork.Results:
+    return crankwork.analyse(crankwork.read_machine(text))
+
+
+def told(results: crankwork.Results) -> list[str]:
+    return [one.code for one in results.notices if one.code.startswith("transient")]
+
+
+class Press:
+    """The press of the example by the formulas of a central slider-crank, its ram above the crank."""
+
+    r, length, to_centre, rod, rod_inertia, ram, beside, g = 0.08, 0.4, 0.15, 30.0, 0.5, 120.0, 40.0, 9.80665
+
+    def __init__(self) -> None:
+        rated, self.synchronous = 960 * math.pi / 30, 2 * math.pi * 50 / 3
+        slip = (self.synchronous - rated) / self.synchronous
+        self.breakdown = 2.2 * 5500 / rated
+        self.slip = slip * (2.2 + math.sqrt(2.2**2 - 1))
+        self.beside += 0.05 * 16**2
+
+    def motor(self, speed: float) -> float:
+        s = 1 - 16 * speed / self.synchronous
+        return 16 * 2 * self.breakdown / (s / self.slip + self.slip / s) if s else 0.0
+
+    def rates(self, q: float) -> tuple[float, float, float, float, float]:
+        """Rates of ram, rod's centre and rod, and how far the ram is down."""
+        sin, cos = math.sin(q), math.cos(q)
+        beta = math.asin(self.r / self.length * sin)
+        turning = -self.r * cos / (self.length * math.cos(beta))
+        ram = -self.r * (sin + math.tan(beta) * cos)
+        part = self.to_centre / self.length
+        across, along = -self.r * cos * (1 - part), -self.r * sin + part * (ram + self.r * sin)
+        down = self.r + self.length - self.r * cos - self.length * math.cos(beta)
+        return ram, across, along, turning, down
+
+    def inertia(self, q: float) -> float:
+        ram, across, along, turning, _ = self.rates(q)
+        return self.beside + self.ram * ram**2 + self.rod * (across**2 + along**2) + self.rod_inertia * turning**2
+
+    def torque(self, q: float, speed: float) -> float:
+        ram, _, along, _, down = self.rates(q)
+        force = float(np.interp(down, [0.0, 0.13, 0.14, 0.16], [200.0, 200.0, 15e3, 20e3])) if ram * speed < 0 else 0.0
+        return self.motor(speed) - self.g * (self.ram * ram + self.rod * along) + force * ram
+
+    def acceleration(self, q: float, speed: float) -> float:
+        h = 1e-30
+        slope = self._complex_slope(q, h)
+        return (self.torque(q, speed) - speed**2 * slope / 2) / self.inertia(q)
+
+    def _complex_slope(self, q: float, h: float) -> float:
+        z = complex(q, h)
+        sin, cos = np.sin(z), np.cos(z)
+        beta = np.arcsin(self.r / self.length * sin)
+        turning, ram = -self.r * cos / (self.length * np.cos(beta)), -self.r * (sin + np.tan(beta) * cos)
+        part = self.to_centre / self.length
+        across, along = -self.r * cos * (1 - part), -self.r * sin + part * (ram + self.r * sin)
+        whole = self.ram * ram**2 + self.rod * (across**2 + along**2) + self.rod_inertia * turning**2
+        return float(whole.imag / h)
+
+    def corners(self) -> list[float]:
+        """Crank angles of one turn at which the law of the load changes."""
+        found = [math.pi, 2 * math.pi]
+        for way in (0.13, 0.14):
+            low, high = 0.0, math.pi
+            for _ in range(100):
+                middle = (low + high) / 2
+                low, high = (middle, high) if self.rates(middle)[4] < way else (low, middle)
+            found.append(low)
+        return sorted(found)
+
+
+def test_a_press_started_by_its_motor_against_another_integration() -> None:
+    """SciPy's DOP853 from corner to corner of the load, on formulas of the slider-crank."""
+    results = let_go(PRESS.replace('until = "steady"\n', "").replace('"12 s"', '"2.5 s"'))
+    press = Press()
+    ahead = [one + 2 * math.pi * turn for turn in range(6) for one in press.corners()]
+    time, state = 0.0, np.zeros(2)
+    for corner in ahead:
+        reached = lambda _, y, at=corner: y[0] - at  # noqa: E731
+        reached.terminal = True
+        part = solve_ivp(
+            lambda _, y: [y[1], press.acceleration(y[0], y[1])], (time, 2.5), state, "DOP853", rtol=3e-14, atol=1e-15,
+            events=reached,
+        )  # fmt: skip
+        time, state = part.t[-1], part.y[:, -1]
+        if time >= 2.5:
+            break
+    assert results.summary["final_turn"] == pytest.approx(state[0], rel=1e-9)
+    assert results.summary["final_speed"] == pytest.approx(state[1], rel=1e-9)
+    assert results.checks["energy_balance"] < 1e-12
+
+
+def test_the_end_of_a_start_is_the_steady_motion_found_apart() -> None:
+    results = let_go(PRESS)
+    assert told(results)[-1] == "transient_steady"
+    assert results.checks["steady_cycle"] < 1e-11
+
+
+def test_a_motor_too_weak_says_what_is_missing() -> None:
+    """At a crank angle of 90 degrees the weights need M; the motor gives less when it starts."""
+    results = let_go(
+        PRESS.replace("ratio = 16", "ratio = 0.1").replace('time = "12 s"', 'start = "270 deg"\ntime = "1 s"')
+    )
+    (stays,) = (one for one in results.notices if one.code == "transient_overcome")
+    press = Press()
+    gives = 0.1 * 2 * press.breakdown / (1 / press.slip + press.slip)
+    assert stays.values["torque"] == pytest.approx(
+        -press.torque(1.5 * math.pi, 0.0) + press.motor(0.0) - gives, rel=1e-9
+    )
