@@ -41,7 +41,7 @@ def ours(count: int) -> tuple[float, float, float]:
 def theirs(count: int, steps: int) -> tuple[float, float]:
     """Return seconds for a simulated second with Exudyn, and the error of the angle. [s], [rad]"""
     import exudyn as exu  # noqa: PLC0415 - a peer, where it is installed
-    from exudyn import itemInterface as items  # noqa: PLC0415
+    from exudyn import itemInterface as items  # noqa: N813, PLC0415 - one of its modules
 
     system = exu.SystemContainer().AddSystem()
     ground = system.AddObject(items.ObjectGround())

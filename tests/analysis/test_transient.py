@@ -115,6 +115,70 @@ def test_the_end_of_a_start_is_the_steady_motion_found_apart() -> None:
     assert results.checks["steady_cycle"] < 1e-11
 
 
+SWING = """
+[fixed_points]
+O = ["0 m", "0 m"]
+[crank]
+pivot = "O"
+pin = "A"
+radius = "0.2 m"
+speed = "60 rpm"
+start = "-90 deg"
+mass = "2 kg"
+centre = ["0.1 m", "0 m"]
+inertia = "0.03 kg*m2"
+[links]
+rod = { joins = ["A", "B"], length = "0.5 m" }
+[guides]
+floor = { through = ["0 m", "-0.2 m"] }
+[sliders]
+block = { guide = "floor", pin = "B", mass = "3 kg" }
+[positions]
+B = ["0.5 m", "-0.2 m"]
+[[loads]]
+kind = "damper"
+slider = "block"
+damping = "8 N*s/m"
+[[loads]]
+kind = "spring"
+slider = "block"
+stiffness = "100 N/m"
+free_length = "0.5 m"
+preload = "2 N"
+[method]
+weights = true
+[transient]
+time = "3 s"
+start = "40 deg"
+step = "10 ms"
+"""
+
+
+def test_a_damped_swing_against_another_integration() -> None:
+    """Pendulum, block, spring with preload and damper; the block at x = r sin q + sqrt(l^2 - (r - r cos q)^2)."""
+    results = let_go(SWING)
+    r, length, g = 0.2, 0.5, 9.80665
+
+    def rate(_: float, state: np.ndarray) -> list[float]:
+        q, w = state
+        z = complex(q, 1e-30)
+        h = r - r * np.cos(z)
+        x_1 = r * np.cos(z) - h * r * np.sin(z) / np.sqrt(length**2 - h**2)
+        inertia = 0.03 + 3 * x_1**2
+        x = r * math.sin(q) + math.sqrt(length**2 - h.real**2)
+        force = -100 * (x - 0.5) - 2 - 8 * x_1.real * w
+        torque = -2 * g * 0.1 * math.sin(q) + force * x_1.real
+        return [w, (torque - w * w * inertia.imag / 1e-30 / 2) / inertia.real]
+
+    columns = results.listings["transient"].columns
+    other = solve_ivp(
+        rate, (0.0, 3.0), [math.radians(40), 0.0], "DOP853", rtol=3e-14, atol=1e-15, t_eval=columns["time"][:300]
+    )
+    assert columns["crank_angle"][:300] == pytest.approx(other.y[0], abs=1e-10)
+    assert columns["crank_speed"][:300] == pytest.approx(other.y[1], abs=1e-9)
+    assert results.checks["energy_balance"] < 1e-12
+
+
 def test_a_motor_too_weak_says_what_is_missing() -> None:
     """At a crank angle of 90 degrees the weights need M; the motor gives less when it starts."""
     results = let_go(

@@ -18,6 +18,7 @@ from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.reduction import kinetic_energy, reduced_inertia, reduced_torque
 from crankwork.dynamics.running import Running
 from crankwork.errors import MethodError
+from crankwork.formula.expression import Value
 from crankwork.formula.known import Found, Known, breaks_of
 from crankwork.kinematics.circuits import with_branches
 from crankwork.kinematics.coordinates import driver_coordinate
@@ -27,6 +28,7 @@ from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.transfer import Transfer
 from crankwork.kinematics.travel import Travel, branches_of
 from crankwork.loads.applied import AppliedLoads
+from crankwork.loads.damper import Damper, SliderDamper
 from crankwork.loads.load import applied_loads
 from crankwork.loads.potential import has_potential, potential_energy
 from crankwork.loads.process import ProcessForce, ProcessForceAtPoint, TorqueOnLink
@@ -198,10 +200,11 @@ class Loose:
         back = Transfer(angle, np.full_like(angle, float(way)), np.zeros_like(angle))
         return motion if way > 0 else replace(motion, driver=back)
 
-    def loads(self, piece: Piece, motion: Motion, *, with_potential: bool = True) -> AppliedLoads:
-        """Return what pushes the linkage."""
+    def loads(self, piece: Piece, motion: Motion, speed: Value = 0.0, *, with_potential: bool = True) -> AppliedLoads:
+        """Return what pushes the linkage at some speeds of the crank. [rad/s]"""
         loads = [one for one in self.machine.loads if with_potential or not has_potential(one)]
-        return applied_loads(piece.mechanism, motion, loads).also(self.solved.filling.loads(piece.mechanism, motion))
+        gas = self.solved.filling.loads(piece.mechanism, motion)
+        return applied_loads(piece.mechanism, motion, loads, speed).also(gas)
 
     def inertia(self, piece: Piece, motion: Motion) -> Array:
         """Return the reduced moment of inertia with all that turns with the crank. [kg m2]"""
@@ -216,6 +219,8 @@ class Loose:
             found[0, here] = self.inertia(piece, motion) * q_1**2
             found[1, here] = potential_energy(piece.mechanism, motion, self.machine.loads)
             found[RATE, here] = q_1
+            dampers = [one for one in self.machine.loads if isinstance(one, Damper | SliderDamper)]
+            found[4, here] = -reduced_torque(motion, applied_loads(piece.mechanism, motion, dampers, 1.0)) * q_1**2
             torques = [
                 reduced_torque(one, self.loads(piece, one, with_potential=False)) * q_1
                 for one in ((motion, self.moved(piece, q, -1)) if self.is_two_sided else (motion, motion))
@@ -377,7 +382,8 @@ def _history(loose: Loose, course: Course) -> Listing:
             rest.put(f"slider_velocity.{name}", here, slide.position_1 * speed[here])
         rest.put("kinetic_energy", here, kinetic_energy(loose.inertia(piece, motion), speed[here]))
         rest.put("potential_energy", here, potential_energy(piece.mechanism, motion, loose.machine.loads))
-        running = Running(piece.mechanism, motion, speed[here], loose.loads(piece, motion), acceleration[here])
+        loads = loose.loads(piece, motion, speed[here])
+        running = Running(piece.mechanism, motion, speed[here], loads, acceleration[here])
         for name, pin in joint_forces(running).pins.items():
             rest.put(f"joint_force.{name}", here, pin.resultant)
     rest.columns["driving_torque"] = loose.felt.drive(speed)
@@ -454,7 +460,7 @@ def _power(loose: Loose, course: Course, times: Array) -> Array:
             if rows.size:
                 order = rows[np.argsort(crank.position[rows], kind="stable")]
                 motion = loose.moved(piece, crank.position[order], way)
-                loads = loose.loads(piece, motion, with_potential=False)
+                loads = loose.loads(piece, motion, speed[order], with_potential=False)
                 power[order] += reduced_torque(motion, loads) * speed[order]
     return np.asarray(power)
 
