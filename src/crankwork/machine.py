@@ -18,6 +18,7 @@ from crankwork.method import EXACT, Method
 if TYPE_CHECKING:
     from crankwork.cylinders.articulated import ArticulatedRod
     from crankwork.dynamics.efficiency import Series
+    from crankwork.dynamics.friction import Friction
     from crankwork.dynamics.redundant import RedundantLink
     from crankwork.dynamics.tabulated import Differences, TabulatedBody
     from crankwork.kinematics.travel import Travel
@@ -291,6 +292,8 @@ class Machine:
         What pushes a linkage.
     redundant : tuple of RedundantLink
         Links too many that fit, and what each of them bears; `linkage` is without them.
+    friction : tuple of Friction
+        What rubs in pins and guides of a linkage.
     chambers, charges : mapping of str to Chamber and to Charge
         The gas between sliding pieces of a linkage, and that which is sealed in several chambers, by name.
     drive : Drive
@@ -321,6 +324,7 @@ class Machine:
     has_gravity: bool = False
     loads: tuple[Load, ...] = ()
     redundant: tuple[RedundantLink, ...] = ()
+    friction: tuple[Friction, ...] = ()
     chambers: Mapping[str, Chamber] = field(default_factory=dict)
     charges: Mapping[str, Charge] = field(default_factory=dict)
     drive: Drive = Drive()

@@ -13,6 +13,8 @@ WIEBE = "combustion_duration = "
 
 # example, the original text, what a user writes, the key blamed, and words of the advice
 MISTAKES = {
+    "rubbing pins": ("petrol-four", ORDER, f"{ORDER}\n[friction.pins.crank_pin]\nmoment = '1 N*m'", "friction",
+                     "crankwork check FILE --expand prints it as a linkage"),
     "order repeats": ("petrol-four", ORDER, "firing_order = [1, 3, 4, 4]", "engine.firing_order",
                       "names cylinder 4 twice and leaves out cylinder 2"),
     "order too short": ("petrol-four", ORDER, "firing_order = [1, 3, 4]", "engine.firing_order", "leaves out"),

@@ -7,8 +7,6 @@ Published cases of mechanisms that no machine file expresses, with the reason:
   a swing and a time ratio.
 * rubbing speeds of pins, and the point of least speed on a rod (Khurmi and Gupta, ex. 7.2): the velocity of any stated
   point is there, but pins of linkages have no size.
-* wedges, pulleys and sliding pairs that friction holds (Beer and Johnston, 8.4 and 8.6; Bevan, ch. 6, ex. 1): they are
-  no linkages; losses of a linkage are its efficiencies.
 * the Ross yoke by the displacement formula of its program (Urieli, D-90), which takes the end of the yoke on a
   straight line where it goes on an arc: a linkage moves as it is made.
 """

@@ -169,3 +169,37 @@ def test_a_collar_falls_onto_a_spring() -> None:
     way = 0.375 * math.sin(-events(sunk, "turns_back")[0]["crank_angle"])
     assert way == pytest.approx(0.0601, rel=2e-3)
     assert way == pytest.approx(0.06013928424680485, rel=1e-11)
+
+
+def test_a_damper_on_a_yoke_slows_a_wheel_down() -> None:
+    """J w' = -d (r sin phi)^2 w, so that w = w0 - d r^2 / J (phi / 2 - sin 2 phi / 4)."""
+    results = let_go("""
+        [fixed_points]
+        O = ["0 m", "0 m"]
+        [crank]
+        pivot = "O"
+        pin = "A"
+        radius = "0.1 m"
+        speed = "60 rpm"
+        inertia = "2 kg*m2"
+        [guides]
+        slot = { link = "yoke", angle = "90 deg" }
+        bed = { through = "O", angle = "0 deg" }
+        [sliders]
+        block = { guide = "slot", pin = "A" }
+        yoke = { guide = "bed" }
+        [[loads]]
+        kind = "damper"
+        slider = "yoke"
+        damping = "60 N*s/m"
+        [transient]
+        speed = "10 rad/s"
+        time = "3 s"
+        step = "0.1 s"
+    """)
+    columns = results.listings["transient"].columns
+    angle = columns["crank_angle"]
+    slowed = 60 * 0.1**2 / 2 * (angle / 2 - np.sin(2 * angle) / 4)
+    assert columns["crank_speed"] == pytest.approx(10 - slowed, rel=1e-12)
+    assert columns["crank_speed"][-1] < 8
+    assert results.unmet == ()

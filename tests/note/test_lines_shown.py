@@ -164,13 +164,14 @@ def test_a_step_belongs_to_a_quantity_and_is_told_once(machine, method, groups_o
 # What a solver, an integral or an extreme over the revolution gives.
 NO_FORMULA = {
     "crank_angle", "efficiency", "speed_fluctuation", "final_turn", "final_speed", "steady_speed",
-    "steady_fluctuation", "mean_torque", "kinetic_energy_change", "crank_speed",
+    "steady_fluctuation", "mean_torque", "mean_friction_power", "kinetic_energy_change", "crank_speed",
     # a sum of what is shown
     "engine_indicated_power",
 }  # fmt: skip
 SOLVED_KINDS = (
     "joint_force", "normal_force", "normal_moment", "link_angle", "link_swing", "slider_stroke", "slider_displacement",
     "point_x", "point_y", "transmission_angle", "time_ratio", "shaking_force_max", "free_force",
+    "torque_with_friction", "static_torque_with_friction",
 )  # fmt: skip
 
 

@@ -90,7 +90,7 @@ def not_held(results, note):
         held += rows[base_key(step.key)]
         # a cylinder with an articulated rod has a mark in its lines
         names = (step.key, step.key.rpartition(".")[0])
-        kept = [one for name in names for one in known.get(name, ())]
+        kept = [one for name in names if name for one in known.get(name, ())]
         held += [moment.value(one) for one in kept for moment in (at if one.varies else at[:1])]
         if not any(is_same(value, step) for value in held):
             found.add(base_key(step.key))

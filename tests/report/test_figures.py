@@ -75,6 +75,7 @@ def test_every_linkage_has_its_plans_and_the_curves_of_what_is_known(path):
         expected |= {"position_plans", "velocity_plan", "acceleration_plan", "joint_forces"}
         expected |= {"sliders"} if any(key.startswith("slider_") for key in results.columns) else set()
         expected |= {"indicator", "chambers"} if results.machine.chambers else set()
+        expected |= {"friction"} if results.machine.friction else set()
         expected |= {"wittenbauer", "speed"} if results.machine.drive.fluctuation else set()
         expected |= {"transient"} if results.machine.transient else set()
     assert set(drawn) == expected

@@ -11,8 +11,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crankwork.analysis.chambers import gas_check, gas_summary, solve_linkage
+from crankwork.analysis.friction import COLUMNS as FRICTION
+from crankwork.analysis.friction import FOLLOWED as FOLLOWED_FRICTION
+from crankwork.analysis.friction import SIGNED, friction_of, mean_values
 from crankwork.analysis.linkage_balance import balance_of
-from crankwork.analysis.linkage_memory import efficiency_of, linkage_memory, speed_of
+from crankwork.analysis.linkage_memory import efficiency_of, linkage_memory, remembered_running, speed_of
 from crankwork.analysis.linkage_speed import turn_of
 from crankwork.analysis.quality import FOLLOWED, quality_of, rocks, smooth_transmissions, time_ratios
 from crankwork.analysis.reach import (
@@ -88,8 +91,12 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
     motion = remembered_motion(machine.mechanism, reached.motion, machine.linkage)
     solved = solve_linkage(machine, motion)
     notices = reached.notices + tuple(Notice(*one) for one in (*machine.notices, *solved.filling.notices))
-    memory = linkage_memory(solved, motion)
-    followed = _followed(memory) | dict(smooth_transmissions(machine.mechanism, motion))
+    running = remembered_running(solved, motion)
+    memory = linkage_memory(solved, running)
+    rubbing = friction_of(solved, running, memory)
+    memory |= rubbing.columns
+    notices += rubbing.notices
+    followed = _followed(memory, has_friction=rubbing.is_free) | dict(smooth_transmissions(machine.mechanism, motion))
     start, end = (0.0, machine.cycle) if found is None else machine.working_range or open_range(found)
     ends = _where_unbounded(machine, found)
     without = boundless(followed, *ends, machine.cycle if found is None else found.end - found.start)
@@ -103,7 +110,11 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
     summary = _summary(solved, over, quality, is_whole=found is None)
     if found is not None:
         summary |= limits_of(found, memory)
-    checks = _checks(solved, clear_of_changes(machine.mechanism, reached.motion)) | gas_check(solved, motion)
+    checks = (
+        _checks(solved, clear_of_changes(machine.mechanism, reached.motion))
+        | gas_check(solved, motion)
+        | rubbing.checks
+    )
     between = {"mobility": mobility(machine.whole)}
     if found is None and "reduced_inertia" in memory:
         turn = turn_of(machine, over, {**memory, **summary})
@@ -117,11 +128,7 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
         summary |= {key: one.named(key) for key, one in balance_of(driver, memory | summary, machine.mechanism.period)}
     ran = let_go(solved, found, summary)
     summary, checks, notices = summary | ran.summary, checks | ran.checks, notices + ran.notices
-    notices += tuple(_of_redundant(machine))
-    if isinstance(driver, Crank) and any(one.pressure_angle is None for one in driver.geared):
-        notices += (Notice("geared", {}),)
-    if machine.mechanism.driver.law is not None:
-        notices += (Notice("by_law", {}),)
+    notices += tuple(_of_machine(machine))
     # where links pass through a line, that is told already
     notices += () if machine.mechanism.passages else unusual
     columns = absent_where_still(Program(memory)(table))
@@ -134,8 +141,8 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
     return Results(solved, table, columns, values, checks, notices, _groups(columns), ran.listings, memory=memory)
 
 
-def _of_redundant(machine: Machine) -> Iterator[Notice]:
-    """Yield notices of links too many, and of what is not known where their part in what is borne is not stated."""
+def _of_machine(machine: Machine) -> Iterator[Notice]:
+    """Yield notices of links too many, and of what is not known of them, of gears without teeth, and of a law."""
     for one in machine.redundant:
         freedom = float(mobility(machine.whole).value)
         if one.share is None:
@@ -144,6 +151,11 @@ def _of_redundant(machine: Machine) -> Iterator[Notice]:
             yield Notice(
                 "redundant", {"name": one.member.name, "mobility": freedom, "share": one.share, "other": one.of}
             )
+    driver = machine.mechanism.driver
+    if isinstance(driver, Crank) and any(one.pressure_angle is None for one in driver.geared):
+        yield Notice("geared", {})
+    if driver.law is not None:
+        yield Notice("by_law", {})
 
 
 def _table(machine: Machine, reached: Reached, grid: CrankGrid | None) -> CrankGrid:
@@ -183,11 +195,11 @@ def _where(columns: Mapping[str, tuple[float, ...]]) -> dict[str, float | str]:
     return {"angles": "°, ".join(f"{one:.6g}" for one in angles), "quantities": ", ".join(kinds)}
 
 
-def _followed(memory: Mapping[str, Known]) -> dict[str, Known]:
-    """Return the columns that single values are taken from."""
+def _followed(memory: Mapping[str, Known], *, has_friction: bool) -> dict[str, Known]:
+    """Return the columns that single values are taken from; those with friction where it locks nowhere."""
     kinds = (
         "slider_displacement", "link_angle", "joint_force", "tooth_force", "axial_force", "slider_velocity",
-        "gas_pressure", "gas_force", *_OF_DRIVER, "shaking_force",
+        "gas_pressure", "gas_force", *_OF_DRIVER, "shaking_force", *(FOLLOWED_FRICTION if has_friction else ()),
     )  # fmt: skip
     return {key: one for key, one in memory.items() if key in DYNAMICS or key.partition(".")[0] in kinds}
 
@@ -213,7 +225,7 @@ def _summary(
         if is_place and (kind == "slider_displacement" or travel.value < math.pi):
             result[f"{_TRAVEL[kind]}.{name}"] = travel
         if not is_place or rocks(pivoted, key, travel.value):
-            both = is_place or key in DYNAMICS or kind in ("gas_force", "tooth_force") or key in _OF_DRIVER
+            both = is_place or key in DYNAMICS or kind in ("gas_force", "tooth_force") or key in (*_OF_DRIVER, *SIGNED)
             words = ("max", "min") if both else ("max",)
             for word in words:
                 extreme = f"{kind}_{word}{dot}{name}"
@@ -224,6 +236,8 @@ def _summary(
         result |= time_ratios(over, {key: one.named(key) for key, one in result.items()})
     if (machine.loads or machine.chambers) and is_whole and law is None:
         result["mean_torque"] = over.mean("static_torque", "mean_torque")
+    if is_whole:
+        result |= {one.key: one for one in mean_values(over)}
     result |= gas_summary(solved)
     # that of an engine, of the same key, is what it gives
     return {key: one.named("mean_driving_torque" if key == "mean_torque" else key) for key, one in result.items()}
@@ -327,6 +341,7 @@ def _groups(columns: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
         "balance": ("shaking_force_x", "shaking_force_y", "shaking_force", "shaking_moment"),
         "speed": ("crank_speed", "kinetic_energy_change"),
         "chambers": ("cylinder_volume", "diagram_pressure", "gas_pressure", "gas_force"),
+        "friction": FRICTION,
         "joint_forces": ("joint_force_x", "joint_force_y", "joint_force", "tooth_force", "separating_force",
                          "axial_force", "normal_force",
                          "normal_moment"),

@@ -33,7 +33,7 @@ from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.loads.load import applied_loads
 from crankwork.machine import Drive, Machine
 from crankwork.mechanism.driver import Law, LinkMotor
-from crankwork.mechanism.joints import SlidingJoint, joints, pivots_of
+from crankwork.mechanism.joints import SlidingJoint, joints, names_of_pivots
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Crank
 
@@ -41,37 +41,43 @@ from crankwork.mechanism.mechanism import Crank
 DRIVEN = {False: "driver_force", True: "driver_torque"}
 
 
-def linkage_memory(solved: SolvedLinkage, motion: Motion) -> dict[str, Known]:
+def remembered_running(solved: SolvedLinkage, motion: Motion) -> Running:
+    """Return a linkage at work, with its loads, remembered."""
+    machine = solved.machine
+    if motion.driver is not None:
+        _, w, eps = motion.driver
+    else:
+        w = speed_of(machine)
+        eps = _stated("angular_acceleration", machine.angular_acceleration, "crank.angular_acceleration")
+    mechanism = given_mechanism(machine.mechanism, machine.linkage)
+    loads = applied_loads(mechanism, motion, machine.loads, w).also(solved.filling.loads(mechanism, motion))
+    return Running(mechanism, motion, w, loads, eps)
+
+
+def linkage_memory(solved: SolvedLinkage, running: Running) -> dict[str, Known]:
     """Return all columns of a linkage (artobolevsky_1988, ch. 13-16).
 
-    Columns by key; those of points, links, sliders, joints and chambers are `key.NAME`. `motion`: its motion,
+    Columns by key; those of points, links, sliders, joints and chambers are `key.NAME`. `running`: the linkage at work,
     remembered.
     """
-    machine = solved.machine
+    machine, motion, w, eps = solved.machine, running.motion, running.speed, running.angular_acceleration
     if motion.driver is not None and machine.mechanism.driver.law is not None:
-        return {key: one.named(key) for key, one in _by_law(solved, motion, machine.mechanism.driver.law).items()}
-    w, eps = (
-        speed_of(machine),
-        _stated("angular_acceleration", machine.angular_acceleration, "crank.angular_acceleration"),
-    )
+        return {key: one.named(key) for key, one in _by_law(solved, running, machine.mechanism.driver.law).items()}
     columns: dict[str, Known] = {"crank_angle": angle_of(motion.grid), **dict(_moving(machine, motion, w, eps))}
     columns |= solved.filling.columns
-    if machine.mechanism.bodies or machine.loads or machine.chambers or machine.drive.inertia:
-        columns |= _at_work(solved, motion, w, eps)
+    if machine.mechanism.bodies or machine.loads or machine.chambers or machine.friction or machine.drive.inertia:
+        columns |= _at_work(solved, running)
     return {key: one.named(key) for key, one in columns.items()}
 
 
-def _by_law(solved: SolvedLinkage, motion: Motion, law: Law) -> dict[str, Known]:
+def _by_law(solved: SolvedLinkage, running: Running, law: Law) -> dict[str, Known]:
     """Return the columns of a linkage whose driver follows a law over time, with what the driver has to give."""
-    machine = solved.machine
+    machine, motion = solved.machine, running.motion
     q, rate, second = motion.driver or Transfer(None, None, None)
     columns = {"time": clock(law), **{one.key: one for one in (q, rate, second)}}
     columns |= {**dict(_moving(machine, motion, rate, second)), **solved.filling.columns}
-    if machine.mechanism.bodies or machine.loads or machine.chambers:
-        mechanism = given_mechanism(machine.mechanism, machine.linkage)
-        loads = applied_loads(mechanism, motion, machine.loads, rate)
-        loads = loads.also(solved.filling.loads(mechanism, motion))
-        torque, forces = _forces(solved, Running(mechanism, motion, rate, loads, second))
+    if machine.mechanism.bodies or machine.loads or machine.chambers or machine.friction:
+        torque, forces = _forces(solved, running)
         driven = torque.named(DRIVEN[machine.mechanism.driver.turns])
         columns |= {driven.key: driven, "driver_power": driver_power(driven, rate), **forces}
     return columns
@@ -145,12 +151,10 @@ def _rates_of_point(name: str, point: PointMotion, w: Known, eps: Known) -> Iter
     yield from ((one.key, one) for one in (a_x, a_y, acceleration.named(f"point_acceleration.{name}")))
 
 
-def _at_work(solved: SolvedLinkage, motion: Motion, w: Known, eps: Known) -> dict[str, Known]:
+def _at_work(solved: SolvedLinkage, running: Running) -> dict[str, Known]:
     """Return reduction, torques and forces in joints."""
-    machine = solved.machine
-    mechanism = given_mechanism(machine.mechanism, machine.linkage)
-    loads = applied_loads(mechanism, motion, machine.loads, w)
-    loads = loads.also(solved.filling.loads(mechanism, motion))
+    machine, mechanism, motion, loads = solved.machine, running.mechanism, running.motion, running.loads
+    w, eps = running.speed, running.angular_acceleration
     beside = _stated("reduced_inertia.drive", machine.drive.inertia, "crank.inertia")
     inertia = reduced_inertia(mechanism, motion, beside)
     reduced: Known = reduced_torque(motion, loads)
@@ -166,10 +170,10 @@ def _at_work(solved: SolvedLinkage, motion: Motion, w: Known, eps: Known) -> dic
         "dynamic_torque": dynamic,
         "balancing_torque": balancing,
         "driving_torque": _driving(static, dynamic, balancing, machine.drive, motion),
-        **_forces(solved, Running(mechanism, motion, w, loads, eps))[1],
+        **_forces(solved, running)[1],
     }
     if any(not is_nothing(one.mass) for one in mechanism.bodies):
-        columns |= shaking(Running(mechanism, motion, w, loads, eps))
+        columns |= shaking(running)
     return columns if reduced.is_absent else columns | {"reduced_torque": reduced}
 
 
@@ -192,7 +196,7 @@ def _forces(solved: SolvedLinkage, running: Running) -> tuple[Known, dict[str, K
     found, along = remembered_forces(solved, running)
     if not is_shared(solved.machine.redundant):
         return found.balancing_torque, {}
-    pivots = {f"{link}_pivot": name for link, name in pivots_of(solved.machine.mechanism).items()}
+    pivots = names_of_pivots(solved.machine.mechanism)
     columns: dict[str, Known] = {}
     for joint, pin in found.pins.items():
         name = pivots.get(joint, joint)

@@ -15,6 +15,7 @@ from crankwork.loads.process import ForceOnPoint, ProcessForce, ProcessForceAtPo
 from crankwork.loads.spring import SliderSpring, Spring
 from crankwork.loads.weight import Weight
 from crankwork.machine import Machine
+from crankwork.mechanism.joints import names_of_pivots
 
 
 class StatedLoad(NamedTuple):
@@ -59,6 +60,43 @@ def _largest(force: object) -> float | None:
     """Return the largest value of a constant or of a table, nothing of a law that is a program."""
     values = getattr(force, "values", force)
     return None if callable(values) else float(np.max(np.abs(np.asarray(values, dtype=float))))
+
+
+class StatedFriction(NamedTuple):
+    """A joint that rubs as a description states it."""
+
+    name: str
+    amounts: Mapping[str, tuple[float, str]]  # Values by key of quantity, and the units in which they are told [SI]
+
+
+def stated_friction(machine: Machine) -> tuple[StatedFriction, ...]:
+    """Return what rubs in a linkage as its description states it."""
+    if not machine.friction:
+        return ()
+    # linkages without friction do not load it
+    from crankwork.dynamics.friction import PinFriction  # noqa: PLC0415
+
+    shown = names_of_pivots(machine.mechanism)
+    found = []
+    for one in machine.friction:
+        if isinstance(one, PinFriction):
+            name = shown.get(one.joint, one.joint)
+            amounts = {
+                "pin_friction": (one.coefficient, ""),
+                "pin_radius": (one.radius, "mm"),
+                "constant_moment": (one.moment, "N*m"),
+                "angular_damping": (one.damping, "N*m*s/rad"),
+            }
+        else:
+            name = one.slider
+            amounts = {
+                "guide_friction": (one.coefficient, ""),
+                "piece_length": (one.length, "mm"),
+                "constant_force": (one.force, "N"),
+                "damping": (one.damping, "N*s/m"),
+            }
+        found.append(StatedFriction(name, {key: value for key, value in amounts.items() if value[0]}))
+    return tuple(found)
 
 
 class StatedChamber(NamedTuple):

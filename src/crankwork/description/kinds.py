@@ -150,12 +150,13 @@ class Quantity(NamedTuple):
 
 
 class Number(NamedTuple):
-    """A plain number between `low` and `high`; a whole one if it counts something."""
+    """A plain number between `low` and `high`; a whole one if it counts something, told as what it is."""
 
     low: float
     high: float
     above: bool = False
     whole: bool = False
+    told: str = "number"
 
     def read(self, value: object, key: str, reader: Reader) -> float | None:
         """Return the number."""
@@ -166,7 +167,7 @@ class Number(NamedTuple):
             return None
         number = float(value) if _is_moderate(value) else math.nan
         if not (self.low < number if self.above else self.low <= number) or not number <= self.high:
-            reader.complain(key, self._out_of_range("number", value))
+            reader.complain(key, self._out_of_range(self.told, value))
             return None
         if self.whole and not number.is_integer():
             reader.complain(key, self._out_of_range("whole", value))

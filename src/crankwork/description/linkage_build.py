@@ -12,6 +12,7 @@ from crankwork.analysis.reach import reachable
 from crankwork.description.build import build_method, crank_speed
 from crankwork.description.chamber_build import build_chambers
 from crankwork.description.driver_build import build_law, check_driver, check_gas, check_halves, check_loads
+from crankwork.description.friction_build import build_friction, check_friction
 from crankwork.description.gas_build import ReadMeasured
 from crankwork.description.kinds import Measure, Reader
 from crankwork.description.linkage_reach import checked_motion, told_redundant, way_if_assembled, with_starts
@@ -80,6 +81,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
     redundant = fitting(linkage, carried, values, reader)
     if reader.problems:
         return None
+    friction = build_friction(values, mechanism, reader)
     loads = with_starts(loads, values, mechanism, way)
     if values["method"]["weights"]:
         loads = (*loads, Weight(method.gravity))
@@ -92,6 +94,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
         title=values["title"] or "",
         loads=loads,
         redundant=redundant,
+        friction=friction,
         way=way,
         notices=notices,
         chambers=chambers,
@@ -103,6 +106,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
         table_special=tuple(round(math.degrees(one.value), 9) for one in table["special_angles"] or () if one),
         stated=stated_numbers(values),
     )
+    check_friction(machine, reader)
     moving = checked_motion(machine, crank, reader)
     return moving if moving is not None and _is_filled(moving, values, reader) else None
 

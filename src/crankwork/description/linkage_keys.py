@@ -130,6 +130,25 @@ _LOAD = Table("load", {
     "damping": Key(Quantity(("damping",), 0.0, 1e12), required=True, only=_DAMPER),
 })  # fmt: skip
 
+_COEFFICIENT = Key(Number(0.0, 1.0, told="coefficient"), default=0.0)
+_RUBBING_PIN = Table("rubbing", {
+    "coefficient": _COEFFICIENT,
+    "radius": Key(Quantity(("length",), 0.0, 10.0), required=True, only={"coefficient": ()}),
+    "moment": Key(Quantity(("torque",), 0.0, 1e9), default="0 N*m"),
+    "damping": Key(Quantity(("angular_damping",), 0.0, 1e9), default="0 N*m*s/rad"),
+})  # fmt: skip
+_RUBBING_SLIDER = Table("rubbing_slider", {
+    "coefficient": _COEFFICIENT,
+    "length": Key(_LENGTH, only={"coefficient": ()}),
+    "force": Key(Quantity(("force",), 0.0, 1e9), default="0 N"),
+    "damping": Key(Quantity(("damping",), 0.0, 1e12), default="0 N*s/m"),
+})  # fmt: skip
+_FRICTION = Table("friction", {
+    "circle": Key(Choice(("tangent", "sine")), default="tangent"),
+    "pins": Key(Named(_RUBBING_PIN, most=500)),
+    "sliders": Key(Named(_RUBBING_SLIDER, most=300)),
+})  # fmt: skip
+
 _EFFICIENCY = Table("efficiency", {
     "chain": Key(Nested(Number(0.001, 1.0)), required=True),
     "decimals": Key(Number(1, 6, whole=True)),
@@ -215,6 +234,7 @@ LINKAGE_FILE = Table("file", {
     "branch": Key(Named(Choice((1, -1)))),
     "positions": Key(Named(_PLACE)),
     "loads": Key(ListOf(_LOAD)),
+    "friction": Key(_FRICTION),
     "chambers": Key(Named(_CHAMBER, most=50)),
     "charges": Key(Named(_CHARGE, most=20)),
     "efficiency": Key(_EFFICIENCY),

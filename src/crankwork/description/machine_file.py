@@ -92,6 +92,8 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
         reader.complain("format", Refusal("format_unknown", newest=str(FORMATS[-1])))
         return None
     keys = file_keys(values)
+    if keys in (MACHINE_FILE, SIZED_FILE) and values.pop("friction", None) is not None:
+        reader.complain("friction", Refusal("friction_of_engine"))
     read_values = keys.read(values, "", reader) or Values({}, keys)
 
     def read_samples(table: Values, one: Reader, path: str) -> MeasuredPressure | None:

@@ -275,7 +275,11 @@ def system_joint_forces(running: Running) -> JointForces:
 
 def whole_system(running: Running) -> Equilibrium:
     """Return the equations of equilibrium of all links, the last unknown the torque or force of the driver."""
-    mechanism = running.mechanism
+    return equilibrium(running.motion, *whole_of(running.mechanism), driver=running.mechanism.driver)
+
+
+def whole_of(mechanism: Mechanism) -> tuple[tuple[str, ...], tuple[Joint, ...]]:
+    """Return all links of a mechanism and the joints that hold them, a cylinder with masses as two links."""
     held = joints(mechanism)
     # a link of a chain may only hold others
     holding = (name for group in mechanism.dyads for name in group_links(group))
@@ -286,7 +290,7 @@ def whole_system(running: Running) -> Equilibrium:
         links = dict.fromkeys([*(one for one in links if one != mechanism.driver.link), barrel, rod])
     if isinstance(mechanism.driver, LinkMotor):
         links.pop(mechanism.driver.link)
-    return equilibrium(running.motion, tuple(links), held, driver=mechanism.driver)
+    return tuple(links), held
 
 
 def _on_half(joint: Joint, driver: Driver) -> Joint:

@@ -4,22 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from crankwork.dynamics.force_system import Equilibrium, solve_positions, whole_system
-from crankwork.dynamics.link_loads import arm, cross, link_wrenches
+from crankwork.dynamics.force_system import Equilibrium, cylinder_force, solve_positions, whole_of, whole_system
+from crankwork.dynamics.link_loads import Wrenches, arm, cross, link_wrenches
 from crankwork.dynamics.reaction import JointForces, gathered
 from crankwork.dynamics.running import Running
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
+from crankwork.kinematics.bodies import everywhere
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import Motion
+from crankwork.mechanism.driver import Cylinder
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint
 from crankwork.mechanism.linkage import GROUND
 
+Circle = Literal["tangent", "sine"]
 Status = NDArray[np.int8]
+Truth = NDArray[np.bool_]
+Rows = NDArray[np.intp] | slice
 
 CONVERGED, NOT_CONVERGED, SELF_LOCKING, NO_POSITION = 0, 1, 2, 3
 MEANING = {
@@ -31,214 +37,16 @@ MEANING = {
 
 _TOLERANCE = 1e-13
 _ITERATIONS = 30
+# steps after which no other solution is expected
+_TRIED = 12
+# a force below which no direction is known [N]
+_TINY = 1e-290
 # friction grows to its full value in steps, so that the solution is followed from that without friction
 _STEPS = (0.25, 0.5, 0.75, 1.0)
 # share of the largest relative speed below which two links count as at rest
 _REST = 1e-12
-
-
-@dataclass(frozen=True)
-class FrictionForces:
-    """Joint forces with friction, and how far they are to be relied on."""
-
-    joint_forces: JointForces  # Reactions and balancing torque with friction; NaN where `status` is not 0 [N], [N m]
-    ideal_torque: Array  # Balancing torque without friction, shape (n,) [N m]
-    # By joint, the friction moment on the link that a pin holds, or the friction force on a sliding piece along its
-    # guide, shape (n,) [N m or N]
-    friction: Mapping[str, Array]
-    power_loss: Array  # Power that all joints take, shape (n,) [W]
-    # Torque without friction over torque with it where the crank drives, the reverse where the load does; zero or less
-    # where the load alone could not move the mechanism, shape (n,) [-]
-    efficiency: Array
-    residual: Array  # By what share of the forces on a link the equilibrium is missed, shape (n,) [-]
-    # 0 converged, 1 not converged, 2 self-locking, 3 no position; `MEANING` says it in words, shape (n,) [-]
-    status: Status
-    iterations: int  # Steps of the iteration
-
-    @property
-    def held(self) -> NDArray[np.bool_]:
-        """Where friction alone holds the load: without it the load would drive the crank, with it it does not."""
-        return np.asarray((self.ideal_torque < 0) & (self.joint_forces.balancing_torque >= 0))
-
-    def messages(self, grid: CrankGrid) -> list[str]:
-        """Return a sentence for each run of crank angles where something is wrong, or friction holds the load."""
-        runs = [(self.status == code, text) for code, text in MEANING.items() if code != CONVERGED]
-        runs.append((self.held, "friction holds the load, which cannot drive the crank (self-locking in reverse)"))
-        return [f"{where}: {text}" for wrong, text in runs for where in _ranges(wrong, grid)]
-
-
-@dataclass(frozen=True)
-class _Rubbing:
-    """The friction of one joint in the equations of equilibrium."""
-
-    joint: Joint
-    # what a unit of pressing force does to the links, shape (n, 3 links), already against the motion
-    effect: Array
-    # place of the first of the two unknowns of the joint
-    column: int
-    # share of its length that turns a moment into pressing force: 2 / length
-    per_moment: float
-    # relative speed over that of the crank, signed
-    rate: Array
-    # coefficient, or radius of the friction circle
-    factor: float
-
-    def pressing(self, unknowns: Array) -> tuple[Array, Array, Array]:
-        """Return the pressing force and its derivatives by the two unknowns of the joint."""
-        one, two = unknowns[:, self.column], unknowns[:, self.column + 1]
-        if isinstance(self.joint, Pin):
-            force = np.hypot(one, two)
-            inverse = np.divide(1.0, force, out=np.zeros_like(force), where=force > 0)
-            return force, one * inverse, two * inverse
-        by_moment = self.per_moment * np.abs(two)
-        tilted = by_moment > np.abs(one)
-        return (
-            np.where(tilted, by_moment, np.abs(one)),
-            np.where(tilted, 0.0, np.sign(one)),
-            np.where(tilted, self.per_moment * np.sign(two), 0.0),
-        )
-
-
-def friction_forces(running: Running, friction: Sequence[Friction]) -> FrictionForces:
-    """Return the joint forces of a mechanism with dry friction in some joints (artobolevsky_1988, ch. 11 and 13-14).
-
-    Forces, torque, losses, efficiency, residual and status at each crank angle. `running`: the mechanism at work; the
-    crank turns forward unless its speed is negative.
-
-    Friction in a pin is a moment rho |R| against the relative rotation; on a guide a force f |N| against the
-    sliding, with 2 |M| / length in place of |N| where the moment M of the guide is so large that the piece
-    presses with opposite sides. Newton's method solves the equilibrium; the friction grows from zero to its value
-    in steps. As long as the determinant of the equations keeps its sign there is one solution. Where it changes
-    it, the torque has grown beyond all bounds before, or there is none that turns the crank: self-locking.
-    """
-    system, wrenches = whole_system(running), link_wrenches(running)
-    right = system.right_side(wrenches)
-    rubbing = _rubbing(running, system, friction)
-    ideal = solve_positions(system.matrix, right)
-    unknowns, residual, status, iterations = _solved(system.matrix, right, rubbing, ideal)
-    forces = gathered(system.reactions(unknowns), system.joints, unknowns[:, -1])
-    values, power = {}, np.zeros_like(residual)
-    for one in rubbing:
-        pressing, _, _ = one.pressing(unknowns)
-        law = friction_torque if isinstance(one.joint, Pin) else friction_force
-        values[one.joint.name] = -np.sign(one.rate) * law(one.factor, pressing)
-        power += np.abs(running.speed * one.rate) * law(one.factor, pressing)
-    efficiency = _efficiency(ideal[:, -1], unknowns[:, -1])
-    return FrictionForces(forces, ideal[:, -1], values, power, efficiency, residual, status, iterations)
-
-
-def _solved(matrix: Array, right: Array, rubbing: Sequence[_Rubbing], start: Array) -> tuple[Array, Array, Status, int]:
-    """Return the unknowns with friction, the residual, the status and the number of steps."""
-    unknowns, count = start.copy(), 0
-    status = np.where(np.isfinite(start).all(axis=1), CONVERGED, NO_POSITION).astype(np.int8)
-    sign, turned = _orientation(matrix), np.zeros(len(right), dtype=bool)
-    miss = _miss(matrix, right, rubbing, unknowns, 0.0)
-    for share in _STEPS:
-        miss = _miss(matrix, right, rubbing, unknowns, share)
-        for _ in range(_ITERATIONS):
-            active = (status == CONVERGED) & ~(miss[1] < _TOLERANCE) & np.isfinite(miss[1])
-            if not active.any():
-                break
-            unknowns[active] -= solve_positions(miss[2][active], miss[0][active])
-            count += 1
-            miss = _miss(matrix, right, rubbing, unknowns, share)
-            turned |= active & (_orientation(miss[2]) != sign)
-        open_yet, settled = status == CONVERGED, miss[1] < _TOLERANCE
-        lost = np.where(settled, _orientation(miss[2]) != sign, turned)
-        status[open_yet & lost] = SELF_LOCKING
-        status[open_yet & ~lost & ~settled] = NOT_CONVERGED
-    unknowns[status != CONVERGED] = np.nan
-    return unknowns, miss[1], status, count
-
-
-def _orientation(matrix: Array) -> Array:
-    """Return the sign of the determinant of each system, 0 where it is not known."""
-    return np.asarray(np.linalg.slogdet(np.nan_to_num(matrix))[0])
-
-
-def _miss(
-    matrix: Array, right: Array, rubbing: Sequence[_Rubbing], unknowns: Array, share: float
-) -> tuple[Array, Array, Array]:
-    """Return by how much the equilibrium is missed, that as a share of the forces, and its derivative."""
-    missing = (matrix @ unknowns[..., None])[..., 0] - right
-    size = (np.abs(matrix) @ np.abs(unknowns)[..., None])[..., 0] + np.abs(right)
-    derivative = matrix.copy()
-    for one in rubbing:
-        pressing, by_one, by_two = one.pressing(unknowns)
-        missing += share * one.effect * pressing[:, None]
-        size += np.abs(one.effect) * pressing[:, None]
-        derivative[:, :, one.column] += share * one.effect * by_one[:, None]
-        derivative[:, :, one.column + 1] += share * one.effect * by_two[:, None]
-    ratio = np.divide(np.abs(missing), size, out=np.zeros_like(size), where=size != 0)
-    return missing, ratio.max(axis=1), derivative
-
-
-def _rubbing(running: Running, system: Equilibrium, friction: Sequence[Friction]) -> list[_Rubbing]:
-    """Return the friction of the joints as parts of the equations."""
-    found: dict[Joint, _Rubbing] = {}
-    for one in friction:
-        kind, name = (Pin, one.joint) if isinstance(one, PinFriction) else (SlidingJoint, one.slider)
-        names = [joint.name for joint in system.joints if isinstance(joint, kind)]
-        if name not in names:
-            raise MethodError(f"there is no joint {name} to rub; choose from {', '.join(names)}")
-        joint = next(joint for joint in system.joints if isinstance(joint, kind) and joint.name == name)
-        if joint in found:
-            raise MethodError(f"joint {name} has two frictions; give one")
-        found[joint] = _rubbing_joint(running, system, joint, one)
-    return list(found.values())
-
-
-def _rubbing_joint(running: Running, system: Equilibrium, joint: Joint, friction: Friction) -> _Rubbing:
-    """Return the friction of one joint: its effect on the two links, against their relative motion."""
-    motion = running.motion
-    rate = _relative_rate(motion, joint) * np.where(np.asarray(running.speed) < 0, -1.0, 1.0)
-    against = -np.where(np.abs(rate) > _REST * np.nanmax(np.abs(rate)), np.sign(rate), 0.0)
-    factor = (
-        friction_radius(friction.coefficient, friction.radius)
-        if isinstance(friction, PinFriction)
-        else friction.coefficient
-    )
-    frame, effect = motion.frames[joint.link], np.zeros((len(motion.grid), 3 * len(system.links)))
-    for link, sign in ((joint.link, factor), (joint.other, -factor)):
-        if link == GROUND:
-            continue
-        row = 3 * system.links.index(link)
-        if isinstance(joint, Pin):
-            effect[:, row + 2] = sign * against
-        else:
-            along = frame.cos, frame.sin
-            effect[:, row], effect[:, row + 1] = sign * against * along[0], sign * against * along[1]
-            effect[:, row + 2] = sign * against * cross(arm(motion.frames[link].origin, frame.origin), along)
-    length = friction.length if isinstance(friction, GuideFriction) else 0.0
-    per_moment = 2 / length if length else 0.0
-    return _Rubbing(joint, effect, 2 * system.joints.index(joint), per_moment, rate, factor)
-
-
-def _relative_rate(motion: Motion, joint: Joint) -> Array:
-    """Return how fast one link turns or slides in the other, over the speed of the crank."""
-    still = np.zeros_like(motion.grid.angle)
-    if isinstance(joint, SlidingJoint):
-        return np.asarray(motion.sliders[joint.link].position_1 + still)
-    other = 0.0 if joint.other == GROUND else motion.frames[joint.other].angle_1
-    return np.asarray(motion.frames[joint.link].angle_1 - other + still)
-
-
-def _efficiency(ideal: Array, actual: Array) -> Array:
-    """Return the efficiency, of the crank as driver or of the load; NaN where no torque is needed."""
-    forward, backward = ideal > 0, ideal < 0
-    one = np.where(forward, ideal, np.where(backward, actual, np.nan))
-    other = np.where(forward, actual, np.where(backward, ideal, 1.0))
-    return np.asarray(instantaneous_efficiency(one, other))
-
-
-def _ranges(wrong: NDArray[np.bool_], grid: CrankGrid) -> list[str]:
-    """Return the runs of crank angles in words."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], wrong, [False]]).astype(int)))
-    degrees = grid.degrees
-    return [
-        f"at {degrees[first]:g} deg" if after - first == 1 else f"from {degrees[first]:g} to {degrees[after - 1]:g} deg"
-        for first, after in zip(edges[::2], edges[1::2], strict=True)
-    ]
+# share of the forces by which another solution differs from the first
+_APART = 1e-6
 
 
 @dataclass(frozen=True)
@@ -249,6 +57,10 @@ class PinFriction:
     radius: float  # Radius of the pin [m]
     # Friction moment over joint force and radius, f': from f in a loose bearing to 1.57 f in a tight new one [-]
     coefficient: float
+    moment: float = 0.0  # Drag that does not depend on the force [N m]
+    damping: float = 0.0  # Drag over the relative angular velocity [N m s]
+    # Radius of the friction circle: that of the pin times f, or times the sine of the friction angle
+    circle: Circle = "tangent"
 
 
 @dataclass(frozen=True)
@@ -260,9 +72,308 @@ class GuideFriction:
     # Length of the piece along the guide, its origin in the middle. The moment of the normal force then presses the
     # ends of the piece on both sides; with 0 that moment makes no friction [m]
     length: float = 0.0
+    force: float = 0.0  # Drag that does not depend on the normal force [N]
+    damping: float = 0.0  # Drag over the sliding velocity [N s/m]
 
 
 Friction = PinFriction | GuideFriction
+
+
+@dataclass(frozen=True)
+class FrictionForces:
+    """Joint forces with friction, and how far they are to be relied on."""
+
+    joint_forces: JointForces  # Reactions and balancing torque with friction; NaN where `status` is not 0 [N], [N m]
+    ideal_torque: Array  # Balancing torque without friction, shape (n,) [N m]
+    pressing: Mapping[Friction, Array]  # Of each joint, the force that makes the friction, shape (n,) [N]
+    # Of each joint, the friction moment on the link that a pin holds, or the friction force on a sliding piece along
+    # its guide, shape (n,) [N m or N]
+    friction: Mapping[Friction, Array]
+    power_loss: Array  # Power that all joints take, shape (n,) [W]
+    # Torque without friction over torque with it where the crank drives, the reverse where the load does; zero or less
+    # where the load alone could not move the mechanism, shape (n,) [-]
+    efficiency: Array
+    residual: Array  # By what share of the forces on a link the equilibrium is missed, shape (n,) [-]
+    # 0 converged, 1 not converged, 2 self-locking, 3 no position; `MEANING` says it in words, shape (n,) [-]
+    status: Status
+    iterations: int  # Steps of the iteration
+    # Determinant of the equations over that without friction: towards zero the forces grow beyond all bounds,
+    # shape (n,) [-]
+    margin: Array
+    has_another: Truth  # Where the forces balance in another way as well, if that was asked for, shape (n,)
+
+    @property
+    def held(self) -> Truth:
+        """Where friction alone holds the load: without it the load would drive the crank, with it it does not."""
+        return np.asarray((self.ideal_torque < 0) & (self.joint_forces.balancing_torque >= 0))
+
+    def messages(self, grid: CrankGrid) -> list[str]:
+        """Return a sentence for each run of crank angles where something is wrong, or friction holds the load."""
+        runs = [(self.status == code, text) for code, text in MEANING.items() if code != CONVERGED]
+        runs.append((self.held, "friction holds the load, which cannot drive the crank (self-locking in reverse)"))
+        return [f"{where}: {text}" for wrong, text in runs for where in _ranges(wrong, grid)]
+
+
+@dataclass(frozen=True)
+class Rubbing:
+    """A joint with friction: how its links move in each other, and what it puts on the one that it holds."""
+
+    joint: Joint
+    law: Friction
+    rate: Array  # Relative rotation or sliding over the coordinate of the driver, shape (n,) [- or m]
+    velocity: Array  # Relative angular velocity or velocity, shape (n,) [rad/s] or [m/s]
+    sense: Array  # Direction of the friction on the link that is held: 1, -1, or 0 at rest, shape (n,) [-]
+
+    @property
+    def factor(self) -> float:
+        """Radius of the friction circle [m], or coefficient of a guide [-]."""
+        if isinstance(self.law, GuideFriction):
+            return self.law.coefficient
+        circle = friction_radius if self.law.circle == "tangent" else friction_radius_of_angle
+        return float(circle(self.law.coefficient, self.law.radius))
+
+    def pressing(self, one: Array, two: Array) -> tuple[Array, Array, Array]:
+        """Return the pressing force and its derivatives by the two unknowns of the joint.
+
+        They are the components of the force of a pin, or normal force and moment of a guide.
+        """
+        if isinstance(self.joint, Pin):
+            force = np.hypot(one, two)
+            inverse = np.divide(1.0, force, out=np.zeros_like(force), where=force > _TINY)
+            return force, one * inverse, two * inverse
+        length = self.law.length if isinstance(self.law, GuideFriction) else 0.0
+        per_moment = 2 / length if length else 0.0
+        by_moment = per_moment * np.abs(two)
+        tilted = by_moment > np.abs(one)
+        return (
+            np.where(tilted, by_moment, np.abs(one)),
+            np.where(tilted, 0.0, np.sign(one)),
+            np.where(tilted, per_moment * np.sign(two), 0.0),
+        )
+
+    def friction(self, pressing: Array) -> Array:
+        """Return the friction on the link that is held, its moment or its force along the guide. [N m] or [N]"""
+        if isinstance(self.law, PinFriction):
+            constant, damping = self.law.moment, self.law.damping
+            return np.asarray(friction_torque(self.sense, self.factor, pressing, constant, damping, self.velocity))
+        constant, damping = self.law.force, self.law.damping
+        return np.asarray(friction_force(self.sense, self.factor, pressing, constant, damping, self.velocity))
+
+
+def rubbing_joints(
+    running: Running, friction: Sequence[Friction], senses: Mapping[Friction, Array] | None = None
+) -> tuple[Rubbing, ...]:
+    """Return the joints with friction of a mechanism at work.
+
+    `senses`: direction of the friction of each; by default against the relative motion, none at rest.
+    """
+    held, motion, found = whole_of(running.mechanism)[1], running.motion, dict[Joint, Rubbing]()
+    for one in friction:
+        kind, name = (Pin, one.joint) if isinstance(one, PinFriction) else (SlidingJoint, one.slider)
+        joint = next((joint for joint in held if isinstance(joint, kind) and joint.name == name), None)
+        if joint is None:
+            names = ", ".join(joint.name for joint in held if isinstance(joint, kind))
+            raise MethodError(f"there is no joint {name} to rub; choose from {names}")
+        if joint in found:
+            raise MethodError(f"joint {name} has two frictions; give one")
+        rate = np.asarray(everywhere(relative_rate(motion, joint), motion.grid))
+        velocity = np.asarray(rate * running.speed)
+        moves = np.abs(velocity) > _REST * np.nanmax(np.abs(velocity), initial=0.0)
+        sense = np.where(moves, -np.sign(velocity), 0.0) if senses is None else senses[one]
+        found[joint] = Rubbing(joint, one, rate, velocity, sense)
+    return tuple(found.values())
+
+
+def relative_rate(motion: Motion, joint: Joint) -> Value:
+    """Return how fast one link of a joint turns or slides in the other, over the rate of the driver's coordinate."""
+    if isinstance(joint, SlidingJoint):
+        # the rod of a cylinder is out by the length of that
+        return motion.sliders[joint.link].position_1 if joint.link in motion.sliders else 1.0
+    own = motion.frames[joint.link].angle_1
+    return own if joint.other == GROUND else own - motion.frames[joint.other].angle_1
+
+
+def friction_forces(running: Running, friction: Sequence[Friction], *, thorough: bool = False) -> FrictionForces:
+    """Return the joint forces of a mechanism with friction in some joints (artobolevsky_1988, ch. 11 and 13-14).
+
+    Forces, torque, losses, efficiency, residual and status at each crank angle. `running`: the mechanism at work; the
+    crank turns forward unless its speed is negative; `thorough`: look for a second solution.
+
+    Friction in a pin is a moment rho |R| against the relative rotation; on a guide a force f |N| against the
+    sliding, with 2 |M| / length in place of |N| where the moment M of the guide is so large that the piece
+    presses with opposite sides. Drags add what does not depend on these forces. Newton's method solves the
+    equilibrium; the friction grows from zero to its value in steps. As long as the determinant of the equations keeps
+    its sign there is one solution. Where it changes it, the torque has grown beyond all bounds before, or there is none
+    that turns the crank: self-locking.
+    """
+    return rubbed(running, rubbing_joints(running, friction), thorough=thorough)
+
+
+def rubbed(running: Running, rubbing: Sequence[Rubbing], *, thorough: bool = False) -> FrictionForces:
+    """Return what `friction_forces` does of joints that move as they are said to, whatever pushes the mechanism."""
+    system, wrenches = whole_system(running), link_wrenches(running)
+    right = system.right_side(wrenches)
+    equations = _Equations(running, system, right, rubbing)
+    ideal = solve_positions(system.matrix, right)
+    unknowns, residual, status, iterations = equations.followed(ideal)
+    pressing = equations.pressing(unknowns)
+    values = {one.law: one.friction(pressing[one.law]) for one in rubbing}
+    power = sum((-values[one.law] * one.velocity for one in rubbing), np.zeros_like(residual))
+    torque, without = (_driven(running, system, one, wrenches) for one in (unknowns, ideal))
+    return FrictionForces(
+        gathered(system.reactions(unknowns), system.joints, torque),
+        without,
+        pressing,
+        values,
+        power,
+        _efficiency(without, torque),
+        residual,
+        status,
+        iterations,
+        equations.margin(unknowns),
+        equations.has_another(unknowns, ideal) if thorough else np.zeros_like(status, dtype=bool),
+    )
+
+
+def _driven(running: Running, system: Equilibrium, unknowns: Array, wrenches: Wrenches) -> Array:
+    """Return the torque or force of the driver."""
+    mechanism = running.mechanism
+    if not isinstance(mechanism.driver, Cylinder) or mechanism.halves:
+        return np.asarray(unknowns[..., -1])
+    return np.asarray(cylinder_force(mechanism, running.motion, system.reactions(unknowns), wrenches))
+
+
+class _Equations:
+    """The equations of equilibrium with friction, which depends on the forces that they ask for."""
+
+    def __init__(self, running: Running, system: Equilibrium, right: Array, rubbing: Sequence[Rubbing]) -> None:
+        self.matrix, self.right = system.matrix, right.copy()
+        # of each joint the column of its first unknown, and what its pressing force does to the links
+        self._parts: list[tuple[Rubbing, int, Array]] = []
+        for one in rubbing:
+            unit = _unit_effect(running.motion, system, one.joint)
+            by_force = np.asarray(one.sense * one.factor)
+            self.right -= unit * one.friction(np.zeros_like(by_force))[:, None]
+            self._parts.append((one, 2 * system.joints.index(one.joint), unit * by_force[:, None]))
+        self._sign = _orientation(self.matrix)
+
+    def pressing(self, unknowns: Array) -> dict[Friction, Array]:
+        """Return the pressing forces. [N]"""
+        return {one.law: one.pressing(*unknowns[:, at : at + 2].T)[0] for one, at, _ in self._parts}
+
+    def followed(self, start: Array) -> tuple[Array, Array, Status, int]:
+        """Return the unknowns, the residual, the status and the number of steps, from a start without friction."""
+        unknowns, count, every = start.copy(), 0, np.arange(len(start))
+        status = np.where(np.isfinite(start).all(axis=1), CONVERGED, NO_POSITION).astype(np.int8)
+        turned, residual = np.zeros(len(start), dtype=bool), np.full(len(start), np.nan)
+        for share in _STEPS:
+            rows, turns = every[status == CONVERGED], turned.copy()
+            for step in range(_ITERATIONS + 1):
+                missing, residual[rows], derivative = self._miss(unknowns[rows], share, rows)
+                turned[rows] = _orientation(derivative) != self._sign[rows]
+                turns |= turned
+                going = ~(residual[rows] < _TOLERANCE) & np.isfinite(residual[rows])
+                rows = rows[going]
+                if not rows.size or step == _ITERATIONS:
+                    break
+                unknowns[rows] -= solve_positions(derivative[going], missing[going])
+                count += 1
+            open_yet, settled = status == CONVERGED, residual < _TOLERANCE
+            lost = np.where(settled, turned, turns)
+            status[open_yet & lost] = SELF_LOCKING
+            status[open_yet & ~lost & ~settled] = NOT_CONVERGED
+        # one step more leaves nothing but rounding
+        rows = every[status == CONVERGED]
+        missing, _, derivative = self._miss(unknowns[rows], 1.0, rows)
+        unknowns[rows] -= solve_positions(derivative, missing)
+        unknowns[status != CONVERGED] = np.nan
+        return unknowns, residual, status, count
+
+    def margin(self, unknowns: Array) -> Array:
+        """Return the determinant of the equations at a solution over that without friction. [-]"""
+        sign, size = np.linalg.slogdet(np.nan_to_num(self._miss(unknowns, 1.0, slice(None))[2]))
+        of, whole = np.linalg.slogdet(np.nan_to_num(self.matrix))
+        ratio = sign * of * np.exp(size - np.where(np.isfinite(whole), whole, 0.0))
+        return np.where(np.isfinite(unknowns).all(axis=1), ratio, np.nan)
+
+    def has_another(self, unknowns: Array, ideal: Array) -> Truth:
+        """Return where another solution is found: from the opposite of all forces, or of those in one joint."""
+        found = np.zeros(len(ideal), dtype=bool)
+        for at in (slice(None), *(slice(one, one + 2) for _, one, _ in self._parts)):
+            start = ideal.copy()
+            start[:, at] *= -1
+            other = self._settled(start)
+            apart = np.max(np.abs(other - unknowns), axis=1, initial=0.0)
+            found |= apart > _APART * np.max(np.abs(unknowns), axis=1, initial=0.0)
+        return found
+
+    def _settled(self, start: Array) -> Array:
+        """Return what Newton's method comes to with all the friction at once, NaN where it comes to nothing."""
+        unknowns, rows, ratio = start, np.arange(len(start)), np.full(len(start), np.nan)
+        for _ in range(_TRIED):
+            missing, ratio[rows], derivative = self._miss(unknowns[rows], 1.0, rows)
+            going = ~(ratio[rows] < _TOLERANCE) & np.isfinite(ratio[rows])
+            rows = rows[going]
+            if not rows.size:
+                break
+            unknowns[rows] -= solve_positions(derivative[going], missing[going])
+        unknowns[~(ratio < _TOLERANCE)] = np.nan
+        return unknowns
+
+    def _miss(self, unknowns: Array, share: float, rows: Rows) -> tuple[Array, Array, Array]:
+        """Return by how much the equilibrium is missed at some positions, as a share of the forces, its derivative."""
+        matrix, right = self.matrix[rows], self.right[rows]
+        missing = (matrix @ unknowns[..., None])[..., 0] - right
+        size = (np.abs(matrix) @ np.abs(unknowns)[..., None])[..., 0] + np.abs(right)
+        derivative = matrix.copy()
+        for one, at, every in self._parts:
+            effect = every[rows]
+            pressing, by_one, by_two = one.pressing(unknowns[:, at], unknowns[:, at + 1])
+            missing += share * effect * pressing[:, None]
+            size += np.abs(effect) * pressing[:, None]
+            derivative[:, :, at] += share * effect * by_one[:, None]
+            derivative[:, :, at + 1] += share * effect * by_two[:, None]
+        ratio = np.divide(np.abs(missing), size, out=np.zeros_like(size), where=size != 0)
+        return missing, ratio.max(axis=1), derivative
+
+
+def _orientation(matrix: Array) -> Array:
+    """Return the sign of the determinant of each system, 0 where it is not known."""
+    return np.asarray(np.linalg.slogdet(np.nan_to_num(matrix))[0])
+
+
+def _unit_effect(motion: Motion, system: Equilibrium, joint: Joint) -> Array:
+    """Return what a unit of friction on the link that a joint holds does to all links, shape (n, 3 links)."""
+    frame, effect = motion.frames[joint.link], np.zeros((len(motion.grid), 3 * len(system.links)))
+    for link, sign in ((joint.link, 1.0), (joint.other, -1.0)):
+        if link == GROUND:
+            continue
+        row = 3 * system.links.index(link)
+        if isinstance(joint, Pin):
+            effect[:, row + 2] = sign
+        else:
+            along = frame.cos, frame.sin
+            effect[:, row], effect[:, row + 1] = sign * along[0], sign * along[1]
+            effect[:, row + 2] = sign * cross(arm(motion.frames[link].origin, frame.origin), along)
+    return effect
+
+
+def _efficiency(ideal: Array, actual: Array) -> Array:
+    """Return the efficiency, of the crank as driver or of the load; NaN where no torque is needed."""
+    forward, backward = ideal > 0, ideal < 0
+    one = np.where(forward, ideal, np.where(backward, actual, np.nan))
+    other = np.where(forward, actual, np.where(backward, ideal, 1.0))
+    return np.asarray(instantaneous_efficiency(one, other))
+
+
+def _ranges(wrong: Truth, grid: CrankGrid) -> list[str]:
+    """Return the runs of crank angles in words."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], wrong, [False]]).astype(int)))
+    degrees = grid.degrees
+    return [
+        f"at {degrees[first]:g} deg" if after - first == 1 else f"from {degrees[first]:g} to {degrees[after - 1]:g} deg"
+        for first, after in zip(edges[::2], edges[1::2], strict=True)
+    ]
 
 
 @formula("friction_radius", "artobolevsky_1988, ch. 11")
@@ -271,19 +382,49 @@ def friction_radius(f_z: Value, r_z: Value) -> Value:
     return f_z * r_z
 
 
+@formula("friction_radius", "artobolevsky_1988, ch. 11")
+def friction_radius_of_angle(f_z: Value, r_z: Value) -> Value:
+    """Radius of the friction circle of a pin by the friction angle, whose sine it takes."""
+    return f_z * r_z / np.sqrt(1 + f_z**2)
+
+
 @formula("friction_torque", "artobolevsky_1988, ch. 11")
-def friction_torque(rho: Value, R: Value) -> Value:
-    """Friction moment in a pin."""
-    return rho * R
+def friction_torque(sigma_f: Value, rho: Value, R_f: Value, M_c0: Value, d_t: Value, w_r: Value) -> Value:
+    """Friction moment in a pin: by the force in it, a constant drag, and one with the speed."""
+    return sigma_f * (rho * R_f + M_c0) - d_t * w_r
 
 
 @formula("friction_force", "artobolevsky_1988, ch. 11")
-def friction_force(f: Value, N_s: Value) -> Value:
-    """Friction force of a guide."""
-    return f * N_s
+def friction_force(sigma_f: Value, f: Value, N_p: Value, F_c0: Value, d: Value, v_s: Value) -> Value:
+    """Friction force of a guide: by the force that presses, a constant drag, and one with the speed."""
+    return sigma_f * (f * N_p + F_c0) - d * v_s
 
 
-@formula("efficiency", "artobolevsky_1988, ch. 14")
+@formula("tilting_force", "artobolevsky_1988, ch. 11")
+def tilting_force(M_n: Value, l_p: Value) -> Value:
+    """Difference of the forces that press at both ends of a piece, by the moment of its guide."""
+    return 2 * M_n / l_p
+
+
+@formula("pressing_force", "artobolevsky_1988, ch. 11")
+def pressing_force(N_f: Value, N_t: Value) -> Value:
+    """Sum of the forces that press at both ends of a piece, whichever sides of the guide they press."""
+    return (np.sqrt((N_f + N_t) ** 2) + np.sqrt((N_f - N_t) ** 2)) / 2
+
+
+@formula("friction_power", "artobolevsky_1988, ch. 14")
+def friction_power_of_pin(M_fr: Value, w_r: Value) -> Value:
+    """Power that the friction of a pin takes."""
+    return -M_fr * w_r
+
+
+@formula("friction_power", "artobolevsky_1988, ch. 14")
+def friction_power_of_guide(F_fr: Value, v_s: Value) -> Value:
+    """Power that the friction of a guide takes."""
+    return -F_fr * v_s
+
+
+@formula("instantaneous_efficiency", "artobolevsky_1988, ch. 14")
 def instantaneous_efficiency(M_0: Value, M_f: Value) -> Value:
-    """Instantaneous efficiency of a mechanism that the crank drives."""
+    """Efficiency of a mechanism that the crank drives."""
     return M_0 / M_f

@@ -132,15 +132,16 @@ class Root(Node):
     """Unknowns at which residuals vanish, on one circuit: `solve` gives them and their derivatives, shape (k, n).
 
     It takes the crank angles, or the columns that the unknowns follow `of`. `residuals` are what must vanish; they
-    are made of components of the root.
+    are made of components of the root; `knots` are crank angles where unknowns are not smooth. [deg]
     """
 
-    __slots__ = ("residuals", "solve")
+    __slots__ = ("knots", "residuals", "solve")
 
     def __init__(self, solve: Callable[[Any], Array], of: Iterable[Known] = ()) -> None:
         super().__init__(None, of)
         self.solve: Callable[[Any], Array] = solve
         self.residuals: tuple[Known, ...] = ()
+        self.knots: tuple[float, ...] = ()
 
 
 class Component(Node):
@@ -392,7 +393,7 @@ def _breaks(knowns: tuple[Known, ...], memo: dict[int, frozenset[float]]) -> fro
         for one in node.operands:
             others = memo.get(id(one.node), found)
             found = others if not found else found if others <= found else found | others
-        if isinstance(node, Pieces | Table):
+        if isinstance(node, Pieces | Table | Root):
             found |= frozenset(node.knots)
         elif isinstance(node, Delayed):
             found = frozenset((one + node.by) % node.cycle for one in found)

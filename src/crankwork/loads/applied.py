@@ -121,8 +121,11 @@ def force_on_slider(
     `own`, `other`: what follows the name of the piece, and that of the carrier, in the names of the forces.
     """
     push = force_along_guide(motion, slider, force, own)
-    slides = (one for one in joints(mechanism) if isinstance(one, SlidingJoint))
-    carrier = next(one.other for one in slides if one.link == slider)
+    slides = {one.link: one.other for one in joints(mechanism) if isinstance(one, SlidingJoint)}
+    if mechanism.halves:
+        barrel, rod = (one.link for one in mechanism.halves)
+        slides[rod] = barrel
+    carrier = slides[slider]
     if carrier == GROUND:
         return AppliedLoads((push,))
     x, y = named(-push.x, f"load_x.{carrier}{other or own}"), named(-push.y, f"load_y.{carrier}{other or own}")

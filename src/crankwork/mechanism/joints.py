@@ -108,6 +108,11 @@ def pivots_of(mechanism: Mechanism) -> dict[str, str]:
     return {link: named[at] for link, at in places.items() if at in named}
 
 
+def names_of_pivots(mechanism: Mechanism) -> dict[str, str]:
+    """Return the names of fixed points by those of the joints in which cranks turn about them."""
+    return {f"{link}_pivot": name for link, name in pivots_of(mechanism).items()}
+
+
 def origin_of(mechanism: Mechanism, link: str) -> str:
     """Return the point from which the frame of a link of a group counts."""
     group = next(one for one in mechanism.dyads if link in group_links(one))

@@ -12,6 +12,7 @@ _SAME = {
     "headings.chambers": "tables.chambers",
     "headings.driving": "quantities.driving_torque",
     "headings.firing": "columns.order",
+    "headings.friction": "tables.friction",
     "headings.method": "report.method",
     "headings.reactions": "tables.joint_forces",
     "headings.static": "quantities.static_torque",
@@ -24,6 +25,7 @@ _SAME = {
     "captions.chambers": "tables.chambers",
     "captions.displacement": "quantities.piston_displacement",
     "captions.firing": "tables.firing",
+    "captions.friction": "tables.friction",
     "captions.harmonics": "tables.torque_harmonics",
     "captions.heat_balance": "headings.heat_balance",
     "captions.inertia": "quantities.inertia_force",
@@ -41,6 +43,7 @@ _SAME = {
     "captions.velocity": "quantities.piston_velocity",
     "columns.fuel": "report.fuel",
     "columns.row": "report.row",
+    "figures.friction": "tables.friction",
     "figures.joint_forces": "tables.joint_forces",
 }
 _PLACE = re.compile(r"(?<!\w)(?:ch\.|vol\.|sec\.|pp\.|p\.|eq\.|fig\.|table|ex\.|example)(?!\w)")

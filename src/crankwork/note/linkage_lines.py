@@ -36,6 +36,7 @@ _REDUCTION = ("reduced_inertia", "kinetic_energy", "reduced_inertia_1", "reduced
 _CENTRES = ("instant_centre_x", "instant_centre_y")
 _SHAKING = ("shaking_force_x", "shaking_force_y", "shaking_force", "shaking_moment")
 _COUNTERWEIGHT = ("counterweight_moment", "counterweight_angle")
+_FRICTION = ("friction_torque", "friction_force", "friction_power")
 WORST_ANGLES = ("transmission_angle_min", "transmission_angle_max", "pressure_angle_max")
 _WHEEL = ("wittenbauer_slope", "whole_inertia", "flywheel_inertia")
 _TORQUES = ("static_torque", "dynamic_torque", "balancing_torque", "driving_torque")
@@ -63,6 +64,7 @@ def linkage_lines(results: Results, degrees: float | None = None) -> tuple[Group
         told.group("reduction", _REDUCTION),
         told.group("torques", _TORQUES),
         Group("efficiency", tuple(_efficiency(results))),
+        _friction(results, told),
         Group("flywheel", tuple(_flywheel(results, told))),
         Group("motor", told.lines(["motor_power", "inertia_on_crank"])),
     ]
@@ -162,6 +164,18 @@ def _efficiency(results: Results) -> Iterator[Line]:
         is_alone = known.key == "efficiency" and isinstance(known.node, Given)
         if known.key and not is_alone and not isinstance(known.node, Found):
             yield moment.step(known)
+
+
+def _friction(results: Results, told: _Told) -> Group:
+    """Return what the friction in each joint comes to, and the efficiency, where the forces are known."""
+    moment = results.moment(told.degrees)
+    keys = [key for key in results.columns if key.partition(".")[0] in _FRICTION]
+    if not all(math.isfinite(moment.value(results.memory[key])) for key in keys):
+        return Group("friction", ())
+    ratio = results.memory.get("instantaneous_efficiency")
+    is_told = ratio is not None and math.isfinite(moment.value(ratio))
+    lines = (*told.lines(_FRICTION), *((moment.step(ratio),) if ratio is not None and is_told else ()))
+    return Group("friction", (*lines, *told.lines(("mean_efficiency",))), told.degrees)
 
 
 def _flywheel(results: Results, told: _Told) -> Iterator[Line]:

@@ -21,6 +21,8 @@ from crankwork.note.options import NoteOptions
 from crankwork.report.figures import figures
 
 _POSITION_STEP = 30.0
+# columns without a value at many positions
+_IN_PLACES = ("instant_centre_", "instantaneous_efficiency")
 
 
 @dataclass(frozen=True)
@@ -80,7 +82,7 @@ class Material:
         key = next((one for one in largest if one in self.columns), None)
         if (self.machine.loads or self.machine.chambers) and key is not None:
             # in a change point forces may not be determined
-            told = [one for name, one in self.columns.items() if not name.startswith("instant_centre_")]
+            told = [one for name, one in self.columns.items() if not name.startswith(_IN_PLACES)]
             is_told = np.all(np.isfinite(told), axis=0)
             degrees = float(self.positions[int(np.argmax(np.where(is_told, np.abs(self.columns[key]), -1.0)))])
         return {one.name: one for one in linkage_lines(self.results, degrees)}

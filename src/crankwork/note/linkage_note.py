@@ -11,6 +11,7 @@ from crankwork.note.document import Block, Contents, Note, PageBreak, TitlePage
 from crankwork.note.linkage_data import structural_analysis, task
 from crankwork.note.linkage_driver import driven_forces, driven_motion, driven_task
 from crankwork.note.linkage_forces import balance, forces, reduction, torques
+from crankwork.note.linkage_friction import friction
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_motion import kinematics, law_of_motion
 from crankwork.note.linkage_quality import quality
@@ -22,17 +23,17 @@ from crankwork.note.options import NoteOptions
 Section = Callable[[Material], Iterator[Block]]
 
 _COURSE: tuple[Section, ...] = (
-    task, structural_analysis, kinematics, quality, chambers, forces, balance, reduction, torques, motor, flywheel,
-    law_of_motion, transient, checks, conclusion, sources, appendix,
+    task, structural_analysis, kinematics, quality, chambers, forces, balance, reduction, torques, friction, motor,
+    flywheel, law_of_motion, transient, checks, conclusion, sources, appendix,
 )  # fmt: skip
 # engineers who read English want the results before the way to them
 _REPORT: tuple[Section, ...] = (
-    task, conclusion, structural_analysis, kinematics, quality, chambers, forces, balance, reduction, torques, motor,
-    flywheel, law_of_motion, transient, checks, sources, appendix,
+    task, conclusion, structural_analysis, kinematics, quality, chambers, forces, balance, reduction, torques, friction,
+    motor, flywheel, law_of_motion, transient, checks, sources, appendix,
 )  # fmt: skip
 _DRIVEN: tuple[Section, ...] = (
-    driven_task, structural_analysis, driven_motion, quality, chambers, driven_forces, checks, conclusion, sources,
-    appendix,
+    driven_task, structural_analysis, driven_motion, quality, chambers, driven_forces, friction, checks, conclusion,
+    sources, appendix,
 )  # fmt: skip
 # the tables keep the numbers that courses of machines give them
 _OF_TABLE: tuple[Section, ...] = (

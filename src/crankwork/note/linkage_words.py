@@ -92,7 +92,7 @@ class Words(NoteWords):
 
     def column_texts(self, values: Sequence[float], *, digits: int = 4) -> list[str]:
         """Return numbers of one column with as many decimals as give the largest that many digits."""
-        largest = max((abs(one) for one in values), default=0.0)
+        largest = max((abs(one) for one in values if one == one), default=0.0)  # noqa: PLR0124 - not a number
         if not largest:
             return ["0"] * len(values)
         whole = len(f"{largest:.0f}") if largest >= 1 else 1 - _leading_zeros(largest)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 
 import numpy as np
@@ -100,11 +101,24 @@ def _dynamics(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[
     ]
     if torques:
         result["torques"] = curves(degrees, known, [torques], label("driving_torque", style.language), style)
+    result |= _friction(degrees, known, style)
     joints = [key for key in known if key.partition(".")[0] == "joint_force" and np.any(known[key])]
     if joints:
         panels = [joints[start : start + _PER_PANEL] for start in range(0, len(joints), _PER_PANEL)]
         result["joint_forces"] = curves(degrees, known, panels, say("tables.joint_forces", style.language), style)
     return result
+
+
+def _friction(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[str, bytes]:
+    """Return what the driver needs with and without friction, and the efficiency."""
+    pairs = (("balancing_torque", "torque_with_friction"), ("driver_force", "driver_force_with_friction"),
+             ("driver_torque", "driver_torque_with_friction"))  # fmt: skip
+    panels = [[one for one in pair if one in known] for pair in pairs if pair[1] in known]
+    ratio = [["instantaneous_efficiency"]] if "instantaneous_efficiency" in known else []
+    if not panels or not all(np.isfinite(known[key]).any() for key in itertools.chain(*panels, *ratio)):
+        return {}
+    title = say("tables.friction", style.language)
+    return {"friction": curves(degrees, known, [*panels, *ratio], title, style)}
 
 
 def _evenness(

@@ -1,0 +1,93 @@
+"""Friction beside the ideal forces: whatever drives, power balances, and what was there stays what it was."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import crankwork
+from crankwork.analysis.friction import COLUMNS
+from crankwork.dynamics.force_system import whole_of
+from crankwork.mechanism.joints import Pin, names_of_pivots
+
+ROOT = Path(__file__).parents[2]
+MACHINES = ("driven-slider", "cylinder-between-links", "heavy-boom", "elbow", "crank-by-table", "guide-on-rocker")
+
+
+def rubbing_everywhere(name: str) -> tuple[crankwork.Results, crankwork.Results]:
+    """Return the results of a machine as it is, and with friction in all its joints."""
+    text = (ROOT / f"tests/machines/{name}.toml").read_text("utf-8")
+    machine = crankwork.read_machine(text)
+    shown, held = names_of_pivots(machine.mechanism), whole_of(machine.mechanism)[1]
+    text += "\n[friction.pins]\n"
+    for joint in held:
+        if isinstance(joint, Pin):
+            text += (
+                f"{shown.get(joint.name, joint.name)} = {{ coefficient = 0.05, radius = '5 mm', moment = '1 mN*m' }}\n"
+            )
+    text += "[friction.sliders]\n"
+    for joint in held:
+        if not isinstance(joint, Pin):
+            text += f"{joint.name} = {{ coefficient = 0.05, length = '50 mm', damping = '1 N*s/m' }}\n"
+    text = text.replace("1 mN*m", "0.001 N*m")
+    return crankwork.analyse(machine), crankwork.analyse(crankwork.read_machine(text))
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_power_balances_whatever_drives(name: str) -> None:
+    plain, rubbing = rubbing_everywhere(name)
+    assert {"friction_power", "friction_forces"} <= set(rubbing.checks)
+    assert max(rubbing.checks.values()) < 1e-12
+    assert rubbing.summary["mean_friction_power"] > 0
+    assert rubbing.columns["friction_power"].min() >= -1e-12 * rubbing.columns["friction_power"].max()
+    for key, column in plain.columns.items():
+        assert np.array_equal(column, rubbing.columns[key], equal_nan=True), key
+    added = {key.partition(".")[0] for key in set(rubbing.columns) - set(plain.columns)}
+    assert added <= set(COLUMNS)
+
+
+HELD = """
+    [fixed_points]
+    O = ["0 mm", "0 mm"]
+    [crank]
+    pivot = "O"
+    pin = "A"
+    radius = "100 mm"
+    start = "{start} deg"
+    speed = "60 rpm"
+    [[loads]]
+    kind = "force"
+    point = "A"
+    x = "-1 kN"
+    [friction.pins]
+    O = {{ moment = "20 N*m" }}
+    [links]
+    rod = {{ joins = ["A", "B"], length = "300 mm" }}
+    [guides]
+    bed = {{ through = "O", angle = "0 deg" }}
+    [sliders]
+    piston = {{ pin = "B", guide = "bed" }}
+"""
+
+
+def test_a_load_that_is_held_over_the_end_of_a_cycle_is_told_once() -> None:
+    # the load drives with 100 N m sin phi, and 20 N m hold that
+    results = crankwork.analyse(crankwork.read_machine(HELD.format(start=5)))
+    held = [one.values for one in results.notices if one.code == "friction_holds"]
+    end = np.degrees(np.arcsin(0.2))
+    expected = [(180 - end - 5, 175.0), (355.0, end - 5)]
+    assert [(one["from"], one["to"]) for one in held] == [pytest.approx(one, abs=1e-7) for one in expected]
+    ratio = results.columns_at([0.0, 90.0, 200.0])["instantaneous_efficiency"]
+    power = 100 * np.sin(np.radians([95.0, 205.0]))
+    assert np.isnan(ratio[0])
+    assert ratio[1:] == pytest.approx([(power[0] - 20) / power[0], power[1] / (power[1] - 20)])
+
+
+def test_friction_alone_is_a_torque() -> None:
+    text = HELD.format(start=0).replace('x = "-1 kN"', 'x = "0 kN"')
+    results = crankwork.analyse(crankwork.read_machine(text))
+    assert results.columns["torque_with_friction"] == pytest.approx(20)
+    assert "instantaneous_efficiency" not in results.columns
+    assert "mean_efficiency" not in results.summary
