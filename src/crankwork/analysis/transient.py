@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
@@ -14,7 +14,10 @@ from numpy.typing import NDArray
 
 from crankwork.analysis.results import Listing
 from crankwork.analysis.solved import Notice, SolvedLinkage
+from crankwork.dynamics.force_system import whole_system
+from crankwork.dynamics.friction import Rubbing, friction_forces, rubbing_joints, unit_effect
 from crankwork.dynamics.joint_forces import joint_forces
+from crankwork.dynamics.link_loads import link_wrenches
 from crankwork.dynamics.reduction import kinetic_energy, reduced_inertia, reduced_torque
 from crankwork.dynamics.running import Running
 from crankwork.errors import MethodError
@@ -38,11 +41,13 @@ from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.shaft.collocation import gauss
 from crankwork.shaft.fitted import fitted
-from crankwork.shaft.transient import RATE, Course, FreeMachine, Run, Way
+from crankwork.shaft.slipping import Slipping
+from crankwork.shaft.transient import OWN, RATE, Course, FreeMachine, Run, Way
 
 _WIDTH = math.pi / 8
 _ROWS = 200
 _BESIDE = 1e-6
+_LOOKS, _HALVINGS, _NOTHING = 2001, 60, 1e-12
 # inertia and its derivative; energy and torques; damping; rate of the crank
 _ALIKE = (0, 1, 1, 1, 2, 3, 0, 1)
 _CHECKED_STEPS = 20_000
@@ -212,7 +217,7 @@ class Loose:
         return np.asarray(reduced_inertia(piece.mechanism, motion).inertia + still + self.beside)
 
     def _columns(self, u: Array) -> Array:
-        found = np.zeros((6 if self.chart.pieces[0].turns_back else 8, u.size))
+        found = np.zeros((OWN + self._rubbing_rows, u.size))
         for piece, here in self.chart.each(u):
             q, q_1, _ = piece.crank(u[here])
             motion = self.moved(piece, q)
@@ -229,8 +234,59 @@ class Loose:
                 found[6, here] = reduced_inertia(piece.mechanism, motion).inertia_1
                 held = [one for one in self.machine.loads if has_potential(one)]
                 found[7, here] = -reduced_torque(motion, applied_loads(piece.mechanism, motion, held))
+            if self.machine.friction:
+                found[OWN:, here] = self._rubbing(piece, motion, piece.crank(u[here]))
             found[2:4, here] = torques if piece.last >= piece.first else torques[::-1]
         return found
+
+    @cached_property
+    def _joints(self) -> tuple[Rubbing, ...]:
+        """The joints that rub."""
+        piece = self.chart.pieces[0]
+        middle = np.array([(piece.first + piece.last) / 2])
+        return rubbing_joints(Running(piece.mechanism, self.moved(piece, middle)), self.machine.friction)
+
+    @property
+    def _slipping(self) -> Slipping | None:
+        return Slipping(self._joints, OWN) if self.machine.friction else None
+
+    @property
+    def _rubbing_rows(self) -> int:
+        return self._slipping.count * len(self._joints) if self._slipping else 0
+
+    @property
+    def _alike(self) -> tuple[int, ...]:
+        """Which rows of the rubbing joints are of like size."""
+        if self._slipping is None:
+            return ()
+        kinds = (3, *(kind for kind in (5, 5, 6, 7, 8) for _ in range(2)), *(9 for _ in range(2 * len(self._joints))))
+        return kinds * len(self._joints)
+
+    def _rubbing(self, piece: Piece, motion: Motion, crank: Transfer) -> Array:
+        """Return the rows of `Slipping`: rates of the joints, and their unknowns for each cause, shape (rows, n)."""
+        still = Running(piece.mechanism, motion)
+        system, back = whole_system(still), self.moved(piece, motion.grid.angle, -1)
+        dampers = [one for one in self.machine.loads if isinstance(one, Damper | SliderDamper)]
+        ways = (motion, back) if piece.last >= piece.first else (back, motion)
+        causes = [
+            *(Running(piece.mechanism, motion, 0.0, self.loads(piece, one)) for one in ways),
+            Running(piece.mechanism, motion, 1.0),
+            Running(piece.mechanism, motion, 0.0, applied_loads(piece.mechanism, motion, dampers, 1.0)),
+            Running(piece.mechanism, motion, 0.0, angular_acceleration=1.0),
+        ]
+        right = [system.right_side(link_wrenches(one)) + np.zeros((len(motion.grid), 1)) for one in causes]
+        right += [-unit_effect(motion, system, one.joint) for one in self._joints]
+        grows, falls, square, rate, acceleration, *own = np.moveaxis(
+            np.linalg.solve(system.matrix, np.stack(right, axis=-1)), -1, 0
+        )
+        _, q_1, q_2 = (one[:, None] for one in crank)
+        by_cause = [grows, falls, square * q_1**2 + acceleration * q_2, rate * q_1, acceleration * q_1, *own]
+        rows = []
+        for one in rubbing_joints(still, self.machine.friction):
+            at = 2 * system.joints.index(one.joint)
+            rows += [one.rate * crank.position_1, *(each[:, at + k] for each in by_cause[:5] for k in range(2))]
+            rows += [each[:, at + k] for k in range(2) for each in by_cause[5:]]
+        return np.stack(rows)
 
     @cached_property
     def is_two_sided(self) -> bool:
@@ -243,15 +299,19 @@ class Loose:
         """What its coordinate feels."""
         wanted, ends = self.wanted, self.chart.ends
         breaks = np.unique(np.concatenate([ends, *(self._breaks(one) for one in self.chart.pieces)]))
-        reduced = fitted(self._columns, breaks, _WIDTH, self.chart.period, alike=_ALIKE)
+        reduced = fitted(self._columns, breaks, _WIDTH, self.chart.period, alike=(*_ALIKE, *self._alike))
         # towards dead positions the derivatives by the crank angle are differences of infinite terms
         dead = self.chart.pieces[0].turns_back
-        reduced = reduced.with_slopes(0, 1) if dead else reduced
+        reduced = reduced.with_slopes((0, 6), (1, 7)) if dead else reduced
         if not np.min(reduced.powers[:, 0, 0]) > 0:
             raise MethodError(Refusal("transient_massless"))
+        slipping = self._slipping
+        if slipping is not None:
+            breaks = np.unique(np.concatenate([breaks, _roots(lambda u: slipping.rates(reduced(u)), breaks)]))
         return FreeMachine(
             reduced,
             tuple(map(float, breaks)),
+            slipping=slipping,
             dead=frozenset(ends) if dead else frozenset(),
             changes=self._changes,
             torque=wanted.torque,
@@ -286,6 +346,22 @@ class Loose:
             return angles
         share = (angles - piece.first) / (piece.last - piece.first)
         return np.asarray(piece.low + (piece.high - piece.low) * np.arccos(np.clip(1 - 2 * share, -1, 1)) / math.pi)
+
+
+def _roots(function: Callable[[Array], Array], breaks: Array) -> Array:
+    """Return where one of some functions changes its sign between the first and the last of the breaks."""
+    places = np.unique(np.concatenate([breaks, np.linspace(breaks[0], breaks[-1], _LOOKS)]))
+    values = function(places)
+    values = np.where(np.abs(values) <= _NOTHING * np.max(np.abs(values), axis=1, keepdims=True), 0.0, values)
+    found = []
+    for row, k in zip(*np.nonzero(values[:, 1:] * values[:, :-1] < 0), strict=True):
+        low, high, below = places[k], places[k + 1], values[row, k] < 0
+        for _ in range(_HALVINGS):
+            middle = (low + high) / 2
+            low, high = (middle, high) if (function(np.array([middle]))[row, 0] < 0) == below else (low, middle)
+        found.append(high)
+    exact = places[np.any(values == 0, axis=0) & np.any(values != 0, axis=0)]
+    return np.concatenate([np.array(found), exact[np.isin(exact, places[1:-1])]])
 
 
 class Ran(NamedTuple):
@@ -335,6 +411,8 @@ class _Cycles:
     def __init__(self, loose: Loose) -> None:
         self._place, self._period = loose.chart.coordinate(loose.wanted.start), loose.chart.period
         self._until = loose.wanted.until
+        # the steady speed is that without friction
+        self._rubs = bool(loose.machine.friction)
         self.times, self.rates = [0.0], [loose.wanted.speed]
 
     def __call__(self, run: Run) -> bool:
@@ -357,7 +435,7 @@ class _Cycles:
 
     def against(self, summary: Mapping[str, Known]) -> dict[str, float]:
         """Return by how much the last cycle misses the steady speed that was found without its start. [-]"""
-        if "steady_speed" not in summary or len(self.times) <= _SAME_CYCLES:
+        if "steady_speed" not in summary or self._rubs or len(self.times) <= _SAME_CYCLES:
             return {}
         mean = self._period / (self.times[-1] - self.times[-2])
         return {"steady_cycle": abs(mean / summary["steady_speed"].value - 1)}
@@ -384,7 +462,11 @@ def _history(loose: Loose, course: Course) -> Listing:
         rest.put("potential_energy", here, potential_energy(piece.mechanism, motion, loose.machine.loads))
         loads = loose.loads(piece, motion, speed[here])
         running = Running(piece.mechanism, motion, speed[here], loads, acceleration[here])
-        for name, pin in joint_forces(running).pins.items():
+        with np.errstate(divide="ignore", invalid="ignore"):
+            rubbed = friction_forces(running, loose.machine.friction) if loose.machine.friction else None
+        if rubbed is not None:
+            rest.put("friction_power", here, rubbed.power_loss)
+        for name, pin in (rubbed.joint_forces if rubbed else joint_forces(running)).pins.items():
             rest.put(f"joint_force.{name}", here, pin.resultant)
     rest.columns["driving_torque"] = loose.felt.drive(speed)
     return Listing(columns | rest.columns)
@@ -447,11 +529,15 @@ def _energies(loose: Loose, course: Course, times: Array) -> tuple[Array, Array]
 
 def _power(loose: Loose, course: Course, times: Array) -> Array:
     """Return the power of the driver and of the loads without a potential energy. [W]"""
-    u, v, _ = course.at(times)
+    u, v, a = course.at(times)
     crank = loose.chart.crank(u)
-    speed = crank.position_1 * v
+    speed, acceleration = crank.position_1 * v, crank.position_1 * a + crank.position_2 * v**2
     power = loose.felt.drive(speed) * speed
-    if all(has_potential(one) for one in loose.machine.loads) and not loose.machine.chambers:
+    if (
+        not loose.machine.friction
+        and all(has_potential(one) for one in loose.machine.loads)
+        and not loose.machine.chambers
+    ):
         return np.asarray(power)
     for piece, here in loose.chart.each(loose.chart.within(u)[0]):
         ways: tuple[Way, Way] = (1, -1)
@@ -462,7 +548,19 @@ def _power(loose: Loose, course: Course, times: Array) -> Array:
                 motion = loose.moved(piece, crank.position[order], way)
                 loads = loose.loads(piece, motion, speed[order], with_potential=False)
                 power[order] += reduced_torque(motion, loads) * speed[order]
+                power[order] -= _lost(loose, piece, motion, (speed[order], acceleration[order]))
     return np.asarray(power)
+
+
+def _lost(loose: Loose, piece: Piece, motion: Motion, rates: tuple[Array, Array]) -> Array | float:
+    """Return the power that friction takes, from the equilibrium of all links at speeds and accelerations. [W]"""
+    if not loose.machine.friction:
+        return 0.0
+    loads = loose.loads(piece, motion, rates[0])
+    running = Running(piece.mechanism, motion, rates[0], loads, rates[1])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        # nothing drives, and there is no efficiency
+        return friction_forces(running, loose.machine.friction).power_loss
 
 
 def _told(loose: Loose, course: Course) -> Iterator[Notice]:
@@ -486,7 +584,10 @@ def _missing_torque(loose: Loose) -> float:
     drive = float(loose.felt.drive(np.zeros(1))[0])
     if not drive or loose.wanted.speed:
         return 0.0
-    felt, u = loose.felt, np.array([loose.chart.coordinate(loose.wanted.start)])
-    way: Way = 1 if drive * float(felt.reduced(u)[RATE][0]) > 0 else -1
+    felt, start = loose.felt, loose.chart.coordinate(loose.wanted.start)
+    way: Way = 1 if drive * float(felt.reduced(np.array([start]))[RATE][0]) > 0 else -1
+    u = np.array([felt.placed(float(loose.chart.within(np.array([start]))[0][0]), way)])
     inertia, rate = (float(felt.reduced(u)[row][0]) for row in (0, RATE))
-    return -way * float(felt.acceleration(u, np.zeros(1), way)[0]) * inertia / abs(rate)
+    return (
+        -way * float(felt.acceleration(u, np.zeros(1), way, *felt.stretch(float(u[0]), way))[0]) * inertia / abs(rate)
+    )

@@ -55,7 +55,5 @@ def check_friction(machine: Machine, reader: Reader) -> None:
         reader.complain("friction", Refusal("friction_redundant", name=machine.redundant[0].member.name))
     if machine.mechanism.passages:
         reader.complain("friction", Refusal("friction_passages"))
-    if machine.transient is not None:
-        reader.complain("friction", Refusal("friction_transient"))
     if isinstance(crank, Crank) and any(one.pressure_angle for one in crank.geared):
         reader.complain("friction", Refusal("friction_teeth"))

@@ -251,7 +251,7 @@ class _Equations:
         # of each joint the column of its first unknown, and what its pressing force does to the links
         self._parts: list[tuple[Rubbing, int, Array]] = []
         for one in rubbing:
-            unit = _unit_effect(running.motion, system, one.joint)
+            unit = unit_effect(running.motion, system, one.joint)
             by_force = np.asarray(one.sense * one.factor)
             self.right -= unit * one.friction(np.zeros_like(by_force))[:, None]
             self._parts.append((one, 2 * system.joints.index(one.joint), unit * by_force[:, None]))
@@ -342,7 +342,7 @@ def _orientation(matrix: Array) -> Array:
     return np.asarray(np.linalg.slogdet(np.nan_to_num(matrix))[0])
 
 
-def _unit_effect(motion: Motion, system: Equilibrium, joint: Joint) -> Array:
+def unit_effect(motion: Motion, system: Equilibrium, joint: Joint) -> Array:
     """Return what a unit of friction on the link that a joint holds does to all links, shape (n, 3 links)."""
     frame, effect = motion.frames[joint.link], np.zeros((len(motion.grid), 3 * len(system.links)))
     for link, sign in ((joint.link, 1.0), (joint.other, -1.0)):

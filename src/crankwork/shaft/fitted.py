@@ -62,11 +62,13 @@ class Fitted:
             values = values + slopes * beyond
         return np.asarray(values.reshape(-1, *shape))
 
-    def with_slopes(self, *rows: int) -> Fitted:
-        """Return these quantities, and after them the derivatives of some of them."""
-        slopes = np.zeros_like(self.powers[:, rows])
-        slopes[..., :-1] = self.powers[:, rows, 1:] * _POWERS[1:] * (2 / np.diff(self.edges))[:, None, None]
-        return replace(self, powers=np.concatenate([self.powers, slopes], axis=1))
+    def with_slopes(self, *rows: tuple[int, int]) -> Fitted:
+        """Return these quantities, some of them replaced by the derivatives of others: `(of, in the place of)`."""
+        powers = self.powers.copy()
+        for row, slope in rows:
+            powers[:, slope, :-1] = self.powers[:, row, 1:] * _POWERS[1:] * (2 / np.diff(self.edges))[:, None]
+            powers[:, slope, -1] = 0.0
+        return replace(self, powers=powers)
 
 
 def fitted(

@@ -15,6 +15,7 @@ from crankwork.shaft.fitted import Fitted
 from crankwork.shaft.fluctuation import acceleration_of_crank
 from crankwork.shaft.gauss_step import POINTS, Step, gauss_step
 from crankwork.shaft.motor import Motor
+from crankwork.shaft.slipping import Slipping, State
 
 Way = Literal[1, -1]
 EventWord = Literal[
@@ -22,7 +23,8 @@ EventWord = Literal[
     "steady", "interrupted", "many_steps", "lost",
 ]  # fmt: skip
 
-RATE = 5
+# rows of the quantities of a machine that are its own, and which of them is the rate of the crank
+OWN, RATE = 8, 5
 _TAIL = 1e-12
 _SHARE = 1e-10
 _GROWTH = 2.0
@@ -60,6 +62,8 @@ class FreeMachine:
     # Coordinates at which it is stopped, and what part of its speed it then gets back [-]
     stops: tuple[float, float] = (-math.inf, math.inf)
     restitution: float = 0.0
+    slipping: Slipping | None = None  # Joints with friction, whose rows follow
+    _known: dict[tuple[float, float], Array] = field(default_factory=dict, repr=False, compare=False)
 
     @property
     def period(self) -> float:
@@ -73,9 +77,40 @@ class FreeMachine:
 
     def acceleration(self, q: Array, v: Array, way: Way, low: float = -math.inf, high: float = math.inf) -> Array:
         """Return the acceleration of the coordinate while it goes one way, on a stretch between breaks."""
-        J, _, grows, falls, damping, rate, J_1, V_1 = self.reduced(q, low, high)
+        rows = self.reduced(q, low, high)
+        J, _, grows, falls, damping, rate, J_1, V_1 = rows[:OWN]
         torque = (grows if way > 0 else falls) - V_1 - damping * v + self.drive(rate * v) * rate
+        if self.slipping is not None:
+            free = State(v, acceleration_of_crank(torque, v, J, J_1), J)
+            found = self.slipping.frictions(rows, way, self._senses(low, high), free)
+            torque = torque + np.sum(self.slipping.rates(rows) * found, axis=0)
         return np.asarray(acceleration_of_crank(torque, v, J, J_1))
+
+    def _senses(self, low: float, high: float) -> Array:
+        """Return the signs of the relative rates on a stretch, on which none of them changes."""
+        if self.slipping is None:
+            return np.empty(0)
+        if (low, high) not in self._known:
+            middle = (low + high) / 2 if math.isfinite(low + high) else (self.breaks[0] + self.breaks[-1]) / 2
+            self._known[low, high] = self.slipping.senses(self.reduced(np.array([middle])))
+        return self._known[low, high]
+
+    def placed(self, q: float, way: Way) -> float:
+        """Return a coordinate of the first period so that what lies ahead of it is in that too."""
+        if math.isinf(self.period):
+            return q
+        if way < 0 and q <= self.breaks[0]:
+            return q + self.period
+        return q - self.period if way > 0 and q >= self.breaks[-1] else q
+
+    def stretch(self, q: float, way: Way) -> tuple[float, float]:
+        """Return the ends of the stretch between breaks that lies ahead, infinite where there are none."""
+        ends = self.breaks
+        if len(ends) == 2 and math.isfinite(self.period):
+            return -math.inf, math.inf
+        k = (bisect.bisect_right(ends, q) if way > 0 else bisect.bisect_left(ends, q)) - 1
+        k = min(max(k, 0), len(ends) - 2)
+        return ends[k], ends[k + 1]
 
 
 @dataclass
@@ -291,12 +326,9 @@ class Run:
 
     def _stretch_at(self) -> _Stretch:
         """Return the stretch between breaks that lies ahead."""
-        ends = self.machine.breaks
-        if len(ends) == 2 and math.isfinite(self.machine.period):
-            return _Stretch(-math.inf, math.inf)
-        k = bisect.bisect_right(ends, self.q) - 1 if self.way > 0 else bisect.bisect_left(ends, self.q) - 1
-        k = min(max(k, 0), len(ends) - 2)
-        return _Stretch(ends[k], ends[k + 1])
+        placed = self.machine.placed(self.q, self.way)
+        self.base, self.q = self.base + self.q - placed, placed
+        return _Stretch(*self.machine.stretch(placed, self.way))
 
     def _wrap(self) -> None:
         """Bring the coordinate into the first period."""
