@@ -11,7 +11,7 @@ import re
 import sys
 import time
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
 import click
 
@@ -166,7 +166,6 @@ def check(
 
         click.echo(expanded(file, settings, language), nl=False)
         return
-    from crankwork.analysis import analyse
     from crankwork.description.machine_file import read
     from crankwork.locale import say
     from crankwork.report.notices import notice_text
@@ -181,7 +180,7 @@ def check(
 
         click.echo(json.dumps(ways_data(machine, ways(machine)), ensure_ascii=False, indent=1))
         return
-    results = analyse(machine)
+    results = _analysed(machine)
     click.echo(f"{file}: {machine.title}" if machine.title else file)
     click.echo(description_text(machine, results, language))
     if circuits:
@@ -222,7 +221,6 @@ def run(  # noqa: PLR0913 - one argument per option of the command
 ) -> None:
     """Compute a machine: print the summary, and write tables and figures with -o."""
     from crankwork import files
-    from crankwork.analysis import analyse
     from crankwork.report import summary
 
     machine = _machine(file, settings, step, method, per_area=per_area)
@@ -230,7 +228,7 @@ def run(  # noqa: PLR0913 - one argument per option of the command
         if not output:
             raise CrankworkError(_refusal("folder_unnamed"))
         files.check_folder(output, overwrite=overwrite)
-    results = analyse(machine)
+    results = _analysed(machine)
     if as_json:
         click.echo(json.dumps(summary.summary_data(results, per_area=per_area), ensure_ascii=False, indent=1))
     else:
@@ -288,7 +286,6 @@ def report(  # noqa: PLR0913 - one argument per option of the command
     # before anything else is loaded
     check_format(output, with_figures=not no_figures, with_sheets=sheets)
     from crankwork import files
-    from crankwork.analysis import analyse
     from crankwork.locale import say
     from crankwork.note.contents import note_of, sheets_of
     from crankwork.note.options import NoteOptions
@@ -299,7 +296,7 @@ def report(  # noqa: PLR0913 - one argument per option of the command
         language=language, school=school or "", per_area=per_area, title=title.strip(), author=author.strip(),
         figures=not no_figures, sheets=sheets,
     )  # fmt: skip
-    results = analyse(machine)
+    results = _analysed(machine)
     written: dict[str | Path, bytes] = {output: written_note(note_of(results, options), output)}
     if sheets:
         stem = os.path.splitext(output)[0]  # noqa: PTH122 - a name, not a file
@@ -328,7 +325,6 @@ def explain(  # noqa: PLR0913 - one argument per option of the command
     with_keys: bool,
 ) -> None:
     """Explain one value of a machine: every step in order, down to the lines of the file."""
-    from crankwork.analysis import analyse
     from crankwork.description.machine_file import read
     from crankwork.description.origins import origins
     from crankwork.note.explain import explanation, key_lines, place_text
@@ -339,7 +335,7 @@ def explain(  # noqa: PLR0913 - one argument per option of the command
     # what is no crank angle may be a time, which the machine knows
     machine = read(file, overrides)
     where = None if at is None else _at(at, "time" if machine.mechanism.driver.law else "angle")
-    results = analyse(machine)
+    results = _analysed(machine)
     if key is None or with_keys:
         click.echo("\n".join(key_lines(results, language)))
         return
@@ -410,6 +406,26 @@ def _at(text: str, dimension: str) -> float:
     except ValueError as error:
         raise CrankworkError(_refusal("option_wrong", option="--at", mistake=error.args[0])) from None
     return round(math.degrees(value), 9) if dimension == "angle" else value
+
+
+def _analysed(machine: Machine) -> Results:
+    """Return the results of a machine, with a bar on the error stream where one let go takes more than a second."""
+    from crankwork.analysis import analyse
+
+    started = time.monotonic()
+    bar: Any = None  # click does not say what its bars are
+
+    def told(share: float) -> None:
+        nonlocal bar
+        if bar is None and time.monotonic() - started > 1 and sys.stderr.isatty():
+            bar = click.progressbar(length=1000, file=sys.stderr)
+        if bar is not None:
+            bar.update(max(round(1000 * share) - bar.pos, 0))
+
+    results = analyse(machine, progress=told)
+    if bar is not None:
+        click.echo(err=True)
+    return results
 
 
 def _with_progress(steps: Iterable[dict[str, bytes]], count: int) -> dict[str, bytes]:

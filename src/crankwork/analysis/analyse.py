@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,13 @@ if TYPE_CHECKING:
     from crankwork.machine import Machine
 
 
-def analyse(machine: Machine, grid: CrankGrid | None = None, *, method: Method | None = None) -> Results:
+def analyse(
+    machine: Machine,
+    grid: CrankGrid | None = None,
+    *,
+    method: Method | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> Results:
     """Return everything a machine does over one cycle.
 
     Parameters
@@ -27,6 +34,8 @@ def analyse(machine: Machine, grid: CrankGrid | None = None, *, method: Method |
         Ascending crank angles for the columns, within one cycle; the machine's own table otherwise. [rad]
     method : Method, optional
         Instead of the machine's own; an engine has more than one.
+    progress : callable, optional
+        Told, now and again, the part of the time that a machine let go has been followed. [-]
 
     Returns
     -------
@@ -51,7 +60,7 @@ def analyse(machine: Machine, grid: CrankGrid | None = None, *, method: Method |
         return analyse_tabulated(machine, machine.transfer)
     from crankwork.analysis.linkage import analyse_linkage  # noqa: PLC0415 - loaded where it is needed
 
-    return analyse_linkage(machine, grid)
+    return analyse_linkage(machine, grid, progress)
 
 
 def with_method(machine: Machine, name: str) -> Machine:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from typing import Literal, NamedTuple
 
@@ -78,11 +78,13 @@ def four_bar_type(machine: Machine) -> FourBarType | Literal[""]:
     return ""
 
 
-def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
+def analyse_linkage(
+    machine: Machine, grid: CrankGrid | None = None, progress: Callable[[float], None] | None = None
+) -> Results:
     """Return everything a linkage does over one cycle: a revolution, or two of some gas.
 
     Columns, summary, checks and notices; of a crank that does not turn fully between its dead positions. `grid`:
-    ascending crank angles within one cycle; the machine's own table otherwise [rad].
+    ascending crank angles within one cycle; the machine's own table otherwise [rad]; `progress`: as `analyse` takes it.
     """
     mechanism, way = way_through(machine.mechanism, machine.way)
     machine = replace(machine, mechanism=mechanism, way=way or machine.way)
@@ -126,7 +128,7 @@ def analyse_linkage(machine: Machine, grid: CrankGrid | None = None) -> Results:
     driver = machine.mechanism.driver
     if found is None and "shaking_force" in memory and isinstance(driver, Crank) and driver.law is None:
         summary |= {key: one.named(key) for key, one in balance_of(driver, memory | summary, machine.mechanism.period)}
-    ran = let_go(solved, found, summary)
+    ran = let_go(solved, found, summary, progress)
     summary, checks, notices = summary | ran.summary, checks | ran.checks, notices + ran.notices
     notices += tuple(_of_machine(machine))
     # where links pass through a line, that is told already

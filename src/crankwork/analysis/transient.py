@@ -373,10 +373,16 @@ class Ran(NamedTuple):
     notices: tuple[Notice, ...]
 
 
-def let_go(solved: SolvedLinkage, found: Travel | None, summary: Mapping[str, Known]) -> Ran:
+def let_go(
+    solved: SolvedLinkage,
+    found: Travel | None,
+    summary: Mapping[str, Known],
+    progress: Callable[[float], None] | None = None,
+) -> Ran:
     """Return how a linkage moves in time from where it is let go (artobolevsky_1988, ch. 15); nothing if it is not.
 
-    `found`: the way of a crank that does not turn fully; `summary`: what else is known, such as its flywheel.
+    `found`: the way of a crank that does not turn fully; `summary`: what else is known, such as its flywheel;
+    `progress`: told the part of the time that is done.
     """
     if solved.machine.transient is None:
         return Ran({}, {}, {}, ())
@@ -388,7 +394,7 @@ def let_go(solved: SolvedLinkage, found: Travel | None, summary: Mapping[str, Kn
     rate = float(chart.crank(np.array([start]))[1][0])
     if not rate:
         raise MethodError(Refusal("transient_dead"))
-    cycles = _Cycles(loose)
+    cycles = _Cycles(loose, progress)
     course = Run(loose.felt, start, wanted.speed / rate).until(wanted.time, watched=wanted.speeds, each=cycles)
     checks = {"energy_balance": _missing(loose, course)}
     if course.events and course.events[-1].word == "steady":
@@ -408,7 +414,8 @@ def let_go(solved: SolvedLinkage, found: Travel | None, summary: Mapping[str, Kn
 class _Cycles:
     """Where a motion passes the coordinate that it started from, and whether it is steady there."""
 
-    def __init__(self, loose: Loose) -> None:
+    def __init__(self, loose: Loose, progress: Callable[[float], None] | None) -> None:
+        self._time, self._progress = loose.wanted.time, progress
         self._place, self._period = loose.chart.coordinate(loose.wanted.start), loose.chart.period
         self._until = loose.wanted.until
         # the steady speed is that without friction
@@ -417,6 +424,8 @@ class _Cycles:
 
     def __call__(self, run: Run) -> bool:
         """Return whether enough has been seen."""
+        if self._progress is not None:
+            self._progress(run.time / self._time)
         if self._until == "rest":
             return run.is_over
         if self._until == "time" or not run.course.steps or math.isinf(self._period):
