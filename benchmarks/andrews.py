@@ -14,7 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 import crankwork
-from crankwork.analysis.transient import Loose, chart_of
+from crankwork.analysis.charts import chart_of
+from crankwork.analysis.loose import Loose
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.shaft.transient import FreeMachine, Run

@@ -15,7 +15,8 @@ from pathlib import Path
 import numpy as np
 
 import crankwork
-from crankwork.analysis.transient import Loose, chart_of
+from crankwork.analysis.charts import chart_of
+from crankwork.analysis.loose import Loose
 from crankwork.shaft.transient import Run
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "literature"))

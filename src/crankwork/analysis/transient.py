@@ -5,363 +5,35 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from crankwork.analysis.charts import BESIDE, Chart, Piece, chart_of
+from crankwork.analysis.loose import Loose
 from crankwork.analysis.results import Listing
 from crankwork.analysis.solved import Notice, SolvedLinkage
-from crankwork.dynamics.force_system import whole_system
-from crankwork.dynamics.friction import Rubbing, friction_forces, rubbing_joints, unit_effect
+from crankwork.dynamics.friction import friction_forces
 from crankwork.dynamics.joint_forces import joint_forces
-from crankwork.dynamics.link_loads import link_wrenches
-from crankwork.dynamics.reduction import kinetic_energy, reduced_inertia, reduced_torque
+from crankwork.dynamics.reduction import kinetic_energy, reduced_torque
 from crankwork.dynamics.running import Running
 from crankwork.errors import MethodError
-from crankwork.formula.expression import Value
-from crankwork.formula.known import Found, Known, breaks_of
-from crankwork.kinematics.circuits import with_branches
-from crankwork.kinematics.coordinates import driver_coordinate
-from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.memory import remembered_motion
-from crankwork.kinematics.motion import Motion, linkage_motion
-from crankwork.kinematics.transfer import Transfer
-from crankwork.kinematics.travel import Travel, branches_of
-from crankwork.loads.applied import AppliedLoads
-from crankwork.loads.damper import Damper, SliderDamper
-from crankwork.loads.load import applied_loads
+from crankwork.formula.known import Found, Known
+from crankwork.kinematics.crank_grid import Array
+from crankwork.kinematics.motion import Motion
+from crankwork.kinematics.travel import Travel
 from crankwork.loads.potential import has_potential, potential_energy
-from crankwork.loads.process import ProcessForce, ProcessForceAtPoint, TorqueOnLink
 from crankwork.locale import Refusal
-from crankwork.machine import Machine, Transient
-from crankwork.mechanism.dyads import RPR, RRP, RRR
-from crankwork.mechanism.mechanism import Mechanism
 from crankwork.shaft.collocation import gauss
-from crankwork.shaft.fitted import fitted
-from crankwork.shaft.slipping import Slipping
-from crankwork.shaft.transient import OWN, RATE, Course, FreeMachine, Run, Way
+from crankwork.shaft.transient import RATE, Course, Run, Way
 
-_WIDTH = math.pi / 8
 _ROWS = 200
-_BESIDE = 1e-6
-_LOOKS, _HALVINGS, _NOTHING = 2001, 60, 1e-12
-# inertia and its derivative; energy and torques; damping; rate of the crank
-_ALIKE = (0, 1, 1, 1, 2, 3, 0, 1)
 _CHECKED_STEPS = 20_000
 _STEADY = 1e-10
 _SAME_CYCLES = 2
 _AT_PERIOD = 1e-9
 _NODES, _WEIGHTS, *_ = gauss(8)
-
-
-class Piece(NamedTuple):
-    """A branch of a linkage: the crank angle goes from one dead position to the next as the coordinate grows."""
-
-    mechanism: Mechanism
-    # Coordinates, and crank angles there [rad]
-    low: float
-    high: float
-    first: float
-    last: float
-    turns_back: bool  # Whether its ends are dead positions; the coordinate is the crank angle where they are none
-
-    def crank(self, u: Array) -> Transfer:
-        """Return the crank angle and its derivatives by the coordinate. [rad]"""
-        if not self.turns_back:
-            return Transfer(u, np.ones_like(u), np.zeros_like(u))
-        half, rate = (self.last - self.first) / 2, math.pi / (self.high - self.low)
-        angle = rate * (u - self.low)
-        # from the nearer end, where the difference to it is small
-        away = half * 2 * np.sin(angle / 2) ** 2
-        return Transfer(self.first + away, half * rate * np.sin(angle), half * rate**2 * np.cos(angle))
-
-
-@dataclass(frozen=True)
-class Chart:
-    """A coordinate that grows all along the way of a linkage, through the dead positions of its crank."""
-
-    pieces: tuple[Piece, ...]
-    period: float  # Infinite where the way has ends
-
-    @property
-    def ends(self) -> tuple[float, ...]:
-        """Where pieces meet."""
-        return (self.pieces[0].low, *(one.high for one in self.pieces))
-
-    def each(self, u: Array) -> Iterator[tuple[Piece, NDArray[np.intp]]]:
-        """Yield the pieces, and which of some coordinates of the first period are on them."""
-        inner = [one.low for one in self.pieces[1:]]
-        which = np.searchsorted(inner, u, side="right")
-        for k, piece in enumerate(self.pieces):
-            here = np.flatnonzero(which == k)
-            if here.size:
-                yield piece, here
-
-    def within(self, u: Array) -> tuple[Array, Array]:
-        """Return coordinates in the first period, and the crank angle of whole turns before it. [rad]"""
-        if math.isinf(self.period):
-            return u, np.zeros_like(u)
-        turns = np.floor((u - self.ends[0]) / self.period)
-        return u - turns * self.period, (0.0 if self.pieces[0].turns_back else self.period) * turns
-
-    def beside(self, u: Array) -> Array:
-        """Return how far coordinates are from the dead positions, over the way between these. [-]"""
-        if not self.pieces[0].turns_back:
-            return np.full_like(u, np.inf)
-        apart = np.abs(self.within(u)[0][:, None] - np.array(self.ends)).min(axis=1)
-        return np.asarray(apart / (self.ends[-1] - self.ends[0]))
-
-    def aside(self, u: Array) -> Array:
-        """Return coordinates, those in dead positions put beside these, where a motion has rates by the crank."""
-        return np.where(
-            self.beside(u) < _BESIDE, u + 2 * _BESIDE * (self.ends[-1] - self.ends[0]) * _inward(self, u), u
-        )
-
-    def crank(self, u: Array) -> Transfer:
-        """Return the crank angle and its derivatives by the coordinate, turns counted. [rad]"""
-        inside, turned = self.within(u)
-        found = np.empty((3, u.size))
-        for piece, here in self.each(inside):
-            found[:, here] = piece.crank(inside[here])
-        return Transfer(found[0] + turned, found[1], found[2])
-
-    def coordinate(self, angle: float) -> float:
-        """Return the coordinate of a crank angle on the first piece. [rad]"""
-        one = self.pieces[0]
-        if not one.turns_back:
-            return angle
-        share = (angle - one.first) / (one.last - one.first)
-        return one.low + (one.high - one.low) * math.acos(min(max(1 - 2 * share, -1.0), 1.0)) / math.pi
-
-
-def chart_of(machine: Machine, found: Travel | None) -> Chart:
-    """Return the coordinate along the way of a linkage: its crank angle, or what goes on where that turns back."""
-    if found is None or found.is_whole:
-        turn = math.radians(machine.cycle)
-        return Chart((Piece(machine.mechanism, 0.0, turn, 0.0, turn, turns_back=False),), turn)
-    circuit = found.circuit
-    only_dyads = all(isinstance(one, RRR | RRP | RPR) for one in machine.mechanism.dyads)
-    parts = circuit.branches(driver_coordinate(circuit.mechanism))
-    if not (only_dyads and circuit.curve.is_closed and not len(circuit.curve.crossings)):
-        parts = [found.branch]
-    stated = next((k for k, one in enumerate(parts) if _same(one, found.branch, circuit.curve.length)), 0)
-    parts = [*parts[stated:], *parts[:stated]]
-    pieces, low = [], 0.0
-    for part in parts:
-        first, last = (float(one) for one in circuit.values(driver_coordinate(circuit.mechanism), np.array(part)))
-        mechanism = machine.mechanism
-        if len(parts) > 1:
-            middle = circuit.stretch(np.array([(part.start + part.end) / 2]))
-            mechanism = with_branches(replace(mechanism, passages={}), branches_of(mechanism, middle))
-        # alike at the dead position for the pieces on both sides of it
-        high = low + math.pi * math.sqrt(abs(last - first) / 2)
-        pieces.append(Piece(mechanism, low, high, first, last, turns_back=True))
-        low = high
-    return Chart(tuple(pieces), low if len(parts) > 1 else math.inf)
-
-
-def _inward(chart: Chart, u: Array) -> Array:
-    """Return which way leads on along a chart: back from its end, where it has one."""
-    return np.where(np.isinf(chart.period) & (u > (chart.ends[0] + chart.ends[-1]) / 2), -1.0, 1.0)
-
-
-def _same(one: tuple[float, float], other: tuple[float, float], length: float) -> bool:
-    apart = (sum(one) - sum(other)) / 2
-    return abs(apart - length * round(apart / length)) < 1e-6 * length
-
-
-@dataclass(frozen=True)
-class Loose:
-    """A linkage at liberty: its masses and loads along the coordinate of a chart."""
-
-    solved: SolvedLinkage
-    chart: Chart
-    flywheel: float = 0.0  # Moment of inertia on the crank besides what the machine has [kg m2]
-
-    @property
-    def machine(self) -> Machine:
-        """The machine."""
-        return self.solved.machine
-
-    @property
-    def wanted(self) -> Transient:
-        """What is asked for."""
-        if self.machine.transient is None:
-            raise TypeError("no transient is asked for")
-        return self.machine.transient
-
-    @property
-    def beside(self) -> float:
-        """Moment of inertia that turns with the crank. [kg m2]"""
-        motor = self.machine.drive.motor
-        return self.machine.drive.inertia + self.flywheel + (motor.reduced_inertia if motor else 0.0)
-
-    def moved(self, piece: Piece, angle: Array, way: Way = 1) -> Motion:
-        """Return the motion of a branch at crank angles, forwards or backwards. [rad]"""
-        motion = linkage_motion(piece.mechanism, CrankGrid.from_radians(angle))
-        back = Transfer(angle, np.full_like(angle, float(way)), np.zeros_like(angle))
-        return motion if way > 0 else replace(motion, driver=back)
-
-    def loads(self, piece: Piece, motion: Motion, speed: Value = 0.0, *, with_potential: bool = True) -> AppliedLoads:
-        """Return what pushes the linkage at some speeds of the crank. [rad/s]"""
-        loads = [one for one in self.machine.loads if with_potential or not has_potential(one)]
-        gas = self.solved.filling.loads(piece.mechanism, motion)
-        return applied_loads(piece.mechanism, motion, loads, speed).also(gas)
-
-    def inertia(self, piece: Piece, motion: Motion) -> Array:
-        """Return the reduced moment of inertia with all that turns with the crank. [kg m2]"""
-        still = np.zeros_like(motion.grid.angle)
-        return np.asarray(reduced_inertia(piece.mechanism, motion).inertia + still + self.beside)
-
-    def _columns(self, u: Array) -> Array:
-        found = np.zeros((OWN + self._rubbing_rows, u.size))
-        for piece, here in self.chart.each(u):
-            q, q_1, _ = piece.crank(u[here])
-            motion = self.moved(piece, q)
-            found[0, here] = self.inertia(piece, motion) * q_1**2
-            found[1, here] = potential_energy(piece.mechanism, motion, self.machine.loads)
-            found[RATE, here] = q_1
-            dampers = [one for one in self.machine.loads if isinstance(one, Damper | SliderDamper)]
-            found[4, here] = -reduced_torque(motion, applied_loads(piece.mechanism, motion, dampers, 1.0)) * q_1**2
-            torques = [
-                reduced_torque(one, self.loads(piece, one, with_potential=False)) * q_1
-                for one in ((motion, self.moved(piece, q, -1)) if self.is_two_sided else (motion, motion))
-            ]
-            if not piece.turns_back:
-                found[6, here] = reduced_inertia(piece.mechanism, motion).inertia_1
-                held = [one for one in self.machine.loads if has_potential(one)]
-                found[7, here] = -reduced_torque(motion, applied_loads(piece.mechanism, motion, held))
-            if self.machine.friction:
-                found[OWN:, here] = self._rubbing(piece, motion, piece.crank(u[here]))
-            found[2:4, here] = torques if piece.last >= piece.first else torques[::-1]
-        return found
-
-    @cached_property
-    def _joints(self) -> tuple[Rubbing, ...]:
-        """The joints that rub."""
-        piece = self.chart.pieces[0]
-        middle = np.array([(piece.first + piece.last) / 2])
-        return rubbing_joints(Running(piece.mechanism, self.moved(piece, middle)), self.machine.friction)
-
-    @property
-    def _slipping(self) -> Slipping | None:
-        return Slipping(self._joints, OWN) if self.machine.friction else None
-
-    @property
-    def _rubbing_rows(self) -> int:
-        return self._slipping.count * len(self._joints) if self._slipping else 0
-
-    @property
-    def _alike(self) -> tuple[int, ...]:
-        """Which rows of the rubbing joints are of like size."""
-        if self._slipping is None:
-            return ()
-        kinds = (3, *(kind for kind in (5, 5, 6, 7, 8) for _ in range(2)), *(9 for _ in range(2 * len(self._joints))))
-        return kinds * len(self._joints)
-
-    def _rubbing(self, piece: Piece, motion: Motion, crank: Transfer) -> Array:
-        """Return the rows of `Slipping`: rates of the joints, and their unknowns for each cause, shape (rows, n)."""
-        still = Running(piece.mechanism, motion)
-        system, back = whole_system(still), self.moved(piece, motion.grid.angle, -1)
-        dampers = [one for one in self.machine.loads if isinstance(one, Damper | SliderDamper)]
-        ways = (motion, back) if piece.last >= piece.first else (back, motion)
-        causes = [
-            *(Running(piece.mechanism, motion, 0.0, self.loads(piece, one)) for one in ways),
-            Running(piece.mechanism, motion, 1.0),
-            Running(piece.mechanism, motion, 0.0, applied_loads(piece.mechanism, motion, dampers, 1.0)),
-            Running(piece.mechanism, motion, 0.0, angular_acceleration=1.0),
-        ]
-        right = [system.right_side(link_wrenches(one)) + np.zeros((len(motion.grid), 1)) for one in causes]
-        right += [-unit_effect(motion, system, one.joint) for one in self._joints]
-        grows, falls, square, rate, acceleration, *own = np.moveaxis(
-            np.linalg.solve(system.matrix, np.stack(right, axis=-1)), -1, 0
-        )
-        _, q_1, q_2 = (one[:, None] for one in crank)
-        by_cause = [grows, falls, square * q_1**2 + acceleration * q_2, rate * q_1, acceleration * q_1, *own]
-        rows = []
-        for one in rubbing_joints(still, self.machine.friction):
-            at = 2 * system.joints.index(one.joint)
-            rows += [one.rate * crank.position_1, *(each[:, at + k] for each in by_cause[:5] for k in range(2))]
-            rows += [each[:, at + k] for k in range(2) for each in by_cause[5:]]
-        return np.stack(rows)
-
-    @cached_property
-    def is_two_sided(self) -> bool:
-        """Whether loads are others when the crank turns back."""
-        processes = (one for one in self.machine.loads if isinstance(one, ProcessForce | ProcessForceAtPoint))
-        return any(one.acts == "forward" for one in processes)
-
-    @cached_property
-    def felt(self) -> FreeMachine:
-        """What its coordinate feels."""
-        wanted, ends = self.wanted, self.chart.ends
-        breaks = np.unique(np.concatenate([ends, *(self._breaks(one) for one in self.chart.pieces)]))
-        reduced = fitted(self._columns, breaks, _WIDTH, self.chart.period, alike=(*_ALIKE, *self._alike))
-        # towards dead positions the derivatives by the crank angle are differences of infinite terms
-        dead = self.chart.pieces[0].turns_back
-        reduced = reduced.with_slopes((0, 6), (1, 7)) if dead else reduced
-        if not np.min(reduced.powers[:, 0, 0]) > 0:
-            raise MethodError(Refusal("transient_massless"))
-        slipping = self._slipping
-        if slipping is not None:
-            breaks = np.unique(np.concatenate([breaks, _roots(lambda u: slipping.rates(reduced(u)), breaks)]))
-        return FreeMachine(
-            reduced,
-            tuple(map(float, breaks)),
-            slipping=slipping,
-            dead=frozenset(ends) if dead else frozenset(),
-            changes=self._changes,
-            torque=wanted.torque,
-            motor=self.machine.drive.motor if wanted.motor else None,
-            stops=wanted.stops,
-            restitution=wanted.restitution,
-        )
-
-    @property
-    def _changes(self) -> tuple[float, ...]:
-        """The coordinates of change points, of a crank that turns fully. [rad]"""
-        if self.chart.pieces[0].turns_back:
-            return ()
-        passages = self.machine.mechanism.passages.values()
-        every = {math.radians(one % math.degrees(self.chart.period)) for passage in passages for one in passage.changes}
-        return tuple(sorted(every))
-
-    def _breaks(self, piece: Piece) -> Array:
-        """Return the coordinates on a branch at which a law of the loads changes."""
-        jumping = (ProcessForce, ProcessForceAtPoint, TorqueOnLink)
-        if not (any(isinstance(one, jumping) for one in self.machine.loads) or self.machine.chambers):
-            return np.empty(0)
-        start, end = sorted(map(math.degrees, (piece.first, piece.last)))
-        inside = np.linspace(start, end, 363)[1:-1]
-        motion = linkage_motion(piece.mechanism, CrankGrid.from_degrees(inside))
-        remembered = remembered_motion(piece.mechanism, motion, self.machine.linkage)
-        torque = reduced_torque(remembered, self.loads(piece, remembered))
-        if not isinstance(torque, Known):
-            return np.empty(0)
-        angles = np.radians(breaks_of([torque], end - start, start))
-        if not piece.turns_back:
-            return angles
-        share = (angles - piece.first) / (piece.last - piece.first)
-        return np.asarray(piece.low + (piece.high - piece.low) * np.arccos(np.clip(1 - 2 * share, -1, 1)) / math.pi)
-
-
-def _roots(function: Callable[[Array], Array], breaks: Array) -> Array:
-    """Return where one of some functions changes its sign between the first and the last of the breaks."""
-    places = np.unique(np.concatenate([breaks, np.linspace(breaks[0], breaks[-1], _LOOKS)]))
-    values = function(places)
-    values = np.where(np.abs(values) <= _NOTHING * np.max(np.abs(values), axis=1, keepdims=True), 0.0, values)
-    found = []
-    for row, k in zip(*np.nonzero(values[:, 1:] * values[:, :-1] < 0), strict=True):
-        low, high, below = places[k], places[k + 1], values[row, k] < 0
-        for _ in range(_HALVINGS):
-            middle = (low + high) / 2
-            low, high = (middle, high) if (function(np.array([middle]))[row, 0] < 0) == below else (low, middle)
-        found.append(high)
-    exact = places[np.any(values == 0, axis=0) & np.any(values != 0, axis=0)]
-    return np.concatenate([np.array(found), exact[np.isin(exact, places[1:-1])]])
 
 
 class Ran(NamedTuple):
@@ -514,7 +186,7 @@ def _missing(loose: Loose, course: Course) -> float:
     steps = course.steps[:_CHECKED_STEPS]
     start, length = (np.array([getattr(one, name) for one in steps]) for name in ("time", "length"))
     ends = np.append(start, start[-1] + length[-1])
-    known = loose.chart.beside(course.at(ends)[0]) > _BESIDE
+    known = loose.chart.beside(course.at(ends)[0]) > BESIDE
     kinetic, potential = _energies(loose, course, np.asarray(ends[known]))
     half = start[:, None] + length[:, None] / 2 * np.arange(2)
     nodes = half[..., None] + length[:, None, None] / 2 * _NODES
