@@ -36,6 +36,19 @@ def test_tables_of_a_linkage_have_keys_and_units(crankwork, machine_file) -> Non
     assert {"joint_force.A [N]", "joint_force_x.D [N]"} <= set(_rows("joint_forces")[0])
 
 
+def test_tables_and_summary_have_zero_where_only_rounding_is_left(crankwork) -> None:
+    example = Path(__file__).parents[2] / "examples" / "parallelogram.toml"
+    answer = crankwork("run", str(example), "-o", "out", "--no-figures", "--json")
+    assert answer.code == 0, answer.err
+    summary = {key: one["value"] for key, one in json.loads(answer.out)["summary"].items()}
+    assert {summary[f"{kind}_{end}"] for kind in ("dynamic_torque", "driving_torque") for end in ("max", "min")} == {
+        0.0
+    }
+    heading, *rows = _rows("dynamics")
+    for key in DYNAMICS[2:]:
+        assert {row[heading.index(key)] for row in rows} == {"0.0"}, key
+
+
 def test_the_summary_of_a_linkage_speaks_three_languages(crankwork, machine_file) -> None:
     name = machine_file(name="whitworth")
     assert len({crankwork("run", name, "--lang", language).out for language in LANGUAGES}) == 3

@@ -122,6 +122,15 @@ def test_no_rounding_of_a_zero_is_printed_as_a_number(toggle):
     assert not [one for one in lines if re.search("10⁻(¹[¹²³⁴⁵⁶⁷⁸⁹]|[²³⁴⁵⁶⁷⁸⁹][⁰¹²³⁴⁵⁶⁷⁸⁹])", one)]
 
 
+def test_tables_print_nothing_where_only_rounding_is_left():
+    """A parallelogram at a steady speed needs no torque, its coupler does not turn, its rocker turns evenly."""
+    found = note("parallelogram")
+    for label, first, last in (("routes", 2, 8), ("torque", 2, 5), ("reduced", 3, 4), ("transfer", 7, 8)):
+        assert {text for row in table(found, label).rows for text in row[first:last]} == {"0"}, label
+    tables = [one for one in found.blocks if isinstance(one, Table) and one.label != "checks"]
+    assert not [row for one in tables for row in one.rows if any("10⁻" in str(text) for text in row)]
+
+
 def test_values_of_steps_are_those_of_the_results():
     found, whole = note("press-geometry"), results("press-geometry")
     row = int(np.argmin(np.abs(whole.grid.degrees - 30.0)))

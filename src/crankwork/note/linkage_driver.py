@@ -123,8 +123,10 @@ def driven_forces(material: Material) -> Iterator[Block]:
     yield words.paragraph("driven_reactions")
     yield from equations(material.lines("joint_forces"), words)
     yield from equations(material.lines("driver_force"), words)
-    given = any_nonzero(named(columns, "driver_force", "driver_torque", "driver_power"), columns)
-    joints = any_nonzero(named(columns, "joint_force", "axial_force", "normal_force", "normal_moment"), columns)
+    given = any_nonzero(named(columns, "driver_force", "driver_torque", "driver_power"), material.results.columns)
+    joints = any_nonzero(
+        named(columns, "joint_force", "axial_force", "normal_force", "normal_moment"), material.results.columns
+    )
     shown = quantity_columns([*given, *joints], columns, words)
     yield from position_tables("reactions", material.positions, shown, words, first=material.first, label="reactions")
     yield from material.figures("joint_forces")

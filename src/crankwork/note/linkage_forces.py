@@ -8,6 +8,7 @@ import numpy as np
 
 from crankwork.analysis import Array
 from crankwork.analysis.linkage import torque_by_routes
+from crankwork.analysis.rounding import without_rounding
 from crankwork.note.document import Block, Citation, Reference, Table
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_motion import worked_at
@@ -42,7 +43,8 @@ def forces(material: Material) -> Iterator[Block]:
     yield from worked_at(material, "joint_forces")
     yield from equations(material.lines("joint_forces"), words)
     keys = any_nonzero(
-        named(columns, "joint_force", "tooth_force", "separating_force", "normal_force", "normal_moment"), columns
+        named(columns, "joint_force", "tooth_force", "separating_force", "normal_force", "normal_moment"),
+        material.results.columns,
     )
     shown = quantity_columns(keys, columns, words)
     yield from position_tables("reactions", material.positions, shown, words, first=material.first, label="reactions")
@@ -54,6 +56,11 @@ def _lever(material: Material) -> Iterator[Block]:
     """Yield the balancing torque by five routes at every position, with their largest difference."""
     words = material.words
     routes, apart = torque_by_routes(material.results, material.positions)
+    of_routes = {f"balancing_torque.{name}": one for name, one in routes.items()}
+    printed = without_rounding({**material.columns, **of_routes}, material.machine.speed)
+    if not any_nonzero(of_routes, printed):
+        # how far rounding is apart beside itself says nothing
+        routes, apart = {name: printed[key] for name, key in zip(routes, of_routes, strict=True)}, np.zeros_like(apart)
     yield words.heading("lever", 2)
     largest = words.number(100.0 * float(np.max(apart, initial=0.0)), digits=2)
     yield words.paragraph("lever", source=Citation(_WORK), difference=largest)
@@ -77,7 +84,7 @@ def balance(material: Material) -> Iterator[Block]:
     yield words.paragraph("shaking", source=Citation(_BALANCE))
     yield from worked_at(material, "shaking")
     yield from equations(material.lines("shaking"), words)
-    shown = quantity_columns(any_nonzero(_SHAKING, columns), columns, words)
+    shown = quantity_columns(any_nonzero(_SHAKING, material.results.columns), columns, words)
     yield from position_tables("shaking", material.positions, shown, words, first=material.first, label="shaking")
     orders = named(summary, "free_force")
     if not orders:
@@ -102,7 +109,7 @@ def reduction(material: Material) -> Iterator[Block]:
     yield words.paragraph("reduction", source=Citation(_WORK))
     yield from worked_at(material, "reduction")
     yield from equations(material.lines("reduction"), words)
-    keys = any_nonzero(("reduced_inertia", "reduced_inertia_1"), columns)
+    keys = any_nonzero(("reduced_inertia", "reduced_inertia_1"), material.results.columns)
     shown = quantity_columns(keys, columns, words)
     yield from position_tables("reduced", material.positions, shown, words, first=material.first, label="reduced")
     yield from material.figures("reduced_inertia")
@@ -120,7 +127,7 @@ def torques(material: Material) -> Iterator[Block]:
     yield from efficiency(material)
     yield words.paragraph("driving")
     yield from equations(material.lines("torques", "driving_torque"), words)
-    shown = quantity_columns(any_nonzero(_TORQUES, columns), columns, words)
+    shown = quantity_columns(any_nonzero(_TORQUES, material.results.columns), columns, words)
     yield from position_tables("table_torque", material.positions, shown, words, first=material.first, label="torque")
     yield from material.figures("torques")
 

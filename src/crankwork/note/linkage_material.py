@@ -10,6 +10,7 @@ import numpy as np
 
 from crankwork.analysis import Array, Results
 from crankwork.analysis.moving import reached_angles
+from crankwork.analysis.rounding import summary_without_rounding, without_rounding
 from crankwork.formula.lines import Line
 from crankwork.machine import Machine, TransferTable
 from crankwork.mechanism.structure import Structure, structure
@@ -71,8 +72,13 @@ class Material:
 
     @cached_property
     def columns(self) -> Mapping[str, Array]:
-        """All columns at the positions. [SI]"""
-        return self.results.columns_at(self.positions)
+        """All columns at the positions, as tables print them. [SI]"""
+        return without_rounding(self.results.columns_at(self.positions), self.machine.speed)
+
+    @cached_property
+    def summary(self) -> Mapping[str, float]:
+        """The single values, as tables print them. [SI]"""
+        return summary_without_rounding(self.results)
 
     @cached_property
     def groups(self) -> dict[str, Group]:

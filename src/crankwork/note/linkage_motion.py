@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from crankwork.analysis.moving import transfer_ratios
+from crankwork.analysis.rounding import without_rounding
 from crankwork.note.document import Block, Citation
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_tables import Column, equations, position_tables, quantity_columns
@@ -78,12 +79,13 @@ def worked_at(material: Material, group: str) -> Iterator[Block]:
 def _transfer_columns(material: Material) -> list[Column]:
     """Return velocities of points and sliders and angular velocities of links, over that of the crank."""
     words = material.words
+    ratios = transfer_ratios(material.machine.mechanism, material.positions)
     return [
         Column(
             words.titled(key, "m") if key.startswith("velocity_ratio.") else words.titled(key),
             words.column_texts(values.tolist()),
         )
-        for key, values in transfer_ratios(material.machine.mechanism, material.positions).items()
+        for key, values in without_rounding(ratios, 1.0).items()
     ]
 
 

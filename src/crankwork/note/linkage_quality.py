@@ -29,7 +29,7 @@ def quality(material: Material) -> Iterator[Block]:
 
 def _range(material: Material) -> Iterator[Block]:
     """Yield how far a crank gets that does not turn fully, and what it moves, on its branch and on the circuit."""
-    words, summary = material.words, material.results.summary
+    words, summary = material.words, material.summary
     if "crank_range" not in summary:
         return
     ends = {name: words.amount(summary[f"crank_range_{name}"], "deg") for name in ("start", "end")}
@@ -53,7 +53,7 @@ def _range(material: Material) -> Iterator[Block]:
 
 def _ends(material: Material) -> Iterator[Block]:
     """Yield both ends of what slides or rocks, the way between them, and the ratio of the times of both strokes."""
-    words, summary = material.words, material.results.summary
+    words, summary = material.words, material.summary
     rows = []
     for kind, travel in _TRAVEL.items():
         for key in named(summary, f"{kind}_min"):
@@ -112,7 +112,7 @@ def _worst(material: Material) -> Iterator[Block]:
 
 def _limits(material: Material) -> Table:
     """Return the extreme angles of every pin and slider, each with where it is reached."""
-    words, summary = material.words, material.results.summary
+    words, summary = material.words, material.summary
     kinds = [one for one in WORST_ANGLES if named(summary, one)]
     names = dict.fromkeys(key.partition(".")[2] for key in named(summary, *kinds))
     rows = [
@@ -129,7 +129,7 @@ def _limits(material: Material) -> Table:
 
 
 def _value(material: Material, key: str) -> str:
-    summary = material.results.summary
+    summary = material.summary
     return material.words.number(displayed(key, summary[key])) if key in summary else _NONE
 
 

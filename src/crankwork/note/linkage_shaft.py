@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 
 import numpy as np
 
-from crankwork.analysis.results import Results
+from crankwork.analysis.rounding import without_rounding
 from crankwork.locale import capital, say
 from crankwork.note.document import Bibliography, Block, Bold, ItemList, Paragraph, Reference, Runs, Table
 from crankwork.note.linkage_material import Material
@@ -102,7 +102,7 @@ def conclusion(material: Material) -> Iterator[Block]:
     words, results = material.words, material.results
     yield words.heading("results" if material.options.order == "en" else "conclusion")
     yield words.paragraph("conclusion", table=Reference("summary"))
-    rows = [_row(key, results, words) for key in results.summary if not _is_angle(key)]
+    rows = [_row(key, material) for key in results.summary if not _is_angle(key)]
     titles: list[Runs] = [(words.column(one),) for one in ("quantity", "value", "unit")]
     titles.append(words.reached_at())
     yield Table(words.caption("summary"), tuple(titles), rows, align="lrcr", label="summary")
@@ -112,14 +112,17 @@ def _is_angle(key: str) -> bool:
     return key.partition(".")[0].endswith(("_max_angle", "_min_angle", "_max_time", "_min_time"))
 
 
-def _row(key: str, results: Results, words: Words) -> tuple[str, ...]:
+def _row(key: str, material: Material) -> tuple[str, ...]:
     """Return name, value and unit of a single value, and the crank angle where it is reached."""
+    words, summary = material.words, material.summary
     kind, dot, name = key.partition(".")
-    angle = results.summary.get(f"{kind}_angle{dot}{name}") if kind.endswith(("_max", "_min")) else None
-    at = results.summary.get(f"{kind}_time{dot}{name}") if angle is None else float(np.degrees(angle))
+    angle = summary.get(f"{kind}_angle{dot}{name}") if kind.endswith(("_max", "_min")) else None
+    at = summary.get(f"{kind}_time{dot}{name}") if angle is None else float(np.degrees(angle))
     return (
-        label(told_as(key, results), words.language) if not key.startswith("flywheel_inertia.") else _wheel(key, words),
-        words.number(displayed(key, results.summary[key])),
+        label(told_as(key, material.results), words.language)
+        if not key.startswith("flywheel_inertia.")
+        else _wheel(key, words),
+        words.number(displayed(key, summary[key])),
         printed_unit(key_unit(key), words.language) or "–",
         "" if at is None else words.number(at, digits=4),
     )
@@ -133,19 +136,19 @@ def _wheel(key: str, words: Words) -> str:
 def appendix(material: Material) -> Iterator[Block]:
     """Yield all columns at the step of the tables."""
     words, results = material.words, material.results
-    columns, degrees = results.columns, results.grid.degrees
+    columns, degrees = without_rounding(results.columns, results.machine.speed), results.grid.degrees
     if len(degrees) == len(material.positions) and np.allclose(degrees, material.positions):
         # the sections before have the same tables
         return
     over = "period" if words.period else "partial" if words.is_partial else "turn"
     yield words.heading(f"appendix_{over}")
     for caption, keys in (
-        ("torques_all", any_nonzero(_DYNAMICS, columns)),
+        ("torques_all", any_nonzero(_DYNAMICS, results.columns)),
         ("driver_all", [key for key in columns if key.startswith("driver_")]),
         ("motion_all", named(columns, *_MOTION)),
         (
             f"reactions_{over}",
-            any_nonzero(named(columns, "joint_force", "axial_force", "normal_force", "normal_moment"), columns),
+            any_nonzero(named(columns, "joint_force", "axial_force", "normal_force", "normal_moment"), results.columns),
         ),
     ):
         shown = quantity_columns(keys, columns, words)

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from crankwork.analysis import Results
+from crankwork.analysis.rounding import summary_without_rounding
 from crankwork.locale import say
 from crankwork.machine import Machine
 from crankwork.quantities import Language
@@ -35,7 +36,7 @@ def summary_data(results: Results, *, per_area: bool = False) -> dict[str, Any]:
         "title": results.machine.title,
         "summary": {
             key: {"value": rounded(displayed(key, value, per_area=area)), "unit": key_unit(key, per_area=per_area)}
-            for key, value in results.summary.items()
+            for key, value in summary_without_rounding(results).items()
         },
         "checks": dict(results.checks),
         "allowed": dict(results.allowed),
@@ -58,7 +59,7 @@ def summary_text(results: Results, *, language: Language = "en", per_area: bool 
             number(displayed(key, value, per_area=area), language),
             unit_name(key_unit(key, per_area=per_area), language),
         )
-        for key, value in results.summary.items()
+        for key, value in summary_without_rounding(results).items()
     ]
     lines += ["", *aligned(rows)]
     if results.checks:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import io
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from crankwork.analysis import Array, Results
+from crankwork.analysis.rounding import without_rounding
 from crankwork.errors import MissingExtraError
 from crankwork.locale import Refusal, say
 from crankwork.quantities import QUANTITIES, Language, base_key
@@ -39,6 +41,7 @@ class Sheet(NamedTuple):
 
 def sheets(results: Results, *, per_area: bool = False) -> dict[str, Sheet]:
     """Return every table by name: those over the crank angle, and the listings."""
+    results = replace(results, columns=without_rounding(results.columns, results.machine.speed))
     tables = {
         name: Sheet((), {key: table_column(results, key, per_area=per_area) for key in keys})
         for name, keys in results.tables.items()

@@ -1,0 +1,82 @@
+"""What is only rounding: tables print nothing where numbers without an end would leave nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from crankwork.analysis.results import Results
+from crankwork.kinematics.crank_grid import Array
+
+# of the size that a quantity has in a machine, the part that is rounding
+_ROUNDING = 1e-12
+_PLACES = ("point_x", "point_y", "slider_displacement", "driver_displacement")
+_SPEEDS = ("link_angular_velocity", "driver_speed")
+_ACCELERATIONS = ("link_angular_acceleration", "driver_angular_acceleration")
+_FORCES = (
+    "joint_force_x", "joint_force_y", "joint_force", "axial_force", "normal_force", "tooth_force", "separating_force",
+    "driver_force",
+)  # fmt: skip
+# what forces leave at their distances
+_TORQUES = (
+    "static_torque", "balancing_torque", "driving_torque", "driver_torque", "normal_moment", "kinetic_energy_change",
+)  # fmt: skip
+# quantities that are sized together
+_ALIKE = (
+    _PLACES,
+    ("point_velocity_x", "point_velocity_y", "point_velocity", "slider_velocity", "driver_velocity"),
+    ("point_acceleration_x", "point_acceleration_y", "point_acceleration", "slider_acceleration",
+     "coriolis_acceleration", "driver_acceleration"),
+    ("reduced_inertia", "reduced_inertia_1"),
+    ("dynamic_torque", "kinetic_energy"),
+    _FORCES,
+    ("shaking_force_x", "shaking_force_y", "shaking_force"),
+    ("velocity_ratio",),
+)  # fmt: skip
+
+
+def without_rounding(columns: Mapping[str, Array], speed: float) -> dict[str, Array]:
+    """Return columns, those as zero that are nothing beside what their quantity comes to. `speed`: of the crank."""
+    sizes = _sizes(columns, speed)
+    return {
+        key: np.where(np.isfinite(one), 0.0, one) if _is_rounding(key, _largest(one), sizes) else one
+        for key, one in columns.items()
+    }
+
+
+def summary_without_rounding(results: Results) -> dict[str, float]:
+    """Return the single values, the extremes of what is nothing all over the cycle as zero."""
+    summary, sizes = dict(results.summary), _sizes(results.columns, results.machine.speed)
+    for column in results.columns:
+        kind, dot, name = column.partition(".")
+        ends = [key for end in ("max", "min") if (key := f"{kind}_{end}{dot}{name}") in summary]
+        if _is_rounding(kind, max((abs(summary[key]) for key in ends), default=0.0), sizes):
+            summary |= dict.fromkeys(ends, 0.0)
+    return summary
+
+
+def _sizes(columns: Mapping[str, Array], speed: float) -> dict[str, float]:
+    """Return what each kind of quantity comes to. Angles are measured by a radian."""
+    largest: dict[str, float] = {}
+    for key, one in columns.items():
+        kind = key.partition(".")[0]
+        largest[kind] = max(largest.get(kind, 0.0), _largest(one))
+
+    def most(kinds: tuple[str, ...]) -> float:
+        return max(largest.get(kind, 0.0) for kind in kinds)
+
+    sizes = {kind: most(some) for some in _ALIKE for kind in some}
+    fastest = max(speed, most(_SPEEDS))
+    sizes |= dict.fromkeys(("link_angle", "driver_angle", "rotation_ratio"), 1.0)
+    sizes |= dict.fromkeys(_SPEEDS, fastest)
+    sizes |= dict.fromkeys(_ACCELERATIONS, max(fastest**2, most(_ACCELERATIONS)))
+    return sizes | dict.fromkeys(_TORQUES, max(most(_TORQUES), sizes["kinetic_energy"], most(_FORCES) * most(_PLACES)))
+
+
+def _largest(column: Array) -> float:
+    return float(np.max(np.abs(column[np.isfinite(column)]), initial=0.0))
+
+
+def _is_rounding(key: str, largest: float, sizes: Mapping[str, float]) -> bool:
+    return 0.0 < largest <= _ROUNDING * sizes.get(key.partition(".")[0], 0.0)

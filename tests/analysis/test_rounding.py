@@ -1,0 +1,70 @@
+"""What is only rounding is printed as nothing; what is small is not."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import crankwork
+from crankwork.analysis.rounding import summary_without_rounding, without_rounding
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+SPEED = 10.0
+MOTION = {
+    "point_x.A": np.array([0.3, -0.3]),
+    "link_angular_velocity.rod": np.array([2.0, -2.0]),
+    "joint_force.A": np.array([500.0, 400.0]),
+    "reduced_inertia": np.array([0.1, 0.2]),
+    "kinetic_energy": np.array([5.0, 10.0]),
+}
+
+
+@pytest.fixture(scope="module")
+def parallelogram():
+    return crankwork.analyse(crankwork.read(EXAMPLES / "parallelogram.toml"))
+
+
+def test_the_coupler_of_a_parallelogram_does_not_turn_and_no_torque_is_needed(parallelogram):
+    printed = without_rounding(parallelogram.columns, parallelogram.machine.speed)
+    assert {key for key, one in printed.items() if np.any(parallelogram.columns[key]) and not np.any(one)} == {
+        "link_angle.coupler", "link_angular_velocity.coupler", "link_angular_acceleration.coupler",
+        "link_angular_acceleration.rocker", "reduced_inertia_1", "dynamic_torque", "balancing_torque", "driving_torque",
+    }  # fmt: skip
+    summary = summary_without_rounding(parallelogram)
+    changed = {key for key, one in summary.items() if one != parallelogram.summary[key]}
+    kinds = ("reduced_inertia_1", "dynamic_torque", "balancing_torque", "driving_torque")
+    assert changed == {f"{kind}_{end}" for kind in kinds for end in ("max", "min")}
+    assert not any(summary[key] for key in changed)
+
+
+@pytest.mark.parametrize(
+    ("key", "size"),
+    [
+        ("point_y.A", 0.3), ("link_angle.rod", 1.0), ("link_angular_velocity.bar", SPEED),
+        ("link_angular_acceleration.bar", SPEED**2), ("joint_force_x.A", 500.0), ("balancing_torque", 500.0 * 0.3),
+        ("dynamic_torque", 10.0), ("reduced_inertia_1", 0.2),
+    ],
+)  # fmt: skip
+def test_a_column_is_nothing_below_a_million_millionth_of_its_size(key, size):
+    below, above = (np.array([np.nan, share * 1e-12 * size]) for share in (0.9, -1.1))
+    printed = without_rounding({**MOTION, key: below}, SPEED)[key]
+    assert np.isnan(printed[0])
+    assert printed[1] == 0.0
+    assert without_rounding({**MOTION, key: above}, SPEED)[key] is above
+
+
+def test_what_a_slow_heavily_loaded_machine_moves_is_small_and_no_rounding():
+    slow = {"kinetic_energy": 5e-12, "dynamic_torque": 1e-13, "shaking_force": 1e-13, "crank_speed": 1e-20}
+    columns = MOTION | {key: np.array([one]) for key, one in slow.items()}
+    printed = without_rounding(columns, 1e-5)
+    assert all(printed[key] is columns[key] for key in slow)
+
+
+def test_nothing_of_machines_of_like_sizes_is_taken_for_rounding():
+    for name in ("four-bar", "engine"):
+        results = crankwork.analyse(crankwork.read_machine(crankwork.template(name)))
+        printed = without_rounding(results.columns, results.machine.speed)
+        assert all(printed[key] is one for key, one in results.columns.items())
+        assert summary_without_rounding(results) == results.summary
