@@ -190,3 +190,58 @@ def test_a_motor_too_weak_says_what_is_missing() -> None:
     assert stays.values["torque"] == pytest.approx(
         -press.torque(1.5 * math.pi, 0.0) + press.motor(0.0) - gives, rel=1e-9
     )
+
+
+ROCKERS = """
+[fixed_points]
+A = ["0 mm", "0 mm"]
+D = ["200 mm", "0 mm"]
+[crank]
+pivot = "A"
+pin = "B"
+radius = "150 mm"
+speed = "10 rpm"
+start = "60 deg"
+mass = "1 kg"
+centre = ["75 mm", "0 mm"]
+[links]
+BC = {{ joins = ["B", "C"], length = "80 mm", mass = "0.5 kg", points = {{ G = ["40 mm", "0 mm"] }}, centre = "G" }}
+DC = {{ joins = ["D", "C"], length = "150 mm", mass = "1 kg", points = {{ H = ["75 mm", "0 mm"] }}, centre = "H" }}
+[method]
+weights = true
+[transient]
+time = "2 s"
+{more}
+"""
+
+
+def happenings(results: crankwork.Results, word: str) -> list[float]:
+    """The crank angles of what happens. [deg]"""
+    listing = results.listings["transient_events"]
+    angles = np.degrees(listing.columns["crank_angle"])
+    return [float(angles[row]) for row, name in enumerate(listing.names) if name.startswith(word)]
+
+
+def test_a_linkage_swings_through_the_dead_positions_of_its_crank() -> None:
+    """They are 64.53290 degrees apart (closed form); energy is kept, and each side is passed as often as the other."""
+    results = let_go(ROCKERS.format(more=""))
+    low, high = sorted(set(np.round(happenings(results, "dead_position"), 6)))
+    assert high - low == pytest.approx(64.532899, abs=1e-5)
+    assert results.checks["energy_balance"] < 1e-8
+    columns = results.listings["transient"].columns
+    assert np.degrees(columns["crank_angle"]).min() >= low - 1e-6
+    assert np.degrees(columns["crank_angle"]).max() <= high + 1e-6
+
+
+def test_stops_hold_a_crank_that_has_dead_positions() -> None:
+    results = let_go(ROCKERS.format(more='stops = ["-20 deg", "15 deg"]\nrestitution = 0.5'))
+    met = happenings(results, "stop")
+    assert len(met) > 3
+    assert {round(one, 9) for one in met} <= {-20.0, 15.0}
+    # what stops take is not missing
+    assert results.checks["energy_balance"] < 1e-8
+
+
+def test_a_speed_in_a_dead_position_is_refused() -> None:
+    with pytest.raises(crankwork.CrankworkError, match="dead position of the crank"):
+        let_go(ROCKERS.format(more='start = "20.7931 deg"\nspeed = "40 rpm"'))

@@ -34,6 +34,13 @@ class Piece(NamedTuple):
     last: float
     turns_back: bool  # Whether its ends are dead positions; the coordinate is the crank angle where they are none
 
+    def at(self, angle: float) -> float:
+        """Return the coordinate of a crank angle of this branch. [rad]"""
+        if not self.turns_back:
+            return angle
+        share = (angle - self.first) / (self.last - self.first)
+        return self.low + (self.high - self.low) * math.acos(min(max(1 - 2 * share, -1.0), 1.0)) / math.pi
+
     def crank(self, u: Array) -> Transfer:
         """Return the crank angle and its derivatives by the coordinate. [rad]"""
         if not self.turns_back:
@@ -92,13 +99,24 @@ class Chart:
             found[:, here] = piece.crank(inside[here])
         return Transfer(found[0] + turned, found[1], found[2])
 
+    def walls(self, start: float, stops: tuple[float, float]) -> tuple[float, float]:
+        """Return the coordinates nearest to that of a start at which the crank is at one of its stops. [rad]"""
+        if not self.pieces[0].turns_back:
+            return stops
+        here, around = self.coordinate(start), (0.0,) if math.isinf(self.period) else (-self.period, 0.0, self.period)
+        every = [
+            piece.at(stop) + turn
+            for piece in self.pieces
+            for stop in stops
+            if min(piece.first, piece.last) < stop < max(piece.first, piece.last)
+            for turn in around
+        ]
+        below, above = [one for one in every if one <= here], [one for one in every if one >= here]
+        return max(below, default=-math.inf), min(above, default=math.inf)
+
     def coordinate(self, angle: float) -> float:
         """Return the coordinate of a crank angle on the first piece. [rad]"""
-        one = self.pieces[0]
-        if not one.turns_back:
-            return angle
-        share = (angle - one.first) / (one.last - one.first)
-        return one.low + (one.high - one.low) * math.acos(min(max(1 - 2 * share, -1.0), 1.0)) / math.pi
+        return self.pieces[0].at(angle)
 
 
 def chart_of(machine: Machine, found: Travel | None) -> Chart:

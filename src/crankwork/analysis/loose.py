@@ -183,7 +183,7 @@ class Loose:
             changes=self._changes,
             torque=wanted.torque,
             motor=self.machine.drive.motor if wanted.motor else None,
-            stops=wanted.stops,
+            stops=self.chart.walls(wanted.start, wanted.stops),
             restitution=wanted.restitution,
         )
 

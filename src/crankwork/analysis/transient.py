@@ -33,6 +33,9 @@ _CHECKED_STEPS = 20_000
 _STEADY = 1e-10
 _SAME_CYCLES = 2
 _AT_PERIOD = 1e-9
+_ROUNDED = 1e-6
+# of the crank by the coordinate: with less, a speed of the crank is a far greater one of what moves
+_ALL_BUT_DEAD = 1e-3
 _NODES, _WEIGHTS, *_ = gauss(8)
 
 
@@ -64,8 +67,8 @@ def let_go(
     wanted = loose.wanted
     start = chart.coordinate(wanted.start)
     rate = float(chart.crank(np.array([start]))[1][0])
-    if not rate:
-        raise MethodError(Refusal("transient_dead"))
+    if abs(rate) < _ALL_BUT_DEAD and (wanted.speed or not rate):
+        raise MethodError(Refusal("transient_dead", angle=math.degrees(wanted.start)))
     cycles = _Cycles(loose, progress)
     course = Run(loose.felt, start, wanted.speed / rate).until(wanted.time, watched=wanted.speeds, each=cycles)
     checks = {"energy_balance": _missing(loose, course)}
@@ -191,9 +194,24 @@ def _missing(loose: Loose, course: Course) -> float:
     half = start[:, None] + length[:, None] / 2 * np.arange(2)
     nodes = half[..., None] + length[:, None, None] / 2 * _NODES
     work = (_power(loose, course, nodes.ravel()).reshape(nodes.shape) @ _WEIGHTS).sum(axis=1) * length / 2
-    done = np.append(0.0, np.cumsum(work))[known]
-    largest = float(np.max(kinetic))
+    lost = _lost_at_stops(loose, course)
+    struck = np.array([one.time for one in course.events if one.word == "stop"])
+    passed = np.searchsorted(struck, np.append(start, -math.inf), side="right")
+    passed[-1] = np.count_nonzero(struck < ends[-1])
+    done = (np.append(0.0, np.cumsum(work)) - np.append(0.0, np.cumsum(lost))[passed])[known]
+    # what the energies are rounded to is nothing to be missed
+    largest = max(float(np.max(kinetic)), _ROUNDED * float(np.max(np.abs(potential))))
     return float(np.ptp(kinetic + potential - done)) / largest if largest else 0.0
+
+
+def _lost_at_stops(loose: Loose, course: Course) -> Array:
+    """Return what each stop takes of the kinetic energy. [J]"""
+    met = [one for one in course.events if one.word == "stop"]
+    if not met:
+        return np.empty(0)
+    u, rate = np.array([one.coordinate for one in met]), np.array([one.rate for one in met])
+    inertia = loose.felt.reduced(loose.chart.within(u)[0])[0]
+    return np.asarray(kinetic_energy(inertia, rate) * (1 - loose.wanted.restitution**2))
 
 
 def _energies(loose: Loose, course: Course, times: Array) -> tuple[Array, Array]:
@@ -256,7 +274,10 @@ def _told(loose: Loose, course: Course) -> Iterator[Notice]:
         event = next(one for one in course.events if one.word == word)
         crank = loose.chart.crank(np.array([event.coordinate]))
         angle, speed = math.degrees(float(crank.position[0])), float(crank.position_1[0] * event.rate)
-        if not (stays and word == "comes_to_rest" and missing > 0):
+        if stays and word == "comes_to_rest":
+            if missing <= 0:
+                yield Notice("transient_equilibrium", {"angle": angle})
+        else:
             yield Notice(f"transient_{word}", {"time": event.time, "angle": angle, "speed": speed, "count": count})
 
 

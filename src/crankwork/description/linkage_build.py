@@ -42,6 +42,7 @@ from crankwork.shaft.motor import AsynchronousMotor, GearedMotor
 
 _GEOMETRY = ("fixed_points", "crank", "geared", "links", "guides", "sliders", "branch", "positions")
 _STEP = 1.0
+_MOST_ROWS = 100_000
 _LEAST_EFFICIENCY = 1e-4
 _REVOLUTION = math.tau + 1e-9
 _OF_SPRING = ("stiffness", "free_length", "preload")
@@ -271,6 +272,9 @@ def _transient(values: Values, reader: Reader) -> Transient | None:
     start, ends = table.si("start"), tuple(one.value for one in table["stops"] or ())
     if ends and not ends[0] <= start <= ends[1]:
         reader.complain("transient.stops", Refusal("transient_stops"))
+    rows = table.si("time") / table.si("step") if table["step"] and table["time"] else 0.0
+    if rows > _MOST_ROWS:
+        reader.complain("transient.step", Refusal("transient_rows", rows=rows, most=_MOST_ROWS))
     return Transient(
         time=table.si("time"),
         torque=table.si("torque") or 0.0,

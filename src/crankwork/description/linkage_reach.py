@@ -28,7 +28,7 @@ from crankwork.machine import Machine
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.decomposition import mechanism_of
 from crankwork.mechanism.linkage import GROUND, Linkage, Member
-from crankwork.mechanism.mechanism import Mechanism
+from crankwork.mechanism.mechanism import Crank, Mechanism, turns_of
 
 _STEP = 1.0
 
@@ -83,8 +83,8 @@ def fit(without: Linkage, member: Member, freedom: object) -> Refusal | None:
         # that which hangs on the same link
         beside = next((one for one in others if _beside(without, without.member(one), joints)), others[-1])
         return Refusal("redundant_fits", **values, other=beside)
-    least, most = (f"{one * 1e3:.6g}" for one in (np.min(apart), np.max(apart)))
-    return Refusal("redundant_misses", **values, least=least, most=most, length=f"{length * 1e3:.6g}")
+    least, most = (f"{one * 1e3:.9g}" for one in (np.min(apart), np.max(apart)))
+    return Refusal("redundant_misses", **values, least=least, most=most, length=f"{length * 1e3:.9g}")
 
 
 def _beside(linkage: Linkage, member: Member, joints: list[str]) -> bool:
@@ -167,6 +167,10 @@ def _check_let_go(machine: Machine, reached: Reached, reader: Reader) -> None:
     inertia = np.min(reduced_inertia(machine.mechanism, reached.motion).inertia) + machine.drive.inertia
     if not inertia > 0:
         reader.complain("transient", Refusal("transient_massless"))
+    driver = machine.mechanism.driver
+    geared = (one for one in driver.geared if not turns_of(one.ratio)) if isinstance(driver, Crank) else ()
+    for one in geared:
+        reader.complain("transient", Refusal("transient_geared", name=one.link))
     if wanted is not None and way is not None and not way.start < math.degrees(wanted.start) < way.end:
         ends = {"low": way.start, "high": way.end}
         reader.complain("transient.start", Refusal("transient_outside", **ends))

@@ -6,6 +6,7 @@ import bisect
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -35,6 +36,8 @@ MOST_STEPS = 20_000
 _AT_END = 1e-13
 # of the largest speed, what counts as standing after a stop
 _STILL = 1e-6
+# of the rate that a machine could come to, below which steps are not told apart; and of its forces, what is rounding
+_SLOW, _NO_FORCE = 1e-3, 1e-13
 
 
 class Event(NamedTuple):
@@ -69,6 +72,18 @@ class FreeMachine:
     def period(self) -> float:
         """After which all repeats. [unit of the coordinate]"""
         return self.reduced.period
+
+    @property
+    def size(self) -> float:
+        """Its period or range. [unit of the coordinate]"""
+        return self.breaks[-1] - self.breaks[0]
+
+    @cached_property
+    def natural_rate(self) -> float:
+        """The rate that its loads and its driver could give it over its period or range."""
+        J, V, grows, falls = self.reduced.powers[:, :4, 0].T
+        forces = np.max(np.abs(grows)) + np.max(np.abs(falls)) + abs(float(self.drive(np.zeros(1))[0]))
+        return float(np.sqrt(2 * (np.ptp(V) + forces * self.size) / np.mean(J)))
 
     def drive(self, speed: Array) -> Array:
         """Return the torque that drives the crank, at its speeds. [N m]"""
@@ -153,11 +168,14 @@ class Run:
         self.machine, self.course = machine, Course()
         self.time, self.q, self.v, self.base = 0.0, coordinate, rate, 0.0
         self.way: Way = 1 if rate >= 0 else -1
-        self.largest = abs(rate)
+        self.largest = max(abs(rate), _SLOW * machine.natural_rate)
         self.before: Step | None = None  # The step before under the same law
         self.is_over = self.is_lost = False
         self._wrap()
-        if rate == 0:
+        low, high = machine.stops
+        if (rate > 0 and coordinate >= high) or (rate < 0 and coordinate <= low):
+            self._stopped(self.way)
+        elif rate == 0:
             self._set_off()
         self.stretch = self._stretch_at()
 
@@ -166,10 +184,11 @@ class Run:
 
         `watched`: speeds of the crank whose passing is told [rad/s].
         """
-        length = end / 100
+        length, tried = end / 100, 0
         try:
             while self.time < end * (1 - _AT_END) and not (self.is_over or self.is_lost):
-                if len(self.course.steps) >= MOST_STEPS:
+                tried += 1
+                if tried >= 3 * MOST_STEPS or len(self.course.steps) >= MOST_STEPS:
                     self.tell("many_steps")
                     return self.course
                 length = self._advance(min(length, end - self.time), watched)
@@ -217,9 +236,7 @@ class Run:
     def _tail(self, step: Step) -> float:
         """Return what a step leaves out, over what it may leave out."""
         q, v, share = step.tail
-        ends = self.machine.breaks
-        size = self.machine.period if math.isfinite(self.machine.period) else ends[-1] - ends[0]
-        felt = max(q / (_TAIL * size), v / (_TAIL * max(self.largest, abs(step.end[1]), 1e-300)))
+        felt = max(q / (_TAIL * self.machine.size), v / (_TAIL * max(self.largest, abs(step.end[1]), 1e-300)))
         # polynomials of the coordinate end in rounding, and so does the acceleration
         return min(felt, share / _SHARE)
 
@@ -273,8 +290,7 @@ class Run:
             self._stopped(1 if what == "stop_high" else -1)
         elif what == "turn":
             self.v = 0.0
-            self.tell("turns_back")
-            self._set_off()
+            self._set_off("turns_back")
         else:
             self._cross(1 if what == "high" else -1)
             return
@@ -313,13 +329,16 @@ class Run:
         else:
             self.way = 1 if self.v > 0 else -1
 
-    def _set_off(self) -> None:
-        """Find which way it goes from rest, if any."""
+    def _set_off(self, word: EventWord | None = None) -> None:
+        """Find which way it goes from rest, if any; `word` says what that is."""
         ways: list[Way] = [1, -1]
         for way in ways:
             self.way = way
             stretch = self._stretch_at()
-            if way * float(self.machine.acceleration(np.array([self.q]), np.zeros(1), way, *stretch)[0]) > 0:
+            forced = float(self.machine.acceleration(np.array([self.q]), np.zeros(1), way, *stretch)[0])
+            if way * forced > _NO_FORCE * self.machine.natural_rate**2 / self.machine.size:
+                if word is not None:
+                    self.tell(word)
                 return
         self.tell("comes_to_rest")
         self.is_over = True
