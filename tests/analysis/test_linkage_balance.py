@@ -48,3 +48,34 @@ def test_half_the_mass_of_a_yoke_turns_with_the_crank(crank):
     assert [summary[f"free_force.{order}"] for order in (2, 3, 4)] == [0.0, 0.0, 0.0]
     assert summary["counterweight_moment"] == pytest.approx(4 * 0.05 / 2, rel=1e-12)
     assert abs(summary["counterweight_angle"]) == pytest.approx(math.pi, rel=1e-12)
+
+
+def test_a_cycle_of_two_turns_has_half_orders():
+    """A kite, by sums over its own samples: 2.41701, 3.94784, 0.46841 N and none of order 2."""
+    text = """
+[fixed_points]
+O = ["0 mm", "0 mm"]
+B = ["100 mm", "0 mm"]
+[crank]
+pivot = "O"
+pin = "A"
+radius = "100 mm"
+speed = "60 rpm"
+start = "40 deg"
+inertia = "0.01 kg*m2"
+[links]
+coupler = { joins = ["A", "C"], length = "250 mm", mass = "1 kg", centre = ["125 mm", "0 mm"] }
+rocker = { joins = ["B", "C"], length = "250 mm", mass = "1 kg", centre = ["125 mm", "0 mm"] }
+[positions]
+C = ["300 mm", "150 mm"]
+"""
+    results = analyse(read_machine(text))
+    degrees = np.arange(1440) / 2
+    columns = results.columns_at(degrees, ["shaking_force_x", "shaking_force_y"])
+    force = columns["shaking_force_x"] + 1j * columns["shaking_force_y"]
+    for order in (0.5, 1.0, 1.5, 2.5):
+        turned = np.exp(1j * order * np.radians(degrees))
+        size = abs(np.mean(force * turned)) + abs(np.mean(force / turned))
+        assert results.summary[f"free_force.{order:g}"] == pytest.approx(size, rel=1e-9)
+    assert results.summary["free_force.0.5"] == pytest.approx(2.41701, rel=1e-5)
+    assert results.summary["free_force.2"] == pytest.approx(0.0, abs=1e-9)

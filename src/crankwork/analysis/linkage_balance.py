@@ -48,9 +48,10 @@ def balance_of(driver: Crank, memory: Mapping[str, Known], period: float) -> Ite
     force = columns["x"] + 1j * columns["y"]
     coefficients = np.fft.fft(force) / _SAMPLES
     coefficients[np.abs(coefficients) <= _NOTHING * np.max(np.abs(force))] = 0.0
-    for order in _ORDERS:
-        both = abs(coefficients[order * turns]) + abs(coefficients[-order * turns])
-        yield f"free_force.{order}", Known(Found(float(both), "harmonic", of))
+    # of a cycle of two turns there are half orders too
+    for count in range(1, _ORDERS[-1] * turns + 1):
+        both = abs(coefficients[count]) + abs(coefficients[-count])
+        yield f"free_force.{count / turns:g}", Known(Found(float(both), "harmonic", of))
     forward = complex(coefficients[driver.direction * turns])
     moment = Known(Found(abs(forward) / memory["speed"].value ** 2, "fourier", of))
     yield "counterweight_moment", moment

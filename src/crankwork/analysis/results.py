@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import math
+import warnings
 from collections.abc import Iterable, KeysView, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -236,7 +237,9 @@ class Results:
                 raise CrankworkError(Refusal("angle_between_rows", key=key, angle=at, nearest=nearest))
             if known is None:
                 return float(self.columns[key][row])
-        with np.errstate(all="ignore"):
+        with warnings.catch_warnings():
+            # at an angle that the crank does not reach, which is refused below
+            warnings.simplefilter("ignore", RuntimeWarning)
             value = float(Program({key: known})(CrankGrid.from_degrees([at]))[key][0])
         if not math.isfinite(value):
             raise CrankworkError(Refusal("angle_unreached", key=key, angle=at))
