@@ -488,6 +488,21 @@ class _Drawing:
                 self.values["charges"]["gas"]["chambers"].append("cold")
         self.values["chambers"] = {**self.values.get("chambers", {}), "room": room}
 
+    def let_go(self) -> None:
+        """A motion in time, some with stops, some with friction."""
+        draw = self.draw
+        wanted: dict[str, Any] = {"time": draw.choice(("0.2 s", "2 s")), "speed": f"{draw.uniform(-60, 60):.4g} rpm"}
+        if draw.random() < 0.7:
+            wanted["torque"] = f"{draw.uniform(-5, 50):.4g} N*m"
+        if draw.random() < 0.2:
+            wanted |= {"stops": ["-400 deg", "130 deg"], "restitution": draw.choice((0, 0.5, 1))}
+        if draw.random() < 0.2:
+            wanted["until"] = draw.choice(("rest", "steady"))
+        self.values["transient"] = wanted
+        if draw.random() < 0.3 and self.values["sliders"]:
+            slider = draw.choice(sorted(self.values["sliders"]))
+            self.values["friction"] = {"sliders": {slider: {"coefficient": 0.1, "length": "50 mm"}}}
+
     def shaft(self) -> None:
         """What the crank is driven with, and the tables."""
         draw = self.draw
@@ -500,6 +515,6 @@ class _Drawing:
             fixed = {"rated_speed": "1430 rpm", "overload": 2.2, "pole_pairs": 2}
             self.values["motor"] = {"rated_power": power, **fixed, "ratio": ratio}
         if draw.random() < 0.05:
-            self.values["transient"] = {"torque": f"{draw.uniform(1, 50):.4g} N*m", "time": "0.2 s"}
+            self.let_go()
         if draw.random() < 0.2:
             self.values["table"] = {"step": draw.choice(("5 deg", "7 deg", "45 deg")), "special_angles": ["12.3 deg"]}

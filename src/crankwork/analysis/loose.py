@@ -36,6 +36,8 @@ from crankwork.shaft.transient import OWN, RATE, FreeMachine, Way
 
 _WIDTH = math.pi / 8
 _LOOKS, _HALVINGS, _NOTHING = 2001, 60, 1e-12
+# of the largest moment of inertia, one with which the crank would run away
+_LIGHT = 1e-6
 # inertia and its derivative; energy and torques; damping; rate of the crank
 _ALIKE = (0, 1, 1, 1, 2, 3, 0, 1)
 
@@ -170,8 +172,11 @@ class Loose:
         # towards dead positions the derivatives by the crank angle are differences of infinite terms
         dead = self.chart.pieces[0].turns_back
         reduced = reduced.with_slopes((0, 6), (1, 7)) if dead else reduced
-        if not np.min(reduced.powers[:, 0, 0]) > 0:
-            raise MethodError(Refusal("transient_massless"))
+        places = np.linspace(ends[0], ends[-1], _LOOKS)
+        inertia = reduced(places)[0]
+        if not np.min(inertia) > _LIGHT * np.max(inertia):
+            light = self.chart.crank(places[[np.argmin(inertia)]]).position
+            raise MethodError(Refusal("transient_light", angle=math.degrees(float(light[0]))))
         slipping = self._slipping
         if slipping is not None:
             breaks = np.unique(np.concatenate([breaks, _roots(lambda u: slipping.rates(reduced(u)), breaks)]))

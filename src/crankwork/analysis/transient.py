@@ -18,7 +18,7 @@ from crankwork.dynamics.friction import friction_forces
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.reduction import kinetic_energy, reduced_torque
 from crankwork.dynamics.running import Running
-from crankwork.errors import MethodError
+from crankwork.errors import GeometryError, MethodError
 from crankwork.formula.known import Found, Known
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.motion import Motion
@@ -61,6 +61,18 @@ def let_go(
     """
     if solved.machine.transient is None:
         return Ran({}, {}, {}, ())
+    try:
+        return _followed(solved, found, summary, progress)
+    except (GeometryError, MethodError) as error:
+        return Ran({}, {}, {}, (Notice("transient_unfollowed", {"message": error.args[0]}),))
+
+
+def _followed(
+    solved: SolvedLinkage,
+    found: Travel | None,
+    summary: Mapping[str, Known],
+    progress: Callable[[float], None] | None,
+) -> Ran:
     chart = chart_of(solved.machine, found)
     flywheel = summary.get("flywheel_inertia.exact")
     loose = Loose(solved, chart, flywheel.value if flywheel is not None else 0.0)

@@ -32,7 +32,7 @@ _GROWTH = 2.0
 _SHORTEST = 1e-13
 _LANDINGS = 8
 _LANDED = 1e-15
-MOST_STEPS = 20_000
+MOST_STEPS = 10_000
 _AT_END = 1e-13
 # of the largest speed, what counts as standing after a stop
 _STILL = 1e-6
