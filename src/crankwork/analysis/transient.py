@@ -83,6 +83,8 @@ def _followed(
         raise MethodError(Refusal("transient_dead", angle=math.degrees(wanted.start)))
     cycles = _Cycles(loose, progress)
     course = Run(loose.felt, start, wanted.speed / rate).until(wanted.time, watched=wanted.speeds, each=cycles)
+    if not course.steps:
+        return Ran({}, {}, {}, tuple(_told(loose, course)))
     checks = {"energy_balance": _missing(loose, course)}
     if course.events and course.events[-1].word == "steady":
         checks |= cycles.against(summary)
