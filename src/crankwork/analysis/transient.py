@@ -165,7 +165,7 @@ def _history(loose: Loose, course: Course) -> Listing:
         if rubbed is not None:
             rest.put("friction_power", here, rubbed.power_loss)
         for name, pin in (rubbed.joint_forces if rubbed else joint_forces(running)).pins.items():
-            rest.put(f"joint_force.{name}", here, pin.resultant)
+            rest.put(f"{'joint_force_with_friction' if rubbed else 'joint_force'}.{name}", here, pin.resultant)
     rest.columns["driving_torque"] = loose.felt.drive(speed)
     return Listing(columns | rest.columns)
 
