@@ -25,6 +25,7 @@ from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.travel import Travel
 from crankwork.loads.potential import has_potential, potential_energy
 from crankwork.locale import Refusal
+from crankwork.mechanism.joints import names_of_pivots
 from crankwork.shaft.collocation import gauss
 from crankwork.shaft.transient import RATE, Course, Run, Way
 
@@ -150,7 +151,7 @@ def _history(loose: Loose, course: Course) -> Listing:
     speed = crank.position_1 * v
     acceleration = crank.position_1 * a + crank.position_2 * v**2
     columns = {"time": times, "crank_angle": crank.position, "crank_speed": speed, "angular_acceleration": acceleration}
-    rest = _Filled(times.size)
+    rest, pivots = _Filled(times.size), names_of_pivots(loose.machine.mechanism)
     for piece, here in loose.chart.each(loose.chart.within(u)[0]):
         motion = loose.moved(piece, crank.position[here])
         for name, slide in motion.sliders.items():
@@ -164,8 +165,9 @@ def _history(loose: Loose, course: Course) -> Listing:
             rubbed = friction_forces(running, loose.machine.friction) if loose.machine.friction else None
         if rubbed is not None:
             rest.put("friction_power", here, rubbed.power_loss)
+        kind = "joint_force_with_friction" if rubbed else "joint_force"
         for name, pin in (rubbed.joint_forces if rubbed else joint_forces(running)).pins.items():
-            rest.put(f"{'joint_force_with_friction' if rubbed else 'joint_force'}.{name}", here, pin.resultant)
+            rest.put(f"{kind}.{pivots.get(name, name)}", here, pin.resultant)
     rest.columns["driving_torque"] = loose.felt.drive(speed)
     return Listing(columns | rest.columns)
 
