@@ -265,3 +265,17 @@ def test_a_crank_that_nothing_slows_is_told() -> None:
     told_of = message(let_go(level))
     assert "all that has a mass stands still" in told_of
     assert "crank.inertia" in told_of
+
+
+@pytest.mark.parametrize("speed", ["90 rpm", "-90 rpm"])
+def test_gas_pushes_either_way_round(speed: str) -> None:
+    """Its work over volumes, from the diagram, against the energies, through more turns than one."""
+    text = (EXAMPLES / "double-acting-steam.toml").read_text(encoding="utf-8")
+    results = let_go(f'{text}\n[transient]\ntime = "2 s"\nspeed = "{speed}"\n')
+    assert abs(results.summary["final_turn"]) > 2 * math.pi
+    assert results.checks["energy_balance"] < 1e-11
+
+
+def test_friction_in_time_needs_a_crank_that_turns_fully() -> None:
+    rubbing = ROCKERS.format(more="").replace("[method]", '[friction.pins.C]\nmoment = "0.1 N*m"\n[method]')
+    assert "only where the crank turns fully" in message(let_go(rubbing))

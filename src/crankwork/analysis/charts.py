@@ -80,6 +80,12 @@ class Chart:
         turns = np.floor((u - self.ends[0]) / self.period)
         return u - turns * self.period, (0.0 if self.pieces[0].turns_back else self.period) * turns
 
+    def places(self, u: Array) -> Iterator[tuple[Piece, NDArray[np.intp], Array]]:
+        """Yield the pieces, which of some coordinates are on them, and the crank angles there, whole turns aside."""
+        inside = self.within(u)[0]
+        for piece, here in self.each(inside):
+            yield piece, here, piece.crank(inside[here]).position
+
     def beside(self, u: Array) -> Array:
         """Return how far coordinates are from the dead positions, over the way between these. [-]"""
         if not self.pieces[0].turns_back:

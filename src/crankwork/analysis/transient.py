@@ -80,6 +80,8 @@ def _followed(
     wanted = loose.wanted
     start = chart.coordinate(wanted.start)
     rate = float(chart.crank(np.array([start]))[1][0])
+    if solved.machine.friction and chart.pieces[0].turns_back:
+        raise MethodError(Refusal("transient_rubbing"))
     if abs(rate) < _ALL_BUT_DEAD and (wanted.speed or not rate):
         raise MethodError(Refusal("transient_dead", angle=math.degrees(wanted.start)))
     cycles = _Cycles(loose, progress)
@@ -152,8 +154,8 @@ def _history(loose: Loose, course: Course) -> Listing:
     acceleration = crank.position_1 * a + crank.position_2 * v**2
     columns = {"time": times, "crank_angle": crank.position, "crank_speed": speed, "angular_acceleration": acceleration}
     rest, pivots = _Filled(times.size), names_of_pivots(loose.machine.mechanism)
-    for piece, here in loose.chart.each(loose.chart.within(u)[0]):
-        motion = loose.moved(piece, crank.position[here])
+    for piece, here, angle in loose.chart.places(u):
+        motion = loose.moved(piece, angle)
         for name, slide in motion.sliders.items():
             rest.put(f"slider_displacement.{name}", here, slide.position)
             rest.put(f"slider_velocity.{name}", here, slide.position_1 * speed[here])
@@ -234,8 +236,8 @@ def _energies(loose: Loose, course: Course, times: Array) -> tuple[Array, Array]
     """Return kinetic and potential energy at some times. [J]"""
     u, v, _ = course.at(times)
     crank, found = loose.chart.crank(u), np.empty((2, times.size))
-    for piece, here in loose.chart.each(loose.chart.within(u)[0]):
-        motion = loose.moved(piece, crank.position[here])
+    for piece, here, angle in loose.chart.places(u):
+        motion = loose.moved(piece, angle)
         speed = crank.position_1[here] * v[here]
         found[0, here] = kinetic_energy(loose.inertia(piece, motion), speed)
         found[1, here] = potential_energy(piece.mechanism, motion, loose.machine.loads)
@@ -254,13 +256,14 @@ def _power(loose: Loose, course: Course, times: Array) -> Array:
         and not loose.machine.chambers
     ):
         return np.asarray(power)
-    for piece, here in loose.chart.each(loose.chart.within(u)[0]):
+    for piece, here, angle in loose.chart.places(u):
         ways: tuple[Way, Way] = (1, -1)
         for way in ways:
-            rows = here[speed[here] * way > 0]
-            if rows.size:
-                order = rows[np.argsort(crank.position[rows], kind="stable")]
-                motion = loose.moved(piece, crank.position[order], way)
+            rows = speed[here] * way > 0
+            if rows.any():
+                sorted_ = np.argsort(angle[rows], kind="stable")
+                order = here[rows][sorted_]
+                motion = loose.moved(piece, angle[rows][sorted_], way)
                 loads = loose.loads(piece, motion, speed[order], with_potential=False)
                 power[order] += reduced_torque(motion, loads) * speed[order]
                 power[order] -= _lost(loose, piece, motion, (speed[order], acceleration[order]))

@@ -90,7 +90,7 @@ def period_of(mechanism: Mechanism) -> float:
 
 def _readout(x: float, y: float, stage: Stage, way: Course, language: Language) -> str:
     """Write the crank angle or the time, one text per step, each shown in its turn."""
-    count, period = round(way.mechanism.period) // _READOUT, period_of(way.mechanism)
+    count, period = round(way.mechanism.period) // _READOUT, way.own_time or period_of(way.mechanism)
     sign, unit = symbol("crank_angle", language), unit_name("deg", language)
     if period:
         sign, unit = symbol("time", language), f" {unit_name('s', language)}"
@@ -101,7 +101,7 @@ def _readout(x: float, y: float, stage: Stage, way: Course, language: Language) 
         times = [0.0, step / count, (step + 1) / count][0 if step else 1 : 3 if step < count - 1 else 2]
         # to and fro, the angle in the middle of the time for which it is shown
         angle = step * _READOUT if way.turns else round(float(way.degrees[round((step + 0.5) / count * frames)]))
-        shown_angle = number(angle * period / 360.0, language, digits=3) if period else number(angle, language)
+        shown_angle = number(period * step / count, language, digits=3) if period else number(angle, language)
         text = f'<tspan font-style="italic">{sign}</tspan> = {shown_angle}{unit}'
         turns = parts.animate("visibility", shown, stage, times=times)
         still = "visible" if step * _READOUT == _STILL else "hidden"

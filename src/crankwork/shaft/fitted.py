@@ -20,6 +20,7 @@ _POWERS = np.arange(_COUNT)
 _CONVERGED = 3e-14
 _NO_BETTER = 0.1
 _CUTS = 14
+_MOST = 4000
 # of half a panel, what rounding may put a coordinate beyond its end
 _BEYOND = 1e-9
 
@@ -90,7 +91,8 @@ def fitted(
     size = np.array([max(float(np.max(own[kinds == kind])), 1e-300) for kind in kinds])
     left = _tail(series, size)
     for _ in range(_CUTS):
-        done = left <= _CONVERGED
+        # what no number of panels follows is not followed by more of them
+        done = left <= (_CONVERGED if low.size < _MOST else math.inf)
         kept.append((low[done], series[done]))
         low, high, before = low[~done], high[~done], left[~done]
         if not low.size:
