@@ -154,3 +154,27 @@ def test_a_slider_crank_that_rubs_everywhere_loses_what_the_equilibrium_says(spe
     time, _ = rests(results)
     assert time < 3.0
     assert results.summary["final_speed"] == 0.0
+
+
+@pytest.mark.parametrize("speed", [15.0, -15.0])
+def test_friction_turns_round_with_a_piece_that_turns_round_in_its_dead_centres(speed: float) -> None:
+    """Only the block rubs, by 3 N, and reverses at 0 and 180 degrees: energy goes with its way, 4 r a turn."""
+    alone = DRAWN[: DRAWN.index("[friction.pins.O]")] + '[friction.sliders.block]\nforce = "3 N"\n'
+    level = alone.replace('start = "90 deg"', 'start = "0 deg"')
+    results = let_go(f'{level}[transient]\ntime = "4 s"\nspeed = "{{speed}} rad/s"\n', speed=speed)
+    begun = 0.02 * speed**2 / 2
+    _, angle = rests(results)
+    turns, reached = abs(angle) // math.pi, abs(angle)
+    place = 0.1 * math.cos(reached) + math.sqrt(0.09 - (0.1 * math.sin(reached)) ** 2)
+    dead = 0.2 if turns % 2 else 0.4
+    assert 3 * (0.2 * turns + abs(dead - place)) == pytest.approx(begun, rel=1e-9)
+    assert results.checks["energy_balance"] < 1e-11
+
+
+def test_what_stands_against_its_stop_stays_there() -> None:
+    text = WHEEL.replace(
+        "[transient]", '[transient]\ntorque = "1 N*m"\nstops = ["-90 deg", "90 deg"]\nstart = "90 deg"'
+    )
+    results = let_go(text, speed=0, time=2)
+    assert results.summary["final_turn"] == 0.0
+    assert rests(results)[0] == 0.0

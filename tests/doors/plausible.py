@@ -491,9 +491,9 @@ class _Drawing:
     def let_go(self) -> None:
         """A motion in time, some with stops, some with friction."""
         draw = self.draw
-        wanted: dict[str, Any] = {"time": draw.choice(("0.2 s", "2 s")), "speed": f"{draw.uniform(-60, 60):.4g} rpm"}
+        wanted: dict[str, Any] = {"time": draw.choice(("0.1 s", "0.5 s")), "speed": f"{draw.uniform(-60, 60):.4g} rpm"}
         if draw.random() < 0.7:
-            wanted["torque"] = f"{draw.uniform(-5, 50):.4g} N*m"
+            wanted["torque"] = f"{draw.uniform(-2, 10):.4g} N*m"
         if draw.random() < 0.2:
             wanted |= {"stops": ["-400 deg", "130 deg"], "restitution": draw.choice((0, 0.5, 1))}
         if draw.random() < 0.2:

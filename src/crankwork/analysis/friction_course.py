@@ -16,6 +16,7 @@ from crankwork.dynamics.friction import (
     Friction,
     FrictionForces,
     GuideFriction,
+    PinFriction,
     Truth,
     rubbed,
     rubbing_joints,
@@ -199,8 +200,10 @@ class Course:
             "two_balances": found.has_another,
             "friction_holds": (found.status == CONVERGED) & found.held,
         }
+        # what only grows with the speed holds nothing
+        is_dry = any(_is_dry(one) for one in solved.machine.friction)
         for code, is_so in told.items():
-            if code in codes:
+            if code in codes and (is_dry or code != "friction_holds"):
                 yield from self._runs(code, edges, is_so, period)
 
     def _runs(self, code: str, edges: Array, is_so: Truth, period: float) -> Iterator[Notice]:
@@ -250,3 +253,8 @@ def _between(value_at: Callable[[Array, Truth], Array], low: Array, high: Array,
 
 def _sign(values: Array) -> Array:
     return np.where(np.isnan(values), 2.0, np.where(values < 0, -1.0, 1.0))
+
+
+def _is_dry(law: Friction) -> bool:
+    """Return whether a law of friction has a part that does not vanish with the speed."""
+    return bool(law.coefficient or (law.moment if isinstance(law, PinFriction) else law.force))

@@ -232,5 +232,5 @@ def _roots(function: Callable[[Array], Array], breaks: Array) -> Array:
             middle = (low + high) / 2
             low, high = (middle, high) if (function(np.array([middle]))[row, 0] < 0) == below else (low, middle)
         found.append(high)
-    exact = places[np.any(values == 0, axis=0) & np.any(values != 0, axis=0)]
+    exact = places[np.any((values == 0) & np.any(values != 0, axis=1, keepdims=True), axis=0)]
     return np.concatenate([np.array(found), exact[np.isin(exact, places[1:-1])]])

@@ -99,7 +99,7 @@ def _followed(
         {key: Known(Found(value, "followed"), key) for key, value in keys.items()},
         {"transient": _history(loose, course), **_events(chart, course)},
         checks,
-        tuple(_told(loose, course)),
+        (*_told(loose, course), *_not_yet(loose, course)),
     )
 
 
@@ -298,6 +298,13 @@ def _told(loose: Loose, course: Course) -> Iterator[Notice]:
                 yield Notice("transient_equilibrium", {"angle": angle})
         else:
             yield Notice(f"transient_{word}", {"time": event.time, "angle": angle, "speed": speed, "count": count})
+
+
+def _not_yet(loose: Loose, course: Course) -> Iterator[Notice]:
+    """Yield that the time was up before what was waited for."""
+    waited = {"rest": "comes_to_rest", "steady": "steady"}.get(loose.wanted.until)
+    if waited is not None and all(one.word != waited for one in course.events):
+        yield Notice(f"transient_not_{loose.wanted.until}", {"time": course.end})
 
 
 def _missing_torque(loose: Loose) -> float:

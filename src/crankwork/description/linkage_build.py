@@ -270,7 +270,7 @@ def _transient(values: Values, reader: Reader) -> Transient | None:
     if table["motor"] and not has_motor:
         reader.complain("transient.motor", Refusal("transient_motorless"))
     start, ends = table.si("start"), tuple(one.value for one in table["stops"] or ())
-    if ends and not ends[0] <= start <= ends[1]:
+    if ends and not (ends[0] <= start <= ends[1] and ends[0] < ends[1]):
         reader.complain("transient.stops", Refusal("transient_stops"))
     rows = table.si("time") / table.si("step") if table["step"] and table["time"] else 0.0
     if rows > _MOST_ROWS:

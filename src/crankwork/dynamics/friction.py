@@ -47,6 +47,7 @@ _STEPS = (0.25, 0.5, 0.75, 1.0)
 _REST = 1e-12
 # share of the forces by which another solution differs from the first
 _APART = 1e-6
+_NOTHING = 1e-12
 
 
 @dataclass(frozen=True)
@@ -105,7 +106,9 @@ class FrictionForces:
     @property
     def held(self) -> Truth:
         """Where friction alone holds the load: without it the load would drive the crank, with it it does not."""
-        return np.asarray((self.ideal_torque < 0) & (self.joint_forces.balancing_torque >= 0))
+        ideal, torque = self.ideal_torque, self.joint_forces.balancing_torque
+        rounding = _NOTHING * np.nanmax(np.abs(np.stack([ideal, torque])), initial=0.0)
+        return np.asarray((ideal < -rounding) & (torque >= 0))
 
     def messages(self, grid: CrankGrid) -> list[str]:
         """Return a sentence for each run of crank angles where something is wrong, or friction holds the load."""

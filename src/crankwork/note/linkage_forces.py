@@ -136,6 +136,9 @@ def efficiency(material: Material) -> Iterator[Block]:
     """Yield what is said of the efficiency of the joints."""
     words = material.words
     drive = material.machine.drive
+    if drive.efficiency == 1 and material.machine.friction:
+        # a section of its own says what rubs
+        return
     yield words.heading("efficiency", 2)
     if drive.efficiency == 1:
         yield words.paragraph("no_losses")

@@ -34,6 +34,7 @@ _LANDINGS = 8
 _LANDED = 1e-15
 MOST_STEPS = 10_000
 _AT_END = 1e-13
+_MOMENT = 1e-12
 # of the largest speed, what counts as standing after a stop
 _STILL = 1e-6
 # of the rate that a machine could come to, below which steps are not told apart; and of its forces, what is rounding
@@ -175,6 +176,8 @@ class Run:
         low, high = machine.stops
         if (rate > 0 and coordinate >= high) or (rate < 0 and coordinate <= low):
             self._stopped(self.way)
+        elif rate == 0 and not low < coordinate < high:
+            self._lean(1 if coordinate >= high else -1)
         elif rate == 0:
             self._set_off()
         self.stretch = self._stretch_at()
@@ -193,12 +196,14 @@ class Run:
                     return self.course
                 length = self._advance(min(length, end - self.time), watched)
                 if each is not None and each(self):
-                    return self.course
+                    break
         except KeyboardInterrupt:
             self.tell("interrupted")
             return self.course
         if self.is_over and self.time < end:
-            self._add(Step(self.time, self.q, 0.0, end - self.time, np.zeros(POINTS)))
+            # who asks for no more than the first rest sees a moment of it
+            rest = end - self.time if each is None or not each(self) else _MOMENT * end
+            self._add(Step(self.time, self.q, 0.0, rest, np.zeros(POINTS)))
         return self.course
 
     def _advance(self, length: float, watched: Sequence[float]) -> float:
@@ -320,14 +325,18 @@ class Run:
         self.tell("stop")
         self.v = -self.machine.restitution * self.v
         if abs(self.v) <= _STILL * self.largest:
-            self.v = 0.0
-            self.way = 1 if side < 0 else -1
-            away = float(self.machine.acceleration(np.array([self.q]), np.zeros(1), self.way, *self._stretch_at())[0])
-            if away * self.way <= 0:
-                self.tell("comes_to_rest")
-                self.is_over = True
+            self._lean(side)
         else:
             self.way = 1 if self.v > 0 else -1
+
+    def _lean(self, side: Way) -> None:
+        """Stay at a stop, or leave it if that is where the forces go."""
+        self.v = 0.0
+        self.way = 1 if side < 0 else -1
+        away = float(self.machine.acceleration(np.array([self.q]), np.zeros(1), self.way, *self._stretch_at())[0])
+        if away * self.way <= 0:
+            self.tell("comes_to_rest")
+            self.is_over = True
 
     def _set_off(self, word: EventWord | None = None) -> None:
         """Find which way it goes from rest, if any; `word` says what that is."""
