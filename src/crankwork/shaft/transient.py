@@ -20,7 +20,7 @@ from crankwork.shaft.slipping import Slipping, State
 
 Way = Literal[1, -1]
 EventWord = Literal[
-    "sets_off", "turns_back", "comes_to_rest", "stop", "reaches_speed", "dead_position", "change_point", "end_of_way",
+    "turns_back", "comes_to_rest", "stop", "reaches_speed", "dead_position", "change_point", "end_of_way",
     "steady", "interrupted", "many_steps", "lost",
 ]  # fmt: skip
 
