@@ -91,3 +91,70 @@ def test_friction_alone_is_a_torque() -> None:
     assert results.columns["torque_with_friction"] == pytest.approx(20)
     assert "instantaneous_efficiency" not in results.columns
     assert "mean_efficiency" not in results.summary
+
+
+OVERHUNG = """
+    [fixed_points]
+    O = ["0 m", "0 m"]
+    [crank]
+    pivot = "O"
+    pin = "A"
+    radius = "0.1 m"
+    speed = "60 rpm"
+    [links]
+    rod = {{ joins = ["A", "B"], length = "0.3 m" }}
+    [guides]
+    bed = {{ through = ["0 m", "{beside} m"] }}
+    [sliders]
+    ram = {{ guide = "bed", points = {{ B = ["{ahead} m", "-{beside} m"], C = ["0 m", "0 m"] }} }}
+    [friction.sliders.ram]
+    coefficient = {coefficient}
+    length = "{length} m"
+    [[loads]]
+    kind = "force"
+    point = "C"
+    x = "100 N"
+"""
+
+
+@pytest.mark.parametrize(
+    ("length", "coefficient", "beside", "ahead"),
+    [(0.5, 0.15, 0.2, 0.0), (0.5, 0.15, 0.2, 0.1), (0.4, 0.3, 0.1, -0.15), (0.061, 0.15, 0.2, 0.0)],
+)
+def test_an_overhung_guide_is_pressed_by_the_moment_about_its_middle(
+    length: float, coefficient: float, beside: float, ahead: float
+) -> None:
+    """Three equations of the ram, beside its guide, solved for the force of the rod."""
+    text = OVERHUNG.format(length=length, coefficient=coefficient, beside=beside, ahead=ahead)
+    results = crankwork.analyse(crankwork.read_machine(text))
+    phi = np.radians(results.grid.degrees)
+    x, y = 0.1 * np.cos(phi), 0.1 * np.sin(phi)
+    sin = -y / 0.3
+    cos = np.sqrt(1 - sin**2)
+    sense = -np.sign(np.round(results["slider_velocity.ram"], 12))
+    pressing = np.maximum(np.abs(sin), 2 / length * np.abs(ahead * sin + beside * cos))
+    rod = -100 / (cos - sense * coefficient * pressing)
+    torque = rod * (x * sin - y * cos)
+    assert results["torque_with_friction"] == pytest.approx(torque, abs=1e-11)
+    assert max(results.checks.values()) < 1e-12
+
+
+@pytest.mark.parametrize(("length", "jams"), [(0.0599, True), (0.0601, False)])
+def test_an_overhung_guide_jams_where_it_is_shorter_than_twice_the_overhang_times_friction(
+    length: float, jams: bool
+) -> None:
+    text = OVERHUNG.format(length=length, coefficient=0.15, beside=0.2, ahead=0.0)
+    results = crankwork.analyse(crankwork.read_machine(text))
+    told = [one.values for one in results.notices if one.code == "self_locking"]
+    # against the load, on the way back
+    assert [(one["from"], one["to"]) for one in told] == ([pytest.approx((0.0, 180.0))] if jams else [])
+
+
+def test_the_couple_of_friction_beside_a_pin_turns_the_link_that_carries_the_guide_too() -> None:
+    text = (ROOT / "tests/machines/guide-on-rocker.toml").read_text("utf-8")
+    block = 'block = { points = { D = ["12 mm", "-25 mm"] }, centre = "D", guide = "arm", mass = "0.8 kg" }'
+    text = text.replace('block = { pin = "D", guide = "arm", mass = "0.8 kg" }', block)
+    text += '\n[friction.sliders.block]\ncoefficient = 0.1\nlength = "50 mm"\n'
+    results = crankwork.analyse(crankwork.read_machine(text))
+    assert max(results.checks.values()) < 1e-12
+    assert np.abs(results["friction_force.block"]).max() > 1

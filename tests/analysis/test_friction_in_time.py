@@ -144,10 +144,16 @@ speed = "{speed} rad/s"
 """
 
 
+OVERHUNG = DRAWN.replace('pin = "B", mass', 'points = {{ B = ["20 mm", "-50 mm"] }}, centre = "B", mass').replace(
+    "floor = {{}}", 'floor = {{ through = ["0 m", "50 mm"] }}'
+)
+
+
+@pytest.mark.parametrize("drawn", [DRAWN, OVERHUNG])
 @pytest.mark.parametrize("speed", [15.0, -15.0])
-def test_a_slider_crank_that_rubs_everywhere_loses_what_the_equilibrium_says(speed: float) -> None:
+def test_a_slider_crank_that_rubs_everywhere_loses_what_the_equilibrium_says(drawn: str, speed: float) -> None:
     """Energies against the losses of the equilibrium of all links, solved on its own at speeds and accelerations."""
-    results = let_go(DRAWN, time=3.0, speed=speed)
+    results = let_go(drawn, time=3.0, speed=speed)
     assert results.checks["energy_balance"] < 1e-11
     columns = results.listings["transient"].columns
     assert np.all(columns["friction_power"][:-1] >= 0.0)

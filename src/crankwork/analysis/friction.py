@@ -15,6 +15,8 @@ from crankwork.dynamics.friction import (
     CONVERGED,
     Friction,
     GuideFriction,
+    PinFriction,
+    friction_couple,
     friction_force,
     friction_power_of_guide,
     friction_power_of_pin,
@@ -201,7 +203,7 @@ def _with_friction(
         kind = "joint_force_with_friction" if isinstance(one.joint, Pin) else "pressing_force"
         pressing[one.law] = Known(Component(root, at), f"{kind}.{one.name}")
         value = friction[one.law] = _law(one, sense, pressing[one.law], velocities[one.law])
-        loads = loads.also(_on_links(running, one.joint, value))
+        loads = loads.also(_on_links(running, one, value))
     forces = joint_forces(replace(running, loads=running.loads.also(loads)))
     root.residuals = tuple(_missing(one, pressing[one.law], forces) for one in places)
     return root, friction, forces
@@ -237,12 +239,29 @@ def _law(place: _Place, sense: Known, pressing: Known, velocity: Known) -> Known
     return moment.named(f"friction_torque.{name}")
 
 
-def _on_links(running: Running, joint: Joint, value: Known) -> AppliedLoads:
+def _on_links(running: Running, place: _Place, value: Known) -> AppliedLoads:
     """Return the friction of a joint as loads on its two links."""
-    if isinstance(joint, SlidingJoint):
-        return force_on_slider(running.mechanism, running.motion, joint.link, value, ".friction")
-    own = torque_on(running.motion, joint.link, value)
-    return own if joint.other == GROUND else own.also(torque_on(running.motion, joint.other, -value))
+    joint, law = place.joint, place.law
+    if isinstance(law, PinFriction):
+        return _torque_between(running, joint, value)
+    force = force_on_slider(running.mechanism, running.motion, joint.link, value, ".friction")
+    if not law.middle[1]:
+        return force
+    couple: Known = friction_couple(value, _middle(place, 1)).named(f"friction_couple.{place.name}")
+    return force.also(_torque_between(running, joint, couple))
+
+
+def _torque_between(running: Running, joint: Joint, torque: Known) -> AppliedLoads:
+    """Return a torque on the link that a joint holds, and its reaction on the other."""
+    own = torque_on(running.motion, joint.link, torque)
+    return own if joint.other == GROUND else own.also(torque_on(running.motion, joint.other, -torque))
+
+
+def _middle(place: _Place, axis: int) -> Known:
+    """Return where the middle of a sliding piece is from its pin, along its guide or to the left of that."""
+    if isinstance(place.law, PinFriction) or not place.law.middle[axis]:
+        return absent("piece_middle")
+    return given(f"piece_middle_{'xy'[axis]}.{place.name}", place.law.middle[axis], f"sliders.{place.name}.points")
 
 
 def _missing(place: _Place, pressing: Known, forces: JointForces) -> Known:
@@ -255,7 +274,9 @@ def _missing(place: _Place, pressing: Known, forces: JointForces) -> Known:
     tilting: Known = absent("tilting_force")
     if isinstance(law, GuideFriction) and law.length:
         length = _stated("piece_length", place, "length", law.length)
-        tilting = tilting_force(guide.moment, length).named(f"tilting_force.{place.name}")
+        tilting = tilting_force(guide.moment, guide.normal, _middle(place, 0), length).named(
+            f"tilting_force.{place.name}"
+        )
     pressed: Known = pressing_force(guide.normal, tilting)
     return pressing - pressed.named(f"pressing_force.{place.name}")
 

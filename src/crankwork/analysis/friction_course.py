@@ -116,7 +116,7 @@ class Course:
                 guide = found.joint_forces.guides[law.slider]
                 rows[f"{law.slider}.normal"] = np.asarray(guide.normal)
                 if law.length:
-                    tilting = 2 * np.asarray(guide.moment) / law.length
+                    tilting = law.tilting(np.asarray(guide.normal), np.asarray(guide.moment))
                     rows |= {f"{law.slider}.{sign}": guide.normal + sign * tilting for sign in (1, -1)}
         return rows
 

@@ -12,7 +12,7 @@ import numpy as np
 from crankwork.analysis.charts import Chart, Piece
 from crankwork.analysis.solved import SolvedLinkage
 from crankwork.dynamics.force_system import whole_system
-from crankwork.dynamics.friction import Rubbing, rubbing_joints, unit_effect
+from crankwork.dynamics.friction import Rubbing, rubbing_joints
 from crankwork.dynamics.link_loads import link_wrenches
 from crankwork.dynamics.reduction import reduced_inertia, reduced_torque
 from crankwork.dynamics.running import Running
@@ -144,7 +144,7 @@ class Loose:
             Running(piece.mechanism, motion, 0.0, angular_acceleration=1.0),
         ]
         right = [system.right_side(link_wrenches(one)) + np.zeros((len(motion.grid), 1)) for one in causes]
-        right += [-unit_effect(motion, system, one.joint) for one in self._joints]
+        right += [-one.unit_effect(motion, system) for one in self._joints]
         grows, falls, square, rate, acceleration, *own = np.moveaxis(
             np.linalg.solve(system.matrix, np.stack(right, axis=-1)), -1, 0
         )

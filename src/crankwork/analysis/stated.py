@@ -92,6 +92,8 @@ def stated_friction(machine: Machine) -> tuple[StatedFriction, ...]:
             amounts = {
                 "guide_friction": (one.coefficient, ""),
                 "piece_length": (one.length, "mm"),
+                "piece_middle_x": (one.middle[0], "mm"),
+                "piece_middle_y": (one.middle[1], "mm"),
                 "constant_force": (one.force, "N"),
                 "damping": (one.damping, "N*s/m"),
             }

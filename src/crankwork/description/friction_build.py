@@ -10,11 +10,14 @@ from crankwork.dynamics.force_system import whole_of
 from crankwork.dynamics.friction import Circle, Friction, GuideFriction, PinFriction
 from crankwork.locale import Refusal
 from crankwork.machine import Machine
+from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.dyads import Point
 from crankwork.mechanism.joints import Pin, names_of_pivots
+from crankwork.mechanism.linkage import Linkage
 from crankwork.mechanism.mechanism import Crank, Mechanism
 
 
-def build_friction(values: Values, mechanism: Mechanism, reader: Reader) -> tuple[Friction, ...]:
+def build_friction(values: Values, linkage: Linkage, mechanism: Mechanism, reader: Reader) -> tuple[Friction, ...]:
     """Return the friction of pins and guides; complain of joints that are not there."""
     table = values.get("friction")
     if table is None:
@@ -28,10 +31,27 @@ def build_friction(values: Values, mechanism: Mechanism, reader: Reader) -> tupl
         for joint, one in _known(table["pins"], pins, "pins", reader)
     )
     sliding = tuple(
-        GuideFriction(name, one["coefficient"], one.si("length") or 0.0, one.si("force"), one.si("damping"))
+        _guide(name, one, _middle(name, linkage, mechanism))
         for name, one in _known(table["sliders"], guides, "sliders", reader)
     )
     return (*rubbing_pins, *sliding)
+
+
+def _guide(name: str, one: Values, middle: Point) -> GuideFriction:
+    length, force, damping = (one.si(key) or 0.0 for key in ("length", "force", "damping"))
+    return GuideFriction(name, one["coefficient"], length, force, damping, middle)
+
+
+def _middle(name: str, linkage: Linkage, mechanism: Mechanism) -> Point:
+    """Return where the origin of a sliding piece, which is on its guide, lies from the pin that it is solved at."""
+    member = next((one for one in linkage.members if one.name == name), None)
+    chained = (link.name for group in mechanism.dyads if isinstance(group, Chain) for link in group.links)
+    if member is None or name in chained:
+        return 0.0, 0.0
+    further = {one.name: (one.along, one.across) for one in mechanism.points if one.link == name}
+    point = next(iter(further), next(iter(member.points)))
+    (x, y), (u, v) = further.get(point, (0.0, 0.0)), member.points[point]
+    return x - u, y - v
 
 
 def _known(

@@ -82,7 +82,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
     redundant = fitting(linkage, carried, values, reader)
     if reader.problems:
         return None
-    friction = build_friction(values, mechanism, reader)
+    friction = build_friction(values, linkage, mechanism, reader)
     loads = with_starts(loads, values, mechanism, way)
     if values["method"]["weights"]:
         loads = (*loads, Weight(method.gravity))

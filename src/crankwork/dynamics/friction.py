@@ -70,11 +70,20 @@ class GuideFriction:
 
     slider: str  # The sliding piece
     coefficient: float  # Friction force over normal force, the tangent of the friction angle [-]
-    # Length of the piece along the guide, its origin in the middle. The moment of the normal force then presses the
-    # ends of the piece on both sides; with 0 that moment makes no friction [m]
+    # Length of the piece along the guide. The moment of the normal force about its middle then presses the ends of the
+    # piece on both sides; with 0 that moment makes no friction [m]
     length: float = 0.0
     force: float = 0.0  # Drag that does not depend on the normal force [N]
     damping: float = 0.0  # Drag over the sliding velocity [N s/m]
+    # Where the middle of the piece is on its guide, from the pin that its forces are taken at: along the guide, and to
+    # the left of that [m]
+    middle: tuple[float, float] = (0.0, 0.0)
+
+    def tilting(self, normal: Array, moment: Array) -> Array:
+        """Return the difference of the forces that press at both ends. [N]"""
+        if not self.length:
+            return np.zeros_like(moment)
+        return np.asarray(tilting_force(moment, normal, self.middle[0], self.length))
 
 
 Friction = PinFriction | GuideFriction
@@ -140,18 +149,18 @@ class Rubbing:
 
         They are the components of the force of a pin, or normal force and moment of a guide.
         """
-        if isinstance(self.joint, Pin):
+        if isinstance(self.law, PinFriction):
             force = np.hypot(one, two)
             inverse = np.divide(1.0, force, out=np.zeros_like(force), where=force > _TINY)
             return force, one * inverse, two * inverse
-        length = self.law.length if isinstance(self.law, GuideFriction) else 0.0
-        per_moment = 2 / length if length else 0.0
-        by_moment = per_moment * np.abs(two)
-        tilted = by_moment > np.abs(one)
+        tilting = self.law.tilting(one, two)
+        per_moment = 2 / self.law.length if self.law.length else 0.0
+        tilted = np.abs(tilting) > np.abs(one)
+        by_moment = np.where(tilted, per_moment * np.sign(tilting), 0.0)
         return (
-            np.where(tilted, by_moment, np.abs(one)),
-            np.where(tilted, 0.0, np.sign(one)),
-            np.where(tilted, per_moment * np.sign(two), 0.0),
+            np.where(tilted, np.abs(tilting), np.abs(one)),
+            np.where(tilted, -self.law.middle[0] * by_moment, np.sign(one)),
+            by_moment,
         )
 
     def friction(self, pressing: Array) -> Array:
@@ -161,6 +170,22 @@ class Rubbing:
             return np.asarray(friction_torque(self.sense, self.factor, pressing, constant, damping, self.velocity))
         constant, damping = self.law.force, self.law.damping
         return np.asarray(friction_force(self.sense, self.factor, pressing, constant, damping, self.velocity))
+
+    def unit_effect(self, motion: Motion, system: Equilibrium) -> Array:
+        """Return what a unit of friction on the link that the joint holds does to all links, shape (n, 3 links)."""
+        frame, effect = motion.frames[self.joint.link], np.zeros((len(motion.grid), 3 * len(system.links)))
+        for link, sign in ((self.joint.link, 1.0), (self.joint.other, -1.0)):
+            if link == GROUND:
+                continue
+            row = 3 * system.links.index(link)
+            if isinstance(self.law, PinFriction):
+                effect[:, row + 2] = sign
+            else:
+                along = frame.cos, frame.sin
+                effect[:, row], effect[:, row + 1] = sign * along[0], sign * along[1]
+                beside = cross(arm(motion.frames[link].origin, frame.origin), along)
+                effect[:, row + 2] = sign * (beside - self.law.middle[1])
+        return effect
 
 
 def rubbing_joints(
@@ -254,7 +279,7 @@ class _Equations:
         # of each joint the column of its first unknown, and what its pressing force does to the links
         self._parts: list[tuple[Rubbing, int, Array]] = []
         for one in rubbing:
-            unit = unit_effect(running.motion, system, one.joint)
+            unit = one.unit_effect(running.motion, system)
             by_force = np.asarray(one.sense * one.factor)
             self.right -= unit * one.friction(np.zeros_like(by_force))[:, None]
             self._parts.append((one, 2 * system.joints.index(one.joint), unit * by_force[:, None]))
@@ -345,22 +370,6 @@ def _orientation(matrix: Array) -> Array:
     return np.asarray(np.linalg.slogdet(np.nan_to_num(matrix))[0])
 
 
-def unit_effect(motion: Motion, system: Equilibrium, joint: Joint) -> Array:
-    """Return what a unit of friction on the link that a joint holds does to all links, shape (n, 3 links)."""
-    frame, effect = motion.frames[joint.link], np.zeros((len(motion.grid), 3 * len(system.links)))
-    for link, sign in ((joint.link, 1.0), (joint.other, -1.0)):
-        if link == GROUND:
-            continue
-        row = 3 * system.links.index(link)
-        if isinstance(joint, Pin):
-            effect[:, row + 2] = sign
-        else:
-            along = frame.cos, frame.sin
-            effect[:, row], effect[:, row + 1] = sign * along[0], sign * along[1]
-            effect[:, row + 2] = sign * cross(arm(motion.frames[link].origin, frame.origin), along)
-    return effect
-
-
 def _efficiency(ideal: Array, actual: Array) -> Array:
     """Return the efficiency, of the crank as driver or of the load; NaN where no torque is needed."""
     forward, backward = ideal > 0, ideal < 0
@@ -404,9 +413,15 @@ def friction_force(sigma_f: Value, f: Value, N_p: Value, F_c0: Value, d: Value, 
 
 
 @formula("tilting_force", "artobolevsky_1988, ch. 11")
-def tilting_force(M_n: Value, l_p: Value) -> Value:
-    """Difference of the forces that press at both ends of a piece, by the moment of its guide."""
-    return 2 * M_n / l_p
+def tilting_force(M_n: Value, N_f: Value, x_p: Value, l_p: Value) -> Value:
+    """Difference of the forces that press at both ends of a piece, by the moment of its guide about its middle."""
+    return 2 * (M_n - N_f * x_p) / l_p
+
+
+@formula("friction_couple", "artobolevsky_1988, ch. 11")
+def friction_couple(F_fr: Value, y_p: Value) -> Value:
+    """Moment of the friction of a guide about a pin beside the line of the guide."""
+    return -F_fr * y_p
 
 
 @formula("pressing_force", "artobolevsky_1988, ch. 11")

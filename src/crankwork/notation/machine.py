@@ -104,6 +104,8 @@ ARGUMENTS: dict[str, Argument] = {
     "N_t": Argument("tilting_force"),
     "M_n": Argument("normal_moment_with_friction"),
     "l_p": Argument("piece_length"),
+    "x_p": Argument("piece_middle_x"),
+    "y_p": Argument("piece_middle_y"),
     "M_c0": Argument("constant_moment"),
     "F_c0": Argument("constant_force"),
     "d_t": Argument("angular_damping"),
