@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -23,6 +23,7 @@ from crankwork.dynamics.friction import (
 )
 from crankwork.dynamics.running import Running
 from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.loops import ChainPath
 from crankwork.kinematics.motion import linkage_motion
 
 # rows whose signs part the cycle
@@ -53,6 +54,8 @@ class Balance:
     solved: SolvedLinkage
     senses: Mapping[Friction, Steps]
     is_static: bool = False
+    # of its chains, as far as they have been followed
+    paths: dict[int, ChainPath] = field(default_factory=dict, compare=False, repr=False)
 
     @property
     def cycle(self) -> float:
@@ -61,7 +64,7 @@ class Balance:
 
     def running(self, grid: CrankGrid) -> Running:
         """Return the linkage at work."""
-        running = running_at(self.solved, linkage_motion(self.solved.machine.mechanism, grid))
+        running = running_at(self.solved, linkage_motion(self.solved.machine.mechanism, grid, paths=self.paths))
         return replace(running, mechanism=replace(running.mechanism, bodies=())) if self.is_static else running
 
     def at(self, degrees: Array, *, thorough: bool = False) -> FrictionForces:

@@ -46,7 +46,7 @@ def _middle(name: str, linkage: Linkage, mechanism: Mechanism) -> Point:
     """Return where the origin of a sliding piece, which is on its guide, lies from the pin that it is solved at."""
     member = next((one for one in linkage.members if one.name == name), None)
     chained = (link.name for group in mechanism.dyads if isinstance(group, Chain) for link in group.links)
-    if member is None or name in chained:
+    if member is None or not member.points or name in chained:
         return 0.0, 0.0
     further = {one.name: (one.along, one.across) for one in mechanism.points if one.link == name}
     point = next(iter(further), next(iter(member.points)))

@@ -48,6 +48,8 @@ _REST = 1e-12
 # share of the forces by which another solution differs from the first
 _APART = 1e-6
 _NOTHING = 1e-12
+# share of the largest force that is a measure of what is missed in those that are smaller
+_SMALL = 1e-2
 
 
 @dataclass(frozen=True)
@@ -361,6 +363,8 @@ class _Equations:
             size += np.abs(effect) * pressing[:, None]
             derivative[:, :, at] += share * effect * by_one[:, None]
             derivative[:, :, at + 1] += share * effect * by_two[:, None]
+        # of what carries nothing there is only rounding
+        size += _SMALL * np.abs(matrix).sum(axis=-1) * np.max(np.abs(unknowns), axis=1)[:, None]
         ratio = np.divide(np.abs(missing), size, out=np.zeros_like(size), where=size != 0)
         return missing, ratio.max(axis=1), derivative
 

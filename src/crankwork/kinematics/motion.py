@@ -13,6 +13,7 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dyads import (
     LinkMotion,
 )
+from crankwork.kinematics.loops import ChainPath
 from crankwork.kinematics.motion_laws import law_at
 from crankwork.kinematics.placement import Placed, assembled, place, reached
 from crankwork.kinematics.transfer import PointMotion, Transfer
@@ -73,14 +74,16 @@ def direction(grid: CrankGrid, link: LinkMotion) -> Transfer:
     return Transfer(angle, rate, link.angle_2 + still)
 
 
-def linkage_motion(mechanism: Mechanism, grid: CrankGrid, *, partial: bool = False) -> Motion:
+def linkage_motion(
+    mechanism: Mechanism, grid: CrankGrid, *, partial: bool = False, paths: dict[int, ChainPath] | None = None
+) -> Motion:
     """Return the exact motion of a mechanism, group after group.
 
     Positions and transfer functions [m], [rad]. `partial`: keep the positions that the crank can reach, with NaN and
-    a status at the others, instead of refusing.
+    a status at the others, instead of refusing; `paths`: see `place_at`.
     """
     if not partial:
-        return _as_motion(mechanism, assembled(mechanism, grid), grid, np.zeros(len(grid), dtype=np.int8))
+        return _as_motion(mechanism, assembled(mechanism, grid, paths), grid, np.zeros(len(grid), dtype=np.int8))
     placed = place(mechanism, grid)
     return _as_motion(mechanism, placed, grid, reached(mechanism, placed))
 

@@ -258,15 +258,16 @@ class ChainRoot:
         return self.path(grid).coordinates(grid)
 
 
-def assembled(mechanism: Mechanism, grid: CrankGrid) -> Placed:
+def assembled(mechanism: Mechanism, grid: CrankGrid, paths: dict[int, ChainPath] | None = None) -> Placed:
     """Return where everything is, of a mechanism that can be assembled at and between all angles.
 
+    `paths`: of its chains, as far as they have been followed, for more of them.
     `grid`: crank angles; what lies between them is looked at where they ascend [rad]. Where a law drives, everything
     that the driver passes in its period is looked at.
     """
     law = mechanism.driver.law
     if law is None:
-        return _assembled_at(mechanism, grid)
+        return _assembled_at(mechanism, grid, paths)
     least, greatest = extent(law)
     # a coordinate that only rounding changes stands
     stands = greatest - least <= _STANDS * max(1.0, abs(least), abs(greatest))
@@ -281,7 +282,7 @@ def assembled(mechanism: Mechanism, grid: CrankGrid) -> Placed:
             # what the driver meets first
             lost = [*ways[bad if bad is not None else []].tolist(), *between]
             raise _unreached(mechanism.driver, group, min(lost, key=lambda one: abs(one - law.start)))
-    return place(mechanism, grid)
+    return place_at(mechanism, coordinates(mechanism.driver, grid), paths=paths)
 
 
 def _unreached(driver: Driver, group: Dyad | Chain, at: float) -> GeometryError:
@@ -289,9 +290,9 @@ def _unreached(driver: Driver, group: Dyad | Chain, at: float) -> GeometryError:
     return GeometryError(Refusal(told, links=", ".join(group_links(group)), at=size))
 
 
-def _assembled_at(mechanism: Mechanism, grid: CrankGrid) -> Placed:
-    placed = place_at(mechanism, grid)
-    closures = Closures(mechanism)
+def _assembled_at(mechanism: Mechanism, grid: CrankGrid, paths: dict[int, ChainPath] | None) -> Placed:
+    placed = place_at(mechanism, grid, paths=paths)
+    closures = Closures(mechanism, paths)
     for index, (group, closure) in enumerate(zip(mechanism.dyads, placed.closures, strict=True)):
         bad = unassembled(closure)
         if bad is not None:
@@ -332,8 +333,8 @@ class Closures:
     What several groups are asked for at the same angles is placed once.
     """
 
-    def __init__(self, mechanism: Mechanism) -> None:
-        self._mechanism, self._paths = mechanism, dict[int, ChainPath]()
+    def __init__(self, mechanism: Mechanism, paths: dict[int, ChainPath] | None = None) -> None:
+        self._mechanism, self._paths = mechanism, dict[int, ChainPath]() if paths is None else paths
         self._placed = functools.lru_cache(maxsize=4)(self._place)
 
     def __getitem__(self, index: int) -> Callable[[CrankGrid], Closure]:
