@@ -158,3 +158,30 @@ def test_the_couple_of_friction_beside_a_pin_turns_the_link_that_carries_the_gui
     results = crankwork.analyse(crankwork.read_machine(text))
     assert max(results.checks.values()) < 1e-12
     assert np.abs(results["friction_force.block"]).max() > 1
+
+
+IDLE = """
+    [links.idle]
+    joins = ["B", "C"]
+    length = "250 mm"
+    [guides.beside]
+    through = ["0 mm", "100 mm"]
+    [sliders.idler]
+    pin = "C"
+    guide = "beside"
+    [friction.sliders.idler]
+    coefficient = 0.1
+    length = "50 mm"
+    [positions]
+    C = ["620 mm", "100 mm"]
+"""
+
+
+def test_links_that_carry_nothing_are_balanced_by_nothing() -> None:
+    """Their forces are rounding, of which no share is too large."""
+    machine = crankwork.read_machine(HELD.format(start=5) + IDLE.replace("    ", ""))
+    results = crankwork.analyse(machine)
+    assert {one.code for one in results.notices} == {"friction_holds"}
+    assert np.all(np.isfinite(results["torque_with_friction"]))
+    assert max(results.checks.values()) < 1e-12
+    assert np.abs(results["friction_force.idler"]).max() < 1e-9

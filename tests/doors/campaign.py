@@ -35,6 +35,9 @@ hostile_file = runpy.run_path(str(Path(__file__).with_name("mutations.py")))["ho
 plausible_file = runpy.run_path(str(Path(__file__).with_name("plausible.py")))["plausible_file"]
 NAME = "my.toml"
 SECONDS, MEGABYTES = 10.0, 1000
+# where progress is told
+MOST_SECONDS = 120.0
+_BEGAN = [0.0]
 FAULTS = ("traceback", "warning", "hang", "memory", "silent", "message", "untold")
 # of plausible files, every so many are written too: tables, figures, moving drawing, note
 WRITTEN = 100
@@ -57,6 +60,7 @@ class Hang(BaseException):
 def outcome(text: str, *, writes: bool = False) -> Outcome:
     """Read and analyse a machine file as the commands do, with warnings as errors and the clock running."""
     began = _peak()
+    _BEGAN[0] = time.process_time()
     old = signal.signal(signal.SIGPROF, _alarm)
     signal.setitimer(signal.ITIMER_PROF, SECONDS)
     try:
@@ -93,6 +97,13 @@ def _alarm(*_: object) -> None:
     raise Hang
 
 
+def _goes_on(_: float) -> None:
+    """Wait as long again from here, but not for ever: who sees progress may wait, or end it and keep what is there."""
+    left = signal.getitimer(signal.ITIMER_PROF)[0]
+    if left and time.process_time() - _BEGAN[0] < MOST_SECONDS:
+        signal.setitimer(signal.ITIMER_PROF, SECONDS)
+
+
 def plausible_outcome(seed: int, number: int) -> Outcome:
     """Read and analyse a plausible file; of one that locks or floats a part that does so must be told."""
     text, wrong, parts = plausible_file(seed, number)
@@ -113,7 +124,7 @@ def _analysed(text: str) -> Outcome:
     machine = read_machine(text, NAME)
     if machine.transfer is None:
         machine = replace(machine, table_step=30.0)
-    results = analyse(machine)
+    results = analyse(machine, progress=_goes_on)
     description_text(machine, results)
     summary_text(results)
     json.dumps(summary_data(results), allow_nan=False)

@@ -376,7 +376,7 @@ def _orientation(matrix: Array) -> Array:
 
 def _efficiency(ideal: Array, actual: Array) -> Array:
     """Return the efficiency, of the crank as driver or of the load; NaN where no torque is needed."""
-    forward, backward = ideal > 0, ideal < 0
+    forward, backward = (ideal > 0) & (actual != 0), ideal < 0
     one = np.where(forward, ideal, np.where(backward, actual, np.nan))
     other = np.where(forward, actual, np.where(backward, ideal, 1.0))
     return np.asarray(instantaneous_efficiency(one, other))
