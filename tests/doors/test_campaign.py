@@ -96,8 +96,8 @@ def test_each_kind_of_fault_is_noticed(monkeypatch, fault, kind) -> None:
 def test_values_that_are_not_finite_are_noticed_where_nothing_is_said_of_them(monkeypatch) -> None:
     analyse = outcome.__globals__["analyse"]
 
-    def spoilt(machine):
-        results = analyse(machine)
+    def spoilt(machine, **options):
+        results = analyse(machine, **options)
         results.columns["piston_velocity"][1] = np.inf
         return results
 
