@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -20,6 +20,7 @@ from crankwork.errors import MethodError
 from crankwork.formula.expression import Value
 from crankwork.formula.known import Known, breaks_of
 from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.loops import ChainPath
 from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.transfer import Transfer
@@ -49,6 +50,8 @@ class Loose:
     solved: SolvedLinkage
     chart: Chart
     flywheel: float = 0.0  # Moment of inertia on the crank besides what the machine has [kg m2]
+    # Of the chains of each branch, as far as they have been followed
+    paths: dict[float, dict[int, ChainPath]] = field(default_factory=dict, compare=False, repr=False)
 
     @property
     def machine(self) -> Machine:
@@ -70,9 +73,9 @@ class Loose:
 
     def moved(self, piece: Piece, angle: Array, way: Way = 1) -> Motion:
         """Return the motion of a branch at crank angles, forwards or backwards. [rad]"""
-        motion = linkage_motion(piece.mechanism, CrankGrid.from_radians(angle))
-        back = Transfer(angle, np.full_like(angle, float(way)), np.zeros_like(angle))
-        return motion if way > 0 else replace(motion, driver=back)
+        paths = self.paths.setdefault(piece.low, {})
+        motion = linkage_motion(piece.mechanism, CrankGrid.from_radians(angle), paths=paths)
+        return motion if way > 0 else _backwards(motion)
 
     def loads(self, piece: Piece, motion: Motion, speed: Value = 0.0, *, with_potential: bool = True) -> AppliedLoads:
         """Return what pushes the linkage at some speeds of the crank. [rad/s]"""
@@ -97,7 +100,7 @@ class Loose:
             found[4, here] = -reduced_torque(motion, applied_loads(piece.mechanism, motion, dampers, 1.0)) * q_1**2
             torques = [
                 reduced_torque(one, self.loads(piece, one, with_potential=False)) * q_1
-                for one in ((motion, self.moved(piece, q, -1)) if self.is_two_sided else (motion, motion))
+                for one in ((motion, _backwards(motion)) if self.is_two_sided else (motion, motion))
             ]
             if not piece.turns_back:
                 found[6, here] = reduced_inertia(piece.mechanism, motion).inertia_1
@@ -134,7 +137,7 @@ class Loose:
     def _rubbing(self, piece: Piece, motion: Motion, crank: Transfer) -> Array:
         """Return the rows of `Slipping`: rates of the joints, and their unknowns for each cause, shape (rows, n)."""
         still = Running(piece.mechanism, motion)
-        system, back = whole_system(still), self.moved(piece, motion.grid.angle, -1)
+        system, back = whole_system(still), _backwards(motion)
         dampers = [one for one in self.machine.loads if isinstance(one, Damper | SliderDamper)]
         ways = (motion, back) if piece.last >= piece.first else (back, motion)
         causes = [
@@ -218,6 +221,12 @@ class Loose:
             return angles
         share = (angles - piece.first) / (piece.last - piece.first)
         return np.asarray(piece.low + (piece.high - piece.low) * np.arccos(np.clip(1 - 2 * share, -1, 1)) / math.pi)
+
+
+def _backwards(motion: Motion) -> Motion:
+    """Return a motion whose crank turns back."""
+    angle = motion.grid.angle
+    return replace(motion, driver=Transfer(angle, np.full_like(angle, -1.0), np.zeros_like(angle)))
 
 
 def _roots(function: Callable[[Array], Array], breaks: Array) -> Array:
