@@ -363,8 +363,6 @@ def _machine(file: str, settings: tuple[str, ...], step: str | None, method: str
     from crankwork.description.machine_file import read
 
     machine = read(file, _overrides(settings, step, method))
-    if per_area and not machine.is_crank_gear:
-        raise CrankworkError(_refusal("per_area_linkage"))
     if per_area and machine.cylinder is None:
         raise CrankworkError(_refusal("per_area_bore"))
     return machine

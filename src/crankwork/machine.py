@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from crankwork.cylinders.layout import Layout
 from crankwork.dynamics.masses import CrankGearMasses
+from crankwork.kinematics.piston import as_slider_crank
 from crankwork.loads.chamber import Chamber, Charge, cycle_of, least_common
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.loads.measured import MeasuredPressure
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from crankwork.dynamics.friction import Friction
     from crankwork.dynamics.redundant import RedundantLink
     from crankwork.dynamics.tabulated import Differences, TabulatedBody
+    from crankwork.kinematics.slider_crank import SliderCrank
     from crankwork.kinematics.travel import Travel
     from crankwork.loads.load import Load
     from crankwork.mechanism.linkage import Linkage
@@ -341,9 +343,9 @@ class Machine:
     stated: Mapping[str, Stated] = field(default_factory=dict, compare=False, repr=False)
 
     @property
-    def is_crank_gear(self) -> bool:
-        """Whether it is given by the lengths of crank and rod, and told in the terms of engines."""
-        return self.linkage is None and self.transfer is None
+    def lengths(self) -> SliderCrank | None:
+        """The lengths of crank and rod, where neither a drawing nor a table gives the motion. [m]"""
+        return as_slider_crank(self.mechanism) if self.linkage is None and self.transfer is None else None
 
     @property
     def drawn(self) -> Linkage:

@@ -12,7 +12,7 @@ from crankwork.formula.replay import replay
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 MACHINES = {path.stem: crankwork.read(path) for path in sorted(EXAMPLES.glob("*.toml"))}
-ENGINES = {name: one for name, one in MACHINES.items() if one.is_crank_gear}
+ENGINES = {name: one for name, one in MACHINES.items() if one.lengths}
 
 
 @pytest.mark.parametrize("method", ["exact", "textbook", "series:6"])

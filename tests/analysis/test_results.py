@@ -7,7 +7,7 @@ import math
 import pytest
 
 import crankwork
-from crankwork.errors import CrankworkError, UnknownKeyError
+from crankwork.errors import CrankworkError, MethodError, UnknownKeyError
 
 
 @pytest.fixture(scope="module")
@@ -68,3 +68,11 @@ def test_positions_of_a_table_have_nothing_between_them(table):
 def test_keys_are_all_that_has_a_value(engine):
     assert {*engine.columns, *engine.summary} < set(engine.keys())
     assert all(math.isfinite(engine.value(key, 390.0)) for key in set(engine.keys()))
+
+
+def test_a_method_that_a_machine_does_not_have_is_refused_however_it_is_asked_for():
+    machine = crankwork.read_machine(crankwork.template("four-bar"))
+    textbook = crankwork.with_method(machine, "textbook")
+    for found, method in ((machine, textbook.method), (textbook, None)):
+        with pytest.raises(MethodError, match="method textbook exists for a slider-crank only"):
+            crankwork.analyse(found, method=method)

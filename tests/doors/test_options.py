@@ -84,11 +84,14 @@ def test_a_speed_in_radians_is_that_speed_whatever_pi_a_document_has(
     assert summary["speed"]["value"] == pytest.approx(angular)
 
 
-def test_forces_per_area_need_the_bore(crankwork, machine_file, check_mistakes) -> None:
-    text = '[crank]\nradius = "45 mm"\nspeed = "3000 rpm"\n[rod]\nratio = 0.3\n'
+@pytest.mark.parametrize(
+    "text", ['[crank]\nradius = "45 mm"\nspeed = "3000 rpm"\n[rod]\nratio = 0.3\n', template("four-bar")]
+)
+def test_forces_per_area_need_the_bore(crankwork, machine_file, check_mistakes, text) -> None:
     answer = crankwork("run", machine_file(text=text), "--per-area")
     check_mistakes(answer)
-    assert answer.err == "--per-area: needs the piston area; give cylinder.bore in the file\n"
+    sentence = "needs the piston area; give cylinder.bore in the file, or leave this option out"
+    assert answer.err == f"--per-area: {sentence}\n"
 
 
 @pytest.mark.parametrize(

@@ -117,7 +117,7 @@ REFUSED = {
     "unusable name": (("-o", "a\0.html"), "cannot be written"),
     "language": (("-o", "a.html", "--lang", "de"), "--lang: de is not possible; write en, ru or vi"),
     "school": (("-o", "a.html", "--school", "de"), "--school: de is not possible; write en, ru or vi"),
-    "per area": (("-o", "a.html", "--per-area"), "--per-area: is for machines with a piston; leave it out"),
+    "per area": (("-o", "a.html", "--per-area"), "--per-area: needs the piston area; give cylinder.bore in the file"),
     "setting": (("-o", "a.html", "--set", "crank.sped=1"), "--set crank.sped: unknown key; did you mean speed?"),
     "method": (("-o", "a.html", "--method", "foo"), '--method: '),
 }  # fmt: skip

@@ -47,9 +47,9 @@ class Adapter:
 
     @staticmethod
     def methods(path: Path) -> list[str]:
-        """Return the file's own method and, for engines, the others."""
+        """Return the file's own method and, of a piston moved by lengths, the others."""
         machine = crankwork.read(path)
-        if not machine.is_crank_gear:
+        if machine.lengths is None:
             return [OWN]
         own = crankwork.analyse(machine).method.name
         return [OWN, *(method for method in METHODS if method != own)]

@@ -78,7 +78,7 @@ def machine_witnesses() -> Iterator[Witness]:
     """Yield every machine file with its own method and, for engines, the others."""
     for path in sorted(path for folder in MACHINES for path in folder.glob("*.toml")):
         machine = crankwork.read(path)
-        names = METHODS if machine.is_crank_gear and machine.engine is None else (None,)
+        names = METHODS if machine.lengths and machine.engine is None else (None,)
         for name in names:
             label = path.relative_to(ROOT).as_posix()
             yield Witness(f"{label}:{name}" if name else label, True, _checked(path, name))

@@ -72,7 +72,7 @@ def groups_of():
     """Give the groups of lines that a note shows, at chosen crank angles."""
 
     def found(results, *degrees):
-        return (engine_lines if results.machine.is_crank_gear else linkage_lines)(results, *degrees)
+        return (engine_lines if "piston_displacement" in results.columns else linkage_lines)(results, *degrees)
 
     return found
 

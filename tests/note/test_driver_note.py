@@ -13,7 +13,7 @@ from crankwork.errors import CrankworkError
 from crankwork.locale import LANGUAGES
 from crankwork.note.linkage_note import linkage_note
 from crankwork.note.options import NoteOptions
-from crankwork.note.sheets.linkage import linkage_sheets
+from crankwork.note.sheets import drawn_sheets
 from crankwork.note.web import web
 from crankwork.report.drawing import moving_drawing
 from crankwork.report.figures import figures
@@ -81,7 +81,7 @@ def test_figures_run_over_time(results, name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_sheets_run_over_time(results, name):
-    first, second = linkage_sheets(results[name])
+    first, second = drawn_sheets(results[name])
     assert {"position_plans", "velocity_plans.3", "acceleration_plans.5"} <= {one.name for one in first.graphs}
     assert {one.x.unit for one in second.graphs} == {"s"}
     assert {one.name for one in second.graphs} & {"driver_force", "driver_torque"}

@@ -36,12 +36,12 @@ def machine_of(name):
 @functools.cache
 def analysed(name, method):
     machine = machine_of(name)
-    results = analyse(with_method(machine, method)) if machine.is_crank_gear else analyse(machine)
+    results = analyse(with_method(machine, method))
     return as_engine(results), note_of(results, OPTIONS)
 
 
 CASES = [(name, "exact") for name in FILES]
-CASES += [(name, "textbook") for name in FILES if machine_of(name).is_crank_gear]
+CASES += [(name, "textbook") for name in FILES if machine_of(name).lengths]
 
 
 def named(results):
@@ -60,7 +60,7 @@ def moments(results):
     if results.has_positions:
         degrees = results.grid.degrees.tolist()
     else:
-        material = engine_material if results.machine.is_crank_gear else linkage_material
+        material = engine_material if "piston_displacement" in results.columns else linkage_material
         groups = material.Material(results, OPTIONS).groups.values()
         degrees = {one.degrees for one in groups if one.degrees is not None}
     return [Moment(CrankGrid.from_degrees, one) for one in degrees] or [Moment(CrankGrid.from_degrees, 0.0)]

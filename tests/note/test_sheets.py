@@ -6,6 +6,7 @@ import functools
 import itertools
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +23,7 @@ from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.kinematics.textbook import textbook_displacement
-from crankwork.note.sheets import Paper, TitleBlock, engine_sheets, linkage_sheets
+from crankwork.note.sheets import Paper, TitleBlock, drawn_sheets
 from crankwork.note.sheets.engine_motion import tolle_corners
 from crankwork.note.sheets.engine_whole import whole_engine_extra
 from crankwork.note.sheets.linkage_polygons import Numbered, vector_plans
@@ -56,9 +57,7 @@ def results(name):
 
 
 def sheets(name, language="en", paper=SIGNED, **options):
-    if results(name).machine.is_crank_gear:
-        return engine_sheets(results(name), language, paper=paper, **options)
-    return linkage_sheets(results(name), language, paper=paper)
+    return drawn_sheets(results(name), language, paper=paper, **options)
 
 
 ALL = ["spark-engine", "engine", "compressor", "slider-crank", "press", "press-geometry", "flywheel",
@@ -211,7 +210,7 @@ def texts_of(graph):
 def test_the_sheet_of_the_example_prints_the_mean_load_of_its_note_and_has_its_wear():
     """Mean by midpoints between the corners 8840.27 N; the sums of the wear diagram are those of the listing."""
     found, known = known_of("spark-engine")
-    sheet = engine_sheets(found, "ru", paper=SIGNED, extra=known)[1]
+    sheet = drawn_sheets(found, "ru", paper=SIGNED, extra=known)[1]
     assert any(one.endswith("8840,27 Н") for one in texts_of(sheet.graph("unrolled")))
     wear = sheet.graph("wear")
     circle = max((one for one in wear.items if isinstance(one, Circle)), key=lambda one: one.radius)
@@ -224,7 +223,7 @@ def test_the_sheet_of_the_example_prints_the_mean_load_of_its_note_and_has_its_w
 @pytest.mark.parametrize(("name", "rays"), [("radial-five", 3), ("petrol-four", 2)])
 def test_the_oil_hole_is_in_the_middle_of_the_rays_that_are_loaded_least(name, rays):
     found, known = known_of(name)
-    wear = engine_sheets(found, "en", paper=SIGNED, extra=known)[1].graph("wear")
+    wear = drawn_sheets(found, "en", paper=SIGNED, extra=known)[1].graph("wear")
     circles = [one for one in wear.items if isinstance(one, Circle)]
     journal, (hole,) = max(circles, key=lambda one: one.radius), [one for one in circles if one.radius == 2.0]
     columns = found.listings["crankpin_wear"].columns
@@ -239,7 +238,7 @@ def test_the_oil_hole_is_in_the_middle_of_the_rays_that_are_loaded_least(name, r
 def test_the_polar_diagram_shows_all_rods_of_the_crankpin(name, rods, pins):
     """From the pole, every point is as far as the unrolled load is high, whose mean the note prints."""
     found, known = known_of(name)
-    sheet = engine_sheets(found, "en", paper=SIGNED, extra=known)[1]
+    sheet = drawn_sheets(found, "en", paper=SIGNED, extra=known)[1]
     polar, unrolled = sheet.graph("polar"), sheet.graph("unrolled")
     assert known["crankpin_rods"] == rods
     masses, solved = found.machine.masses, found.solved
@@ -271,7 +270,7 @@ def test_nothing_is_known_of_an_engine_without_forces():
 @pytest.mark.parametrize("name", ["spark-engine", "v8-diesel", "radial-five"])
 def test_whole_engines_have_room(name, language):
     found, known = known_of(name)
-    for sheet in engine_sheets(found, language, paper=SIGNED, extra=known):
+    for sheet in drawn_sheets(found, language, paper=SIGNED, extra=known):
         for graph in sheet.graphs:
             for item in graph.items:
                 assert within(extent(item), graph.box), (graph.name, item)
@@ -383,7 +382,7 @@ def test_engines_of_any_size_have_room(radius, length, ratio, offset):
     )
     found = analyse(read_machine(text.replace('# offset = "0 mm"', f'offset = "{offset}"')))
     assert found.machine.cylinder is not None
-    for sheet in engine_sheets(found, "vi", paper=SIGNED):
+    for sheet in drawn_sheets(found, "vi", paper=SIGNED):
         for graph in sheet.graphs:
             assert all(within(extent(item), graph.box) for item in graph.items), graph.name
         names = {one.name for one in sheet.graphs}
@@ -438,13 +437,11 @@ def test_paper_without_frame_and_block_has_graphs_alone():
     assert len(grid.items) - len(plain.items) == 817 + 585
 
 
-def test_other_paper_and_other_machines_are_refused():
+def test_other_paper_and_results_without_material_are_refused():
     with pytest.raises(CrankworkError, match="take A1 or A0"):
         sheets("spark-engine", paper=Paper(size="A7"))
-    with pytest.raises(CrankworkError, match="take linkage_sheets"):
-        engine_sheets(results("press"))
-    with pytest.raises(CrankworkError, match="take engine_sheets"):
-        linkage_sheets(results("spark-engine"))
+    with pytest.raises(CrankworkError, match="sheets need the motion of a piston, a drawn linkage or torques"):
+        drawn_sheets(replace(results("press"), columns={}))
     with pytest.raises(CrankworkError, match="there is no graph brix"):
         sheets("spark-engine")[1].graph("brix")
 

@@ -25,8 +25,7 @@ from crankwork.errors import MissingExtraError
 from crankwork.note.sheets import (
     Paper,
     TitleBlock,
-    engine_sheets,
-    linkage_sheets,
+    drawn_sheets,
     sheet_dxf,
     sheet_pdf,
     sheet_svg,
@@ -51,9 +50,9 @@ def sheets(language, size="A1"):
     paper = Paper(size=size, block=BLOCK)
     extra = {"wear_sums": np.array([3e4, 2e4, 1e4, 2e4])}
     return (
-        *engine_sheets(results("spark-engine"), language, paper=paper, extra=extra),
-        *linkage_sheets(results("press-geometry"), language, paper=paper),
-        *linkage_sheets(results("press"), language, paper=paper),
+        *drawn_sheets(results("spark-engine"), language, paper=paper, extra=extra),
+        *drawn_sheets(results("press-geometry"), language, paper=paper),
+        *drawn_sheets(results("press"), language, paper=paper),
     )
 
 
@@ -211,7 +210,7 @@ def test_texts_are_no_wider_than_the_room_left_for_them(language):
 
 def test_text_from_outside_cannot_break_a_file():
     nasty = TitleBlock(designation="<\x00&\"'>\\P{;}^I %%c", name="#set page(width: 1mm)", organisation="日本")
-    (sheet,) = linkage_sheets(results("press"), "en", paper=Paper(block=nasty))
+    (sheet,) = drawn_sheets(results("press"), "en", paper=Paper(block=nasty))
     ET.fromstring(sheet_svg(sheet))  # noqa: S314 - our own
     (width,) = re.findall(rb"/MediaBox ?\[0 0 ([\d.]+)", sheet_pdf(sheet))
     assert float(width) == pytest.approx(841 / 25.4 * 72, abs=0.01)
@@ -242,7 +241,7 @@ def test_a_missing_part_is_named(write, module, format, monkeypatch):  # noqa: A
 def test_sheets_of_the_templates_are_written():
     for name in ("compressor", "four-bar", "crank-shaper"):
         found = analyse(read_machine(template(name)))
-        made = engine_sheets(found) if name == "compressor" else linkage_sheets(found)
+        made = drawn_sheets(found)
         for one in made:
             assert sheet_svg(one).startswith(b"<svg")
             assert sheet_dxf(one).rstrip().endswith(b"EOF")

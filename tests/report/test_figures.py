@@ -22,7 +22,7 @@ pytest.importorskip("matplotlib")
 ROOT = Path(__file__).parents[2]
 TEMPLATES = ROOT / "src" / "crankwork" / "description" / "templates"
 FILES = [*sorted((ROOT / "examples").glob("*.toml")), *sorted(TEMPLATES.glob("*.toml"))]
-ENGINES = [path for path in FILES if read(path).is_crank_gear]
+ENGINES = [path for path in FILES if read(path).lengths]
 LINKAGES = [path for path in FILES if path not in ENGINES]
 FORCES = ["piston_forces", "rod_forces", "crankpin_forces", "torque", "crankpin_polar"]
 MOTION = ["kinematics", "brix", "tolle"]

@@ -49,18 +49,19 @@ def analyse(
     MethodError
         If a method is asked for that the machine does not have.
     """
-    if machine.is_crank_gear:
-        return analyse_engine(machine, grid, method=method)
-    if method is not None and not method.is_exact:
-        raise MethodError(f"method {method.name} exists for a slider-crank only; use exact")
-    # an engine would wait longer for these rooms than for its results
+    asked = method or machine.method
+    if not asked.is_exact and machine.lengths is None:
+        raise MethodError(f"method {asked.name} exists for a slider-crank only; use exact")
+    # what gives the motion decides; lengths would wait longer for the rooms of the others than for their results
     if machine.transfer is not None:
         from crankwork.analysis.tabulated import analyse_tabulated  # noqa: PLC0415 - loaded where it is needed
 
         return analyse_tabulated(machine, machine.transfer)
-    from crankwork.analysis.linkage import analyse_linkage  # noqa: PLC0415 - loaded where it is needed
+    if machine.linkage is not None:
+        from crankwork.analysis.linkage import analyse_linkage  # noqa: PLC0415 - loaded where it is needed
 
-    return analyse_linkage(machine, grid, progress)
+        return analyse_linkage(machine, grid, progress)
+    return analyse_engine(machine, grid, method=method)
 
 
 def with_method(machine: Machine, name: str) -> Machine:

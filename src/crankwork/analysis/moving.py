@@ -14,7 +14,6 @@ from crankwork.analysis.results import Results
 from crankwork.cylinders.throw import throw_mechanism
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import linkage_motion
-from crankwork.kinematics.piston import as_slider_crank
 from crankwork.kinematics.transfer import PointMotion
 from crankwork.kinematics.travel import way_through
 from crankwork.machine import Machine
@@ -117,7 +116,7 @@ def course(mechanism: Mechanism, frames: int) -> Course:
 
 def drawn_mechanism(machine: Machine) -> Mechanism:
     """Return the mechanism to draw: of an engine with several rods on a crankpin, all of these."""
-    lengths = as_slider_crank(machine.mechanism) if machine.engine is not None else None
+    lengths = machine.lengths
     if machine.engine is None or lengths is None:
         return machine.mechanism
     return throw_mechanism(machine.engine.layout, lengths, machine.engine.slaves, machine.engine.offsets)

@@ -18,7 +18,6 @@ from crankwork.formula.known import Found, Known
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.extremes import dead_centres
-from crankwork.kinematics.piston import as_slider_crank
 from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.filling import NO_GAS, Filling
@@ -126,7 +125,7 @@ def solve(machine: Machine, method: Method) -> SolvedCylinder:
 
     Lengths, angular speed and the solved indicator diagram.
     """
-    lengths = as_slider_crank(machine.mechanism)
+    lengths = machine.lengths
     if lengths is None:
         raise CrankworkError("only a slider-crank can be analysed")
     check_slider_crank(lengths)

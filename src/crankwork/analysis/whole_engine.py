@@ -220,9 +220,9 @@ _FOUR_STROKES = 720.0
 
 
 def as_engine(results: Results) -> Results:
-    """Return results with those of the whole engine; a crank gear of its own is an engine of one cylinder."""
+    """Return results with those of the whole engine; one cylinder whose torque is known is an engine of one."""
     machine = results.machine
-    if not machine.is_crank_gear or machine.engine is not None or "crank_torque" not in results.columns:
+    if machine.engine is not None or "crank_torque" not in results.columns:
         return results
     layout, notices = inline(1, (1,), strokes=4 if machine.cycle == _FOUR_STROKES else 2)
     if layout.cycle != machine.cycle:

@@ -1,4 +1,4 @@
-"""What a note says, by the kind of machine."""
+"""The note of a machine and its sheets: what results have decides what they say."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 
 def note_of(results: Results, options: NoteOptions | None = None) -> Note:
     """Return the calculation note of a machine."""
-    # the words of one kind of machine are not loaded for the other
+    # words that are not needed are not loaded
     options = options or NoteOptions()
-    if results.machine.is_crank_gear:
+    if "piston_displacement" in results.columns:
         from crankwork.note.engine_note import engine_note  # noqa: PLC0415 - loaded where it is needed
 
         return engine_note(results, options)
@@ -35,19 +35,14 @@ def sheets_of(results: Results, options: NoteOptions | None = None) -> dict[str,
     """Return the drawing sheets of a machine in every format, by the ending of their files."""
     options = options or NoteOptions()
     # few notes have sheets
+    from crankwork.analysis.whole_engine import as_engine  # noqa: PLC0415 - loaded where it is needed
     from crankwork.note import sheets  # noqa: PLC0415 - loaded where it is needed
 
     paper = sheets.Paper(block=sheets.TitleBlock(drawn_by=options.author) if options.order == "ru" else None)
-    if results.machine.is_crank_gear:
-        from crankwork.analysis.whole_engine import as_engine  # noqa: PLC0415 - loaded where it is needed
-        from crankwork.note.sheets.engine_whole import whole_engine_extra  # noqa: PLC0415 - loaded where it is needed
-
-        # sheets say what the note says, which takes a crank gear of its own as an engine of one cylinder
-        results = as_engine(results)
-        extra = whole_engine_extra(results)
-        drawn = sheets.engine_sheets(results, options.language, paper=paper, per_area=options.per_area, extra=extra)
-    else:
-        drawn = sheets.linkage_sheets(results, options.language, paper=paper)
+    # sheets say what the note says, which takes a crank gear of its own as an engine of one cylinder
+    results = as_engine(results)
+    extra = sheets.whole_engine_extra(results)
+    drawn = sheets.drawn_sheets(results, options.language, paper=paper, per_area=options.per_area, extra=extra)
     formats = {"pdf": sheets.sheet_pdf, "svg": sheets.sheet_svg, "dxf": sheets.sheet_dxf}
     return {
         f"-sheet-{number}.{ending}": written(one)

@@ -7,11 +7,13 @@ Where a block takes runs, a plain text is a run too.
 from __future__ import annotations
 
 import datetime as dt
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Self
 
 from crankwork.formula.expression import Expression, Formula
 from crankwork.formula.lines import Line
+from crankwork.note.options import NoteOptions
 from crankwork.quantities import Language
 
 
@@ -172,3 +174,10 @@ class Note:
     authors: tuple[str, ...] = ()
     date: dt.date | None = None
     sources: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, blocks: Iterable[Block], options: NoteOptions, title: str, subtitle: str) -> Self:
+        """Return a note of these blocks behind a title page and contents."""
+        authors = (options.author,) if options.author else ()
+        front = (TitlePage(), Contents(), PageBreak())
+        return cls(options.title or title, options.language, (*front, *blocks), subtitle, authors)

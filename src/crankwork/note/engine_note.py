@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Iterator
 
 from crankwork.analysis import Results
 from crankwork.analysis.whole_engine import as_engine
 from crankwork.errors import CrankworkError
-from crankwork.note.document import Block, Contents, Note, PageBreak, TitlePage
+from crankwork.note.document import Block, Note
 from crankwork.note.engine_cycle import cycle, indicator
 from crankwork.note.engine_data import data, method, preface
 from crankwork.note.engine_end import appendix, checks, conclusion, sources
@@ -42,17 +43,8 @@ def engine_note(results: Results, options: NoteOptions) -> Note:
     """Return the note of an engine, or of a crank gear of which less is known (kolchin_demidov_2008, ch. 4-9)."""
     if options.order not in _ORDERS:
         raise CrankworkError(f'no school of notes is called "{options.order}"; take en, ru or vi')
-    machine = results.machine
-    has_engine = machine.engine is not None
-    material = Material(as_engine(results), options, has_engine=has_engine)
+    material = Material(as_engine(results), options, has_engine=results.machine.engine is not None)
     words = material.words
-    blocks: list[Block] = [TitlePage(), Contents(), PageBreak()]
-    for section in _ORDERS[options.order]:
-        blocks.extend(section(material))
-    return Note(
-        options.title or results.machine.title or words.title("crank_gear"),
-        options.language,
-        tuple(explained(blocks, words)),
-        subtitle=words.title("subtitle"),
-        authors=(options.author,) if options.author else (),
-    )
+    blocks = itertools.chain.from_iterable(section(material) for section in _ORDERS[options.order])
+    title = results.machine.title or words.title("crank_gear")
+    return Note.of(explained(blocks, words), options, title, words.title("subtitle"))

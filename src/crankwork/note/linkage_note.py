@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Iterator
 
 from crankwork.analysis import Results
-from crankwork.note import linkage_table_note as table
 from crankwork.note.chambers import chambers
-from crankwork.note.document import Block, Contents, Note, PageBreak, TitlePage
+from crankwork.note.document import Block, Note
 from crankwork.note.linkage_data import structural_analysis, task
 from crankwork.note.linkage_driver import driven_forces, driven_motion, driven_task
 from crankwork.note.linkage_forces import balance, forces, reduction, torques
@@ -16,6 +16,7 @@ from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_motion import kinematics, law_of_motion
 from crankwork.note.linkage_quality import quality
 from crankwork.note.linkage_shaft import appendix, checks, conclusion, flywheel, motor, sources
+from crankwork.note.linkage_table_note import driving, dynamic, static, table_task
 from crankwork.note.linkage_tables import explained
 from crankwork.note.linkage_transient import transient
 from crankwork.note.options import NoteOptions
@@ -36,26 +37,18 @@ _DRIVEN: tuple[Section, ...] = (
     sources, appendix,
 )  # fmt: skip
 # the tables keep the numbers that courses of machines give them
-_OF_TABLE: tuple[Section, ...] = (
-    table.table_task, table.static, table.dynamic, table.driving, checks, conclusion, sources,
-)  # fmt: skip
+_OF_TABLE: tuple[Section, ...] = (table_task, static, dynamic, driving, checks, conclusion, sources)
 
 
 def linkage_note(results: Results, options: NoteOptions) -> Note:
     """Return the note of a linkage, or of a table of transfer functions (artobolevsky_1988, ch. 2-16)."""
     material = Material(results, options)
-    words, of_table = material.words, results.machine.transfer is not None
-    sections = _OF_TABLE if of_table else _REPORT if options.order == "en" else _COURSE
+    sections, title = _REPORT if options.order == "en" else _COURSE, "linkage"
     if results.period:
         sections = _DRIVEN
-    blocks: list[Block] = [TitlePage(), Contents(), PageBreak()]
-    for section in sections:
-        blocks.extend(section(material))
-    title = options.title or results.machine.title or words.title("tabulated" if of_table else "linkage")
-    return Note(
-        title,
-        options.language,
-        tuple(explained(blocks, options.language)),
-        subtitle=words.title("linkage_subtitle"),
-        authors=(options.author,) if options.author else (),
-    )
+    if results.has_positions:
+        sections, title = _OF_TABLE, "tabulated"
+    words = material.words
+    blocks = itertools.chain.from_iterable(section(material) for section in sections)
+    title = results.machine.title or words.title(title)
+    return Note.of(explained(blocks, options.language), options, title, words.title("linkage_subtitle"))

@@ -78,8 +78,7 @@ def _marks(ways: Iterable[str], words: Words) -> Mapping[str, str]:
 def checks(material: Material) -> Iterator[Block]:
     """Yield the identities that were checked, and what the reader should know."""
     words, results = material.words, material.results
-    is_table = results.machine.transfer is not None
-    if not (results.checks or results.notices or is_table):
+    if not (results.checks or results.notices or results.has_positions):
         return
     yield words.heading("checks")
     if results.checks:
@@ -90,7 +89,7 @@ def checks(material: Material) -> Iterator[Block]:
         ]
         titles: tuple[Runs, ...] = ((words.column("identity"),), (words.column("difference"),))
         yield Table(words.caption("identities"), titles, rows, align="lr", label="checks")
-    elif is_table:
+    elif results.has_positions:
         yield words.paragraph("no_checks")
     if results.notices:
         yield words.paragraph("notices")

@@ -1,4 +1,4 @@
-"""Figures of results as SVG: of one cylinder, of a whole engine, or of a linkage."""
+"""Figures of results as SVG: each that they have what it needs for."""
 
 from __future__ import annotations
 
@@ -22,6 +22,7 @@ def figures(results: Results, *, language: Language = "en", per_area: bool = Fal
     """
     # whose fonts all figures use
     drawing_library()
-    if not results.machine.is_crank_gear:
-        return linkage_figures(results, language=language)
-    return dict(engine_figures(drawn_from(results, language, per_area=per_area)))
+    found = linkage_figures(results, language=language)
+    if "piston_displacement" in results.columns:
+        found |= engine_figures(drawn_from(results, language, per_area=per_area))
+    return found

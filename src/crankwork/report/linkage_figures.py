@@ -1,4 +1,4 @@
-"""The figures of a linkage, and of a table of transfer functions: which there are, from the results."""
+"""The figures of a drawn linkage, and of what is reduced to a driver: which there are, from the results."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from crankwork.analysis.moving import moving, reached_angles
 from crankwork.analysis.plans import DriverRates, driver_rates
 from crankwork.locale import say
 from crankwork.machine import Machine
+from crankwork.mechanism.linkage import Linkage
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import Language
 from crankwork.report.chambers import chamber_figures
@@ -32,15 +33,18 @@ _PER_PANEL = 4
 
 def linkage_figures(results: Results, *, language: Language = "en") -> dict[str, bytes]:
     """Return the figures of a linkage as SVG by name; those for which nothing is known are left out."""
-    machine, style = results.machine, Style(language, (), results_method(results, language))
-    if machine.linkage is None:
+    style = Style(language, (), results_method(results, language), results.period)
+    if results.machine.linkage is None:
         return _dynamics(results.grid.degrees, results.columns, style)
-    found, _ = structure(machine.linkage)
+    return _of_drawing(results, results.machine.linkage, style)
+
+
+def _of_drawing(results: Results, linkage: Linkage, style: Style) -> dict[str, bytes]:
+    """Return the figures of a linkage that was drawn, between its dead positions."""
+    machine, (found, _) = results.machine, structure(linkage)
     style = style._replace(links=found.links if found is not None else ())
     degrees, is_whole = reached_angles(machine, _DENSE_STEP)
     known = results.columns_at(degrees)
-    if machine.mechanism.driver.law is not None:
-        style = style._replace(period=machine.mechanism.driver.law.period)
     rates = driver_rates(results, known)
     if style.period:
         drawn, both = _driver(degrees, known, style), np.abs(rates.first * rates.second)
@@ -94,7 +98,7 @@ def _dynamics(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[
     """Return reduced inertia, torques and joint forces."""
     result = {}
     inertia = [key for key in ("reduced_inertia", "reduced_inertia_1") if key in known and np.any(known[key])]
-    if inertia:
+    if inertia and "dynamic_torque" in known:
         result["reduced_inertia"] = curves(degrees, known, inertia, label("reduced_inertia", style.language), style)
     torques = [
         key for key in ("static_torque", "dynamic_torque", "driving_torque") if key in known and np.any(known[key])

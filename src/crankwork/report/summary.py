@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 from crankwork.analysis import Results
 from crankwork.analysis.rounding import summary_without_rounding
 from crankwork.locale import say
-from crankwork.machine import Machine
 from crankwork.quantities import Language
 from crankwork.report.language import (
     displayed,
@@ -98,13 +97,10 @@ def aligned(rows: list[tuple[str, str, str, str]]) -> list[str]:
 
 def results_method(results: Results, language: Language) -> str:
     """Return how results were made, in words."""
-    if not results.machine.is_crank_gear:
-        # an engine starts faster without these words
-        from crankwork.report.summary import method_words  # noqa: PLC0415 - loaded where it is needed
-
-        return method_words(results.machine, language)
+    if results.has_positions:
+        return say("report.tabulated", language)
     method = results.method
-    return method_name(method.kinematics, method.order, method.rod, language)
+    return method_name(method.kinematics, method.order, method.rod if "rod_length" in results.summary else "", language)
 
 
 def warning_text(results: Results, language: Language = "en") -> str:
@@ -137,42 +133,41 @@ def description_text(machine: Machine, results: Results, language: Language = "e
 
 
 def _headline(machine: Machine, summary: Mapping[str, float], language: Language) -> list[str]:
-    if not machine.is_crank_gear:
-        from crankwork.report.summary import headline  # noqa: PLC0415 - loaded where it is needed
-
-        return headline(machine, language)
-    parts = [say("check.offset_slider_crank" if summary.get("offset") else "check.slider_crank", language)]
-    gas = machine.gas
-    if gas:
-        source = "measured_gas" if gas.measured else "pieces_of_gas" if gas.calculated is None else "calculated_gas"
-        parts.append(say(f"check.{source}", language, count=len(gas.pieces), cycle=f"{gas.cycle:g}"))
-    parts.append(say("check.with_masses" if machine.masses else "check.motion_only", language))
-    lines = [", ".join(parts)]
+    """Return what a machine has: a crank gear of known lengths, an engine, a table, a drawing, chambers."""
+    lines = _crank_gear_lines(machine, summary, language) if "rod_length" in summary else []
     if machine.engine is not None:
         layout = machine.engine.layout
         count, order = len(layout.places), "-".join(map(str, layout.firing_order))
         kind = layout.kind if language == "en" else say(f"kinds.{layout.kind}", language)
         key = "check.engine" if count > 1 else "check.engine_of_one"
         lines.append(say(key, language, kind=kind, count=count, order=order))
+    if machine.transfer is not None:
+        bodies, positions = len(machine.transfer.bodies), len(machine.transfer.angles)
+        lines.append(say("check.table", language, bodies=bodies, positions=positions))
+    if machine.linkage is not None:
+        lines += _drawing_lines(machine, language)
+    if machine.chambers:
+        lines.append(say("check.chambers", language, names=", ".join(machine.chambers)))
     return lines
 
 
-def method_words(machine: Machine, language: Language) -> str:
-    """Return how the results of a linkage are made, in words."""
-    if machine.transfer is not None:
-        return say("report.tabulated", language)
-    return method_name("exact", 0, "", language)
+def _crank_gear_lines(machine: Machine, summary: Mapping[str, float], language: Language) -> list[str]:
+    """Return that it is a slider-crank, and what is known of it besides."""
+    parts = [say("check.offset_slider_crank" if summary.get("offset") else "check.slider_crank", language)]
+    gas = machine.gas
+    if gas:
+        source = "measured_gas" if gas.measured else "pieces_of_gas" if gas.calculated is None else "calculated_gas"
+        parts.append(say(f"check.{source}", language, count=len(gas.pieces), cycle=f"{gas.cycle:g}"))
+    parts.append(say("check.with_masses" if machine.masses else "check.motion_only", language))
+    return [", ".join(parts)]
 
 
-def headline(machine: Machine, language: Language) -> list[str]:
-    """Return mobility, groups and formula of structure of a linkage, or the size of a table."""
+def _drawing_lines(machine: Machine, language: Language) -> list[str]:
+    """Return mobility, groups and formula of structure of a linkage as it was drawn."""
     # engines load none of this
     from crankwork.mechanism.structure import structure  # noqa: PLC0415
 
-    if machine.transfer is not None:
-        bodies, positions = len(machine.transfer.bodies), len(machine.transfer.angles)
-        return [say("check.table", language, bodies=bodies, positions=positions)]
-    found = None if machine.linkage is None else structure(machine.linkage)[0]
+    found, _ = structure(machine.drawn)
     if found is None:
         return [say("check.linkage", language)]
     numbered = ", ".join(f"{number} {name}" for number, name in enumerate(found.links, start=1))
@@ -182,7 +177,6 @@ def headline(machine: Machine, language: Language) -> list[str]:
         _mobility(found, language),
         say("check.structure", language, formula=found.formula, number=number),
         *_grashof_lines(machine, language),
-        *([say("check.chambers", language, names=", ".join(machine.chambers))] if machine.chambers else []),
     ]
 
 

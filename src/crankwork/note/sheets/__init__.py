@@ -1,8 +1,8 @@
 """Drawing sheets in millimetres: graphs with their scales, as students hand them in, as SVG, PDF and DXF."""
 
+from crankwork.note.sheets.drawn import drawn_sheets
 from crankwork.note.sheets.dxf import sheet_dxf
-from crankwork.note.sheets.engine import engine_sheets
-from crankwork.note.sheets.linkage import linkage_sheets
+from crankwork.note.sheets.engine_whole import whole_engine_extra
 from crankwork.note.sheets.pdf import sheet_pdf
 from crankwork.note.sheets.sheet import Paper, Sheet
 from crankwork.note.sheets.svg import sheet_svg
@@ -12,9 +12,9 @@ __all__ = [
     "Paper",
     "Sheet",
     "TitleBlock",
-    "engine_sheets",
-    "linkage_sheets",
+    "drawn_sheets",
     "sheet_dxf",
     "sheet_pdf",
     "sheet_svg",
+    "whole_engine_extra",
 ]

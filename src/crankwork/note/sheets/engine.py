@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
 from crankwork.analysis import Array, Results
-from crankwork.errors import CrankworkError
 from crankwork.note.sheets import engine_forces as loads
 from crankwork.note.sheets import engine_gas as gas
 from crankwork.note.sheets.engine_motion import motion_graph, tolle
 from crankwork.note.sheets.engine_wear import wear
 from crankwork.note.sheets.graph import Graph
 from crankwork.note.sheets.scene import TEXT, Box, Item, Text, text_width
-from crankwork.note.sheets.sheet import Paper, Sheet, numbered
+from crankwork.note.sheets.sheet import Paper, Sheet
 from crankwork.note.sheets.words import Words
 from crankwork.quantities import Language
 from crankwork.report.figure_data import Drawn, drawn_from
@@ -26,18 +25,12 @@ _DATA = (
     "bore", "stroke", "compression_ratio", "rod_ratio", "rotational_speed", "crank_radius", "rod_length", "offset",
     "reciprocating_mass", "rotating_mass", "indicated_mean_pressure", "indicated_power", "mean_torque",
 )  # fmt: skip
-PLAIN = Paper()
 
 
 def engine_sheets(
-    results: Results,
-    language: Language = "en",
-    *,
-    paper: Paper = PLAIN,
-    per_area: bool = False,
-    extra: Mapping[str, Array | float] | None = None,
-) -> tuple[Sheet, ...]:
-    """Return the sheets of an engine; graphs for which nothing is known are left out.
+    results: Results, language: Language, paper: Paper, extra: Mapping[str, Array | float], *, per_area: bool
+) -> Iterator[Sheet]:
+    """Yield a sheet of the motion of a piston and one of its forces.
 
     Curves are computed afresh, finer than the table of the results. `extra` is what is known of the whole engine, in
     SI: `crank_angle` of the following, evenly over the cycle without it; `total_torque` and `total_torque_mean`;
@@ -47,13 +40,12 @@ def engine_sheets(
     rays are, from the outer side of the pin with the rotation, evenly around it without it; `oil_hole_angle`, on the
     ray of the least sum without it.
     """
-    if not results.machine.is_crank_gear:
-        raise CrankworkError("sheets of an engine need a slider-crank; take linkage_sheets for this machine")
+    if "piston_displacement" not in results.columns:
+        return
     drawn, words = drawn_from(results, language, per_area=per_area), Words(language, per_area)
-    sheets = [_motion_sheet(drawn, paper, words)]
+    yield _motion_sheet(drawn, paper, words)
     if "piston_force" in drawn.columns:
-        sheets.append(_force_sheet(drawn, paper, words, extra or {}))
-    return numbered(sheets, paper)
+        yield _force_sheet(drawn, paper, words, extra)
 
 
 def _motion_sheet(drawn: Drawn, paper: Paper, words: Words) -> Sheet:

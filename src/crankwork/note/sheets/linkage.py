@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
@@ -11,7 +11,6 @@ from crankwork.analysis.diagrams import Fluctuation
 from crankwork.analysis.moving import moving, reached_angles
 from crankwork.analysis.plans import accelerations, driver_rates, velocities
 from crankwork.analysis.skeleton import skeleton
-from crankwork.errors import CrankworkError
 from crankwork.locale import say
 from crankwork.machine import Machine
 from crankwork.mechanism.structure import structure
@@ -20,7 +19,7 @@ from crankwork.note.sheets.linkage_dynamics import MOST, over_angle, wittenbauer
 from crankwork.note.sheets.linkage_polygons import Numbered, vector_plans
 from crankwork.note.sheets.linkage_positions import position_plans
 from crankwork.note.sheets.scene import SMALL, TEXT, Text, printable
-from crankwork.note.sheets.sheet import Paper, Sheet, numbered
+from crankwork.note.sheets.sheet import Paper, Sheet
 from crankwork.note.sheets.words import Words
 from crankwork.quantities import Language
 from crankwork.report.summary import results_method
@@ -31,7 +30,6 @@ _POSITIONS = tuple(range(0, 360, 30))
 _MAIN = 1
 _ACCELERATIONS = (1, 5, 9)
 _MOST_REMARKS = 6
-PLAIN = Paper()
 # where graphs of dynamics are, beside others or alone
 _BESIDE = {"torques": (0, 290, 408, 290), "reduced_inertia": (0, 145, 408, 145), "reduced_inertia_1": (0, 0, 408, 145)}
 _ALONE = {
@@ -44,25 +42,21 @@ _DRIVER = ("driver_force", "driver_torque", "driver_power", "driver_velocity", "
 _TORQUES = ("static_torque", "dynamic_torque", "driving_torque")
 
 
-def linkage_sheets(results: Results, language: Language = "en", *, paper: Paper = PLAIN) -> tuple[Sheet, ...]:
-    """Return the sheets of a linkage, or of a table of transfer functions; what is not known is left out."""
+def linkage_sheets(results: Results, language: Language, paper: Paper) -> Iterator[Sheet]:
+    """Yield a sheet of the plans of a linkage that was drawn, and one of its dynamics or those of a table."""
     words = Words(language, period=results.period)
-    if results.machine.is_crank_gear:
-        raise CrankworkError("sheets of a linkage need a linkage; take engine_sheets for this machine")
-    machine, wanted = results.machine, None
+    machine, wanted, graphs = results.machine, None, list[Graph]()
     if machine.linkage is not None:
         degrees, _ = reached_angles(machine, _DENSE_STEP)
         known = results.columns_at(degrees)
-        sheets = [_kinematics(results, machine, degrees, known, paper, words)]
+        yield _kinematics(results, machine, degrees, known, paper, words)
         if machine.drive.fluctuation is not None and "crank_speed" in known:
             wanted = Fluctuation(results.solved.speed, machine.drive.fluctuation)
         graphs = _dynamics(wanted, degrees, known, paper, words)
-    else:
-        sheets, graphs = [], _dynamics(wanted, results.grid.degrees, results.columns, paper, words)
+    elif "dynamic_torque" in results.columns:
+        graphs = _dynamics(wanted, results.grid.degrees, results.columns, paper, words)
     if graphs:
-        title = words.say("linkage_dynamics")
-        sheets.append(Sheet("linkage-dynamics", title, language, paper, tuple(graphs)))
-    return numbered(sheets, paper)
+        yield Sheet("linkage-dynamics", words.say("linkage_dynamics"), language, paper, tuple(graphs))
 
 
 def _kinematics(
