@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from crankwork.note.document import Block, Reference, Table
 from crankwork.note.engine_material import Material
-from crankwork.note.engine_tables import angle_table, any_nonzero, long_table
+from crankwork.note.engine_tables import angle_table, long_table
+from crankwork.report.tables import any_nonzero
 
 _ALONG = ("gas_pressure", "gas_force", "piston_acceleration", "inertia_force", "weight_force", "piston_force")
 _ACROSS = (

@@ -16,7 +16,7 @@ from crankwork.note.engine_forces import across, along, dynamics, inertia
 from crankwork.note.engine_material import Material
 from crankwork.note.engine_motion import acceleration, displacement, kinematics, velocity
 from crankwork.note.engine_shaft import balance, big_end, crankpin, evenness, mains, polar, total, unrolled, wear
-from crankwork.note.engine_tables import explained
+from crankwork.note.legends import explained
 from crankwork.note.options import NoteOptions
 
 Section = Callable[[Material], Iterator[Block]]
@@ -47,4 +47,4 @@ def engine_note(results: Results, options: NoteOptions) -> Note:
     words = material.words
     blocks = itertools.chain.from_iterable(section(material) for section in _ORDERS[options.order])
     title = results.machine.title or words.title("crank_gear")
-    return Note.of(explained(blocks, words), options, title, words.title("subtitle"))
+    return Note.of(explained(blocks, options.language, with_results=True), options, title, words.title("subtitle"))

@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import cast
 
 import numpy as np
 
-from crankwork.analysis import Array
-from crankwork.formula.expression import Formula
-from crankwork.formula.lines import FormulaLine
-from crankwork.note.document import Block, Cell, Equation, Explanation, Math, Runs, Table
+from crankwork.note.document import Cell, Math, Runs, Table
 from crankwork.note.engine_material import Material
 from crankwork.note.engine_words import EngineWords
-from crankwork.note.legends import explained_keys, legend
 from crankwork.note.printed_units import printed_unit
 from crankwork.quantities import QUANTITIES
 from crankwork.report.language import displayed, key_unit, label, symbol
@@ -120,45 +115,3 @@ def value_row(key: str, value: float, words: EngineWords, *, area: float | None 
         words.number(displayed(key, value, per_area=area)),
         printed_unit(key_unit(key, per_area=area is not None), words.language) or "–",
     )
-
-
-def explained(blocks: Iterable[Block], words: EngineWords) -> Iterator[Block]:
-    """Yield blocks, where each equation explains the symbols that come for the first time."""
-    known: set[str] = set()
-    seen: set[str] = set()
-    for block in blocks:
-        if not isinstance(block, Equation):
-            yield block
-            continue
-        own, formula = _own(block, known, words), _formula(block)
-        rest = legend(_said(block), words.language, frozenset(known | _left(block))) if formula else ()
-        known |= _left(block) | (explained_keys(_said(block)) if formula else set())
-        # arithmetic that is written in place has no number
-        numbered = formula is not None and bool(formula.source) and formula.name not in seen
-        seen |= {formula.name} if formula else set()
-        yield replace(block, legend=(*own, *rest), numbered=numbered)
-
-
-def _own(block: Equation, known: set[str], words: EngineWords) -> tuple[Explanation, ...]:
-    """Return what the symbol on the left stands for, if that is new."""
-    return tuple(Explanation(words.symbol(kind), label(kind, words.language)) for kind in _left(block) - known)
-
-
-def _left(block: Equation) -> set[str]:
-    kind = "" if isinstance(block.step, Formula) else block.step.key.partition(".")[0]
-    return {kind} if kind in QUANTITIES else set()
-
-
-def _said(block: Equation) -> FormulaLine | Formula:
-    return cast("FormulaLine | Formula", block.step)
-
-
-def _formula(block: Equation) -> Formula | None:
-    if isinstance(block.step, Formula):
-        return block.step
-    return block.step.formula if isinstance(block.step, FormulaLine) else None
-
-
-def any_nonzero(keys: Iterable[str], columns: Mapping[str, Array]) -> list[str]:
-    """Return the keys whose columns are there and not zero throughout."""
-    return [key for key in keys if key in columns and bool(np.any(columns[key]))]

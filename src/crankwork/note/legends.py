@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 
 from crankwork.formula.expression import Formula, record, symbol
 from crankwork.formula.lines import FormulaLine, symbols_of
 from crankwork.locale import has_text, say
 from crankwork.notation import ARGUMENTS, Argument, argument_unit
-from crankwork.note.document import Explanation
+from crankwork.note.document import Block, Equation, Explanation
 from crankwork.note.equations import value_symbol
 from crankwork.note.printed_units import printed_unit
 from crankwork.quantities import QUANTITIES, Language, base_key
@@ -51,6 +52,32 @@ def legend(
                 # some names of quantities end in their unit
                 found[key] = Explanation(value_symbol(key, language), meaning.removesuffix(after) + after * own)
     return tuple(found.values())
+
+
+def explained(blocks: Iterable[Block], language: Language, *, with_results: bool = False) -> Iterator[Block]:
+    """Yield blocks, where each equation explains the symbols that come for the first time.
+
+    `with_results`: also the symbol on the left.
+    """
+    known: set[str] = set()
+    seen: set[str] = set()
+    for block in blocks:
+        if not isinstance(block, Equation):
+            yield block
+            continue
+        step = block.step
+        left = set() if isinstance(step, Formula) or not with_results else {step.key.partition(".")[0]} & {*QUANTITIES}
+        own = tuple(Explanation(value_symbol(kind, language), label(kind, language)) for kind in left - known)
+        known |= left
+        if not isinstance(step, FormulaLine | Formula):
+            yield replace(block, legend=own, numbered=False)
+            continue
+        formula = step.formula if isinstance(step, FormulaLine) else step
+        # arithmetic that is written in place has no number, nor what comes again
+        is_first = bool(formula.source) and formula.name not in seen
+        seen.add(formula.name)
+        yield replace(block, legend=(*own, *legend(step, language, frozenset(known))), numbered=is_first)
+        known |= explained_keys(step)
 
 
 def _unit(name: str, key: str) -> str:

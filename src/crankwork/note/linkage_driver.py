@@ -13,8 +13,9 @@ from crankwork.note.document import Block, Citation, ItemList, Paragraph, Refere
 from crankwork.note.linkage_data import links_and_places, method, outer_load
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_motion import instant_centres, worked_at
-from crankwork.note.linkage_tables import any_nonzero, equations, position_tables, quantity_columns
+from crankwork.note.linkage_tables import equations, position_tables, quantity_columns
 from crankwork.note.linkage_words import Words, named
+from crankwork.report.tables import any_nonzero
 from crankwork.units import from_si
 
 _SOURCE = "artobolevsky_1988, ch. 4"

@@ -12,8 +12,9 @@ from crankwork.analysis.rounding import without_rounding
 from crankwork.note.document import Block, Citation, Reference, Table
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_motion import worked_at
-from crankwork.note.linkage_tables import Column, any_nonzero, equations, position_tables, quantity_columns
+from crankwork.note.linkage_tables import Column, equations, position_tables, quantity_columns
 from crankwork.note.linkage_words import Words, named
+from crankwork.report.tables import any_nonzero
 
 _STATICS, _WORK, _RUNNING, _EFFICIENCY = (f"artobolevsky_1988, ch. {one}" for one in (13, 15, 16, 14))
 _BALANCE = "den_hartog_1956, ch. 5"

@@ -8,8 +8,9 @@ from crankwork.analysis.stated import StatedFriction, stated_friction
 from crankwork.note.document import Block, Citation, ItemList, Math, Run, Runs
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_motion import worked_at
-from crankwork.note.linkage_tables import any_nonzero, equations, position_tables, quantity_columns
+from crankwork.note.linkage_tables import equations, position_tables, quantity_columns
 from crankwork.note.linkage_words import Words, named
+from crankwork.report.tables import any_nonzero
 
 _SOURCE = "artobolevsky_1988, ch. 11, 14"
 _TORQUES = (

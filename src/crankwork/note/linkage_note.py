@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from crankwork.analysis import Results
 from crankwork.note.chambers import chambers
 from crankwork.note.document import Block, Note
+from crankwork.note.legends import explained
 from crankwork.note.linkage_data import structural_analysis, task
 from crankwork.note.linkage_driver import driven_forces, driven_motion, driven_task
 from crankwork.note.linkage_forces import balance, forces, reduction, torques
@@ -17,7 +18,6 @@ from crankwork.note.linkage_motion import kinematics, law_of_motion
 from crankwork.note.linkage_quality import quality
 from crankwork.note.linkage_shaft import appendix, checks, conclusion, flywheel, motor, sources
 from crankwork.note.linkage_table_note import driving, dynamic, static, table_task
-from crankwork.note.linkage_tables import explained
 from crankwork.note.linkage_transient import transient
 from crankwork.note.options import NoteOptions
 

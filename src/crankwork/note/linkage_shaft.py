@@ -10,11 +10,12 @@ from crankwork.analysis.rounding import without_rounding
 from crankwork.locale import capital, say
 from crankwork.note.document import Bibliography, Block, Bold, ItemList, Paragraph, Reference, Runs, Table
 from crankwork.note.linkage_material import Material
-from crankwork.note.linkage_tables import any_nonzero, equations, position_tables, quantity_columns
+from crankwork.note.linkage_tables import equations, position_tables, quantity_columns
 from crankwork.note.linkage_words import Words, named
 from crankwork.note.printed_units import printed_unit
 from crankwork.report.language import displayed, key_unit, label, told_as
 from crankwork.report.notices import notice_text
+from crankwork.report.tables import any_nonzero
 
 _DYNAMICS = (
     "reduced_inertia", "reduced_inertia_1", "static_torque", "dynamic_torque", "balancing_torque", "driving_torque",

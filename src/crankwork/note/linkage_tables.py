@@ -3,17 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
-
-import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.formula.expression import Formula
-from crankwork.formula.lines import FormulaLine, Line
-from crankwork.note.document import Block, Equation, Runs, Table
-from crankwork.note.legends import explained_keys, legend
+from crankwork.formula.lines import Line
+from crankwork.note.document import Equation, Runs, Table
 from crankwork.note.linkage_words import Words, in_display_unit
-from crankwork.quantities import QUANTITIES, Language, base_key
+from crankwork.quantities import QUANTITIES, base_key
 
 # columns of numbers beside position and crank angle, on a page upright and on its side
 _UPRIGHT, _WIDE = 9, 14
@@ -84,11 +79,6 @@ def _parts(columns: Sequence[Column], most: int) -> Iterator[Sequence[Column]]:
         yield columns[start : start + each]
 
 
-def any_nonzero(keys: Iterable[str], columns: Mapping[str, Array]) -> list[str]:
-    """Return the keys whose columns are there and not zero throughout."""
-    return [key for key in keys if key in columns and bool(np.any(columns[key]))]
-
-
 def equations(steps: Iterable[Line], words: Words, *, marks: Mapping[str, str] | None = None) -> Iterator[Equation]:
     """Yield equations of lines."""
     for one in steps:
@@ -97,28 +87,3 @@ def equations(steps: Iterable[Line], words: Words, *, marks: Mapping[str, str] |
 
 def _mark(key: str, words: Words, marks: Mapping[str, str] | None) -> str:
     return (marks or {}).get(key) or (words.symbol(key) if base_key(key) in QUANTITIES else key)
-
-
-def explained(blocks: Iterable[Block], language: Language) -> Iterator[Block]:
-    """Yield blocks, where each equation explains the symbols that are new."""
-    seen: set[str] = set()
-    known: set[str] = set()
-    for block in blocks:
-        formula = _formula(block)
-        if not isinstance(block, Equation) or formula is None:
-            yield replace(block, numbered=False) if isinstance(block, Equation) else block
-            continue
-        new = legend(block.step, language, frozenset(known)) if isinstance(block.step, FormulaLine | Formula) else ()
-        # arithmetic that is written in place has no number, nor what comes again
-        is_first = bool(formula.source) and formula.name not in seen
-        seen.add(formula.name)
-        yield replace(block, legend=new) if is_first else replace(block, legend=new, numbered=False)
-        known |= explained_keys(block.step) if isinstance(block.step, FormulaLine | Formula) else set()
-
-
-def _formula(block: Block) -> Formula | None:
-    if not isinstance(block, Equation):
-        return None
-    if isinstance(block.step, Formula):
-        return block.step
-    return block.step.formula if isinstance(block.step, FormulaLine) else None

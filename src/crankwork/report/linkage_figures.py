@@ -25,6 +25,7 @@ from crankwork.report.linkage_plan_figures import acceleration_plan, velocity_pl
 from crankwork.report.linkage_positions import position_plans
 from crankwork.report.linkage_transient import transient_figures
 from crankwork.report.summary import results_method
+from crankwork.report.tables import any_nonzero
 
 _DENSE_STEP = 2.0
 _MAIN = 30.0
@@ -97,16 +98,14 @@ def _sliders(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[s
 def _dynamics(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[str, bytes]:
     """Return reduced inertia, torques and joint forces."""
     result = {}
-    inertia = [key for key in ("reduced_inertia", "reduced_inertia_1") if key in known and np.any(known[key])]
+    inertia = any_nonzero(("reduced_inertia", "reduced_inertia_1"), known)
     if inertia and "dynamic_torque" in known:
         result["reduced_inertia"] = curves(degrees, known, inertia, label("reduced_inertia", style.language), style)
-    torques = [
-        key for key in ("static_torque", "dynamic_torque", "driving_torque") if key in known and np.any(known[key])
-    ]
+    torques = any_nonzero(("static_torque", "dynamic_torque", "driving_torque"), known)
     if torques:
         result["torques"] = curves(degrees, known, [torques], label("driving_torque", style.language), style)
     result |= _friction(degrees, known, style)
-    joints = [key for key in known if key.partition(".")[0] == "joint_force" and np.any(known[key])]
+    joints = any_nonzero((key for key in known if key.partition(".")[0] == "joint_force"), known)
     if joints:
         panels = [joints[start : start + _PER_PANEL] for start in range(0, len(joints), _PER_PANEL)]
         result["joint_forces"] = curves(degrees, known, panels, say("tables.joint_forces", style.language), style)

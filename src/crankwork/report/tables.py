@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -30,6 +30,11 @@ def table_column(results: Results, key: str, *, per_area: bool = False) -> Array
         values = values / results.summary["piston_area"]
     # adding zero turns -0.0 into 0.0
     return np.asarray(from_si(values, key_unit(key, per_area=per_area)) + 0.0)
+
+
+def any_nonzero(keys: Iterable[str], columns: Mapping[str, Array]) -> list[str]:
+    """Return the keys whose columns are there and not zero throughout."""
+    return [key for key in keys if key in columns and bool(np.any(columns[key]))]
 
 
 class Sheet(NamedTuple):

@@ -23,6 +23,7 @@ from crankwork.note.sheets.sheet import Paper, Sheet
 from crankwork.note.sheets.words import Words
 from crankwork.quantities import Language
 from crankwork.report.summary import results_method
+from crankwork.report.tables import any_nonzero
 
 _DENSE_STEP = 1.0
 _POSITIONS = tuple(range(0, 360, 30))
@@ -130,7 +131,7 @@ def _dynamics(
     wanted: Fluctuation | None, degrees: Array, known: Mapping[str, Array], paper: Paper, words: Words
 ) -> list[Graph]:
     """Return torques and reduced inertia, beside them energy and speed, or else joint forces, where they are known."""
-    joints = [key for key in known if key.partition(".")[0] == "joint_force" and np.any(known[key])]
+    joints = any_nonzero((key for key in known if key.partition(".")[0] == "joint_force"), known)
     has_energy = wanted is not None and "kinetic_energy_change" in known
     is_alone = not joints and not has_energy
     places = _ALONE if is_alone else _BESIDE

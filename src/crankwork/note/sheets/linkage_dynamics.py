@@ -13,6 +13,7 @@ from crankwork.note.sheets.placing import Named, lines_of, names_beside
 from crankwork.note.sheets.scene import Box, Item, Polyline, Text, indexed, line, printable
 from crankwork.note.sheets.words import Words
 from crankwork.report.linkage_look import displayed_values, quantity_of
+from crankwork.report.tables import any_nonzero
 
 MOST = len(KINDS)
 _MARK = 30.0
@@ -28,7 +29,7 @@ def over_angle(
     `name`: key of the title among the words of sheets; `keys`: keys of the columns; the first five that are there are
     drawn.
     """
-    present = [key for key in keys if key in known and np.any(known[key])][:MOST]
+    present = any_nonzero(keys, known)[:MOST]
     if not present:
         return None
     curves, language = [], words.language
