@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from crankwork.quantities import QUANTITIES
     from crankwork.report.figures import figures
     from crankwork.report.summary import summary_text
+    from crankwork.study.solve import Solution, solve
 
 __version__ = "0.1.0"
 
@@ -62,6 +63,7 @@ _HOMES = {
     "MissingExtraError": "errors",
     "NoteOptions": "note.options",
     "Results": "analysis",
+    "Solution": "study.solve",
     "UnknownKeyError": "errors",
     "analyse": "analysis",
     "crank_shaper": "mechanism.catalog",
@@ -74,6 +76,7 @@ _HOMES = {
     "read_machine": "description.machine_file",
     "scotch_yoke": "mechanism.catalog",
     "slotted_press": "mechanism.catalog",
+    "solve": "study.solve",
     "stephenson_six_bar": "mechanism.catalog",
     "summary_text": "report.summary",
     "template": "description.machine_file",
@@ -99,6 +102,7 @@ __all__ = [
     "NoteOptions",
     "QUANTITIES",
     "Results",
+    "Solution",
     "UnknownKeyError",
     "analyse",
     "crank_shaper",
@@ -111,6 +115,7 @@ __all__ = [
     "read_machine",
     "scotch_yoke",
     "slotted_press",
+    "solve",
     "stephenson_six_bar",
     "summary_text",
     "template",

@@ -10,7 +10,7 @@ import os
 import re
 import sys
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, Any, TextIO
 
 import click
@@ -348,6 +348,44 @@ def explain(  # noqa: PLR0913 - one argument per option of the command
 
 
 @commands.command()
+@click.argument("file")
+@click.argument("equation")
+@click.option("--for", "sought", required=True, metavar="KEY", help="The number of the file that is sought.")
+@click.option("--from", "start", metavar="VALUE", help="Where to begin looking, with a unit or in that of the file.")
+@click.option("--to", "end", metavar="VALUE", help="Where to end looking.")
+@click.option("--steps", metavar="N", default="400", show_default=True, help="How many steps to look at.")
+@click.option("--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the output.")
+@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
+@click.option("--json", "as_json", is_flag=True, help="Print what was found as one JSON object.")
+def solve(  # noqa: PLR0913 - one argument per option of the command
+    file: str,
+    equation: str,
+    sought: str,
+    start: str | None,
+    end: str | None,
+    steps: str,
+    language: Language,
+    settings: tuple[str, ...],
+    *,
+    as_json: bool,
+) -> None:
+    """Find the numbers of a file that make a value what is wanted: "piston_force@33deg = 0" --for crank.speed."""
+    from crankwork.description.document import load
+    from crankwork.study.solution import solution_data, solution_text
+    from crankwork.study.solve import solve as solved
+
+    count = int(steps) if steps.isascii() and steps.isdecimal() and len(steps) < 10 else 0
+    with _bar() as told:
+        found = solved(
+            load(file), equation, sought, limits=(start, end), steps=count, overrides=settings, told=told
+        )  # fmt: skip
+    if as_json:
+        click.echo(json.dumps(solution_data(found), ensure_ascii=False, indent=1))
+    else:
+        click.echo(solution_text(found, language))
+
+
+@commands.command()
 @click.option(
     "--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the descriptions."
 )
@@ -396,11 +434,10 @@ def _degrees(text: str) -> str:
 
 def _at(text: str, dimension: str) -> float:
     """Return a crank angle [deg] or a time [s], as a person writes it: without a unit, or with a decimal comma."""
-    from crankwork.units import parse
+    from crankwork.units import parse_in
 
-    written = _degrees(text) if dimension == "angle" else f"{text} s" if text.strip()[-1:].isdecimal() else text
     try:
-        value, _ = parse(written, (dimension,), decimal_comma=True)
+        value = parse_in(text, "deg" if dimension == "angle" else "s")
     except ValueError as error:
         raise CrankworkError(_refusal("option_wrong", option="--at", mistake=error.args[0])) from None
     return round(math.degrees(value), 9) if dimension == "angle" else value
@@ -410,6 +447,13 @@ def _analysed(machine: Machine) -> Results:
     """Return the results of a machine, with a bar on the error stream where one let go takes more than a second."""
     from crankwork.analysis import analyse
 
+    with _bar() as told:
+        return analyse(machine, progress=told)
+
+
+@contextlib.contextmanager
+def _bar() -> Iterator[Callable[[float], None]]:
+    """Give a function that is told the part that is done, and shows it once a second has passed."""
     started = time.monotonic()
     bar: Any = None  # click does not say what its bars are
 
@@ -420,10 +464,11 @@ def _analysed(machine: Machine) -> Results:
         if bar is not None:
             bar.update(max(round(1000 * share) - bar.pos, 0))
 
-    results = analyse(machine, progress=told)
-    if bar is not None:
-        click.echo(err=True)
-    return results
+    try:
+        yield told
+    finally:
+        if bar is not None:
+            click.echo(err=True)
 
 
 def _with_progress(steps: Iterable[dict[str, bytes]], count: int) -> dict[str, bytes]:

@@ -128,6 +128,7 @@ _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?"
 _UNIT = r"\s*(?P<unit>[^\s\d.,+-].*?|(?<=\s)1/\w+)?\s*\Z"
 _QUANTITY = re.compile(rf"\s*(?P<number>{_NUMBER}){_UNIT}")
 _WITH_COMMA = re.compile(rf"\s*(?P<number>[+-]?[0-9]+,[0-9]+(?:[eE][+-]?[0-9]{{1,3}})?){_UNIT}")
+_BARE = re.compile(rf"{_NUMBER}|[+-]?[0-9]+,[0-9]+(?:[eE][+-]?[0-9]{{1,3}})?")
 _OPERATOR = re.compile(r"\s*([/*·])\s*")
 
 
@@ -176,6 +177,19 @@ def parse(text: str, dimensions: tuple[str, ...], *, decimal_comma: bool = False
     if not math.isfinite(value):
         raise ValueError(Refusal("too_large", text=_short(text), example=example))
     return value, unit.dimension
+
+
+def parse_in(text: str, unit: str) -> float:
+    """Return the SI value of a quantity written by hand: a bare number is in a unit, and a comma is a decimal mark.
+
+    Examples
+    --------
+    >>> parse_in("1,5", "mm"), parse_in("2 cm", "mm")
+    (0.0015, 0.02)
+    """
+    text = text.strip()
+    text = f"{text} {unit}" if _BARE.fullmatch(text) else text
+    return parse(text, (UNITS[unit].dimension,), decimal_comma=True)[0]
 
 
 def _spelling(name: str) -> str:

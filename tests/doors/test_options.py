@@ -101,7 +101,7 @@ def test_forces_per_area_need_the_bore(crankwork, machine_file, check_mistakes, 
         (("new", "../../engine"), "there is no template"),
         (("new", "a\x1b[31m"), '"a\\x1b[31m"'),
         (("check",), "FILE: is missing; write it after the command"),
-        (("draw", "my.toml"), '"draw": there is no such command; write new, check, run, report, explain, schema'),
+        (("draw", "my.toml"), '"draw": there is no such command; write new, check, run, report, explain, solve, '),
         (("schema", "x"), "unexpected extra argument"),
     ],
 )

@@ -31,7 +31,7 @@ NAMED_IN = {
     "fields": "description", "figures": "",
     "headings": "note", "kinds": "",
     "marks": "", "memory": "", "note": "note", "notices": "", "refusals": "", "report": "", "seen": "note",
-    "sentences": "", "sheets": "note", "tables": "",
+    "sentences": "", "sheets": "note", "study": "study", "tables": "",
 }  # fmt: skip
 
 

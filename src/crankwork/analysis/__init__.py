@@ -1,6 +1,6 @@
 """The analysis of a machine: columns over the crank angle, summary, checks."""
 
-from crankwork.analysis.analyse import analyse, with_method
+from crankwork.analysis.analyse import analyse, columns_only, with_method
 from crankwork.analysis.forces import columns
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import Notice, Solved, WorkingSpace, solve
@@ -14,6 +14,7 @@ __all__ = [
     "WorkingSpace",
     "analyse",
     "columns",
+    "columns_only",
     "solve",
     "with_method",
 ]

@@ -1,4 +1,4 @@
-"""The one function that analyses any machine."""
+"""The one function that analyses any machine, and the shorter one for single values at a crank angle."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from crankwork.analysis.engine import analyse_engine
 from crankwork.analysis.results import Results
+from crankwork.analysis.solved import solve
 from crankwork.errors import MethodError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.machine import Machine
@@ -15,6 +16,8 @@ from crankwork.method import Method
 
 if TYPE_CHECKING:
     from crankwork.machine import Machine
+
+_IN_JOINTS = ("joint_force", "normal_force")
 
 
 def analyse(
@@ -62,6 +65,25 @@ def analyse(
 
         return analyse_linkage(machine, grid, progress)
     return analyse_engine(machine, grid, method=method)
+
+
+def columns_only(machine: Machine) -> Results:
+    """Return results that give values at a crank angle, and none that has to be found over a whole cycle.
+
+    They take a part of the time of `analyse`.
+    """
+    if machine.transfer is not None:
+        return analyse(machine)
+    if machine.linkage is not None:
+        from crankwork.analysis.linkage import linkage_columns  # noqa: PLC0415 - loaded where it is needed
+
+        return linkage_columns(machine)
+    solved = solve(machine, machine.method)
+    grid = CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
+    # in the joints of an engine there are the forces of other cylinders too
+    whole = _IN_JOINTS if machine.engine is not None else ()
+    memory = {key: one for key, one in solved.memory.items() if not key.startswith(whole)}
+    return Results(solved, grid, {}, {}, {}, (), {}, memory=memory)
 
 
 def with_method(machine: Machine, name: str) -> Machine:

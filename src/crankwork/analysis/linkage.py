@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from crankwork.analysis.chambers import gas_check, gas_summary, solve_linkage
 from crankwork.analysis.friction import COLUMNS as FRICTION
 from crankwork.analysis.friction import FOLLOWED as FOLLOWED_FRICTION
-from crankwork.analysis.friction import SIGNED, friction_of, mean_values
+from crankwork.analysis.friction import SIGNED, Rubbed, friction_of, mean_values
 from crankwork.analysis.linkage_balance import balance_of
 from crankwork.analysis.linkage_memory import efficiency_of, linkage_memory, remembered_running, speed_of
 from crankwork.analysis.linkage_speed import turn_of
@@ -86,17 +86,10 @@ def analyse_linkage(
     Columns, summary, checks and notices; of a crank that does not turn fully between its dead positions. `grid`:
     ascending crank angles within one cycle; the machine's own table otherwise [rad]; `progress`: as `analyse` takes it.
     """
-    mechanism, way = way_through(machine.mechanism, machine.way)
-    machine = replace(machine, mechanism=mechanism, way=way or machine.way)
-    reached = reachable(machine, _DENSE_STEP)
-    table, found = _table(machine, reached, grid), reached.travel
-    motion = remembered_motion(machine.mechanism, reached.motion, machine.linkage)
-    solved = solve_linkage(machine, motion)
+    moved = _moved(machine, grid)
+    machine, reached, motion, solved = moved.machine, moved.reached, moved.motion, moved.solved
+    memory, rubbing, table, found = moved.memory, moved.rubbing, moved.table, reached.travel
     notices = reached.notices + tuple(Notice(*one) for one in (*machine.notices, *solved.filling.notices))
-    running = remembered_running(solved, motion)
-    memory = linkage_memory(solved, running)
-    rubbing = friction_of(solved, running, memory)
-    memory |= rubbing.columns
     notices += rubbing.notices
     followed = _followed(memory, has_friction=rubbing.is_free) | dict(smooth_transmissions(machine.mechanism, motion))
     start, end = (0.0, machine.cycle) if found is None else machine.working_range or open_range(found)
@@ -141,6 +134,37 @@ def analyse_linkage(
     values = {key: one.value for key, one in summary.items()}
     memory |= {**summary, **between}
     return Results(solved, table, columns, values, checks, notices, _groups(columns), ran.listings, memory=memory)
+
+
+def linkage_columns(machine: Machine) -> Results:
+    """Return what is remembered over the crank angle of a linkage, without what is found over its whole cycle."""
+    moved = _moved(machine, None)
+    return Results(moved.solved, moved.table, {}, {}, {}, (), {}, memory=moved.memory)
+
+
+class _Moved(NamedTuple):
+    """A linkage in motion: how far it reaches, and what is remembered of it over the crank angle."""
+
+    machine: Machine
+    reached: Reached
+    motion: Motion
+    solved: SolvedLinkage
+    memory: dict[str, Known]
+    rubbing: Rubbed
+    table: CrankGrid
+
+
+def _moved(machine: Machine, grid: CrankGrid | None) -> _Moved:
+    mechanism, way = way_through(machine.mechanism, machine.way)
+    machine = replace(machine, mechanism=mechanism, way=way or machine.way)
+    reached = reachable(machine, _DENSE_STEP)
+    table = _table(machine, reached, grid)
+    motion = remembered_motion(machine.mechanism, reached.motion, machine.linkage)
+    solved = solve_linkage(machine, motion)
+    running = remembered_running(solved, motion)
+    memory = linkage_memory(solved, running)
+    rubbing = friction_of(solved, running, memory)
+    return _Moved(machine, reached, motion, solved, memory | rubbing.columns, rubbing, table)
 
 
 def _of_machine(machine: Machine) -> Iterator[Notice]:

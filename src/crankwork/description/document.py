@@ -54,15 +54,7 @@ class Description:
 
     def __getitem__(self, key: str) -> Any:  # noqa: ANN401 - what the file states
         """Return a value as the file states it, or its default as a file would; KeyError if there is neither."""
-        *path, last = steps_of(key)
-        table: Any = self._values
-        kind: Any = file_keys(self._values)
-        for step in path:
-            kind = entry_at(kind, step)
-            table = _at(table, step)
-        found = _at(table, last)
-        if found is None and isinstance(kind, Table) and isinstance(last, str):
-            found = kind.written_default(last, Values(table or {}, kind))
+        found = stated_value(self._values, key)
         if found is None:
             raise UnknownKeyError(Refusal("not_stated", key=key[:60]))
         return copy.deepcopy(found)
@@ -133,6 +125,20 @@ def load(path: str | Path) -> Description:
     path = Path(path)
     text = files.read_text(path, advice=Refusal("check_path_or_new", path=path))
     return Description(text, str(path), folder=path.parent)
+
+
+def stated_value(values: dict[str, Any], key: str) -> Any:  # noqa: ANN401 - what a file may state
+    """Return a value as a file states it, or its default as a file would; None if there is neither."""
+    *path, last = steps_of(key)
+    table: Any = values
+    kind: Any = file_keys(values)
+    for step in path:
+        kind = entry_at(kind, step)
+        table = _at(table, step)
+    found = _at(table, last)
+    if found is None and isinstance(kind, Table) and isinstance(last, str):
+        return kind.written_default(last, Values(table or {}, kind))
+    return found
 
 
 def _at(table: Any, step: str | int) -> Any:  # noqa: ANN401 - what a file has there

@@ -1,0 +1,122 @@
+"""Roots of functions that are known: crossings, touches, jumps, poles, stretches without a value."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from crankwork.errors import CrankworkError
+from crankwork.locale import Refusal
+from crankwork.study.roots import find_roots
+
+PLACES = np.linspace(0.0, 10.0, 401)
+
+
+def gaps(x: float) -> float:
+    if x < 2:
+        raise CrankworkError(Refusal("this"))
+    if 7 < x < 8:
+        raise CrankworkError(Refusal("the_number"))
+    if 8 <= x < 8.503:
+        raise CrankworkError(Refusal("this"))
+    return math.sqrt(x - 2) - 0.5
+
+
+CROSSINGS = {
+    "sine": (math.sin, [0.0, math.pi, 2 * math.pi, 3 * math.pi], ["rising", "falling", "rising", "falling"]),
+    "at a place looked at": (lambda x: x - 5.0, [5.0], ["rising"]),
+    "flat": (lambda x: (x - 3.3) ** 3, [3.3], ["rising"]),
+    "steep": (lambda x: math.copysign(math.sqrt(abs(x - 3.31)), 3.31 - x), [3.31], ["falling"]),
+    "two between places": (lambda x: (x - 3.3) * (x - 3.3001), [3.3, 3.3001], ["falling", "rising"]),
+    "at both ends": (lambda x: x * (10.0 - x), [0.0, 10.0], ["rising", "falling"]),
+    "beside a stretch": (gaps, [2.25], ["rising"]),
+    "beside a pole": (lambda x: 1 / (x - 3.33) + 1.0, [2.33], ["falling"]),
+}
+
+
+@pytest.mark.parametrize(("function", "expected", "kinds"), CROSSINGS.values(), ids=CROSSINGS)
+def test_every_change_of_sign_is_refined(function, expected, kinds):
+    found = find_roots(function, PLACES)
+    assert [one.at for one in found.roots] == pytest.approx(expected, rel=1e-12, abs=1e-12)
+    assert [one.kind for one in found.roots] == kinds
+
+
+TOUCHES = {
+    "parabola": (lambda x: (x - 3.3333) ** 2, 3.3333, 1e-11),
+    "from below": (lambda x: -1.0 - math.sin(x), 1.5 * math.pi, 1e-11),
+    "corner": (lambda x: abs(x - 3.3333), 3.3333, 1e-11),
+    "at a place looked at": (lambda x: (x - 5.0) ** 2, 5.0, 1e-11),
+    "fourth power": (lambda x: (x - 3.3333) ** 4, 3.3333, 1e-3),
+}
+
+
+@pytest.mark.parametrize(("function", "expected", "nearness"), TOUCHES.values(), ids=TOUCHES)
+def test_a_touching_root_is_told_as_such(function, expected, nearness):
+    (root,) = find_roots(function, PLACES).roots
+    assert root.kind == "touching"
+    assert root.at == pytest.approx(expected, rel=nearness)
+
+
+@pytest.mark.parametrize("above", [1e-9, 1e-3, 1.0])
+def test_what_nearly_touches_is_no_root_but_the_nearest(above):
+    found = find_roots(lambda x: (x - 3.3333) ** 2 + above, PLACES)
+    assert found.roots == ()
+    assert found.nearest is not None
+    assert found.nearest.value == pytest.approx(above, rel=1e-5)
+
+
+@pytest.mark.parametrize("below", [1e-9, 1e-6, 1e-5])
+def test_two_roots_between_places_are_found_from_the_least_value(below):
+    found = find_roots(lambda x: (x - 3.3333) ** 2 - below, PLACES)
+    assert [one.at for one in found.roots] == pytest.approx(
+        [3.3333 - math.sqrt(below), 3.3333 + math.sqrt(below)], rel=1e-11
+    )
+
+
+def test_a_jump_is_no_root():
+    found = find_roots(lambda x: -1.0 if x < 3.33 else x, PLACES)
+    assert found.roots == ()
+    (jump,) = found.jumps
+    assert (jump.at, jump.before, jump.after) == pytest.approx((3.33, -1.0, 3.33), rel=1e-11)
+
+
+def test_a_pole_is_a_jump():
+    found = find_roots(lambda x: 1 / (x - math.pi), PLACES)
+    assert found.roots == ()
+    assert [one.at for one in found.jumps] == pytest.approx([math.pi])
+
+
+def test_stretches_without_a_value_have_their_ends_and_reasons():
+    found = find_roots(gaps, PLACES)
+    assert [(one.start, one.end) for one in found.without] == [
+        pytest.approx(ends, abs=1e-6) for ends in ((0.0, 2.0), (7.0, 8.0), (8.0, 8.503))
+    ]
+    assert [one.reason.name for one in found.without] == ["this", "the_number", "this"]
+
+
+def test_zero_all_along_is_a_stretch_and_not_many_roots():
+    found = find_roots(lambda x: max(0.0, x - 5.0), PLACES)
+    assert (found.roots, found.jumps) == ((), ())
+    assert [(one.start, one.end) for one in found.zero] == [(0.0, 5.0)]
+    noise = find_roots(lambda x: 1e-16 * math.sin(1e9 * x), PLACES, 1.0)
+    assert [(one.start, one.end) for one in noise.zero] == [(0.0, 10.0)]
+
+
+def test_nothing_can_be_found_where_there_is_nothing():
+    found = find_roots(lambda _: gaps(0.0), PLACES)
+    assert (found.roots, found.nearest) == ((), None)
+    assert [(one.start, one.end) for one in found.without] == [(0.0, 10.0)]
+
+
+def test_no_value_may_be_infinite_or_none():
+    found = find_roots(lambda x: math.nan if x > 5 else x - 1.0, PLACES)
+    assert [one.at for one in found.roots] == [pytest.approx(1.0)]
+    assert [(one.start, one.end) for one in found.without] == [pytest.approx((5.0, 10.0), abs=1e-6)]
+
+
+def test_progress_is_told():
+    parts = []
+    find_roots(lambda x: x - 1.0, PLACES, told=parts.append)
+    assert (parts == sorted(parts), len(parts), parts[-1]) == (True, 401, 1.0)

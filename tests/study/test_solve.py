@@ -1,0 +1,191 @@
+"""Numbers of machine files that are sought, against closed forms."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+import crankwork
+from crankwork import CrankworkError, Description
+
+ENGINE = Description(crankwork.template("engine"))
+FOUR_BAR = Description(crankwork.template("four-bar"))
+# one stroke down with gas, which a valve opens; the pressure then falls at once
+VALVE = """
+format = 2
+[crank]
+radius = "45 mm"
+speed = "1500 rpm"
+[rod]
+ratio = 0.25
+[cylinder]
+bore = "85 mm"
+compression_ratio = 9
+[gas]
+cycle = "360 deg"
+pressures = "absolute"
+[gas.points]
+t = { angle = "0 deg", pressure = "3 MPa" }
+b = { angle = "140 deg", pressure = "0.11 MPa" }
+e = { angle = "360 deg", pressure = "3 MPa" }
+[[gas.pieces]]
+law = "polytropic"
+exponent = 1.3
+points = ["t", "b"]
+[[gas.pieces]]
+law = "constant"
+points = ["b", "e"]
+"""
+
+
+def solved(description, equation, sought, *limits, **how):
+    return crankwork.solve(description, equation, sought, limits=limits or (None, None), **how)
+
+
+def acceleration(phi: float, ratio: float) -> float:
+    """Return the second derivative of the piston's place by the crank angle, over the crank radius."""
+    cos_rod = math.sqrt(1 - (ratio * math.sin(phi)) ** 2)
+    return math.cos(phi) + (ratio * math.cos(2 * phi) + ratio**3 * math.sin(phi) ** 4) / cos_rod**3
+
+
+@pytest.mark.elsewhere
+def test_piston_force_of_a_vertical_engine_reverses_where_inertia_is_gas_and_weight():
+    intake = ("gas.points.d.pressure=0.105 MPa", "gas.points.a.pressure=0.105 MPa", "method.weights=true")
+    found = solved(ENGINE, "piston_force@33deg = 0", "crank.speed", "100rpm", "6000rpm", overrides=intake)
+    mass = 0.55 + 0.275 * 0.90
+    push = 0.005e6 * math.pi / 4 * 0.085**2 + mass * crankwork.read_machine(ENGINE.dump()).method.gravity
+    expected = math.sqrt(push / (mass * 0.045 * acceleration(math.radians(33), 0.28125)))
+    (root,) = found.roots
+    assert root.at == pytest.approx(expected, rel=1e-10)
+    assert (root.kind, found.jumps, found.without) == ("falling", (), ())
+    # the file that says so has no force there
+    changed = Description(ENGINE.dump())
+    changed.replace({"crank.speed": found.sought.written(root.at), "gas.points.d.pressure": "0.105 MPa",
+                     "gas.points.a.pressure": "0.105 MPa", "method.weights": True})  # fmt: skip
+    assert abs(crankwork.analyse(changed.machine()).value("piston_force", 33)) < 1e-9
+
+
+def time_ratio(coupler: float) -> float:
+    """Return that of the rocker of the template, from its dead positions: crank and coupler in line."""
+    frame, crank, rocker = 0.2, 0.0625, 0.1125
+
+    def direction(reach: float) -> float:
+        return math.acos((frame**2 + reach**2 - rocker**2) / (2 * frame * reach))
+
+    apart = abs(direction(coupler + crank) - direction(coupler - crank))
+    return (math.pi + apart) / (math.pi - apart)
+
+
+@pytest.mark.elsewhere
+def test_couplers_for_a_time_ratio():
+    found = solved(FOUR_BAR, "time_ratio.rocker = 1.2", "links.coupler.length", "150 mm", "250 mm", steps=100)
+    assert [time_ratio(one.at) for one in found.roots] == pytest.approx([1.2, 1.2], rel=1e-10)
+    assert [one.at for one in found.roots] == pytest.approx([0.1553835651, 0.2223104821], rel=1e-9)
+
+
+@pytest.mark.elsewhere
+def test_a_ratio_of_one_is_touched_at_the_centric_four_bar():
+    found = solved(FOUR_BAR, "time_ratio.rocker = 1", "links.coupler.length", "160 mm", "200 mm", steps=50)
+    (root,) = found.roots
+    assert root.kind == "touching"
+    assert root.at == pytest.approx(math.sqrt(0.0625**2 + 0.2**2 - 0.1125**2), rel=1e-10)
+
+
+def test_no_ratio_is_below_one_and_the_nearest_is_told():
+    found = solved(FOUR_BAR, "time_ratio.rocker = 0.9", "links.coupler.length", "160 mm", "200 mm", steps=50)
+    assert found.roots == ()
+    assert found.nearest.value == pytest.approx(0.1, abs=1e-7)
+    assert found.nearest.at == pytest.approx(math.sqrt(0.0625**2 + 0.2**2 - 0.1125**2), rel=1e-6)
+
+
+@pytest.mark.elsewhere
+def test_a_smooth_touching_root():
+    found = solved(FOUR_BAR, "point_y.A@0 = 62.5 mm", "crank.start", "10 deg", "173 deg", steps=50)
+    (root,) = found.roots
+    assert root.kind == "touching"
+    assert root.at == pytest.approx(math.pi / 2, rel=1e-9)
+
+
+@pytest.mark.elsewhere
+def test_a_coupler_too_short_or_too_long_cannot_be_assembled():
+    found = solved(FOUR_BAR, "point_y.B@0 = 80", "links.coupler.length", "10 mm", "400 mm", steps=60)
+    fixed, crank, rocker = 200.0, 62.5, 112.5
+    ends = [(1e3 * one.start, 1e3 * one.end) for one in found.without]
+    assert ends[0] == pytest.approx((10.0, fixed - crank - rocker), abs=1e-3)
+    assert ends[-1] == pytest.approx((fixed + crank + rocker, 400.0), abs=1e-3)
+    # B at a height of 80 mm on its arc about C, seen from A at a crank angle of zero
+    reached = [math.hypot(200 - crank + side * math.sqrt(rocker**2 - 80.0**2), 80.0) for side in (-1, 1)]
+    assert [1e3 * one.at for one in found.roots] == pytest.approx(reached, rel=1e-10)
+
+
+def test_an_event_that_passes_an_angle_makes_a_jump():
+    valve = Description(VALVE)
+    found = solved(valve, "gas_pressure@120deg = 0.05 MPa", "gas.points.b.angle", "100 deg", "160 deg", steps=40)
+    assert found.roots == ()
+    (jump,) = found.jumps
+    assert math.degrees(jump.at) == pytest.approx(120.0)
+    results = crankwork.analyse(valve.machine())
+    assert jump.before == pytest.approx(0.11e6 - 101325 - 0.05e6)
+    assert jump.after == pytest.approx(results.value("gas_pressure", 120) - 0.05e6)
+
+
+def test_a_summary_value_by_a_field_of_an_entry_of_a_list():
+    there = crankwork.analyse(crankwork.read_machine(ENGINE.dump(), overrides=["gas.pieces[5].exponent=1.3"]))
+    wanted = f"crank_torque_max = {there['crank_torque_max']!r} N*m"
+    (root,) = solved(ENGINE, wanted, "gas.pieces[5].exponent", "1.2", "1.45", steps=20).roots
+    assert root.at == pytest.approx(1.3, rel=1e-11)
+
+
+@pytest.mark.elsewhere
+def test_a_value_by_law_is_asked_at_a_time():
+    arm = crankwork.load(Path(__file__).parents[1] / "machines" / "elbow.toml")
+    found = solved(arm, "driver_angle@0.6s = 10deg", "driver.law[1].to", "5deg", "30deg", steps=10)
+    # halfway through a cubic law
+    assert [math.degrees(one.at) for one in found.roots] == pytest.approx([20.0], rel=1e-11)
+    assert found.is_time
+    with pytest.raises(CrankworkError, match=r"^driver_angle varies over the cycle; say where .*: driver_angle@1.35s$"):
+        solved(arm, "driver_angle = 10deg", "driver.law[1].to", "5deg", "30deg")
+
+
+def test_a_value_that_nothing_changes_is_wanted_all_along_or_never():
+    along = solved(ENGINE, "side_force@0 = 0", "crank.speed", steps=20)
+    assert (along.roots, len(along.found.zero)) == ((), 1)
+    assert (along.found.zero[0].start, along.found.zero[0].end) == pytest.approx(
+        (along.places.at[0], along.places.at[-1])
+    )
+    never = solved(ENGINE, "stroke = 100 mm", "crank.speed", steps=20)
+    assert (never.roots, never.found.zero) == ((), ())
+    assert never.nearest.value == pytest.approx(-0.01)
+
+
+RANGES = {
+    "around the value": ("crank.speed", (300.0, 30000.0), False),
+    "limits that are near": ("rod.small_end_share", (0.0, 1.0), True),
+    "one turn": ("cylinder.inclination", (-180.0, 180.0), True),
+    "an absent one that has a default": ("crank.angular_acceleration", None, True),
+    "an absent one without": ("rod.inertia", None, True),
+}
+
+
+@pytest.mark.parametrize(("sought", "ends", "is_even"), RANGES.values(), ids=RANGES)
+def test_the_range_follows_from_the_file_or_is_asked_for(sought, ends, is_even):
+    if ends is None:
+        with pytest.raises(CrankworkError, match=r"^--from: is missing; nothing says how far"):
+            solved(ENGINE, "piston_force@33deg = 0", sought)
+        with pytest.raises(CrankworkError, match=r"^--to: is missing; nothing says how far"):
+            solved(ENGINE, "piston_force@33deg = 0", sought, "0", None)
+        return
+    places = solved(ENGINE, "piston_force@33deg = 0", sought, steps=10).places
+    scale = {"crank.speed": 30 / math.pi, "cylinder.inclination": 180 / math.pi}.get(sought, 1.0)
+    assert (places.at[0] * scale, places.at[-1] * scale) == pytest.approx(ends)
+    assert (places.is_even, places.is_stated) == (is_even, False)
+
+
+def test_an_absent_field_is_sought():
+    found = solved(ENGINE, "crank_torque@30 = 200", "rod.inertia", "0 kg*m2", "1 kg*m2", steps=20)
+    values = [crankwork.analyse(crankwork.read_machine(ENGINE.dump(), overrides=[f"rod.inertia={one} kg*m2"]))
+              .value("crank_torque", 30) for one in (0.0, 1.0)]  # fmt: skip
+    (root,) = found.roots
+    assert root.at == pytest.approx((200.0 - values[0]) / (values[1] - values[0]), rel=1e-9)
