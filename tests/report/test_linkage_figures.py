@@ -39,10 +39,11 @@ from crankwork.mechanism.structure import structure
 from crankwork.quantities import LANGUAGES, QUANTITIES
 from crankwork.report import linkage_plan_figures, linkage_positions
 from crankwork.report.drawing import moving_drawing
+from crankwork.report.figure_data import figure_title
 from crankwork.report.figure_look import math_symbol, plain, svg
 from crankwork.report.linkage_curves import curves
 from crankwork.report.linkage_energy import speed_curve, wittenbauer
-from crankwork.report.linkage_look import Style, axis_title, linkage_title
+from crankwork.report.linkage_look import Style, axis_title
 from crankwork.report.linkage_plan_figures import acceleration_plan, velocity_plan
 from crankwork.report.linkage_positions import position_plans
 
@@ -300,7 +301,7 @@ def test_plans_are_the_same_every_time_and_differ_by_language():
     for one, two, three in zip(*made, strict=True):
         assert len({one, two, three}) == 3
     for name in ("position_plans", "velocity_plan", "acceleration_plan", "wittenbauer", "speed"):
-        assert len({linkage_title(name, language) for language in LANGUAGES}) == 3
+        assert len({figure_title(name, language) for language in LANGUAGES}) == 3
 
 
 def test_tangents_leave_the_curve_on_one_side_and_give_the_flywheel():

@@ -11,6 +11,7 @@ from crankwork.analysis import Array
 from crankwork.analysis.diagrams import Fluctuation, Tangents, tangents
 from crankwork.locale import say
 from crankwork.quantities import QUANTITIES, Language
+from crankwork.report.figure_data import figure_title
 from crankwork.report.figure_labels import Line, label_points
 from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED, single_axes, svg
 from crankwork.report.language import number, symbol, unit_name
@@ -19,7 +20,6 @@ from crankwork.report.linkage_look import (
     Style,
     axis_title,
     figure_look,
-    linkage_title,
     over_drive_angle,
     quantity_of,
 )
@@ -45,7 +45,7 @@ def wittenbauer(inertia: Array, energy: Array, wanted: Fluctuation, degrees: Arr
         shown = f"{number(found.flywheel, language, digits=4)} {unit_name('kg*m2', language)}"
         slopes = r"\tan ψ_{\text{max}} - \tan ψ_{\text{min}}"
         return svg(
-            figure, linkage_title("wittenbauer", language), style.method, f"{flywheel}: $kl/({slopes})$ = {shown}"
+            figure, figure_title("wittenbauer", language), style.method, f"{flywheel}: $kl/({slopes})$ = {shown}"
         )
 
 
@@ -107,4 +107,4 @@ def speed_curve(degrees: Array, speed: Array, style: Style = PLAIN) -> bytes:
         axes.set_ylim(low - spare, high + spare)
         over_drive_angle(axes, (float(degrees[0]), float(degrees[-1])), language)
         axes.set_ylabel(axis_title(row, language))
-        return svg(figure, linkage_title("speed", language), style.method)
+        return svg(figure, figure_title("speed", language), style.method)

@@ -34,11 +34,6 @@ class Style(NamedTuple):
 PLAIN = Style()
 
 
-def linkage_title(name: str, language: Language) -> str:
-    """Return what a figure of a linkage shows, for its caption."""
-    return say(f"figures.{name}", language)
-
-
 def position_text(degrees: float, style: Style) -> str:
     """Return a crank angle with its unit, or the time where a law drives. [deg]"""
     if style.period:

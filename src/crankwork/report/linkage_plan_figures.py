@@ -11,6 +11,7 @@ from crankwork.analysis.plans import Kind, Plan, Vector, accelerations, velociti
 from crankwork.locale import say
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.quantities import Language
+from crankwork.report.figure_data import figure_title
 from crankwork.report.figure_labels import Line, label_points
 from crankwork.report.figure_look import DASH_DOT, DASHED, WIDTH, math_symbol, new_figure, svg
 from crankwork.report.language import number, symbol, unit_name
@@ -19,7 +20,6 @@ from crankwork.report.linkage_look import (
     POINTS_PER_MM,
     Style,
     figure_look,
-    linkage_title,
     position_sign,
     position_text,
     round_scale,
@@ -97,7 +97,7 @@ def _figure(plan: Plan, kind: _Kind, degrees: float, style: Style) -> bytes:
         axes.text(left + 14, bottom + 20, scale_text(f"μ_{kind.sign}", scale, kind.unit, language), size=9)
         shown = f"{position_sign(style)} = {position_text(float(degrees), style)}"
         axes.text(left + WIDTH * 72 - 14, bottom + 20, shown, size=9, ha="right")
-        title = f"{linkage_title(kind.title, language)}, {position_text(float(degrees), style)}"
+        title = f"{figure_title(kind.title, language)}, {position_text(float(degrees), style)}"
         return svg(figure, title, style.method, _remark(plan, kind, language))
 
 

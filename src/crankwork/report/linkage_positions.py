@@ -13,6 +13,7 @@ from crankwork.analysis.moving import moving
 from crankwork.analysis.skeleton import Pose, skeleton
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.report import drawing_parts as parts
+from crankwork.report.figure_data import figure_title
 from crankwork.report.figure_labels import Line, label_points
 from crankwork.report.figure_look import DASH_DOT, WIDTH, new_figure, svg
 from crankwork.report.linkage_drawing import corners, slot_middle, walls
@@ -22,7 +23,6 @@ from crankwork.report.linkage_look import (
     POINTS_PER_MM,
     Style,
     figure_look,
-    linkage_title,
     position_sign,
     position_text,
     round_scale,
@@ -89,7 +89,7 @@ def position_plans(
         sheet.axes.text(0.03, foot, scale_text("μ_l", paper, "mm", style.language), **at)
         shown = f"{position_sign(style, f'_{{{main}}}')} = {position_text(float(degrees[main]), style)}"
         sheet.axes.text(0.97, foot, shown, ha="right", **at)
-        return svg(sheet.figure, linkage_title("position_plans", style.language), style.method)
+        return svg(sheet.figure, figure_title("position_plans", style.language), style.method)
 
 
 def _sheet(drawn: Scene, plans: list[int], main: int) -> _Sheet:
