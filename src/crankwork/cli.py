@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from crankwork.quantities import Language
 
 _LANGUAGE = click.Choice(["en", "ru", "vi"])
+_UNITS = click.Choice(["metric", "si", "imperial"])
 
 
 def main() -> None:
@@ -151,12 +152,20 @@ def new(name: str | None, output: str | None, *, overwrite: bool) -> None:
 @commands.command()
 @click.argument("file")
 @click.option("--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the output.")
+@click.option("--units", type=_UNITS, help="System of units of the output, instead of the file's own.")
 @click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
 @click.option("--circuits", is_flag=True, help="List every way to assemble a linkage, and how far it moves on each.")
 @click.option("--json", "as_json", is_flag=True, help="Print the circuits as one JSON object.")
 @click.option("--expand", is_flag=True, help="Print the file with its shorthand and every default written out.")
-def check(
-    file: str, language: Language, settings: tuple[str, ...], *, circuits: bool, as_json: bool, expand: bool
+def check(  # noqa: PLR0913 - one argument per option of the command
+    file: str,
+    language: Language,
+    units: str | None,
+    settings: tuple[str, ...],
+    *,
+    circuits: bool,
+    as_json: bool,
+    expand: bool,
 ) -> None:
     """Say what a machine file describes, or every mistake in it at once."""
     if expand and (circuits or as_json):
@@ -173,7 +182,7 @@ def check(
 
     if as_json and not circuits:
         raise CrankworkError(_refusal("json_of_circuits"))
-    machine = read(file, settings)
+    machine = read(file, _overrides(settings, units=units))
     if circuits and as_json:
         from crankwork.analysis.ways import ways
         from crankwork.report.ways import ways_data
@@ -182,7 +191,7 @@ def check(
         return
     results = _analysed(machine)
     click.echo(f"{file}: {machine.title}" if machine.title else file)
-    click.echo(description_text(machine, results, language))
+    click.echo(description_text(results, language))
     if circuits:
         from crankwork.analysis.ways import ways
         from crankwork.report.ways import ways_text
@@ -199,6 +208,7 @@ def check(
 @click.option("--step", metavar="DEG", help="Step of the tables, in degrees of crank angle.")
 @click.option("--method", metavar="NAME", help="exact, textbook or series:N, instead of the file's own.")
 @click.option("--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the output.")
+@click.option("--units", type=_UNITS, help="System of units of the output, instead of the file's own.")
 @click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
 @click.option("--per-area", is_flag=True, help="Forces per piston area, in MPa.")
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as one JSON object.")
@@ -211,6 +221,7 @@ def run(  # noqa: PLR0913 - one argument per option of the command
     step: str | None,
     method: str | None,
     language: Language,
+    units: str | None,
     settings: tuple[str, ...],
     *,
     per_area: bool,
@@ -223,7 +234,7 @@ def run(  # noqa: PLR0913 - one argument per option of the command
     from crankwork import files
     from crankwork.report import summary
 
-    machine = _machine(file, settings, step, method, per_area=per_area)
+    machine = _machine(file, _overrides(settings, step, method, units), per_area=per_area)
     if output is not None:
         if not output:
             raise CrankworkError(_refusal("folder_unnamed"))
@@ -257,6 +268,7 @@ def run(  # noqa: PLR0913 - one argument per option of the command
 @click.option("--method", metavar="NAME", help="exact, textbook or series:N, instead of the file's own.")
 @click.option("--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the note.")
 @click.option("--school", type=_LANGUAGE, help="Whose order of sections; that of the language if left out.")
+@click.option("--units", type=_UNITS, help="System of units of the output, instead of the file's own.")
 @click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
 @click.option("--per-area", is_flag=True, help="Forces per piston area, in MPa.")
 @click.option("--title", default="", metavar="TEXT", help="Title of the note, instead of the file's.")
@@ -271,6 +283,7 @@ def report(  # noqa: PLR0913 - one argument per option of the command
     method: str | None,
     language: Language,
     school: str | None,
+    units: str | None,
     settings: tuple[str, ...],
     title: str,
     author: str,
@@ -291,7 +304,7 @@ def report(  # noqa: PLR0913 - one argument per option of the command
     from crankwork.note.options import NoteOptions
 
     files.check_files(output, overwrite=overwrite)
-    machine = _machine(file, settings, step, method, per_area=per_area)
+    machine = _machine(file, _overrides(settings, step, method, units), per_area=per_area)
     options = NoteOptions(
         language=language, school=school or "", per_area=per_area, title=title.strip(), author=author.strip(),
         figures=not no_figures, sheets=sheets,
@@ -313,6 +326,7 @@ def report(  # noqa: PLR0913 - one argument per option of the command
 @click.option("--list", "with_keys", is_flag=True, help="Print the keys.")
 @click.option("--method", metavar="NAME", help="exact, textbook or series:N, instead of the file's own.")
 @click.option("--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the output.")
+@click.option("--units", type=_UNITS, help="System of units of the output, instead of the file's own.")
 @click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
 def explain(  # noqa: PLR0913 - one argument per option of the command
     file: str,
@@ -320,6 +334,7 @@ def explain(  # noqa: PLR0913 - one argument per option of the command
     at: str | None,
     method: str | None,
     language: Language,
+    units: str | None,
     settings: tuple[str, ...],
     *,
     with_keys: bool,
@@ -331,7 +346,7 @@ def explain(  # noqa: PLR0913 - one argument per option of the command
 
     if key is None and not with_keys:
         raise CrankworkError(_refusal("explain_what"))
-    overrides = _overrides(settings, None, method)
+    overrides = _overrides(settings, None, method, units)
     # what is no crank angle may be a time, which the machine knows
     machine = read(file, overrides)
     where = None if at is None else _at(at, "time" if machine.mechanism.driver.law else "angle")
@@ -396,17 +411,19 @@ def schema(language: Language) -> None:
     click.echo(json_schema(language))
 
 
-def _machine(file: str, settings: tuple[str, ...], step: str | None, method: str | None, *, per_area: bool) -> Machine:
+def _machine(file: str, overrides: list[str | Setting], *, per_area: bool) -> Machine:
     """Return the machine of a file with the options of a command put into it."""
     from crankwork.description.machine_file import read
 
-    machine = read(file, _overrides(settings, step, method))
+    machine = read(file, overrides)
     if per_area and machine.cylinder is None:
         raise CrankworkError(_refusal("per_area_bore"))
     return machine
 
 
-def _overrides(settings: tuple[str, ...], step: str | None, method: str | None) -> list[str | Setting]:
+def _overrides(
+    settings: tuple[str, ...], step: str | None = None, method: str | None = None, units: str | None = None
+) -> list[str | Setting]:
     """Return the settings of a command with what its options say."""
     from crankwork.description.machine_file import Setting
 
@@ -415,6 +432,8 @@ def _overrides(settings: tuple[str, ...], step: str | None, method: str | None) 
         overrides.append(Setting("--step", "table.step", _degrees(step)))
     if method is not None:
         overrides.append(Setting("--method", "method.kinematics", method))
+    if units is not None:
+        overrides.append(Setting("--units", "units", units))
     return overrides
 
 

@@ -15,6 +15,7 @@ from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.loads.measured import MeasuredPressure
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.method import EXACT, Method
+from crankwork.units import System
 
 if TYPE_CHECKING:
     from crankwork.cylinders.articulated import ArticulatedRod
@@ -282,6 +283,8 @@ class Machine:
         Of the crank. [rad/s], [rad/s2]
     title : str
         What the owner calls it.
+    units : str
+        System of units of its tables, figures and notes: `metric`, `si` or `imperial`; results are in SI.
     linkage : Linkage or None
         The mechanism as it was drawn, for its structure; None for a crank gear, which is given by its lengths.
     transfer : TransferTable or None
@@ -318,6 +321,7 @@ class Machine:
     speed: float
     angular_acceleration: float = 0.0
     title: str = ""
+    units: System = "metric"
     linkage: Linkage | None = None
     transfer: TransferTable | None = None
     cylinder: Cylinder | None = None

@@ -6,10 +6,13 @@ so neither `9**9**9 mm` nor `1 mm + 1 m` means anything, and a comma is never dr
 
 from __future__ import annotations
 
+import contextlib
 import math
 import re
 import unicodedata
-from typing import Any, NamedTuple
+from collections.abc import Iterator
+from contextvars import ContextVar
+from typing import Any, Literal, NamedTuple
 
 from crankwork.locale import Refusal
 
@@ -22,7 +25,19 @@ class Unit(NamedTuple):
     zero: float = 0.0
 
 
+class Parsed(NamedTuple):
+    """A quantity as read: its value in SI, and a notice of what was taken for what, if anything."""
+
+    value: float
+    dimension: str
+    unit: str
+    told: str = ""
+
+
 KGF = 9.80665
+_IN, _FT, _LB = 0.0254, 0.3048, 0.45359237
+_LBF = _LB * KGF
+_SLUG = _LBF / _FT
 _RPM = math.pi / 30
 
 # dimension: {SI size: every spelling}. The first spelling is the one that is suggested.
@@ -33,28 +48,50 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (1e-2, "cm см"),
         (1.0, "m м"),
         (1e-6, "um µm μm мкм"),
-        (0.0254, "in inch"),
-        (0.3048, "ft"),
+        (_IN, "in inch"),
+        (_FT, "ft"),
     ],
-    "area": [(1e-4, "cm2 cm² см2 см²"), (1e-6, "mm2 mm² мм2 мм²"), (1.0, "m2 m² м2 м²")],
+    "area": [
+        (1e-4, "cm2 cm² см2 см²"),
+        (1e-6, "mm2 mm² мм2 мм²"),
+        (1.0, "m2 m² м2 м²"),
+        (_IN**2, "in2 in²"),
+        (_FT**2, "ft2 ft²"),
+    ],
     "volume": [
         (1e-6, "cm3 cm³ cc см3 см³"),
         (1e-3, "l L dm3 dm³ л дм3 дм³"),
         (1e-9, "mm3 mm³ мм3 мм³"),
         (1.0, "m3 m³ м3 м³"),
-        (0.0254**3, "in3 in³"),
+        (_IN**3, "in3 in³ cu.in"),
+        (_FT**3, "ft3 ft³ cu.ft"),
     ],
-    "mass": [(1.0, "kg кг"), (1e-3, "g г"), (1e3, "t т"), (0.45359237, "lb lbm")],
+    "mass": [
+        (1.0, "kg кг"),
+        (1e-3, "g г"),
+        (1e3, "t т"),
+        (_LB, "lb lbm"),
+        (_LB / 16, "oz"),
+        (_SLUG, "slug"),
+        (2000 * _LB, "ton(US)"),
+        (2240 * _LB, "ton(UK)"),
+    ],
     "mass_per_area": [
         (10.0, "g/cm2 g/cm² г/см2 г/см²"),
         (1.0, "kg/m2 kg/m² кг/м2 кг/м²"),
         (1e4, "kg/cm2 kg/cm² кг/см2 кг/см²"),
+        (_LB / _IN**2, "lb/in2 lb/in²"),
+        (_LB / _FT**2, "lb/ft2 lb/ft²"),
     ],
     "inertia": [
         (1.0, "kg*m2 kg·m² kg.m2 kgm2 кг·м² кг*м2 кг.м2"),
         (1e-4, "kg*cm2 kg·cm² кг·см² кг*см2"),
         (1e-6, "kg*mm2 kg·mm² кг·мм² кг*мм2"),
         (1e-7, "g*cm2 g·cm² г·см²"),
+        (_LB * _FT**2, "lb*ft2 lb·ft² lb.ft2 lbm*ft2"),
+        (_LB * _IN**2, "lb*in2 lb·in² lb.in2 lbm*in2"),
+        (_SLUG * _FT**2, "slug*ft2 slug·ft² lbf*ft*s2 lbf·ft·s²"),
+        (_LBF * _IN, "lbf*in*s2 lbf·in·s²"),
     ],
     "speed": [
         (_RPM, "rpm r/min rev/min 1/min min-1 min⁻¹ об/мин vg/ph vòng/phút v/ph v/p"),
@@ -62,8 +99,13 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (2 * math.pi, "rev/s 1/s Hz s-1 об/с vg/s"),
     ],
     "angular_acceleration": [(1.0, "rad/s2 rad/s² рад/с2 рад/с²")],
-    "velocity": [(1.0, "m/s м/с"), (1e-3, "mm/s мм/с")],
-    "acceleration": [(1.0, "m/s2 m/s² м/с2 м/с²"), (1e-3, "mm/s2 mm/s² мм/с2 мм/с²")],
+    "velocity": [(1.0, "m/s м/с"), (1e-3, "mm/s мм/с"), (_FT, "ft/s"), (_FT / 60, "ft/min fpm"), (_IN, "in/s")],
+    "acceleration": [
+        (1.0, "m/s2 m/s² м/с2 м/с²"),
+        (1e-3, "mm/s2 mm/s² мм/с2 мм/с²"),
+        (_FT, "ft/s2 ft/s²"),
+        (_IN, "in/s2 in/s²"),
+    ],
     "pressure": [
         (1e6, "MPa МПа MN/m2 MN/m² МН/м2 МН/м² N/mm2 N/mm² Н/мм2 Н/мм²"),
         (1e3, "kPa кПа kN/m2 kN/m²"),
@@ -71,42 +113,92 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (1e5, "bar бар"),
         (KGF * 1e4, "kgf/cm2 kgf/cm² кгс/см2 кгс/см² kG/cm2 kG/cm² at ат"),
         (101325.0, "atm атм"),
-        (6894.757293168361, "psi lbf/in2"),
+        (_LBF / _IN**2, "psi lbf/in2 lbf/in²"),
+        (_LBF / _FT**2, "psf lbf/ft2 lbf/ft²"),
     ],
     "time": [(1.0, "s с"), (1e-3, "ms мс"), (60.0, "min мин")],
-    "stiffness": [(1.0, "N/m Н/м"), (1e3, "N/mm kN/m Н/мм кН/м")],
-    "damping": [(1.0, "N*s/m N·s/m Н·с/м Н*с/м"), (1e3, "kN*s/m N*s/mm кН·с/м кН*с/м")],
-    "angular_damping": [(1.0, "N*m*s/rad N·m·s/rad N*m*s N·m·s Н·м·с/рад Н*м*с/рад Н·м·с Н*м*с")],
-    "force": [(1.0, "N Н"), (1e3, "kN кН"), (1e6, "MN МН"), (KGF, "kgf кгс kG"), (4.4482216152605, "lbf")],
+    "stiffness": [(1.0, "N/m Н/м"), (1e3, "N/mm kN/m Н/мм кН/м"), (_LBF / _IN, "lbf/in"), (_LBF / _FT, "lbf/ft")],
+    "damping": [
+        (1.0, "N*s/m N·s/m Н·с/м Н*с/м"),
+        (1e3, "kN*s/m N*s/mm кН·с/м кН*с/м"),
+        (_LBF / _IN, "lbf*s/in lbf·s/in"),
+        (_LBF / _FT, "lbf*s/ft lbf·s/ft"),
+    ],
+    "angular_damping": [
+        (1.0, "N*m*s/rad N·m·s/rad N*m*s N·m·s Н·м·с/рад Н*м*с/рад Н·м·с Н*м*с"),
+        (_LBF * _FT, "lbf*ft*s/rad lbf·ft·s/rad lbf*ft*s lbf·ft·s"),
+    ],
+    "force": [
+        (1.0, "N Н"),
+        (1e3, "kN кН"),
+        (1e6, "MN МН"),
+        (KGF, "kgf кгс kG"),
+        (_LBF, "lbf"),
+        (1e3 * _LBF, "kip klbf"),
+        (_LBF / 16, "ozf"),
+    ],
     "torque": [
         (1.0, "N*m N·m Nm N.m Н·м Н*м Нм Н.м"),
         (1e3, "kN*m kN·m kNm кН·м кН*м"),
         (KGF, "kgf*m kgf·m кгс·м кгс*м"),
+        (_LBF * _FT, "lbf*ft lbf·ft lbf.ft lb-ft"),
+        (_LBF * _IN, "lbf*in lbf·in lbf.in lb-in"),
     ],
-    "energy": [(1.0, "J Дж"), (1e3, "kJ кДж")],
+    "energy": [
+        (1.0, "J Дж"),
+        (1e3, "kJ кДж"),
+        (1e6, "MJ МДж"),
+        (_LBF * _FT, "ft*lbf ft·lbf ft-lb"),
+        (_LBF * _IN, "in*lbf in·lbf"),
+        (1055.05585262, "Btu"),
+    ],
     "temperature": [(1.0, "K К")],
-    "specific_energy": [(1e6, "MJ/kg МДж/кг"), (1e3, "kJ/kg кДж/кг"), (1.0, "J/kg Дж/кг")],
-    "mass_moment": [(1.0, "kg*m kg·m кг·м кг*м"), (1e-3, "kg*mm kg·mm кг·мм кг*мм"), (1e-5, "g*cm g·cm г·см г*см")],
+    "specific_energy": [(1e6, "MJ/kg МДж/кг"), (1e3, "kJ/kg кДж/кг"), (1.0, "J/kg Дж/кг"), (2326.0, "Btu/lb")],
+    "mass_moment": [
+        (1.0, "kg*m kg·m кг·м кг*м"),
+        (1e-3, "kg*mm kg·mm кг·мм кг*мм"),
+        (1e-5, "g*cm g·cm г·см г*см"),
+        (_LB * _FT, "lb*ft lb·ft"),
+        (_LB * _IN, "lb*in lb·in"),
+        (_LB / 16 * _IN, "oz*in oz·in"),
+    ],
     "pressure_rise": [
         (1e6 * 180 / math.pi, "MPa/deg MPa/° МПа/град"),
         (1e5 * 180 / math.pi, "bar/deg бар/град"),
         (1.0, "Pa/rad Па/рад"),
+        (_LBF / _IN**2 * 180 / math.pi, "psi/deg"),
     ],
     "pressure_by_velocity": [(1e6, "MPa*s/m МПа*с/м"), (1.0, "Pa*s/m Па*с/м")],
     "heat_transfer": [(1.0, "W/(m2*K) W/m2K Вт/(м2*К)"), (1e3, "kW/(m2*K) кВт/(м2*К)")],
     "specific_heat": [(1.0, "J/(kg*K) Дж/(кг*К)"), (1e3, "kJ/(kg*K) кДж/(кг*К)")],
-    "density": [(1.0, "kg/m3 kg/m³ кг/м3 кг/м³")],
+    "density": [
+        (1.0, "kg/m3 kg/m³ кг/м3 кг/м³"),
+        (1e3, "g/cm3 g/cm³ г/см3 г/см³"),
+        (_LB / _FT**3, "lb/ft3 lb/ft³"),
+        (_LB / _IN**3, "lb/in3 lb/in³"),
+    ],
     "specific_amount": [(1.0, "kmol/kg кмоль/кг")],
     "molar_mass": [(1.0, "kg/kmol кг/кмоль")],
     "molar_energy": [(1.0, "kJ/kmol кДж/кмоль")],
     "molar_heat": [(1.0, "kJ/(kmol*K) кДж/(кмоль*К)")],
-    "fuel_consumption": [(1 / 3.6e9, "g/(kW*h) g/kWh г/(кВт*ч)"), (1.0, "kg/J кг/Дж")],
-    "mass_rate": [(1 / 3600, "kg/h кг/ч"), (1.0, "kg/s кг/с")],
+    "fuel_consumption": [
+        (1 / 3.6e9, "g/(kW*h) g/kWh г/(кВт*ч)"),
+        (1.0, "kg/J кг/Дж"),
+        (_LB / (550 * 3600 * _LBF * _FT), "lb/(hp*h) lb/hph"),
+    ],
+    "mass_rate": [(1 / 3600, "kg/h кг/ч"), (1.0, "kg/s кг/с"), (_LB / 3600, "lb/h"), (_LB / 60, "lb/min")],
     "power_density": [(1e6, "kW/l кВт/л"), (1.0, "W/m3 W/m³ Вт/м3 Вт/м³")],
     "per_temperature": [(1.0, "1/K 1/К")],
     "volume_per_temperature": [(1e-6, "cm3/K cm³/K см3/К см³/К"), (1.0, "m3/K m³/K м3/К м³/К")],
     "speed_per_temperature": [(1.0, "m/(s*K) м/(с*К)")],
-    "power": [(1e3, "kW кВт"), (1.0, "W Вт"), (735.49875, "PS л.с. лс mã_lực")],
+    "power": [
+        (1e3, "kW кВт"),
+        (1.0, "W Вт"),
+        (1e6, "MW МВт"),
+        (75 * KGF, "PS л.с. лс mã_lực hp(M)"),
+        (550 * _LBF * _FT, "hp(I) bhp"),
+        (_LBF * _FT, "ft*lbf/s ft·lbf/s"),
+    ],
 }
 
 UNITS: dict[str, Unit] = {
@@ -114,7 +206,52 @@ UNITS: dict[str, Unit] = {
     for dimension, rows in _SPELLINGS.items()
     for factor, names in rows
     for name in names.split()
-} | {name: Unit("temperature", 1.0, 273.15) for name in ("degC", "°C", "°С")}
+} | {
+    **{name: Unit("temperature", 1.0, 273.15) for name in ("degC", "°C", "°С")},
+    **{name: Unit("temperature", 5 / 9, 459.67 * 5 / 9) for name in ("degF", "°F")},
+}
+
+System = Literal["metric", "si", "imperial"]
+# Units of pounds, feet and inches in the place of those that quantities are stated with
+_IMPERIAL = {
+    "mm": "in", "m": "ft", "cm2": "in2", "cm3": "in3", "l": "in3", "m3": "ft3", "kg": "lb", "g": "oz",
+    "g/cm2": "lb/ft2", "kg*m2": "lb*ft2", "kg*m": "lb*ft", "m/s": "ft/s", "m/s2": "ft/s2", "MPa": "psi", "N": "lbf",
+    "kPa": "psi", "bar": "psi", "kN": "lbf", "N*m": "lbf*ft", "J": "ft*lbf", "kJ": "Btu", "kW": "hp(I)",
+    "W": "ft*lbf/s", "N/m": "lbf/in", "N/mm": "lbf/in", "N*s/m": "lbf*s/in", "N*m*s/rad": "lbf*ft*s/rad",
+    "kg/m3": "lb/ft3", "MJ/kg": "Btu/lb", "kJ/kg": "Btu/lb", "g/(kW*h)": "lb/(hp*h)", "kg/h": "lb/h",
+    "MPa/deg": "psi/deg", "degC": "degF",
+}  # fmt: skip
+# what tables, figures and notes are written in just now, as the precision of `decimal` is
+_SYSTEM: ContextVar[System] = ContextVar("system", default="metric")
+
+
+@contextlib.contextmanager
+def shown_in(system: System) -> Iterator[None]:
+    """Show values in a system of units while this lasts."""
+    token = _SYSTEM.set(system)
+    try:
+        yield
+    finally:
+        _SYSTEM.reset(token)
+
+
+def shown_unit(unit: str) -> str:
+    """Return the unit of the system in use for what is stated with another.
+
+    Examples
+    --------
+    >>> with shown_in("imperial"):
+    ...     shown_unit("MPa")
+    'psi'
+    """
+    system = _SYSTEM.get()
+    if system == "imperial":
+        return _IMPERIAL.get(unit, unit)
+    return coherent_unit(unit) if system == "si" and unit not in _KEPT else unit
+
+
+# angles and temperatures are told in degrees everywhere
+_KEPT = ("deg", "degC", "rpm")
 
 # "ratio" has no unit; the display of a share in per cent stays a choice of the report.
 EXAMPLES = {
@@ -122,6 +259,8 @@ EXAMPLES = {
     for dimension, rows in _SPELLINGS.items()
 }
 
+# names that stand for more than one unit, and what asks which of them is meant
+_DOUBTFUL = {"hp": "horsepower", "ton": "ton", "tons": "ton"}
 _MAX_LENGTH = 100
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?"
 # a unit that starts with a digit, 1/min, needs a space before it
@@ -137,16 +276,17 @@ def spellings(dimension: str) -> list[str]:
     return [names.split()[0] for _, names in _SPELLINGS[dimension]]
 
 
-def parse(text: str, dimensions: tuple[str, ...], *, decimal_comma: bool = False) -> tuple[float, str]:
-    """Return the SI value and the dimension of a quantity written as text.
+def parse(text: str, dimensions: tuple[str, ...], *, decimal_comma: bool = False, metric_hp: bool = False) -> Parsed:
+    """Return the quantity that is written as text.
 
-    `dimensions`: the dimensions that make sense here; the first is used in the advice; `decimal_comma`: read `1,1 kg`
-    as 1.1 kg. Otherwise a comma is an error, because it also separates thousands.
+    `dimensions`: the dimensions that make sense here; the first is used in the advice; a weight will do where a mass
+    is asked for; `decimal_comma`: read `1,1 kg` as 1.1 kg. Otherwise a comma is an error, because it also separates
+    thousands; `metric_hp`: take hp for that of 735.5 W instead of asking which is meant.
 
     Examples
     --------
-    >>> parse("75 mm", ("length",))
-    (0.075, 'length')
+    >>> parse("75 mm", ("length",)).value
+    0.075
     """
     example = EXAMPLES[dimensions[0]]
     text = unicodedata.normalize("NFC", text) if len(text) <= _MAX_LENGTH else text
@@ -155,10 +295,14 @@ def parse(text: str, dimensions: tuple[str, ...], *, decimal_comma: bool = False
         raise ValueError(Refusal("no_quantity", text=_short(text), example=example))
     number, name = match["number"].replace(",", "."), match["unit"]
     spelling = _spelling(name or "")
-    if spelling.lower() == "hp":
-        raise ValueError(Refusal("horsepower", unit=_short(name)))
+    told = ""
+    if spelling.lower() in _DOUBTFUL:
+        if spelling.lower() != "hp" or not metric_hp:
+            raise ValueError(Refusal(_DOUBTFUL[spelling.lower()], unit=_short(name), number=number))
+        spelling, told = "PS", "metric_horsepower"
     unit = UNITS.get(spelling)
-    fits = unit is not None and unit.dimension in dimensions
+    is_weight = unit is not None and unit.dimension == "force" and "mass" in dimensions
+    fits = unit is not None and (unit.dimension in dimensions or is_weight)
     wanted = tuple(_dimension(one) for one in dimensions)
     known = ", ".join(one for dimension in dimensions for one in spellings(dimension))
     if "," in match["number"] and not decimal_comma:
@@ -176,7 +320,7 @@ def parse(text: str, dimensions: tuple[str, ...], *, decimal_comma: bool = False
     value = to_si(float(number), spelling)
     if not math.isfinite(value):
         raise ValueError(Refusal("too_large", text=_short(text), example=example))
-    return value, unit.dimension
+    return Parsed(value / KGF, "mass", "kg", "weight") if is_weight else Parsed(value, unit.dimension, spelling, told)
 
 
 def parse_in(text: str, unit: str) -> float:

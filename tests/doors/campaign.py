@@ -125,7 +125,7 @@ def _analysed(text: str) -> Outcome:
     if machine.transfer is None:
         machine = replace(machine, table_step=30.0)
     results = analyse(machine, progress=_goes_on)
-    description_text(machine, results)
+    description_text(results)
     summary_text(results)
     json.dumps(summary_data(results), allow_nan=False)
     wild = _not_finite(results)

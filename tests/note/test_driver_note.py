@@ -46,7 +46,7 @@ def test_every_note_is_written(results, language):
 @pytest.mark.parametrize("name", ["boom", "driven-slider", "elbow", "cylinder-between-links"])
 def test_where_no_crank_drives_nothing_says_crank(results, name):
     one = dataclasses.replace(results[name])
-    said = [written(one, "en"), summary_text(one), description_text(one.machine, one), moving_drawing(one.machine)]
+    said = [written(one, "en"), summary_text(one), description_text(one), moving_drawing(one.machine)]
     said += [column for keys in one.tables.values() for column in keys]
     assert not any("third_side" in text for text in said[1:])
     for text in said:

@@ -113,6 +113,7 @@ TITLE = {
     "title": Key(Text()),
     "format": Key(Choice(FORMATS), default=1),
     "decimal_mark": Key(Choice((".", ",")), default="."),
+    "units": Key(Choice(("metric", "si", "imperial")), default="metric"),
 }
 
 MACHINE_FILE = Table("file", {

@@ -14,7 +14,6 @@ from crankwork.locale import Language, Refusal, say
 _MAX_PROBLEMS = 50
 # what is nearer to zero than this is zero, and nothing is divided by it
 _NOTHING = 1e-30
-_OF_NUMBERS = "+-0123456789.,eE \t"
 
 
 def _in_range(limit: float, rounding: str) -> str:
@@ -39,10 +38,11 @@ class Reader:
     `problems` holds the first of them; `more` counts the others.
     """
 
-    def __init__(self, *, decimal_comma: bool = False) -> None:
+    def __init__(self, *, decimal_comma: bool = False, metric_hp: bool = False) -> None:
         self.problems: list[Problem] = []
+        self.notices: list[tuple[str, dict[str, float | str]]] = []
         self.more = 0
-        self.decimal_comma = decimal_comma
+        self.decimal_comma, self.metric_hp = decimal_comma, metric_hp
         self._blamed: set[str] = set()
         self._suspects: set[str] = set()
 
@@ -102,14 +102,16 @@ class Quantity(NamedTuple):
             reader.complain(key, Refusal("no_unit", value=text, example=written))
             return None
         try:
-            number, dimension = units.parse(value, self.dimensions, decimal_comma=reader.decimal_comma)
+            found = units.parse(value, self.dimensions, decimal_comma=reader.decimal_comma, metric_hp=reader.metric_hp)
         except ValueError as error:
             reader.complain(key, error.args[0])
             return None
-        if not self._holds(number):
-            reader.complain(key, self._out_of_range(value.strip(), dimension))
+        if not self._holds(found.value):
+            reader.complain(key, self._out_of_range(value.strip(), found.dimension))
             return None
-        return Measure(number if abs(number) > _NOTHING else 0.0, dimension, value.lstrip(_OF_NUMBERS).rstrip())
+        if found.told:
+            reader.notices.append((found.told, {"key": key, "text": value.strip(), "value": found.value}))
+        return Measure(found.value if abs(found.value) > _NOTHING else 0.0, found.dimension, found.unit)
 
     def _holds(self, number: float) -> bool:
         # a limit in another unit may be off by rounding

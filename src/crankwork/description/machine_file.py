@@ -8,6 +8,7 @@ import json
 import re
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -78,11 +79,11 @@ def read_machine(
     settings = settings_of(overrides)
     for one in settings:
         lay(values, one)
-    reader = Reader(decimal_comma=values.get("decimal_mark") == ",")
+    reader = Reader(decimal_comma=values.get("decimal_mark") == ",", metric_hp=values.get("format", 1) == 1)
     machine = _build(values, reader, folder)
     if reader.problems or machine is None:
         raise input_error(source, name, reader, settings)
-    return machine
+    return replace(machine, notices=(*machine.notices, *reader.notices), units=values.get("units", "metric"))
 
 
 def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | None:

@@ -52,7 +52,8 @@ class _File:
         for one in settings:
             lay(self._values, one)
         self._keys = file_keys(self._values)
-        reader = Reader(decimal_comma=self._values.get("decimal_mark") == ",")
+        is_old = self._values.get("format", 1) == 1
+        reader = Reader(decimal_comma=self._values.get("decimal_mark") == ",", metric_hp=is_old)
         self._stated = stated_numbers(self._keys.read(self._values, "", reader) or {})
 
     def origin(self, path: str, numbers: Iterable[float]) -> Origin:

@@ -99,7 +99,7 @@ def _head(machine: Machine, axis: float, first: float) -> float:
 def linkage_tables(values: Mapping[str, Any], machine: Machine) -> Iterator[tuple[str, Any]]:
     """Yield the keys of a linkage and their values, as a file states them."""
     yield "format", 2
-    yield from ((key, values[key]) for key in ("title", "decimal_mark") if key in values)
+    yield from ((key, values[key]) for key in ("title", "decimal_mark", "units") if key in values)
     gears = gears_of(machine)
     yield "fixed_points", {"O": _place(0)}
     yield "crank", _crank(values["crank"], machine, gears)

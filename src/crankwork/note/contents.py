@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import PurePath
 from typing import TYPE_CHECKING
 
@@ -12,12 +13,15 @@ from crankwork.note.options import NoteOptions
 from crankwork.note.pdf import pdf
 from crankwork.note.web import web
 from crankwork.note.word import word
+from crankwork.report.language import in_own_units
+from crankwork.units import shown_in
 
 if TYPE_CHECKING:
     from crankwork.analysis import Results
     from crankwork.note.document import Note
 
 
+@in_own_units
 def note_of(results: Results, options: NoteOptions | None = None) -> Note:
     """Return the calculation note of a machine."""
     # words that are not needed are not loaded
@@ -25,14 +29,14 @@ def note_of(results: Results, options: NoteOptions | None = None) -> Note:
     if "piston_displacement" in results.columns:
         from crankwork.note.engine_note import engine_note  # noqa: PLC0415 - loaded where it is needed
 
-        return engine_note(results, options)
+        return replace(engine_note(results, options), units=results.machine.units)
     from crankwork.note.linkage_note import linkage_note  # noqa: PLC0415 - loaded where it is needed
 
-    return linkage_note(results, options)
+    return replace(linkage_note(results, options), units=results.machine.units)
 
 
 def sheets_of(results: Results, options: NoteOptions | None = None) -> dict[str, bytes]:
-    """Return the drawing sheets of a machine in every format, by the ending of their files."""
+    """Return the drawing sheets of a machine, metric, in every format, by the ending of their files."""
     options = options or NoteOptions()
     # few notes have sheets
     from crankwork.analysis.whole_engine import as_engine  # noqa: PLC0415 - loaded where it is needed
@@ -71,4 +75,5 @@ def check_format(name: str, *, with_figures: bool = False, with_sheets: bool = F
 def written_note(note: Note, name: str) -> bytes:
     """Return a note in the format that the ending of a file name asks for."""
     check_format(name)
-    return WRITERS[PurePath(name).suffix.lower()](note)
+    with shown_in(note.units):
+        return WRITERS[PurePath(name).suffix.lower()](note)

@@ -15,6 +15,7 @@ from crankwork.formula.expression import Expression, Formula
 from crankwork.formula.lines import Line
 from crankwork.note.options import NoteOptions
 from crankwork.quantities import Language
+from crankwork.units import System
 
 
 @dataclass(frozen=True)
@@ -174,6 +175,7 @@ class Note:
     authors: tuple[str, ...] = ()
     date: dt.date | None = None
     sources: tuple[str, ...] = ()
+    units: System = "metric"
 
     @classmethod
     def of(cls, blocks: Iterable[Block], options: NoteOptions, title: str, subtitle: str) -> Self:

@@ -14,7 +14,7 @@ from crankwork.note.engine_words import EngineWords
 from crankwork.note.printed_units import printed_unit
 from crankwork.quantities import QUANTITIES
 from crankwork.quantities import cycle as cycle_quantities
-from crankwork.report.language import label
+from crankwork.report.language import displayed, label
 from crankwork.report.summary import results_method
 
 GEAR = ("rotational_speed", "angular_acceleration", "crank_radius", "rod_length", "rod_ratio", "offset")
@@ -132,8 +132,8 @@ def _sizes(bearings: Bearings, words: EngineWords) -> Iterator[tuple[Cell, ...]]
             yield (
                 f"{label(key, words.language)}, {say(f'report.{part}', words.language)}",
                 Math(row.symbol(words.language)),
-                words.number(value * 1e3),
-                printed_unit("mm", words.language),
+                words.number(displayed(key, value)),
+                printed_unit(row.unit, words.language),
             )
 
 

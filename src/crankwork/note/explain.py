@@ -32,7 +32,7 @@ from crankwork.note.equations import OF_LINKS, line_parts, shown_values, value_s
 from crankwork.note.legends import words_of
 from crankwork.note.numbering import Numbering
 from crankwork.quantities import QUANTITIES, Language, base_key, cycle
-from crankwork.report.language import label, number, told_as
+from crankwork.report.language import in_own_units, label, number, told_as
 from crankwork.sources import cite
 from crankwork.units import UNITS, from_si, to_si
 
@@ -50,6 +50,7 @@ def _path(path: str, _: Iterable[float]) -> str:
     return path
 
 
+@in_own_units
 def explanation(
     results: Results, key: str, at: float | None = None, language: Language = "en", place: Place = _path
 ) -> str:
@@ -74,6 +75,7 @@ def explanation(
     return "\n".join([*head, *_Printed(explained, places, place)]) + "\n"
 
 
+@in_own_units
 def key_lines(results: Results, language: Language = "en") -> list[str]:
     """Return the keys of results, each with its name; a column has its sign of varying with the crank angle."""
     keys = dict.fromkeys((*results.columns, *results.summary))

@@ -10,7 +10,7 @@ from crankwork.note.captions import note_text
 from crankwork.note.document import Math, Paragraph, Run, Runs
 from crankwork.note.printed_units import printed_unit
 from crankwork.report.language import number
-from crankwork.units import from_si
+from crankwork.units import from_si, shown_unit
 
 _TIGHT = ("°", "%")
 
@@ -61,7 +61,8 @@ class NoteWords(ABC):
         """Return the symbol of a key as `base_subscript`."""
 
     def amount(self, value: float, unit: str, *, digits: int = 6) -> str:
-        """Return a value in SI as text in a unit."""
+        """Return a value in SI as text in a unit, or in that which the system in use has for it."""
+        unit = shown_unit(unit)
         name = printed_unit(unit, self.language)
         shown = self.number(float(from_si(value, unit)) if unit else value, digits=digits)
         return shown + ("" if not name or name in _TIGHT else "\u00a0") + name

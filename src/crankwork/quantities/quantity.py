@@ -5,25 +5,36 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from crankwork.locale import Language, say
-from crankwork.units import coherent_unit
+from crankwork.units import coherent_unit, shown_unit
 
 
 class Quantity(NamedTuple):
-    """One row of the table. `per_area_unit` is set where the quantity may be given per piston area.
+    """One row of the table. `metric_per_area` is set where the quantity may be given per piston area.
 
-    `unit` is that of tables, figures and notes; values of results and arguments of functions are in `si_unit`.
+    `unit` is that of tables, figures and notes, in the system in use; values of results and arguments of functions are
+    in `si_unit`.
     A copy of a row whose key goes on after a dot, `joint_force.A`, is the quantity of that point or link.
     """
 
     key: str
-    unit: str
+    metric: str
     definition: str
-    per_area_unit: str = ""
+    metric_per_area: str = ""
+
+    @property
+    def unit(self) -> str:
+        """Unit of tables, figures and notes."""
+        return shown_unit(self.metric)
+
+    @property
+    def per_area_unit(self) -> str:
+        """Unit of forces per piston area, where the quantity may be given so."""
+        return shown_unit(self.metric_per_area)
 
     @property
     def si_unit(self) -> str:
         """Unit of the values of results, which are in SI: `m` where `unit` is `mm`."""
-        return coherent_unit(self.unit)
+        return coherent_unit(self.metric)
 
     def symbol(self, language: Language = "en") -> str:
         """Return the symbol used in books of that language, the name of a point or link in its subscript."""

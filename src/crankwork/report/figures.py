@@ -7,9 +7,11 @@ from crankwork.quantities import Language
 from crankwork.report.engine_figure_list import engine_figures
 from crankwork.report.figure_data import drawn_from
 from crankwork.report.figure_look import drawing_library
+from crankwork.report.language import in_own_units
 from crankwork.report.linkage_figures import linkage_figures
 
 
+@in_own_units
 def figures(results: Results, *, language: Language = "en", per_area: bool = False) -> dict[str, bytes]:
     """Return the figures of a machine as SVG by name; those for which nothing is known are left out.
 

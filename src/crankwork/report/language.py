@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import functools
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Concatenate, ParamSpec, TypeVar
 
 from crankwork.locale import decimal, has_text, say, texts
 from crankwork.quantities import QUANTITIES, Language, base_key
-from crankwork.units import from_si
+from crankwork.units import from_si, shown_in
 
 if TYPE_CHECKING:
     from crankwork.analysis import Results
 
+P = ParamSpec("P")
+R = TypeVar("R")
 _RAISED = str.maketrans("0123456789-−", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻")
 # what is found in several ways
 _BY_WAY = ("excess_work", "flywheel_inertia", "whole_inertia")
@@ -53,6 +57,17 @@ def _is_time(key: str) -> bool:
     """Return whether a derived key is the time of something."""
     kind = key.partition(".")[0]
     return kind.endswith("_time") and kind not in QUANTITIES
+
+
+def in_own_units(function: Callable[Concatenate[Results, P], R]) -> Callable[Concatenate[Results, P], R]:
+    """Return a function that shows results in the system of units that their machine asks for."""
+
+    @functools.wraps(function)
+    def shown(results: Results, /, *args: P.args, **options: P.kwargs) -> R:
+        with shown_in(results.machine.units):
+            return function(results, *args, **options)
+
+    return shown
 
 
 def key_unit(key: str, *, per_area: bool = False) -> str:

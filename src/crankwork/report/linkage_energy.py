@@ -23,6 +23,7 @@ from crankwork.report.linkage_look import (
     over_drive_angle,
     quantity_of,
 )
+from crankwork.units import shown_in
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -35,7 +36,8 @@ def wittenbauer(inertia: Array, energy: Array, wanted: Fluctuation, degrees: Arr
     `degrees`: crank angles; every thirtieth degree is marked [deg].
     """
     found, language = tangents(inertia, energy, wanted), style.language
-    with figure_look():
+    # slopes and angles are those of J over kg m2
+    with figure_look(), shown_in("metric"):
         figure, axes = single_axes(language, 2, height=4.6)
         _lines(axes, inertia, energy, found, degrees, language)
         axes.set_xlabel(_title("reduced_inertia", language))

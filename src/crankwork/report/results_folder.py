@@ -39,7 +39,7 @@ def results_folder(
 ) -> Iterator[dict[str, bytes]]:
     """Yield the files of a results folder in steps, so that progress can be shown; `left_out` says what is not made."""
     yield {
-        f"tables/{name}.csv": csv_of_sheet(sheet, per_area=per_area, for_excel=for_excel)
+        f"tables/{name}.csv": csv_of_sheet(sheet, for_excel=for_excel)
         for name, sheet in sheets(results, per_area=per_area).items()
     }
     if not missing_extras(_WORKBOOK):

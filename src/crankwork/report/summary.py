@@ -11,6 +11,7 @@ from crankwork.locale import say
 from crankwork.quantities import Language
 from crankwork.report.language import (
     displayed,
+    in_own_units,
     key_unit,
     label,
     method_name,
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from crankwork.mechanism.structure import Structure
 
 
+@in_own_units
 def summary_data(results: Results, *, per_area: bool = False) -> dict[str, Any]:
     """Return the summary as plain data: method, value and unit by key, checks and notices."""
     area = results.summary["piston_area"] if per_area else None
@@ -44,6 +46,7 @@ def summary_data(results: Results, *, per_area: bool = False) -> dict[str, Any]:
     }
 
 
+@in_own_units
 def summary_text(results: Results, *, language: Language = "en", per_area: bool = False) -> str:
     """Return the summary as aligned text."""
     area = results.summary["piston_area"] if per_area else None
@@ -116,9 +119,10 @@ def warning_text(results: Results, language: Language = "en") -> str:
     return say("check.partial", language, notice=notice)
 
 
-def description_text(machine: Machine, results: Results, language: Language = "en") -> str:
+@in_own_units
+def description_text(results: Results, language: Language = "en") -> str:
     """Return what a machine file describes, in a few lines."""
-    summary = results.summary
+    machine, summary = results.machine, results.summary
     keys = [key for key in summary if not any(part in key for part in ("_max", "_min")) and not key.endswith("_error")]
     rows = [
         (

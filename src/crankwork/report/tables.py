@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from datetime import datetime
 from typing import NamedTuple
 
 import numpy as np
@@ -14,9 +15,10 @@ from crankwork.analysis.rounding import without_rounding
 from crankwork.errors import MissingExtraError
 from crankwork.locale import Refusal, say
 from crankwork.quantities import QUANTITIES, Language, base_key
-from crankwork.report.language import key_unit, label, unit_name
+from crankwork.report.language import in_own_units, key_unit, label, unit_name
 from crankwork.units import from_si
 
+_CREATED = datetime(2000, 1, 1)  # noqa: DTZ001 - a workbook knows no time zones
 # kinds of rows whose number is an order
 _BY_ORDER = ("reciprocating", "knuckle_pins", "balance_shafts", "residual")
 
@@ -38,22 +40,28 @@ def any_nonzero(keys: Iterable[str], columns: Mapping[str, Array]) -> list[str]:
 
 
 class Sheet(NamedTuple):
-    """One table in display units: what rows are called, if they are things, and columns by key."""
+    """One table in display units: what rows are called, if they are things, columns and their units by key."""
 
     names: tuple[str, ...]
     columns: Mapping[str, Array]
+    units: Mapping[str, str]
 
 
+@in_own_units
 def sheets(results: Results, *, per_area: bool = False) -> dict[str, Sheet]:
     """Return every table by name: those over the crank angle, and the listings."""
     results = replace(results, columns=without_rounding(results.columns, results.machine.speed))
+    area = results.summary["piston_area"] if per_area else None
+
+    def sheet(names: tuple[str, ...], columns: Mapping[str, Array]) -> Sheet:
+        return Sheet(names, columns, {key: key_unit(key, per_area=per_area) for key in columns})
+
     tables = {
-        name: Sheet((), {key: table_column(results, key, per_area=per_area) for key in keys})
+        name: sheet((), {key: table_column(results, key, per_area=per_area) for key in keys})
         for name, keys in results.tables.items()
     }
-    area = results.summary["piston_area"] if per_area else None
     return tables | {
-        name: Sheet(one.names, {key: _displayed(key, values, area) for key, values in one.columns.items()})
+        name: sheet(one.names, {key: _displayed(key, values, area) for key, values in one.columns.items()})
         for name, one in results.listings.items()
     }
 
@@ -73,10 +81,10 @@ def row_name(name: str, language: Language) -> str:
     return f"{what} {number}".rstrip()
 
 
-def csv_of_sheet(sheet: Sheet, *, per_area: bool = False, for_excel: bool = False) -> bytes:
+def csv_of_sheet(sheet: Sheet, *, for_excel: bool = False) -> bytes:
     """Return one table as CSV."""
     separator = ";" if for_excel else ","
-    headings = [_quoted(f"{key} [{key_unit(key, per_area=per_area) or '-'}]") for key in sheet.columns]
+    headings = [_quoted(f"{key} [{sheet.units[key] or '-'}]") for key in sheet.columns]
     columns = [[_number(one, for_excel=for_excel) for one in values.tolist()] for values in sheet.columns.values()]
     if sheet.names:
         headings.insert(0, "row")
@@ -107,6 +115,8 @@ def workbook(results: Results, *, language: Language = "en", per_area: bool = Fa
         raise MissingExtraError(Refusal("extra_writing", names="XLSX"), "tables") from None
     stream = io.BytesIO()
     with xlsxwriter.Workbook(stream, {"in_memory": True, "strings_to_formulas": False}) as book:
+        # the same tables are the same bytes
+        book.set_properties({"created": _CREATED})
         heading = book.add_format({"bold": True, "text_wrap": True, "valign": "top", "bottom": 1})
         decimals = book.add_format({"num_format": "0.0000"})
         taken: set[str] = set()
@@ -119,7 +129,7 @@ def workbook(results: Results, *, language: Language = "en", per_area: bool = Fa
                 sheet.write_string(0, 0, say("report.row", language), heading)
                 sheet.write_column(1, 0, [row_name(one, language) for one in table.names])
             for number, (key, values) in enumerate(table.columns.items(), start=first):
-                unit = unit_name(key_unit(key, per_area=per_area), language)
+                unit = unit_name(table.units[key], language)
                 sheet.write_string(
                     0, number, f"{label(key, language)}, {unit}" if unit else label(key, language), heading
                 )

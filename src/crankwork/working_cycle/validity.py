@@ -62,7 +62,7 @@ def cycle_notices(kind: str, law: HeatLaw, values: Mapping[str, float]) -> tuple
     """
     found: list[Notice] = []
     for key, usual in USUAL[kind].items():
-        value = float(from_si(values[key], QUANTITIES[key].unit))
+        value = float(from_si(values[key], QUANTITIES[key].metric))
         if not usual.low <= value <= usual.high:
             found.append((f"cycle_{key}", {"value": value, "low": usual.low, "high": usual.high}))
     if kind == "petrol":
