@@ -493,16 +493,8 @@ def _bar() -> Iterator[Callable[[float], None]]:
 def _with_progress(steps: Iterable[dict[str, bytes]], count: int) -> dict[str, bytes]:
     """Gather the files of a folder, with a bar on the error stream once a second has passed."""
     contents: dict[str, bytes] = {}
-    started = time.monotonic()
-    show: Callable[[int], None] | None = None
-    for done, files in enumerate(steps, start=1):
-        contents |= files
-        if show is None and time.monotonic() - started > 1 and sys.stderr.isatty() and done < count:
-            bar = click.progressbar(length=count, file=sys.stderr)
-            bar.update(done - 1)
-            show = bar.update
-        if show is not None:
-            show(1)
-    if show is not None:
-        click.echo(err=True)
+    with _bar() as told:
+        for done, files in enumerate(steps, start=1):
+            contents |= files
+            told(done / count)
     return contents

@@ -19,7 +19,8 @@ from crankwork.report.tables import csv_of_sheet, sheets
 ENGINE = crankwork.template("engine")
 SIZES = {
     "in": 25.4e-3, "in2": 6.4516e-4, "in3": 1.6387064e-5, "lbf": 4.4482216152605, "lbf*ft": 1.3558179483314004,
-    "psi": 6894.757293168361, "ft/s": 0.3048, "ft/s2": 0.3048, "deg": math.pi / 180, "-": 1.0,
+    "psi": 6894.757293168361, "ft/s": 0.3048, "ft/s2": 0.3048, "deg": math.pi / 180, "rad/s": 1.0, "rad/s2": 1.0,
+    "lb*ft2": 0.04214011009380481, "-": 1.0,
 }  # fmt: skip
 
 
@@ -57,11 +58,13 @@ def test_summary_json_and_explanation_speak_one_system() -> None:
     assert "lbf" in told
 
 
+@pytest.mark.parametrize("name", ["engine", "press", "crank-shaper"])
 @pytest.mark.parametrize("language", ["en", "ru", "vi"])
-def test_a_note_shows_every_value_in_its_system_beside_si(language: str) -> None:
+def test_a_note_shows_every_value_in_its_system_beside_si(language: str, name: str) -> None:
     options = NoteOptions(language=language, figures=False)
-    page = written_note(note_of(engine("imperial"), options), "note.html").decode()
-    text = re.sub(r"<[^>]+>", " ", page)
+    results = crankwork.analyse(crankwork.read_machine(f'units = "imperial"\n{crankwork.template(name)}'))
+    page = written_note(note_of(results, options), "note.html").decode()
+    text = re.sub(r"<[^>]+>", " ", re.sub(r"<style.*?</style>", "", page, flags=re.DOTALL))
     assert not re.search(r"\bMPa\b|\bМПа\b|cm³|см³|\bmm\b|\bмм\b", text)
     assert ("фунт-сила" if language == "ru" else "lbf") in text
 
@@ -73,14 +76,14 @@ def test_the_option_stands_over_the_file(machine_file, crankwork) -> None:
 
 
 def test_a_system_that_is_none_is_told_with_those_that_are() -> None:
-    with pytest.raises(crankwork.InputError, match='units: .*"metric", "si", "imperial"'):
+    with pytest.raises(crankwork.InputError, match=r'units: .*"metric", "si" or "imperial"'):
         engine("inches")
 
 
 def test_what_was_taken_for_what_is_told() -> None:
     heavy = ENGINE.replace('mass = "0.55 kg"', f'mass = "{0.55 * 9.80665!r} N"')
     plain, weighed = (crankwork.analyse(crankwork.read_machine(one)) for one in (ENGINE, heavy))
-    assert [one.values["key"] for one in weighed.notices if one.code == "weight"] == ["piston.mass"]
+    assert [one.values["path"] for one in weighed.notices if one.code == "weight"] == ["piston.mass"]
     assert weighed["piston_force"] == pytest.approx(plain["piston_force"], rel=1e-12)
 
 

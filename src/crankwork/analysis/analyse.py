@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from crankwork.analysis.engine import analyse_engine
 from crankwork.analysis.results import Results
-from crankwork.analysis.solved import solve
+from crankwork.analysis.solved import Notice, solve
 from crankwork.errors import MethodError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.machine import Machine
@@ -55,6 +55,14 @@ def analyse(
     asked = method or machine.method
     if not asked.is_exact and machine.lengths is None:
         raise MethodError(f"method {asked.name} exists for a slider-crank only; use exact")
+    found = _analysed(machine, grid, method, progress)
+    told = tuple(Notice(*one) for one in machine.notices)
+    return replace(found, notices=(*told, *found.notices)) if told else found
+
+
+def _analysed(
+    machine: Machine, grid: CrankGrid | None, method: Method | None, progress: Callable[[float], None] | None
+) -> Results:
     # what gives the motion decides; lengths would wait longer for the rooms of the others than for their results
     if machine.transfer is not None:
         from crankwork.analysis.tabulated import analyse_tabulated  # noqa: PLC0415 - loaded where it is needed

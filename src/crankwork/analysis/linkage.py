@@ -89,7 +89,7 @@ def analyse_linkage(
     moved = _moved(machine, grid)
     machine, reached, motion, solved = moved.machine, moved.reached, moved.motion, moved.solved
     memory, rubbing, table, found = moved.memory, moved.rubbing, moved.table, reached.travel
-    notices = reached.notices + tuple(Notice(*one) for one in (*machine.notices, *solved.filling.notices))
+    notices = reached.notices + tuple(Notice(*one) for one in solved.filling.notices)
     notices += rubbing.notices
     followed = _followed(memory, has_friction=rubbing.is_free) | dict(smooth_transmissions(machine.mechanism, motion))
     start, end = (0.0, machine.cycle) if found is None else machine.working_range or open_range(found)

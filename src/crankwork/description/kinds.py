@@ -110,7 +110,7 @@ class Quantity(NamedTuple):
             reader.complain(key, self._out_of_range(value.strip(), found.dimension))
             return None
         if found.told:
-            reader.notices.append((found.told, {"key": key, "text": value.strip(), "value": found.value}))
+            reader.notices.append((found.told, {"path": key, "text": value.strip(), "value": found.value}))
         return Measure(found.value if abs(found.value) > _NOTHING else 0.0, found.dimension, found.unit)
 
     def _holds(self, number: float) -> bool:

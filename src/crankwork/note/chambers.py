@@ -11,7 +11,8 @@ from crankwork.note.document import Block, Citation, Runs, Table
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_motion import worked_at
 from crankwork.note.linkage_tables import equations, position_tables, quantity_columns
-from crankwork.note.linkage_words import Words, in_display_unit, named
+from crankwork.note.linkage_words import Words, named
+from crankwork.note.words import in_display_unit
 from crankwork.quantities import QUANTITIES, base_key
 
 _VOLUME, _CHARGE = "kolchin_demidov_2008, ch. 5", "urieli_berchowitz_1984"

@@ -15,6 +15,7 @@ from crankwork.note.engine_cycle_data import cycle_data_rows
 from crankwork.note.engine_material import Material
 from crankwork.note.engine_tables import column_table, folded, value_table
 from crankwork.note.engine_words import EngineWords
+from crankwork.note.words import in_display_unit
 from crankwork.report.language import displayed
 
 # stage of the calculation: what it gives
@@ -156,7 +157,7 @@ def _measured(material: Material) -> Iterator[Block]:
     pressures = material.results.columns_at(degrees, ("diagram_pressure",))["diagram_pressure"]
     columns: list[tuple[Runs, Sequence[str]]] = [
         (words.titled("crank_angle"), [words.number(float(one)) for one in degrees]),
-        (words.titled("diagram_pressure"), words.column_texts((pressures / 1e6).tolist())),
+        _shown("diagram_pressure", pressures.tolist(), words),
     ]
     yield folded(column_table("measured", columns, words))
 
@@ -171,10 +172,11 @@ def _exponents(found: Polytropes, words: EngineWords) -> Runs:
 def _polytrope_table(found: Polytropes, words: EngineWords) -> Table:
     columns: list[tuple[Runs, Sequence[str]]] = [
         ((Math("i"),), [words.number(one, digits=5) for one in found.multiples]),
-        (words.titled("cylinder_volume"), words.column_texts((found.volumes * 1e6).tolist())),
+        _shown("cylinder_volume", found.volumes.tolist(), words),
     ]
     for name, pressures in found.pressures.items():
-        columns.append(((words.column(name, "MPa"),), words.column_texts((pressures / 1e6).tolist())))
+        shown = in_display_unit("diagram_pressure", pressures.tolist())
+        columns.append(((words.column(name, "MPa"),), words.column_texts(shown)))
     return column_table("polytropes", columns, words)
 
 
@@ -189,7 +191,12 @@ def _points(material: Material) -> Table | None:
     columns: list[tuple[Runs, Sequence[Cell]]] = [
         ((words.column("point"),), [Math(name) if "_" in name else name for name, _ in named]),
         (words.titled("crank_angle"), [words.number(float(one), digits=5) for one in degrees]),
-        (words.titled("cylinder_volume"), words.column_texts((volumes * 1e6).tolist())),
-        (words.titled("diagram_pressure"), words.column_texts([pressure / 1e6 for _, (_, pressure) in named])),
+        _shown("cylinder_volume", volumes.tolist(), words),
+        _shown("diagram_pressure", [pressure for _, (_, pressure) in named], words),
     ]
     return column_table("points", columns, words)
+
+
+def _shown(key: str, values: Sequence[float], words: EngineWords) -> tuple[Runs, Sequence[str]]:
+    """Return a column of values in SI under its title."""
+    return words.titled(key), words.column_texts(in_display_unit(key, values))

@@ -89,8 +89,8 @@ def _links(material: Material) -> Table:
         shared = [name for name in one.points if len(owners[name]) > 1]
         rows.append((
             str(number), one.name, ", ".join(shared), _length(one, shared, words),
-            words.number(one.mass) if one.mass else "–", words.number(one.inertia) if one.inertia else "–",
-            _centre(one, words),
+            words.shown("body_mass", one.mass) if one.mass else "–",
+            words.shown("body_inertia", one.inertia) if one.inertia else "–", _centre(one, words),
         ))  # fmt: skip
     titles: list[Runs] = [(words.column(one),) for one in ("number", "link", "joints")]
     titles += [(words.column("length", "mm"),), words.titled("body_mass"), words.titled("body_inertia")]
@@ -105,15 +105,15 @@ def _length(member: Member, shared: list[str], words: Words) -> str:
     if member.guide or not spans:
         return "–"
     if len(spans) == 1:
-        return words.number(spans[0][2] * 1e3)
-    return "; ".join(f"{a}{b} {words.number(span * 1e3)}" for a, b, span in spans)
+        return words.shown("point_x", spans[0][2])
+    return "; ".join(f"{a}{b} {words.shown('point_x', span)}" for a, b, span in spans)
 
 
 def _centre(member: Member, words: Words) -> str:
     if not member.centre:
         return "–"
     # the centre of a crank may be its pivot
-    x, y = (words.number(one * 1e3) for one in member.points.get(member.centre, (0.0, 0.0)))
+    x, y = (words.shown("point_x", one) for one in member.points.get(member.centre, (0.0, 0.0)))
     named = "" if "." in member.centre or "_" in member.centre else f"{member.centre} "
     return f"{named}({x}; {y})"
 
@@ -121,13 +121,13 @@ def _centre(member: Member, words: Words) -> str:
 def _places(material: Material) -> Iterator[Table]:
     """Yield fixed points and guides."""
     words, linkage = material.words, material.machine.drawn
-    rows = [(name, words.number(x * 1e3), words.number(y * 1e3)) for name, (x, y) in linkage.ground.items()]
+    rows = [(name, words.shown("point_x", x), words.shown("point_y", y)) for name, (x, y) in linkage.ground.items()]
     axes = (words.titled("point_x"), words.titled("point_y"))
     if rows:
         yield Table(words.caption("pivots"), ((words.column("point"),), *axes), rows, align="crr")
     lines = [
         (
-            name, guide.link or words.term("ground"), *(words.number(one * 1e3) for one in guide.point),
+            name, guide.link or words.term("ground"), *(words.shown("point_x", one) for one in guide.point),
             words.number(math.degrees(guide.angle)),
         )
         for name, guide in linkage.guides.items()

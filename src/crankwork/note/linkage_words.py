@@ -11,7 +11,6 @@ from crankwork.note.printed_units import printed_unit
 from crankwork.note.words import NoteWords
 from crankwork.quantities import QUANTITIES
 from crankwork.report.language import symbol as key_symbol
-from crankwork.units import from_si
 
 # what of a link or point: its guide, the arm from a joint, the load on it
 _PARTS = frozenset(
@@ -132,13 +131,6 @@ def owned_symbol(shown: str, name: str, language: Language) -> str:
 def _leading_zeros(value: float) -> int:
     """Return how many zeros stand after the decimal mark before the first digit, and one more."""
     return int(f"{value:.0e}".partition("e-")[2] or 0)
-
-
-def in_display_unit(key: str, values: Sequence[float]) -> list[float]:
-    """Return values in SI in the unit in which tables show their key."""
-    unit = QUANTITIES[key.partition(".")[0]].unit
-    # adding zero turns -0.0 into 0.0
-    return [float(from_si(one, unit)) + 0.0 for one in values] if unit else [float(one) + 0.0 for one in values]
 
 
 def named(columns: Mapping[str, object], *kinds: str) -> list[str]:

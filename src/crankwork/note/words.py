@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from string import Formatter
 
 from crankwork.locale import Language, capital, decimal, say, texts
 from crankwork.note.captions import note_text
 from crankwork.note.document import Math, Paragraph, Run, Runs
 from crankwork.note.printed_units import printed_unit
-from crankwork.report.language import number
+from crankwork.quantities import QUANTITIES
+from crankwork.report.language import displayed, number
 from crankwork.units import from_si, shown_unit
 
 _TIGHT = ("°", "%")
@@ -31,7 +33,7 @@ class NoteWords(ABC):
 
     def term(self, key: str, unit: str = "") -> str:
         """Return a single word of a table as it stands in a cell or sentence."""
-        return note_text(f"columns.{key}", self.language, unit=printed_unit(unit, self.language))
+        return note_text(f"columns.{key}", self.language, unit=printed_unit(shown_unit(unit), self.language))
 
     def kind(self, key: str) -> str:
         """Return the name of a kind: of an arrangement, a four-bar linkage, a dyad; a dash if it has none."""
@@ -67,6 +69,10 @@ class NoteWords(ABC):
         shown = self.number(float(from_si(value, unit)) if unit else value, digits=digits)
         return shown + ("" if not name or name in _TIGHT else "\u00a0") + name
 
+    def shown(self, key: str, value: float) -> str:
+        """Return a value in SI in the unit in which tables show its key."""
+        return self.number(displayed(key, value))
+
     def number(self, value: float, *, digits: int = 6) -> str:
         """Return a number as text; a dash where there is none."""
         return "–" if value != value else number(value, self.language, digits=digits)  # noqa: PLR0124 - not a number
@@ -79,3 +85,10 @@ class NoteWords(ABC):
         if not shown.strip("-0."):
             shown = shown.lstrip("-")
         return decimal(shown, self.language).replace("-", "−")
+
+
+def in_display_unit(key: str, values: Sequence[float]) -> list[float]:
+    """Return values in SI in the unit in which tables show their key."""
+    unit = QUANTITIES[key.partition(".")[0]].unit
+    # adding zero turns -0.0 into 0.0
+    return [float(from_si(one, unit)) + 0.0 for one in values] if unit else [float(one) + 0.0 for one in values]
