@@ -320,8 +320,8 @@ def _efficiency(ideal: Known, actual: Known, course: Course) -> dict[str, Known]
 
 def _checks(balance: Balance, course: Course, columns: Mapping[str, Known], root: Root) -> dict[str, float]:
     """Return by how much the power is missed, and by how much forces found joint by joint differ from all at once."""
-    # where loads jump with the friction, rounding decides what is before and what after that
-    apart_of = np.diff(course.degrees, prepend=-np.inf, append=np.inf) > _BESIDE
+    # where loads jump with the friction or at an end, rounding decides what is before and what after that
+    apart_of = np.diff(course.degrees, prepend=course.degrees[0], append=course.degrees[-1]) > _BESIDE
     degrees = course.degrees[(course.found.status == CONVERGED) & apart_of[1:] & apart_of[:-1]]
     if not degrees.size:
         return {}

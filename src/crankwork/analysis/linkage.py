@@ -133,7 +133,7 @@ def analyse_linkage(
     memory = {key: one for key, one in memory.items() if key not in none}
     values = {key: one.value for key, one in summary.items()}
     memory |= {**summary, **between}
-    return Results(solved, table, columns, values, checks, notices, _groups(columns), ran.listings, memory=memory)
+    return Results(solved, table, columns, values, checks, notices, _groups(columns), ran.listings, ran.allowed, memory)
 
 
 def linkage_columns(machine: Machine) -> Results:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -29,6 +30,8 @@ from crankwork.mechanism.joints import names_of_pivots
 from crankwork.shaft.collocation import gauss
 from crankwork.shaft.transient import RATE, Course, Run, Way
 
+# share of the energy that may be missed across dead positions of the crank, beside which its angle says little
+_ACROSS = 1e-6
 _ROWS = 200
 _CHECKED_STEPS = 20_000
 _STEADY = 1e-10
@@ -41,12 +44,13 @@ _NODES, _WEIGHTS, *_ = gauss(8)
 
 
 class Ran(NamedTuple):
-    """How a linkage went: single values, tables over time and of events, checks, notices."""
+    """How a linkage went: single values, tables over time and of events, checks, notices, what checks may miss."""
 
     summary: dict[str, Known]
     listings: dict[str, Listing]
     checks: dict[str, float]
     notices: tuple[Notice, ...]
+    allowed: Mapping[str, float] = MappingProxyType({})
 
 
 def let_go(
@@ -100,6 +104,7 @@ def _followed(
         {"transient": _history(loose, course), **_events(chart, course)},
         checks,
         (*_told(loose, course), *_not_yet(loose, course)),
+        {"energy_balance": _ACROSS} if chart.pieces[0].turns_back else {},
     )
 
 
