@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     from crankwork.loads.load import Load
     from crankwork.mechanism.linkage import Linkage
     from crankwork.shaft.motor import GearedMotor
+    from crankwork.shaft.torque_diagram import Turning
+    from crankwork.shaft.wheel import Wheel
     from crankwork.working_cycle.calculated_cycle import CalculatedPressure
 
 
@@ -187,7 +189,7 @@ class Drive:
     exact_efficiency : float or None
         Before a document rounded it. [-]
     inertia : float
-        Moment of inertia that turns with the crank, without the flywheel to be found. [kg m2]
+        Moment of inertia that turns with the crank, a given flywheel included, one to be found not. [kg m2]
     motor : GearedMotor or None
         The motor, as the crank feels it.
     rated_power : float
@@ -196,6 +198,8 @@ class Drive:
         Wanted fluctuation of the speed, for which a flywheel is to be found. [-]
     chain : Series or None
         The efficiencies that make up the whole, as they are given.
+    wheel : Wheel or None
+        What else is known of the flywheel, given or to be found.
     """
 
     efficiency: float = 1.0
@@ -205,6 +209,7 @@ class Drive:
     rated_power: float = 0.0
     fluctuation: float | None = None
     chain: Series | None = None
+    wheel: Wheel | None = None
 
 
 @dataclass(frozen=True)
@@ -289,6 +294,8 @@ class Machine:
         The mechanism as it was drawn, for its structure; None for a crank gear, which is given by its lengths.
     transfer : TransferTable or None
         Transfer functions instead of a mechanism.
+    turning : Turning or None
+        The torques on a shaft that is nothing but a shaft, instead of a mechanism.
     cylinder, masses, gas : optional
         What is known of a crank gear besides the motion.
     has_gravity : bool
@@ -324,6 +331,7 @@ class Machine:
     units: System = "metric"
     linkage: Linkage | None = None
     transfer: TransferTable | None = None
+    turning: Turning | None = None
     cylinder: Cylinder | None = None
     masses: CrankGearMasses | None = None
     gas: Gas | None = None
@@ -367,6 +375,8 @@ class Machine:
     @property
     def cycle(self) -> float:
         """Crank angle after which everything repeats. [deg]"""
+        if self.turning is not None:
+            return round(math.degrees(self.turning.cycle), 9)
         if self.gas is not None:
             return self.gas.cycle
         if self.engine is not None:

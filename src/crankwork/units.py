@@ -152,6 +152,17 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (_LBF * _IN, "in*lbf in·lbf"),
         (1055.05585262, "Btu"),
     ],
+    "energy_per_area": [
+        (1e6, "J/mm2 J/mm² Дж/мм2 Дж/мм²"),
+        (1e4, "J/cm2 J/cm² Дж/см2 Дж/см²"),
+        (1.0, "J/m2 J/m² Дж/м2 Дж/м²"),
+    ],
+    "torque_per_length": [(1e3, "N*m/mm N·m/mm Н·м/мм Н*м/мм"), (1e2, "N*m/cm N·m/cm Н·м/см"), (1.0, "N*m/m Н·м/м")],
+    "angle_per_length": [
+        (math.pi / 180 * 1e3, "deg/mm °/mm град/мм °/мм"),
+        (math.pi / 180 * 1e2, "deg/cm °/cm град/см"),
+        (1.0, "rad/m рад/м"),
+    ],
     "temperature": [(1.0, "K К")],
     "specific_energy": [(1e6, "MJ/kg МДж/кг"), (1e3, "kJ/kg кДж/кг"), (1.0, "J/kg Дж/кг"), (2326.0, "Btu/lb")],
     "mass_moment": [
@@ -214,7 +225,7 @@ UNITS: dict[str, Unit] = {
 System = Literal["metric", "si", "imperial"]
 # Units of pounds, feet and inches in the place of those that quantities are stated with
 _IMPERIAL = {
-    "mm": "in", "m": "ft", "cm2": "in2", "cm3": "in3", "l": "in3", "m3": "ft3", "kg": "lb", "g": "oz",
+    "mm": "in", "m": "ft", "cm2": "in2", "mm2": "in2", "cm3": "in3", "l": "in3", "m3": "ft3", "kg": "lb", "g": "oz",
     "g/cm2": "lb/ft2", "kg*m2": "lb*ft2", "kg*m": "lb*ft", "m/s": "ft/s", "m/s2": "ft/s2", "MPa": "psi", "N": "lbf",
     "kPa": "psi", "bar": "psi", "kN": "lbf", "N*m": "lbf*ft", "J": "ft*lbf", "kJ": "Btu", "kW": "hp(I)",
     "W": "ft*lbf/s", "N/m": "lbf/in", "N/mm": "lbf/in", "N*s/m": "lbf*s/in", "N*m*s/rad": "lbf*ft*s/rad",

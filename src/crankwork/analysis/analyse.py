@@ -64,6 +64,10 @@ def _analysed(
     machine: Machine, grid: CrankGrid | None, method: Method | None, progress: Callable[[float], None] | None
 ) -> Results:
     # what gives the motion decides; lengths would wait longer for the rooms of the others than for their results
+    if machine.turning is not None:
+        from crankwork.analysis.turning import analyse_turning  # noqa: PLC0415 - loaded where it is needed
+
+        return analyse_turning(machine, machine.turning, grid)
     if machine.transfer is not None:
         from crankwork.analysis.tabulated import analyse_tabulated  # noqa: PLC0415 - loaded where it is needed
 
@@ -80,7 +84,7 @@ def columns_only(machine: Machine) -> Results:
 
     They take a part of the time of `analyse`.
     """
-    if machine.transfer is not None:
+    if machine.transfer is not None or machine.turning is not None:
         return analyse(machine)
     if machine.linkage is not None:
         from crankwork.analysis.linkage import linkage_columns  # noqa: PLC0415 - loaded where it is needed

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
@@ -11,6 +10,7 @@ import numpy as np
 from crankwork.analysis import origins
 from crankwork.analysis.cylinders import WholeEngine
 from crankwork.analysis.engine_bearings import rotating_mass_of
+from crankwork.analysis.evenness import course_of, recovery, turning_inertia, wheel_for
 from crankwork.analysis.reduction import MOVING
 from crankwork.analysis.results import Listing
 from crankwork.analysis.solved import Notice
@@ -25,27 +25,13 @@ from crankwork.cylinders.torque_harmonics import (
     total_harmonics,
 )
 from crankwork.dynamics.piston_forces import crank_torque
-from crankwork.errors import MethodError
-from crankwork.formula.known import Found, Known, Table, absent, given, total
+from crankwork.formula.known import Found, Known, absent, total
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Samples
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.shaft.curve import AtDegrees, Curve
-from crankwork.shaft.fluctuation import (
-    ExcessWork,
-    TrueSpeed,
-    excess_work,
-    fluctuation_of_energy,
-    fluctuation_of_inertia,
-    speed_of_energy,
-    true_speed,
-)
-from crankwork.shaft.flywheel import (
-    check_fluctuation,
-    flywheel_beside_machine,
-    inertia_for_fluctuation,
-    work_of_mean_torque,
-)
+from crankwork.shaft.curve import Curve
+from crankwork.shaft.fluctuation import ExcessWork, TrueSpeed, excess_work, fluctuation_of_energy
+from crankwork.shaft.flywheel import work_of_mean_torque
 
 _ORDERS = 12
 _SAMPLES = 1440
@@ -102,9 +88,8 @@ def engine_reduction(whole: WholeEngine) -> dict[str, Known]:
         if "knuckle_mass" in whole.cylinders[at - 1].memory:
             mass = mass - whole.cylinders[at - 1].memory["knuckle_mass"]
         parts.append((mass * r * r).named(f"reduced_inertia.rotating.{at}"))
-    drive = whole.machine.drive.inertia
-    if drive:
-        parts.append(given("reduced_inertia.drive", drive, "flywheel.inertia"))
+    if whole.machine.drive.inertia:
+        parts.append(turning_inertia(whole.machine, "reduced_inertia.drive"))
     found = total("total_reduced_inertia", parts), total("total_reduced_inertia_1", parts_1)
     return {one.key: one for one in found}
 
@@ -116,7 +101,7 @@ def engine_torque(
     edges, of = np.radians(over.edges), (memory["total_torque"],)
     first = whole.of(1, "crank_torque").key
     one, all_ = (Curve.legendre(edges, over.polynomials(key)) for key in (first, "total_torque"))
-    found, w, drive = excess_work(all_), whole.master.memory["speed"], whole.machine.drive
+    found, w = excess_work(all_), whole.master.memory["speed"]
     summary = {"mean_total_torque": over.mean("total_torque", "mean_total_torque")}
     summary |= {key: one for key, one in extremes.items() if key.startswith("total_torque_")}
     excess = summary["excess_work"] = Known(Found(found.work, "range", of), "excess_work")
@@ -125,46 +110,13 @@ def engine_torque(
         work = work_of_mean_torque(mean, origins.cycle_angle(whole.machine))
         between["work_per_cycle"] = work
         summary["energy_fluctuation"] = fluctuation_of_energy(excess, work if mean.value > 0 else -work)
-    own = given("reduced_inertia", drive.inertia, "flywheel.inertia") if drive.inertia else absent("reduced_inertia")
-    notices, whole_inertia = [], own
-    if drive.fluctuation is not None:
-        wanted = given("speed_fluctuation", drive.fluctuation, "flywheel.fluctuation")
-        try:
-            check_fluctuation(drive.fluctuation, w.value)
-            wheel, needed = _flywheel(excess, wanted, w, own)
-            summary["flywheel_inertia"] = wheel
-            if wheel.value:
-                whole_inertia = between[needed.key] = needed
-        except MethodError as error:
-            notices.append(Notice("no_flywheel", {"message": error.args[0]}))
-    speed, columns = None, dict[str, Known]()
-    change = Table(AtDegrees(found.curve), "integral", np.degrees(found.curve.angle), of)
-    columns["kinetic_energy_change"] = Known(change, "kinetic_energy_change")
-    if whole_inertia.value > 0:
-        try:
-            speed = true_speed(Curve.constant(whole_inertia.value, all_.cycle), all_, w.value, found)
-        except MethodError as error:
-            notices.append(Notice("no_steady_speed", {"message": error.args[0]}))
-    if speed is not None:
-        energy = Known(Found(speed.energy, "energy", of), "kinetic_energy.start")
-        turning = speed_of_energy(energy + columns["kinetic_energy_change"], whole_inertia).named("crank_speed")
-        columns["crank_speed"] = turning
-        summary["speed_fluctuation"] = fluctuation_of_inertia(excess, whole_inertia, w)
-        ends = speed.extremes
-        for word, value, at in (("max", ends.largest, ends.at_largest), ("min", ends.least, ends.at_least)):
-            summary[f"crank_speed_{word}"] = Known(Found(value, word, (turning,), math.degrees(at)))
+    wheel = wheel_for(whole.machine, excess, w, turning_inertia(whole.machine, "reduced_inertia"))
+    course = course_of(all_, found, excess, w, wheel.inertia, of[0])
+    summary |= wheel.summary | course.summary
+    summary |= recovery(whole.machine, wheel.inertia, summary)
     named = {key: known.named(key) for key, known in summary.items()}
-    return EngineTorque(one, all_, found, speed, columns, named, between, tuple(notices))
-
-
-def _flywheel(excess: Known, wanted: Known, w: Known, own: Known) -> tuple[Known, Known]:
-    """Return the flywheel that an engine needs beside what turns already, zero where that is enough, and both."""
-    needed: Known = inertia_for_fluctuation(excess, wanted, w).named("flywheel_inertia")
-    wheel = needed
-    if not own.is_absent:
-        needed = needed.named("whole_inertia")
-        wheel = flywheel_beside_machine(needed, own)
-    return (wheel if wheel.value > 0 else Known(Found(0.0, "none", (wheel,)))), needed
+    notices = wheel.notices + course.notices
+    return EngineTorque(one, all_, found, course.speed, course.columns, named, between | wheel.between, notices)
 
 
 def harmonics_memory(whole: WholeEngine, torque: EngineTorque, memory: Mapping[str, Known]) -> dict[str, Known]:

@@ -31,15 +31,15 @@ def lengths(machine: Machine, sizes: SliderCrank) -> SliderCrank:
     radius = given("crank_radius", r, "crank.radius")
     calculated = of_cycle(machine, "stroke")
     if calculated is not None:
-        radius = _checked(calculated / 2, radius)
+        radius = checked(calculated / 2, radius)
     stroke, ratio = (_stated(machine, key) for key in ("crank.stroke", "rod.ratio"))
     if stroke is not None:
-        radius = _checked(given("stroke", stroke.value, "crank.stroke") / 2, radius)
+        radius = checked(given("stroke", stroke.value, "crank.stroke") / 2, radius)
     length = given("rod_length", l, "rod.length")
     if ratio is not None and _is(ratio.value, r / l):
-        length = _checked(radius / given("rod_ratio", ratio.value, "rod.ratio"), length)
+        length = checked(radius / given("rod_ratio", ratio.value, "rod.ratio"), length)
     elif ratio is not None:
-        length = _checked(radius * given("inverse_rod_ratio", ratio.value, "rod.ratio"), length)
+        length = checked(radius * given("inverse_rod_ratio", ratio.value, "rod.ratio"), length)
     return SliderCrank(radius, length, given("offset", e, _offset_of(machine, e)) if e else absent("offset"))
 
 
@@ -61,7 +61,7 @@ def of_cycle(machine: Machine, key: str) -> Known | None:
 def bore(machine: Machine, size: float) -> Known:
     """Return the bore: stated, or of the calculation of the cycle."""
     stated, calculated = given("bore", size, "cylinder.bore"), of_cycle(machine, "bore")
-    return stated if calculated is None else _checked(calculated, stated)
+    return stated if calculated is None else checked(calculated, stated)
 
 
 def stroke(lengths: SliderCrank) -> Known:
@@ -81,9 +81,18 @@ def revolutions(machine: Machine) -> Known:
 
 def speed(machine: Machine, method: Method) -> Known:
     """Return the angular speed of the crank: stated, or of its revolutions with the method's own pi."""
-    stated, found = _stated(machine, "crank.speed"), angular_speed(method.pi, revolutions(machine))
+    return speed_at(machine, method, "crank.speed", machine.speed)
+
+
+def speed_at(machine: Machine, method: Method, path: str, value: float, name: str = "") -> Known:
+    """Return an angular speed that stands at a path: stated, or of its revolutions with the method's own pi. [rad/s]
+
+    `name`: what tells it from the speed of the crank.
+    """
+    stated, turns = _stated(machine, path), given(f"rotational_speed{name}", value * 30 / math.pi, path, "rpm")
+    found: Known = angular_speed(method.pi, turns).named(f"speed{name}")
     in_radians = stated is not None and UNITS[stated.unit].factor == 1.0
-    return _checked(given("speed", stated.value, "crank.speed"), found) if stated and in_radians else found
+    return checked(given(f"speed{name}", stated.value, path), found) if stated and in_radians else found
 
 
 def inclination(machine: Machine) -> tuple[Known, Known]:
@@ -112,7 +121,7 @@ def masses(
         if stated is None or area is None or UNITS[stated.unit].dimension != "mass_per_area":
             return plain
         own = given(f"mass_per_area.of_{key.removesuffix('_mass')}", stated.value, path)
-        return _checked(own * area, plain) if value else plain
+        return checked(own * area, plain) if value else plain
 
     yield mass("piston_mass", known.piston, "piston.mass")
     yield mass("crank_mass", known.crank, "crank.mass")
@@ -123,8 +132,8 @@ def masses(
     if stated is not None:
         whole = mass("rod_mass", known.rod_small_end + known.rod_big_end, f"{table}.mass")
         centre = _centre(machine, length, table)
-        small = _checked(rod_small_end_mass(whole, centre, length), small)
-        big = _checked(rod_big_end_mass(whole, small), big)
+        small = checked(rod_small_end_mass(whole, centre, length), small)
+        big = checked(rod_big_end_mass(whole, small), big)
         excess = _excess(machine, (whole, centre, length), excess, table)
     yield from (small, big)
     if known.rod_inertia_excess:
@@ -150,7 +159,7 @@ def _excess(machine: Machine, rod: tuple[Known, Known, Value], excess: Known, ta
         own = (mass * gyration * gyration).named("rod_inertia")
     else:
         return excess
-    return _checked(rod_inertia_excess(own, mass, centre, length), excess)
+    return checked(rod_inertia_excess(own, mass, centre, length), excess)
 
 
 def _stated(machine: Machine, path: str) -> Stated | None:
@@ -161,6 +170,6 @@ def _is(one: float, other: float) -> bool:
     return math.isclose(one, other, rel_tol=_SAME)
 
 
-def _checked(found: Known, plain: Known) -> Known:
+def checked(found: Known, plain: Known) -> Known:
     """Return what follows from the description if it is what the machine has, which may have been changed since."""
     return found.named(plain.key) if _is(found.value, plain.value) else plain

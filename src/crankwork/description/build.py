@@ -9,6 +9,7 @@ from crankwork.description.gas_build import ReadMeasured, build_gas
 from crankwork.description.kinds import Measure, Reader
 from crankwork.description.schema import Values
 from crankwork.description.stated import stated_numbers
+from crankwork.description.wheel_build import read_wheel
 from crankwork.dynamics.masses import CrankGearMasses, rod_big_end_mass, rod_inertia_excess, rod_small_end_mass
 from crankwork.errors import MethodError
 from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
@@ -58,13 +59,15 @@ def build_machine(values: Values, reader: Reader, read_measured: ReadMeasured) -
         engine = build_engine(values, lengths, cycle, reader)
     if not _OWN_GAS.isdisjoint(values["engine"]) or "cylinders" in values["gas"]:
         engine, gas = _with_own_gas(values, engine, gas, reader, read_measured)
+    speed = crank_speed(crank["speed"], method) if "speed" in crank else 0.0
+    drive = read_wheel(flywheel, Drive(), speed, reader, pi=method.pi)
     if reader.problems or lengths is None:
         return None
     if engine is not None and engine.offsets:
         lengths = (*lengths[:2], engine.offsets[0])
     return Machine(
         mechanism=slider_crank(*lengths),
-        speed=crank_speed(crank["speed"], method),
+        speed=speed,
         angular_acceleration=crank.si("angular_acceleration"),
         title=values["title"] or "",
         cylinder=cylinder,
@@ -75,7 +78,7 @@ def build_machine(values: Values, reader: Reader, read_measured: ReadMeasured) -
         table_step=round(math.degrees(table.si("step")), 9),
         table_special=tuple(round(angle, 9) for angle in special),
         engine=engine,
-        drive=Drive(inertia=flywheel.si("inertia"), fluctuation=flywheel["fluctuation"]),
+        drive=drive,
         stated=stated,
     )
 

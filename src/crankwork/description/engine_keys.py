@@ -68,9 +68,27 @@ BALANCE = Table("balance", {
     "shafts": Key(ListOf(Choice((1, 2)), fewest=1, most=2)),
 })  # fmt: skip
 
+_SIZE = Quantity(("length",), 1e-6, 100.0)
+_RIM = Table("rim", {
+    "diameter": Key(_SIZE, required=True, instead_of=("speed", "stress")),
+    "speed": Key(Quantity(("velocity",), 1e-3, 1e4), instead_of=("diameter", "stress")),
+    "stress": Key(Quantity(("pressure",), 1.0, 1e10), instead_of=("diameter", "speed"), only={"density": ()}),
+    "density": Key(Quantity(("density",), 1.0, 1e5)),
+    "ratio": Key(Number(1e-3, 1e3), only={"density": ()}),
+    "width": Key(_SIZE, instead_of=("ratio",), only={"density": ()}),
+    "thickness": Key(_SIZE, instead_of=("ratio",), only={"density": ()}),
+    "share": Key(Number(0.0, 1.0, above=True), default=1.0),
+})  # fmt: skip
+
 FLYWHEEL = Table("flywheel", {
-    "fluctuation": Key(Number(1e-6, 1.0)),
-    "inertia": Key(Quantity(("inertia",), 0.0, 1e9), default="0 kg*m2"),
+    "fluctuation": Key(Number(1e-6, 1.0), instead_of=("percent", "speeds")),
+    "percent": Key(Number(1e-4, 50.0), instead_of=("fluctuation", "speeds")),
+    "speeds": Key(ListOf(Quantity(("speed",), 1e-6, 3e4), fewest=2, most=2), instead_of=("fluctuation", "percent")),
+    "inertia": Key(Quantity(("inertia",), 0.0, 1e9), default="0 kg*m2", instead_of=("mass",)),
+    "mass": Key(Quantity(("mass",), 0.0, 1e9, above=True), instead_of=("inertia",)),
+    "radius_of_gyration": Key(_SIZE, instead_of=("rim",)),
+    "rim": Key(_RIM, instead_of=("radius_of_gyration",)),
+    "recovery": Key(Quantity(("time",), 1e-6, 1e6)),
 })  # fmt: skip
 
 _FUEL = Table("fuel", {

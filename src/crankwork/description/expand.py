@@ -36,7 +36,7 @@ def expanded(path: str | Path, overrides: Sequence[str] = (), language: Language
     description = load(path)
     for one in settings_of(overrides):
         description[one.key] = one.value
-    if machine.linkage is None:
+    if machine.linkage is None and machine.turning is None:
         reader = Reader()
         _refuse(machine, reader)
         if reader.problems:

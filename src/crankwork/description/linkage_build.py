@@ -11,6 +11,7 @@ from crankwork.analysis.chambers import solve_linkage
 from crankwork.analysis.reach import reachable
 from crankwork.description.build import build_method, crank_speed
 from crankwork.description.chamber_build import build_chambers
+from crankwork.description.drive_build import read_drive
 from crankwork.description.driver_build import build_law, check_driver, check_gas, check_halves, check_loads
 from crankwork.description.friction_build import build_friction, check_friction
 from crankwork.description.gas_build import ReadMeasured
@@ -20,10 +21,7 @@ from crankwork.description.positions_build import settled, told_positions
 from crankwork.description.redundant_build import fitting, geometry_of, taken_out, without_unshared
 from crankwork.description.schema import Values
 from crankwork.description.stated import stated_numbers
-from crankwork.dynamics.efficiency import Chain as EfficiencyChain
-from crankwork.dynamics.efficiency import Parallel, Series, efficiency
 from crankwork.dynamics.tabulated import TabulatedBody
-from crankwork.errors import MethodError
 from crankwork.kinematics.memory import remembered_motion
 from crankwork.loads.damper import Damper, SliderDamper
 from crankwork.loads.indicator import DiagramError
@@ -33,17 +31,15 @@ from crankwork.loads.spring import SliderSpring, Spring
 from crankwork.loads.table import Table as LoadTable
 from crankwork.loads.weight import Weight
 from crankwork.locale import Refusal
-from crankwork.machine import Drive, Machine, TransferTable, Transient
+from crankwork.machine import Machine, TransferTable, Transient
 from crankwork.mechanism.description import linkage_from
 from crankwork.mechanism.driver import Law
 from crankwork.mechanism.linkage import GROUND, Linkage
 from crankwork.mechanism.mechanism import Crank, Mechanism
-from crankwork.shaft.motor import AsynchronousMotor, GearedMotor
 
 _GEOMETRY = ("fixed_points", "crank", "geared", "links", "guides", "sliders", "branch", "positions")
 _STEP = 1.0
 _MOST_ROWS = 100_000
-_LEAST_EFFICIENCY = 1e-4
 _REVOLUTION = math.tau + 1e-9
 _OF_SPRING = ("stiffness", "free_length", "preload")
 _ENDED = ("spring", "damper")
@@ -74,7 +70,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
     if "driver" in values:
         check_loads(values, reader)
         check_gas(values, reader)
-    drive = _drive(values, reader)
+    drive = replace(read_drive(values, reader), fluctuation=values.get("flywheel", {}).get("fluctuation"))
     transient = _transient(values, reader)
     if reader.problems or mechanism is None or linkage is None:
         return None
@@ -169,7 +165,7 @@ def build_tabulated(values: Values, reader: Reader) -> Machine | None:
     method = build_method(values["method"], reader)
     if not method.is_exact:
         reader.complain("method.kinematics", Refusal("table_exact"))
-    drive = _drive(values, reader)
+    drive = read_drive(values, reader)
     if reader.problems:
         return None
     transfer = values["transfer"]
@@ -220,46 +216,6 @@ def _body(name: str, body: Values, count: int, reader: Reader) -> TabulatedBody:
 def _check_count(key: str, column: tuple[float, ...], count: int, reader: Reader) -> None:
     if len(column) != count:
         reader.complain(key, Refusal("column_count", count=len(column), positions=count))
-
-
-def _is_whole(part: object) -> bool:
-    """Return whether an efficiency, or a list of them in parallel, could be read."""
-    return bool(part) and None not in part if isinstance(part, list) else part is not None
-
-
-def _drive(values: Values, reader: Reader) -> Drive:
-    """Return efficiency, motor and flywheel."""
-    drive = Drive(fluctuation=values.get("flywheel", {}).get("fluctuation"))
-    chain = values["efficiency"]["chain"]
-    # what could not be read has been told already
-    if chain and all(_is_whole(one) for one in chain):
-        table = values["efficiency"]
-        parts: list[EfficiencyChain] = [Parallel(tuple(one)) if isinstance(one, list) else one for one in chain]
-        series = Series(tuple(parts))
-        whole = efficiency(series)
-        if whole < _LEAST_EFFICIENCY:
-            reader.complain("efficiency.chain", Refusal("efficiency_small", whole=whole))
-            return drive
-        drive = replace(drive, efficiency=whole, chain=series)
-        if "decimals" in table:
-            used = round(whole, int(table["decimals"]))
-            drive = replace(drive, efficiency=used, exact_efficiency=whole)
-            if used <= 0:
-                reader.complain("efficiency.decimals", Refusal("efficiency_rounded", whole=whole))
-    motor = values.get("motor")
-    if motor and {"rated_power", "rated_speed", "overload", "pole_pairs"} <= set(motor):
-        frequency = motor.si("frequency") / (2 * math.pi)
-        try:
-            own = AsynchronousMotor.of_catalogue(
-                motor["rated_power"].value, motor["rated_speed"].value, motor["overload"],
-                frequency=frequency, pole_pairs=int(motor["pole_pairs"]),
-            )  # fmt: skip
-        except MethodError as error:
-            reader.complain("motor.rated_speed", error.args[0])
-        else:
-            geared = GearedMotor(own, motor["ratio"], motor.si("inertia"), drive.efficiency)
-            drive = replace(drive, motor=geared, rated_power=motor["rated_power"].value)
-    return drive
 
 
 def _transient(values: Values, reader: Reader) -> Transient | None:

@@ -149,7 +149,7 @@ _FRICTION = Table("friction", {
     "sliders": Key(Named(_RUBBING_SLIDER, most=300)),
 })  # fmt: skip
 
-_EFFICIENCY = Table("efficiency", {
+EFFICIENCY = Table("efficiency", {
     "chain": Key(Nested(Number(0.001, 1.0)), required=True),
     "decimals": Key(Number(1, 6, whole=True)),
 })  # fmt: skip
@@ -237,7 +237,7 @@ LINKAGE_FILE = Table("file", {
     "friction": Key(_FRICTION),
     "chambers": Key(Named(_CHAMBER, most=50)),
     "charges": Key(Named(_CHARGE, most=20)),
-    "efficiency": Key(_EFFICIENCY),
+    "efficiency": Key(EFFICIENCY),
     "motor": Key(_MOTOR),
     "flywheel": Key(Table("flywheel", {"fluctuation": Key(Number(1e-6, 1.0), required=True)})),
     "transient": Key(_TRANSIENT),
@@ -278,6 +278,6 @@ TRANSFER_FILE = Table("file", {
     **TITLE,
     "crank": Key(Table("driving", {"speed": Key(_SPEED, required=True)}), required=True),
     "transfer": Key(_TRANSFER, required=True),
-    "efficiency": Key(_EFFICIENCY),
+    "efficiency": Key(EFFICIENCY),
     "method": Key(METHOD),
 })  # fmt: skip

@@ -21,6 +21,7 @@ from crankwork.description.linkage_keys import DRIVEN_FILE, LINKAGE_FILE, TRANSF
 from crankwork.description.locate import locate
 from crankwork.description.measured_file import read_measured
 from crankwork.description.schema import ListOf, Named, Nested, Table, Values
+from crankwork.description.turning_keys import PRESS_FILE, TURNING_FILE
 from crankwork.errors import CrankworkError, InputError, Problem, UnknownKeyError
 from crankwork.loads.indicator import DiagramError
 from crankwork.locale import Language, Refusal
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     from crankwork.machine import Machine
 
 TEMPLATES = "description/templates"
-FILES = (MACHINE_FILE, SIZED_FILE, LINKAGE_FILE, DRIVEN_FILE, TRANSFER_FILE)
+FILES = (MACHINE_FILE, SIZED_FILE, LINKAGE_FILE, DRIVEN_FILE, TRANSFER_FILE, TURNING_FILE, PRESS_FILE)
 _MAX_PARTS = 8
 _OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
 # a name, and numbers of entries where it is a list
@@ -100,6 +101,11 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
     def read_samples(table: Values, one: Reader, path: str) -> MeasuredPressure | None:
         return read_measured(table, one, path, folder)
 
+    if keys in (TURNING_FILE, PRESS_FILE):
+        # most files do not load it
+        from crankwork.description.turning_build import build_turning  # noqa: PLC0415 - loaded where it is needed
+
+        return build_turning(read_values, reader)
     if keys in (LINKAGE_FILE, DRIVEN_FILE, TRANSFER_FILE):
         # an engine starts faster without this room
         from crankwork.description.linkage_build import (  # noqa: PLC0415 - loaded where it is needed
@@ -137,9 +143,11 @@ def _solvable(machine: Machine | None, values: Values, reader: Reader) -> Machin
 
 
 def file_keys(values: Mapping[str, Any]) -> Table:
-    """Return the keys of the kind of machine that a file describes: an engine, a linkage, or a table of one."""
+    """Return the keys of the kind of machine that a file describes: an engine, a linkage, a table of one, a shaft."""
     if "transfer" in values:
         return TRANSFER_FILE
+    if "torque" in values or "load" in values:
+        return TURNING_FILE if "torque" in values else PRESS_FILE
     if any(name in values for name in _OF_LINKAGES):
         return DRIVEN_FILE if "driver" in values else LINKAGE_FILE
     cycle = values.get("cycle")

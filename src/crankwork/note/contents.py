@@ -30,6 +30,10 @@ def note_of(results: Results, options: NoteOptions | None = None) -> Note:
         from crankwork.note.engine_note import engine_note  # noqa: PLC0415 - loaded where it is needed
 
         return replace(engine_note(results, options), units=results.machine.units)
+    if results.machine.turning is not None:
+        from crankwork.note.turning_note import turning_note  # noqa: PLC0415 - loaded where it is needed
+
+        return replace(turning_note(results, options), units=results.machine.units)
     from crankwork.note.linkage_note import linkage_note  # noqa: PLC0415 - loaded where it is needed
 
     return replace(linkage_note(results, options), units=results.machine.units)
@@ -38,6 +42,8 @@ def note_of(results: Results, options: NoteOptions | None = None) -> Note:
 def sheets_of(results: Results, options: NoteOptions | None = None) -> dict[str, bytes]:
     """Return the drawing sheets of a machine, metric, in every format, by the ending of their files."""
     options = options or NoteOptions()
+    if results.machine.turning is not None:
+        raise CrankworkError(Refusal("sheets_of_shaft"))
     # few notes have sheets
     from crankwork.analysis.whole_engine import as_engine  # noqa: PLC0415 - loaded where it is needed
     from crankwork.note import sheets  # noqa: PLC0415 - loaded where it is needed

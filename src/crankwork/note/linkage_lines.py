@@ -45,7 +45,7 @@ _TORQUES = ("static_torque", "dynamic_torque", "balancing_torque", "driving_torq
 def linkage_lines(results: Results, degrees: float | None = None) -> tuple[Group, ...]:
     """Return what the note of a linkage shows at a crank angle, or the nearest one of the columns, each once. [deg]"""
     row = int(np.argmin(np.abs(results.grid.degrees - (_DEGREES if degrees is None else degrees))))
-    told = _Told(results, float(results.grid.degrees[row]))
+    told = Told(results, float(results.grid.degrees[row]))
     groups = [
         Group("structure", told.lines(["mobility"])),
         Group("speed", told.lines(["speed"]) if results.method.pi != math.pi else ()),
@@ -71,7 +71,7 @@ def linkage_lines(results: Results, degrees: float | None = None) -> tuple[Group
     return tuple(group for group in groups if group.lines)
 
 
-class _Told:
+class Told:
     """Lines at one crank angle, each told once."""
 
     def __init__(self, results: Results, degrees: float) -> None:
@@ -99,7 +99,7 @@ class _Told:
         return Group(name, self.lines(kinds), self.degrees)
 
 
-def _centres(results: Results, told: _Told) -> Group:
+def _centres(results: Results, told: Told) -> Group:
     """Return the instant centres of links; where one of them does not turn, at the nearest position where all do."""
     keys = [key for key in results.columns if key.partition(".")[0] in _CENTRES]
     degrees = results.grid.degrees
@@ -166,7 +166,7 @@ def _efficiency(results: Results) -> Iterator[Line]:
             yield moment.step(known)
 
 
-def _friction(results: Results, told: _Told) -> Group:
+def _friction(results: Results, told: Told) -> Group:
     """Return what the friction in each joint comes to, and the efficiency, where the forces are known."""
     moment = results.moment(told.degrees)
     keys = [key for key in results.columns if key.partition(".")[0] in _FRICTION]
@@ -178,7 +178,7 @@ def _friction(results: Results, told: _Told) -> Group:
     return Group("friction", (*lines, *told.lines(("mean_efficiency",))), told.degrees)
 
 
-def _flywheel(results: Results, told: _Told) -> Iterator[Line]:
+def _flywheel(results: Results, told: Told) -> Iterator[Line]:
     """Yield the flywheel in its four ways; the excess work of each is found over the turn."""
     memory = results.memory
     for key in memory if "excess_work" in memory else ():

@@ -9,6 +9,7 @@ from crankwork.report.figure_data import drawn_from
 from crankwork.report.figure_look import drawing_library
 from crankwork.report.language import in_own_units
 from crankwork.report.linkage_figures import linkage_figures
+from crankwork.report.turning_figures import turning_figures
 
 
 @in_own_units
@@ -24,6 +25,8 @@ def figures(results: Results, *, language: Language = "en", per_area: bool = Fal
     """
     # whose fonts all figures use
     drawing_library()
+    if results.machine.turning is not None:
+        return turning_figures(results, language=language)
     found = linkage_figures(results, language=language)
     if "piston_displacement" in results.columns:
         found |= engine_figures(drawn_from(results, language, per_area=per_area))

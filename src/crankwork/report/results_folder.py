@@ -44,7 +44,7 @@ def results_folder(
     }
     if not missing_extras(_WORKBOOK):
         yield {"tables.xlsx": workbook(results, language=language, per_area=per_area)}
-    if results.machine.transfer is None:
+    if results.machine.transfer is None and results.machine.turning is None:
         # a linkage that cannot turn fully has a notice that says so, and no moving drawing
         with contextlib.suppress(GeometryError):
             yield {"machine.svg": moving_drawing(results.machine, language=language).encode()}

@@ -148,6 +148,8 @@ def _headline(machine: Machine, summary: Mapping[str, float], language: Language
     if machine.transfer is not None:
         bodies, positions = len(machine.transfer.bodies), len(machine.transfer.angles)
         lines.append(say("check.table", language, bodies=bodies, positions=positions))
+    if machine.turning is not None:
+        lines.append(say("check.turning", language, cycle=f"{machine.cycle:g}"))
     if machine.linkage is not None:
         lines += _drawing_lines(machine, language)
     if machine.chambers:

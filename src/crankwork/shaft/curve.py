@@ -16,6 +16,7 @@ from crankwork.kinematics.crank_grid import Array
 # Where a polynomial is looked at for changes of sign, inside each of its intervals.
 _PARTS = 8
 _BISECTIONS = 100
+_PLATEAU = 1e-14
 _NODES = (np.polynomial.legendre.leggauss(8)[0] + 1) / 2
 
 
@@ -265,7 +266,9 @@ class Curve:
         angles, values = np.concatenate([angles, self.angle[1:]]), np.concatenate([self(angles), before])
         order = np.argsort(angles, kind="stable")
         angles, values = angles[order], values[order]
-        low, high = int(np.argmin(values)), int(np.argmax(values))
+        # of values that only rounding tells apart the first counts
+        near = _PLATEAU * float(np.max(np.abs(values)))
+        low, high = int(np.argmax(values <= np.min(values) + near)), int(np.argmax(values >= np.max(values) - near))
         return Extremes(float(values[low]), float(angles[low]), float(values[high]), float(angles[high]))
 
 

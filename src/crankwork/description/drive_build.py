@@ -1,0 +1,56 @@
+"""From the values of a machine file to the efficiency between motor and process, and the motor."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from crankwork.description.kinds import Reader
+from crankwork.description.schema import Values
+from crankwork.dynamics.efficiency import Chain, Parallel, Series, efficiency
+from crankwork.errors import MethodError
+from crankwork.locale import Refusal
+from crankwork.machine import Drive
+from crankwork.shaft.motor import AsynchronousMotor, GearedMotor
+
+_LEAST_EFFICIENCY = 1e-4
+
+
+def _is_whole(part: object) -> bool:
+    """Return whether an efficiency, or a list of them in parallel, could be read."""
+    return bool(part) and None not in part if isinstance(part, list) else part is not None
+
+
+def read_drive(values: Values, reader: Reader) -> Drive:
+    """Return efficiency and motor of a description."""
+    drive = Drive()
+    chain = values["efficiency"]["chain"]
+    # what could not be read has been told already
+    if chain and all(_is_whole(one) for one in chain):
+        table = values["efficiency"]
+        parts: list[Chain] = [Parallel(tuple(one)) if isinstance(one, list) else one for one in chain]
+        series = Series(tuple(parts))
+        whole = efficiency(series)
+        if whole < _LEAST_EFFICIENCY:
+            reader.complain("efficiency.chain", Refusal("efficiency_small", whole=whole))
+            return drive
+        drive = replace(drive, efficiency=whole, chain=series)
+        if "decimals" in table:
+            used = round(whole, int(table["decimals"]))
+            drive = replace(drive, efficiency=used, exact_efficiency=whole)
+            if used <= 0:
+                reader.complain("efficiency.decimals", Refusal("efficiency_rounded", whole=whole))
+    motor = values.get("motor")
+    if motor and {"rated_power", "rated_speed", "overload", "pole_pairs"} <= set(motor):
+        frequency = motor.si("frequency") / (2 * math.pi)
+        try:
+            own = AsynchronousMotor.of_catalogue(
+                motor["rated_power"].value, motor["rated_speed"].value, motor["overload"],
+                frequency=frequency, pole_pairs=int(motor["pole_pairs"]),
+            )  # fmt: skip
+        except MethodError as error:
+            reader.complain("motor.rated_speed", error.args[0])
+        else:
+            geared = GearedMotor(own, motor["ratio"], motor.si("inertia"), drive.efficiency)
+            drive = replace(drive, motor=geared, rated_power=motor["rated_power"].value)
+    return drive

@@ -1,0 +1,84 @@
+"""From the table of a flywheel to what is known of it and wanted of it, in any kind of machine file."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from crankwork.description.kinds import Reader
+from crankwork.description.schema import Values
+from crankwork.locale import Refusal
+from crankwork.machine import Drive
+from crankwork.shaft.wheel import Rim, Wheel, inertia_of_rim, inertia_of_wheel, mass_of_rim
+
+WANTED = ("fluctuation", "percent", "speeds")
+_KNOWN = ("inertia", "mass")
+_SAME = 5e-3
+
+
+def read_wheel(values: Values, drive: Drive, speed: float | None, reader: Reader, *, pi: float = math.pi) -> Drive:
+    """Return a drive with the flywheel of a table. `speed`: of the crank, where the description states it. [rad/s]"""
+    rim = values["rim"]
+    wheel = Wheel(
+        mass=values.si("mass"),
+        gyration_radius=values.si("radius_of_gyration"),
+        rim=_rim(rim) if "rim" in values else None,
+        recovery_time=values.si("recovery"),
+    )
+    if wheel == Wheel() and not {"inertia", *WANTED} & set(values):
+        return drive
+    if wheel.mass is not None and wheel.gyration_radius is None and not (wheel.rim and _radius_known(wheel.rim)):
+        if not reader.doubts("flywheel.radius_of_gyration", "flywheel.rim"):
+            reader.complain("flywheel.mass", Refusal("wheel_mass_where"))
+        return drive
+    return replace(
+        drive,
+        inertia=drive.inertia + _inertia(values, wheel, pi),
+        fluctuation=_fluctuation(values, speed, reader),
+        wheel=wheel,
+    )
+
+
+def is_given(values: Values) -> bool:
+    """Return whether a table states a flywheel, and not only what is wanted of it."""
+    rim = values["rim"]
+    return bool({*_KNOWN} & set(values)) or {"diameter", "width", "thickness", "density"} <= set(rim)
+
+
+def _rim(values: Values) -> Rim:
+    sizes = ("diameter", "speed", "stress", "density", "ratio", "width", "thickness", "share")
+    return Rim(**{name: values.si(name) for name in sizes})
+
+
+def _radius_known(rim: Rim) -> bool:
+    return rim.diameter is not None
+
+
+def _inertia(values: Values, wheel: Wheel, pi: float) -> float:
+    """Return the moment of inertia that is given, zero where one is to be found. [kg m2]"""
+    rim = wheel.rim
+    if wheel.mass is not None and wheel.gyration_radius is not None:
+        return float(inertia_of_wheel(wheel.mass, wheel.gyration_radius))
+    if rim is not None and wheel.mass is not None and rim.diameter is not None:
+        return float(inertia_of_rim(wheel.mass, rim.diameter)) / rim.share
+    if rim is not None and "inertia" not in values and is_given(values):
+        mass = float(mass_of_rim(rim.density, pi, rim.diameter, rim.width, rim.thickness))
+        return float(inertia_of_rim(mass, rim.diameter)) / rim.share
+    found: float = values.si("inertia") or 0.0
+    return found
+
+
+def _fluctuation(values: Values, speed: float | None, reader: Reader) -> float | None:
+    """Return the fluctuation that is wanted, however it is stated."""
+    if "percent" in values:
+        return float(2 * values["percent"] / 100)
+    if "speeds" not in values:
+        found: float | None = values["fluctuation"]
+        return found
+    high, low = (one.value if one else math.nan for one in values["speeds"])
+    mean = (high + low) / 2
+    if not high > low and not reader.doubts("flywheel.speeds", "flywheel.speeds[1]", "flywheel.speeds[2]"):
+        reader.complain("flywheel.speeds", Refusal("wheel_speeds_order"))
+    elif speed is not None and abs(mean - speed) > _SAME * speed:
+        reader.complain("flywheel.speeds", Refusal("wheel_speeds_mean", mean=mean * 30 / math.pi))
+    return (high - low) / mean

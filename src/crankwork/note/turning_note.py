@@ -1,0 +1,198 @@
+"""The note of a shaft with torques on it: what acts, its excess work, its flywheel, how evenly it turns."""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from collections.abc import Callable, Iterator
+from functools import cached_property
+
+import numpy as np
+
+from crankwork.analysis import Results
+from crankwork.formula.known import Found
+from crankwork.note.document import Block, Contents, ItemList, Note, PageBreak, Runs, Table, TitlePage
+from crankwork.note.legends import explained
+from crankwork.note.linkage_data import method
+from crankwork.note.linkage_lines import Told
+from crankwork.note.linkage_material import Material
+from crankwork.note.linkage_shaft import checks, conclusion, sources
+from crankwork.note.linkage_tables import Column, equations, position_tables
+from crankwork.note.options import NoteOptions
+from crankwork.note.words import in_display_unit
+
+_TABLES = (("torque", "drives"), ("load", "resists"))
+_MOST_ROWS = 40
+# a speed changes little
+_DIGITS = defaultdict(lambda: 4, crank_speed=6)
+_COLUMNS = (
+    "turning_moment", "load_torque", "excess_torque", "kinetic_energy_change", "crank_speed", "angular_acceleration",
+)  # fmt: skip
+_POWER = ("speed", "mean_torque", "shaft_power", "efficiency", "motor_power", "work_per_cycle")
+_EXCESS = ("kinetic_energy_change", "excess_work", "energy_fluctuation")
+_WHEEL = (
+    "speed_fluctuation", "whole_inertia", "flywheel_inertia", "flywheel_mass", "rim_speed", "rim_stress",
+    "rim_diameter", "rim_mass", "rim_section", "rim_thickness", "rim_width", "recovery_torque",
+)  # fmt: skip
+
+
+class _Material(Material):
+    """Results of a shaft, whose lines are told once."""
+
+    @cached_property
+    def worked_at(self) -> float:
+        """The angle at which the torques are worked: that of the greatest. [deg]"""
+        for key in ("turning_moment_max", "load_torque_max"):
+            known = self.results.memory.get(key)
+            if known is not None and isinstance(known.node, Found) and known.node.at is not None:
+                return known.node.at
+        return 0.0
+
+    @cached_property
+    def told(self) -> Told:
+        """Lines at that angle."""
+        return Told(self.results, self.worked_at)
+
+
+Section = Callable[[_Material], Iterator[Block]]
+
+
+def turning_note(results: Results, options: NoteOptions) -> Note:
+    """Return the note of a shaft with torques on it (khurmi_gupta_2005, ch. 16)."""
+    material = _Material(results, options)
+    sections: tuple[Section, ...] = (_task, _moments, _excess, _flywheel, _course, checks, conclusion, sources)
+    blocks: list[Block] = [TitlePage(), Contents(), PageBreak()]
+    for section in sections:
+        blocks.extend(section(material))
+    return Note(
+        options.title or results.machine.title or material.words.title("turning"),
+        options.language,
+        tuple(explained(blocks, options.language)),
+        subtitle=material.words.title("turning_subtitle"),
+        authors=(options.author,) if options.author else (),
+    )
+
+
+def _task(material: _Material) -> Iterator[Block]:
+    """Yield what is asked and what is given."""
+    words, machine = material.words, material.machine
+    turning = machine.turning
+    if turning is None:
+        return
+    yield words.heading("task")
+    yield words.paragraph("task_turning", cycle=words.amount(turning.cycle, "deg"))
+    yield words.paragraph("table_speed", value=words.amount(material.results.solved.speed, "rad/s"))
+    for table, verb in _TABLES:
+        diagram = turning.diagrams.get(table)
+        if diagram is None:
+            yield words.paragraph(f"{verb}_mean")
+            continue
+        yield words.paragraph(verb, period=words.amount(diagram.period, "deg"))
+        yield ItemList(tuple(_items(material, table)))
+        if diagram.points:
+            yield _points(material, table)
+    yield method(material)
+
+
+def _items(material: _Material, table: str) -> Iterator[Runs]:
+    """Yield what a torque is made of, in words."""
+    words, turning = material.words, material.machine.turning
+    diagram = turning.diagrams[table] if turning is not None else None
+    if diagram is None:
+        return
+    if diagram.constant:
+        yield words.sentence("item_constant", torque=words.amount(diagram.constant, "N*m"))
+    if diagram.points:
+        yield words.sentence("item_points", count=str(len(diagram.points)))
+    for order, sine, cosine in diagram.harmonics:
+        sine_, cosine_ = (words.amount(one, "N*m") for one in (sine, cosine))
+        yield words.sentence("item_order", order=words.number(order), sine=sine_, cosine=cosine_)
+    for one in diagram.strokes:
+        values = {"work": words.amount(one.work, "J"), "start": words.amount(one.start, "deg")}
+        if one.over:
+            shape = words.phrase(f"shape_{one.shape}")
+            yield words.sentence("item_stretch", over=words.amount(one.over, "deg"), shape=shape, **values)
+        else:
+            yield words.sentence("item_blow", **values)
+    if diagram.loops:
+        shown = "; ".join(words.amount(one, "J") for one in diagram.loops)
+        yield words.sentence("item_loops", works=shown)
+    if diagram.excess is not None:
+        yield words.sentence("item_excess", work=words.amount(diagram.excess, "J"))
+    if len(diagram.delays) > 1:
+        delays = ", ".join(words.number(math.degrees(one)) for one in diagram.delays)
+        yield words.sentence("item_cylinders", count=str(len(diagram.delays)), delays=delays)
+
+
+def _points(material: _Material, table: str) -> Table:
+    """Return the points of a torque."""
+    words, turning = material.words, material.machine.turning
+    points = turning.diagrams[table].points if turning is not None else ()
+    key = "turning_moment" if table == "torque" else "load_torque"
+    rows = [(words.number(math.degrees(angle)), words.number(torque)) for angle, torque in points]
+    return Table(words.caption("points_of_torque"), (words.titled("crank_angle"), words.titled(key)), rows, align="rr")
+
+
+def _moments(material: _Material) -> Iterator[Block]:
+    """Yield torque, mean and power."""
+    words, told = material.words, material.told
+    yield words.heading("turning_moments")
+    if "turning_moment" in material.results.columns:
+        keys = [
+            key
+            for key, table in (("turning_moment", "torque"), ("load_torque", "load"))
+            if material.machine.turning is not None and table in material.machine.turning.diagrams
+        ]
+        yield words.paragraph("worked_position", value=words.amount(math.radians(material.worked_at), "deg"))
+        yield from equations(told.lines(keys), words)
+        yield words.paragraph("mean_of_torque")
+    yield from equations(told.lines(_POWER), words)
+
+
+def _excess(material: _Material) -> Iterator[Block]:
+    """Yield the extremes of the energy, and the excess work."""
+    words, results = material.words, material.results
+    yield words.heading("energy_extremes")
+    listing = results.listings.get("energy_extremes")
+    if listing is not None:
+        yield words.paragraph("extremes_of_energy")
+        columns = [
+            (key, words.column_texts(in_display_unit(key, one.tolist()))) for key, one in listing.columns.items()
+        ]
+        rows = list(zip(*(one for _, one in columns), strict=True))
+        titles = tuple(words.titled(key) for key, _ in columns)
+        yield Table(words.caption("energy_extremes"), titles, rows, align="r" * len(columns), label="extremes")
+    keys = ("excess_work", "energy_fluctuation") if "turning_moment" in results.columns else _EXCESS
+    yield from equations(material.told.lines(keys), words)
+    yield from material.figures("turning_moment", "loops")
+
+
+def _flywheel(material: _Material) -> Iterator[Block]:
+    """Yield the flywheel, given or found, and the fluctuation of the speed."""
+    words = material.words
+    lines = material.told.lines(_WHEEL)
+    if lines:
+        yield words.heading("flywheel")
+        yield from equations(lines, words)
+
+
+def _course(material: _Material) -> Iterator[Block]:
+    """Yield the table over the angle, and the speed."""
+    words, results = material.words, material.results
+    shown = [key for key in _COLUMNS if key in results.columns]
+    if not shown:
+        return
+    yield words.heading("law_of_shaft")
+    if "crank_speed" in shown:
+        yield words.paragraph("speed_of_shaft")
+        yield from equations(material.told.lines(("crank_speed", "angular_acceleration")), words)
+    degrees = results.grid.degrees
+    every = max(1, math.ceil((degrees.size - 1) / _MOST_ROWS))
+    rows = np.unique(np.append(np.arange(0, degrees.size, every), degrees.size - 1))
+    columns = {key: results.columns[key][rows] for key in shown}
+    tabulated = [
+        Column(words.titled(key), words.column_texts(in_display_unit(key, columns[key].tolist()), digits=_DIGITS[key]))
+        for key in shown
+    ]
+    yield from position_tables("turning", degrees[rows], tabulated, words, first=None, label="turning")
+    yield from material.figures("speed")

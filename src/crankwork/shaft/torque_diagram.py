@@ -1,0 +1,182 @@
+"""Torque over the angle of a shaft as books draw it: points, harmonics, work in a stretch, loops about its mean."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from crankwork.formula.expression import Value, formula
+from crankwork.kinematics.crank_grid import Array
+
+Shape = Literal["constant", "triangle"]
+
+
+@formula("turning_moment", "khurmi_gupta_2005, ch. 16")
+def torque_between_points(M_p1: Value, M_p2: Value, phi: Value, phi_p1: Value, phi_p2: Value) -> Value:
+    """Torque on the straight line between two points of a diagram."""
+    return M_p1 + (M_p2 - M_p1) * (phi - phi_p1) / (phi_p2 - phi_p1)
+
+
+@formula("turning_moment", "khurmi_gupta_2005, ch. 16")
+def torque_of_harmonic(a_n: Value, b_n: Value, k_h: Value, phi: Value) -> Value:
+    """Part of one order in a torque."""
+    return a_n * np.sin(k_h * phi) + b_n * np.cos(k_h * phi)
+
+
+@formula("turning_moment", "khurmi_gupta_2005, ch. 16")
+def torque_of_work(W_s: Value, phi_s: Value) -> Value:
+    """Torque that does a work evenly over an angle."""
+    return W_s / phi_s
+
+
+@formula("turning_moment", "khurmi_gupta_2005, ch. 16")
+def peak_torque_of_work(W_s: Value, phi_s: Value) -> Value:
+    """Greatest torque of a triangle that does a work over an angle."""
+    return 2 * W_s / phi_s
+
+
+@formula("sheared_area", "khurmi_gupta_2005, ch. 16")
+def sheared_area_of_hole(pi: Value, d_h: Value, s_h: Value) -> Value:
+    """Area that is sheared where a round hole is punched."""
+    return pi * d_h * s_h
+
+
+@formula("stroke_angle", "khurmi_gupta_2005, ch. 16")
+def angle_in_plate(s_h: Value, phi_c: Value, h_p: Value) -> Value:
+    """Angle that a punch is in the plate, if it goes down and up at one speed."""
+    return s_h * phi_c / (2 * h_p)
+
+
+class Harmonic(NamedTuple):
+    """One order of a torque: how often it repeats in a turn, and its parts [-], [N m], [N m]."""
+
+    order: float
+    sine: float
+    cosine: float
+
+
+class Stroke(NamedTuple):
+    """Work in a stretch of the period; over no angle it is done at once."""
+
+    work: float  # [J]
+    # Where it begins, and over which angle it is done [rad]
+    start: float
+    over: float
+    shape: Shape = "constant"
+    peak: float = 0.5  # Part of the stretch before the greatest torque of a triangle [-]
+
+    def share(self, turned: Array) -> Array:
+        """Return the part of the work that is done at angles from the beginning of the stretch. [-]"""
+        if not self.over:
+            return np.where(turned >= 0, 1.0, 0.0)
+        u = np.clip(turned / self.over, 0.0, 1.0)
+        if self.shape == "constant":
+            return u
+        before = u**2 / self.peak if self.peak else np.zeros_like(u)
+        after = 1 - (1 - u) ** 2 / (1 - self.peak) if self.peak < 1 else np.ones_like(u)
+        return np.where(u < self.peak, before, after)
+
+
+class Line(NamedTuple):
+    """A straight line between two points, by number, each moved by a number of periods, and where it ends. [rad]"""
+
+    first: int
+    last: int
+    moved: tuple[int, int]
+    end: float
+
+
+@dataclass(frozen=True)
+class TorqueDiagram:
+    """A torque over its period: a constant, and what is beside it. Of loops, or an excess, the energies are known."""
+
+    period: float  # [rad]
+    constant: float = 0.0  # [N m]
+    points: tuple[tuple[float, float], ...] = ()  # Corners: angles that do not descend, torques [rad], [N m]
+    harmonics: tuple[Harmonic, ...] = ()
+    strokes: tuple[Stroke, ...] = ()
+    delays: tuple[float, ...] = (0.0,)  # By which the same torque comes again, for each cylinder [rad]
+    loops: tuple[float, ...] = ()  # Work of each loop about the mean [J]
+    excess: float | None = None  # Fluctuation of the energy [J]
+
+    @property
+    def has_course(self) -> bool:
+        """Whether the torque is known at every angle."""
+        return not self.loops and self.excess is None
+
+    @property
+    def work(self) -> float:
+        """Work of a period. [J]"""
+        return float(self.work_to(np.array([self.period]))[0])
+
+    def lines(self) -> Iterator[Line]:
+        """Yield the straight lines of a period in their order, closed over its ends."""
+        if not self.points:
+            return
+        last, angles = len(self.points) - 1, [angle for angle, _ in self.points]
+        if angles[0] > 0:
+            yield Line(last, 0, (-1, 0), angles[0])
+        for at in range(last):
+            if angles[at + 1] > angles[at]:
+                yield Line(at, at + 1, (0, 0), angles[at + 1])
+        if angles[-1] < self.period:
+            yield Line(last, 0, (0, 1), self.period)
+
+    def work_to(self, angle: Array) -> Array:
+        """Return the work from an angle of zero up to angles. [rad] -> [J]"""
+        moved = np.array(self.delays)[:, None]
+        return np.asarray(np.sum(self._work_of_one(angle - moved) - self._work_of_one(-moved), axis=0))
+
+    def _work_of_one(self, angle: Array) -> Array:
+        result = self.constant * angle
+        for order, sine, cosine in self.harmonics:
+            result = result + (sine * (1 - np.cos(order * angle)) + cosine * np.sin(order * angle)) / order
+        for one in self.strokes:
+            periods, rest = np.divmod(angle - one.start, self.period)
+            result = result + one.work * (periods + one.share(rest))
+        return result + self._work_of_lines(angle) if self.points else result
+
+    def _work_of_lines(self, angle: Array) -> Array:
+        lines = list(self.lines())
+        low = np.array([self.points[one.first][0] + one.moved[0] * self.period for one in lines])
+        high = np.array([self.points[one.last][0] + one.moved[1] * self.period for one in lines])
+        left = np.array([self.points[one.first][1] for one in lines])
+        right = np.array([self.points[one.last][1] for one in lines])
+        slope = (right - left) / (high - low)
+
+        def area(line: NDArray[np.intp], end: Array) -> Array:
+            return np.asarray((left[line] + slope[line] * (end - low[line]) / 2) * (end - low[line]))
+
+        ends = np.array([one.end for one in lines])
+        starts, every = np.append(0.0, ends[:-1]), np.arange(len(lines))
+        whole = np.append(0.0, np.cumsum(area(every, ends) - area(every, starts)))
+        periods, rest = np.divmod(angle, self.period)
+        line = np.minimum(np.searchsorted(ends, rest, side="left"), len(lines) - 1)
+        return np.asarray(periods * whole[-1] + whole[line] + area(line, rest) - area(line, starts[line]))
+
+
+class Turning(NamedTuple):
+    """What drives a shaft and what it drives; where one of them is not given, it is constant."""
+
+    torque: TorqueDiagram | None
+    load: TorqueDiagram | None
+    cycle: float  # Angle after which both repeat [rad]
+
+    @property
+    def diagrams(self) -> dict[str, TorqueDiagram]:
+        """Those that are given, by the table that describes them."""
+        return {name: one for name, one in (("torque", self.torque), ("load", self.load)) if one is not None}
+
+
+def common_period(one: float, other: float, most: int = 60) -> float | None:
+    """Return the angle after which what has two periods repeats; none if it takes too many of them. [rad]"""
+    for times in range(1, most + 1):
+        share = times * one / other
+        if share > 0.5 and math.isclose(share, round(share), rel_tol=1e-9):
+            return times * one
+    return None
