@@ -45,6 +45,11 @@ def read_text(path: str | Path, *, limit: int = MAX_MACHINE_FILE, advice: str = 
 
     `advice`: what to do if there is no such file, otherwise to check the path.
     """
+    return _decoded(Path(path), read_data(path, limit=limit, advice=advice))
+
+
+def read_data(path: str | Path, *, limit: int = MAX_DATA_FILE, advice: str = "") -> bytes:
+    """Return what is in a file; `advice`: what to do if there is no such file, otherwise to check the path."""
     path, advice = Path(path), advice or Refusal("check_path")
     try:
         mode = path.stat().st_mode
@@ -64,7 +69,7 @@ def read_text(path: str | Path, *, limit: int = MAX_MACHINE_FILE, advice: str = 
         if limit >= 1 << 20:
             raise CrankworkError(Refusal("path_large", path=path, size=limit >> 20))
         raise CrankworkError(Refusal("path_large_kb", path=path, size=limit >> 10))
-    return _decoded(path, data)
+    return data
 
 
 def _decoded(path: Path, data: bytes) -> str:

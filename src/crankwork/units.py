@@ -111,6 +111,7 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (1e3, "kPa кПа kN/m2 kN/m²"),
         (1.0, "Pa Па N/m2 N/m²"),
         (1e5, "bar бар"),
+        (1e2, "hPa гПа mbar мбар"),
         (KGF * 1e4, "kgf/cm2 kgf/cm² кгс/см2 кгс/см² kG/cm2 kG/cm² at ат"),
         (101325.0, "atm атм"),
         (_LBF / _IN**2, "psi lbf/in2 lbf/in²"),

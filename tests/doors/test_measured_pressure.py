@@ -73,8 +73,7 @@ BROKEN = {
     "only a heading": ("angle,pressure\n", "line 1: only a heading", "write rows of numbers"),
     "one column": ("1.0\n2.0\n", "line 1: only one column", "write crank angle and pressure"),
     "binary": (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "is a binary file", "give a text file"),
-    "not UTF-8": ("угол,давление\n0,1\n".encode("cp1251"), "is not UTF-8 text", "saved as UTF-8"),
-    "an endless cell": ('0,"' + "9" * 200_000 + '"\n', "line 1: a cell is far too long", "a table of numbers"),
+    "an endless cell": ('0,"' + "9" * 200_000 + '"\n', "line 1: the line is far too long", "a table of numbers"),
     "missing": (None, "no such file", "check the path"),
 }  # fmt: skip
 
@@ -112,6 +111,8 @@ SPELLINGS = {
     "a heading": "angle,pressure\n" + WHOLE,
     "a byte order mark": "\ufeff" + WHOLE,
     "lines as Windows ends them": WHOLE.replace("\n", "\r\n"),
+    "words in an old encoding": f"угол;давление\n{WHOLE.replace(',', ';')}".encode("cp1251"),
+    "as Excel saves Unicode": ("угол\tдавление\n" + WHOLE.replace(",", "\t")).encode("utf-16"),
     "comments and empty lines": "# made in the laboratory, twice\n\n" + WHOLE + "\n\n",
 }
 

@@ -195,6 +195,7 @@ def _given_diagram(
         diagram, cycles, wrap = measured_diagram(
             gas.measured, gas.cycle, shift=gas.angle_shift, step=gas.resample, path=gas.path
         )
+        notices += [Notice(*one) for one in gas.measured.told]
         if cycles > 1:
             notices.append(Notice("cycles_averaged", {"cycles": cycles}))
         if wrap_is_rough(diagram, wrap):

@@ -67,12 +67,13 @@ PIECE = Table("piece", {
     "reference": Key(Text(60)),
 })  # fmt: skip
 
+_COLUMN = NameOr(Number(1, 16_384, whole=True))
 MEASURED = Table("measured", {
     "file": Key(Text(1000), required=True),
-    "angle_column": Key(Text()),
-    "pressure_column": Key(Text()),
+    "angle_column": Key(_COLUMN),
+    "pressure_column": Key(_COLUMN),
     "angle_unit": Key(Choice(("deg", "rad")), default="deg"),
-    "pressure_unit": Key(Choice(("MPa", "kPa", "Pa", "bar", "kgf/cm2", "psi")), required=True),
+    "pressure_unit": Key(Choice(("MPa", "kPa", "Pa", "bar", "kgf/cm2", "psi", "atm", "hPa"))),
     "shift": Key(_ANGLE, default="0 deg"),
     "resample": Key(Quantity(("angle",), math.radians(0.01), math.radians(30))),
 })  # fmt: skip

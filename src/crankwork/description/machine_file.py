@@ -19,7 +19,7 @@ from crankwork.description.keys import FORMATS, MACHINE_FILE, SIZED_FILE
 from crankwork.description.kinds import Reader, is_one_line
 from crankwork.description.linkage_keys import DRIVEN_FILE, LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.locate import locate
-from crankwork.description.measured_file import read_measured
+from crankwork.description.measured_build import read_measured
 from crankwork.description.schema import ListOf, Named, Nested, Table, Values
 from crankwork.description.turning_keys import PRESS_FILE, TURNING_FILE
 from crankwork.errors import CrankworkError, InputError, Problem, UnknownKeyError

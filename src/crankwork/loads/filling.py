@@ -20,7 +20,7 @@ from crankwork.loads import gas
 from crankwork.loads.applied import AppliedLoads, force_on_slider, together
 from crankwork.loads.chamber import Chamber, Charge, Face, cycle_of, face_owners, least_common, own_cycle
 from crankwork.loads.indicator import DeadCentres, DiagramError, IndicatorDiagram, Segment, VolumeAt, solve_diagram
-from crankwork.loads.measured import measured_diagram, wrap_is_rough
+from crankwork.loads.measured import Told, measured_diagram, wrap_is_rough
 from crankwork.loads.pressure import at_angle, remembered_pressure
 from crankwork.locale import Refusal
 from crankwork.mechanism.driver import Law
@@ -33,7 +33,6 @@ _NOTHING = 1e-12
 _STILL = 1e-9
 # dead centres that are nearer are one [deg]
 _SAME_ANGLE = 1e-6
-Told = tuple[str, Mapping[str, float | str]]
 
 
 class GasForce(NamedTuple):
@@ -265,6 +264,7 @@ def _of_its_own(
         samples, cycles, wrap = measured_diagram(
             chamber.measured, chamber.cycle, shift=chamber.angle_shift, step=chamber.resample, path=path
         )
+        told += chamber.measured.told
         told += [("cycles_averaged", {"cycles": cycles})] * (cycles > 1)
         told += [("wrap", {"step": wrap})] * wrap_is_rough(samples, wrap)
         found = dict.fromkeys(phases, samples)

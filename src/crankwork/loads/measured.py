@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +17,10 @@ _SAME_ANGLE = 1e-6
 _WRAP = 0.05
 
 
+# what the reader should know: the code of a notice and its values
+Told = tuple[str, Mapping[str, float | str]]
+
+
 @dataclass(frozen=True)
 class MeasuredPressure:
     """Pressure samples of one or more cycles, as recorded."""
@@ -26,6 +30,7 @@ class MeasuredPressure:
     pressure: Array
     rows: Sequence[int]  # Line numbers of the samples in their file, for messages
     file: str = ""  # Name of that file, without its folder
+    told: tuple[Told, ...] = ()  # How the file was read
 
 
 def measured_diagram(

@@ -1,0 +1,121 @@
+"""Tables of numbers as test benches and programs write them: every cell where it stands, whatever is around it."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+import pytest
+
+from crankwork.description.table_file import read_table
+from crankwork.errors import CrankworkError
+
+ANGLES = np.arange(0.0, 721.0, 2.0)
+PRESSURES = np.round(1 + 40 * np.exp(-(((ANGLES - 372) / 40) ** 2)), 6)
+
+
+def _rows(separator: str, mark: str = ".", end: str = "") -> str:
+    rows = (f"{angle:g}{separator}{pressure:.6f}" for angle, pressure in zip(ANGLES, PRESSURES, strict=True))
+    return "\n".join(row.replace(".", mark) + end for row in rows)
+
+
+PREAMBLE = "Diesel-RK 4.3\nProject = D-245\nRPM = 1500; bore = 110 mm\nStep = 2.0, deg\nP,0 = 0.1 MPa\n\n"
+WRITTEN = {
+    "commas": _rows(","),
+    "comma and blank": _rows(", "),
+    "semicolons and decimal commas": _rows(";", ","),
+    "tabs and decimal commas": _rows("\t", ","),
+    "blanks": _rows("   "),
+    "blanks and decimal commas": _rows("   ", ","),
+    "aligned": "\n".join(f"{a:10.1f} {p:14.6f}" for a, p in zip(ANGLES, PRESSURES, strict=True)),
+    "a trailing tab": _rows("\t", end="\t"),
+    "a trailing semicolon": "phi;p;\n" + _rows(";", end=";"),
+    "quoted decimal commas": "\n".join(
+        f'"{a:.1f}","{p:.6f}"'.replace(".", ",") for a, p in zip(ANGLES, PRESSURES, strict=True)
+    ),
+    "a title, headings and units": "Test of 12.05.2020\n\nphi;p\n[°CA];[bar]\n" + _rows(";"),
+    "units above": "Title\ndeg\tbar\nphi\tp\n" + _rows("\t"),
+    "a preamble": PREAMBLE + "Angle, deg  Pressure, bar\n----------------\n" + _rows("   "),
+    "comments": "# made twice\n% 2020\n" + _rows(",") + "\n# end\n",
+    "a count of rows": "361\n" + _rows(" "),
+    "lines as old computers end them": _rows(",").replace("\n", "\r"),
+}
+
+
+@pytest.mark.parametrize("text", WRITTEN.values(), ids=WRITTEN)
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "latin-1"])
+def test_the_same_numbers_written_otherwise_are_the_same_table(tmp_path, text, encoding):
+    (tmp_path / "p.csv").write_bytes(text.encode(encoding))
+    table = read_table(tmp_path / "p.csv")
+    found = table.columns((0, 1))
+    assert found[:, 0].tolist() == ANGLES.tolist()
+    assert found[:, 1].tolist() == PRESSURES.tolist()
+    lines = text.replace("\r", "\n").split("\n")
+    assert "20" in lines[table.lines[10] - 1]
+    if "bar" in text:
+        assert table.units == ("deg", "bar")
+
+
+HEADINGS = {
+    "phi [deg];p [bar]": ("deg", "bar"),
+    "Winkel [Grad];Druck (bar)": ("deg", "bar"),
+    "Crank angle, deg;Pressure, MPa": ("deg", "MPa"),
+    "phi / rad;p / kPa": ("rad", "kPa"),
+    "Угол ПКВ, град;Давление, МПа": ("deg", "MPa"),
+    "CA;p_cyl": ("", ""),
+    "angle_deg;pressure_bar": ("deg", "bar"),
+    "ALPHA [°KW];PCYL1 [BAR(a)]": ("deg", "bar"),
+    "phi [deg ATDC];p [mbar]": ("deg", "hPa"),
+    "góc quay (độ);áp suất (kgf/cm²)": ("deg", "kgf/cm2"),
+    "n;P [kW]": ("", "kW"),
+}
+
+
+@pytest.mark.parametrize(("heading", "units"), HEADINGS.items())
+@pytest.mark.parametrize("encoding", ["utf-8", "cp1251", "latin-1"])
+def test_units_stand_in_headings(tmp_path, heading, units, encoding):
+    try:
+        data = f"{heading}\n{_rows(';')}".encode(encoding)
+    except UnicodeEncodeError:
+        pytest.skip("not a letter of this encoding")
+    (tmp_path / "p.csv").write_bytes(data)
+    table = read_table(tmp_path / "p.csv")
+    assert table.names == tuple(heading.split(";"))
+    assert table.units == units
+    assert table.heading == 1
+
+
+def test_columns_have_names_and_numbers(tmp_path):
+    (tmp_path / "p.csv").write_text(
+        "t [s]\tphi [deg]\tp 1 [bar]\tp 2\tnote\n0\t1\t2\t3\tok\n1\t2\t3\t\tok\n2\t3\t4\t5\tx\n"
+    )
+    table = read_table(tmp_path / "p.csv")
+    assert [table.position(one) for one in ("phi [deg]", "phi", "PHI", 2, "p 1", "p 2")] == [1, 1, 1, 1, 2, 3]
+    assert table.columns((1, 2)).tolist() == [[1, 2], [2, 3], [3, 4]]
+    with pytest.raises(CrankworkError, match=r'p.csv, line 3: "" is not a number'):
+        table.columns((1, 3))
+    with pytest.raises(CrankworkError, match=r'p.csv, line 1: there is no column "q"; the headings are: t \[s\], phi'):
+        table.position("q")
+    with pytest.raises(CrankworkError, match=r"p.csv, there is no column 6; the table has 5"):
+        table.position(6)
+
+
+def test_one_heading_of_two_columns_is_asked_about(tmp_path):
+    (tmp_path / "p.csv").write_text("phi,p,p\n0,1,2\n1,2,3\n2,3,4\n")
+    with pytest.raises(CrankworkError, match=r'"p" stands above columns 2 and 3; write the number of one of them'):
+        read_table(tmp_path / "p.csv").position("p")
+
+
+def test_a_million_rows_take_less_than_five_seconds(tmp_path):
+    degrees = np.arange(1_000_000) * 0.5
+    pressure = 1 + 40 * np.exp(12 * (np.cos(np.radians(degrees - 372) / 2) - 1))
+    rows = "\n".join(f"{a:.1f},{p:.8f}" for a, p in zip(degrees.tolist(), pressure.tolist(), strict=True))
+    (tmp_path / "p.csv").write_text(f"phi [deg],p [bar]\n{rows}\n")
+    begun = time.perf_counter()
+    table = read_table(tmp_path / "p.csv")
+    found = table.columns((0, 1))
+    taken = time.perf_counter() - begun
+    print(f"{len(rows) / 1e6:.0f} MB, a million rows: {taken:.2f} s")  # noqa: T201 - the time is what is looked at
+    assert found.shape == (1_000_000, 2)
+    assert found[-1, 0] == degrees[-1]
+    assert taken < 5
