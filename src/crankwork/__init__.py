@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from crankwork.analysis.analyse import analyse, with_method
+    from crankwork.analysis.compare import Comparison, compare
     from crankwork.analysis.results import Results
     from crankwork.description.document import Description, load
     from crankwork.description.machine_file import json_schema, read, read_machine, template, template_names
@@ -51,6 +52,7 @@ __version__ = "0.1.0"
 # Where each name lives; it is imported when first used, so that the command line starts fast.
 _HOMES = {
     "QUANTITIES": "quantities",
+    "Comparison": "analysis.compare",
     "CrankGrid": "kinematics.crank_grid",
     "CrankworkError": "errors",
     "Description": "description.document",
@@ -66,6 +68,7 @@ _HOMES = {
     "Solution": "study.solve",
     "UnknownKeyError": "errors",
     "analyse": "analysis",
+    "compare": "analysis.compare",
     "crank_shaper": "mechanism.catalog",
     "figures": "report.figures",
     "four_bar": "mechanism.catalog",
@@ -89,6 +92,7 @@ _HOMES = {
 }
 
 __all__ = [
+    "Comparison",
     "CrankGrid",
     "CrankworkError",
     "Description",
@@ -105,6 +109,7 @@ __all__ = [
     "Solution",
     "UnknownKeyError",
     "analyse",
+    "compare",
     "crank_shaper",
     "figures",
     "four_bar",

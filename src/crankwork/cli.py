@@ -9,13 +9,13 @@ import math
 import os
 import re
 import sys
-import time
-from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING, Any, TextIO
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, TextIO
 
 import click
 
 from crankwork.errors import CrankworkError, DoubtfulError, InputError
+from crankwork.progress import bar, with_progress
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -210,6 +210,9 @@ def check(  # noqa: PLR0913 - one argument per option of the command
 @click.option("--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the output.")
 @click.option("--units", type=_UNITS, help="System of units of the output, instead of the file's own.")
 @click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
+@click.option(
+    "--compare", metavar="METHODS|FILE", help="Put textbook, series:N ... or the machine of OTHER.toml beside."
+)
 @click.option("--per-area", is_flag=True, help="Forces per piston area, in MPa.")
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as one JSON object.")
 @click.option("--no-figures", is_flag=True, help="Leave the figures out.")
@@ -223,6 +226,7 @@ def run(  # noqa: PLR0913 - one argument per option of the command
     language: Language,
     units: str | None,
     settings: tuple[str, ...],
+    compare: str | None,
     *,
     per_area: bool,
     as_json: bool,
@@ -239,7 +243,7 @@ def run(  # noqa: PLR0913 - one argument per option of the command
         if not output:
             raise CrankworkError(_refusal("folder_unnamed"))
         files.check_folder(output, overwrite=overwrite)
-    results = _analysed(machine)
+    results = _compared(machine, file, compare, per_area=per_area)
     if as_json:
         click.echo(json.dumps(summary.summary_data(results, per_area=per_area), ensure_ascii=False, indent=1))
     else:
@@ -251,7 +255,7 @@ def run(  # noqa: PLR0913 - one argument per option of the command
         steps = results_folder(
             results, language=language, per_area=per_area, for_excel=excel_csv, with_figures=not no_figures
         )
-        contents = _with_progress(steps, 4 - no_figures)
+        contents = with_progress(steps, 4 - no_figures)
         files.write_folder(output, contents, overwrite=overwrite)
         click.echo(f"\n{say('report.written', language)} {output}", err=as_json)
         if (missing := left_out(with_figures=not no_figures)) is not None:
@@ -270,6 +274,9 @@ def run(  # noqa: PLR0913 - one argument per option of the command
 @click.option("--school", type=_LANGUAGE, help="Whose order of sections; that of the language if left out.")
 @click.option("--units", type=_UNITS, help="System of units of the output, instead of the file's own.")
 @click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
+@click.option(
+    "--compare", metavar="METHODS|FILE", help="Put textbook, series:N ... or the machine of OTHER.toml beside."
+)
 @click.option("--per-area", is_flag=True, help="Forces per piston area, in MPa.")
 @click.option("--title", default="", metavar="TEXT", help="Title of the note, instead of the file's.")
 @click.option("--author", default="", metavar="TEXT", help="Who hands it in.")
@@ -285,6 +292,7 @@ def report(  # noqa: PLR0913 - one argument per option of the command
     school: str | None,
     units: str | None,
     settings: tuple[str, ...],
+    compare: str | None,
     title: str,
     author: str,
     *,
@@ -309,7 +317,7 @@ def report(  # noqa: PLR0913 - one argument per option of the command
         language=language, school=school or "", per_area=per_area, title=title.strip(), author=author.strip(),
         figures=not no_figures, sheets=sheets,
     )  # fmt: skip
-    results = _analysed(machine)
+    results = _compared(machine, file, compare, per_area=per_area)
     written: dict[str | Path, bytes] = {output: written_note(note_of(results, options), output)}
     if sheets:
         stem = os.path.splitext(output)[0]  # noqa: PTH122 - a name, not a file
@@ -390,7 +398,7 @@ def solve(  # noqa: PLR0913 - one argument per option of the command
     from crankwork.study.solve import solve as solved
 
     count = int(steps) if steps.isascii() and steps.isdecimal() and len(steps) < 10 else 0
-    with _bar() as told:
+    with bar() as told:
         found = solved(
             load(file), equation, sought, limits=(start, end), steps=count, overrides=settings, told=told
         )  # fmt: skip
@@ -466,35 +474,20 @@ def _analysed(machine: Machine) -> Results:
     """Return the results of a machine, with a bar on the error stream where one let go takes more than a second."""
     from crankwork.analysis import analyse
 
-    with _bar() as told:
+    with bar() as told:
         return analyse(machine, progress=told)
 
 
-@contextlib.contextmanager
-def _bar() -> Iterator[Callable[[float], None]]:
-    """Give a function that is told the part that is done, and shows it once a second has passed."""
-    started = time.monotonic()
-    bar: Any = None  # click does not say what its bars are
+def _compared(machine: Machine, file: str, asked: str | None, *, per_area: bool) -> Results:
+    """Return the results of a machine, with those beside them that it is to be compared with."""
+    if asked is None:
+        return _analysed(machine)
+    from crankwork.analysis.compare import compare
+    from crankwork.study.beside import others
 
-    def told(share: float) -> None:
-        nonlocal bar
-        if bar is None and time.monotonic() - started > 1 and sys.stderr.isatty():
-            bar = click.progressbar(length=1000, file=sys.stderr)
-        if bar is not None:
-            bar.update(max(round(1000 * share) - bar.pos, 0))
-
-    try:
-        yield told
-    finally:
-        if bar is not None:
-            click.echo(err=True)
-
-
-def _with_progress(steps: Iterable[dict[str, bytes]], count: int) -> dict[str, bytes]:
-    """Gather the files of a folder, with a bar on the error stream once a second has passed."""
-    contents: dict[str, bytes] = {}
-    with _bar() as told:
-        for done, files in enumerate(steps, start=1):
-            contents |= files
-            told(done / count)
-    return contents
+    name, machines = others(machine, file, asked)
+    results = _analysed(machine)
+    found = compare(results, {other: _analysed(one) for other, one in machines.items()}, name)
+    if per_area and found.compared is not None and not found.compared.is_of_methods:
+        raise CrankworkError(_refusal("compare_per_area"))
+    return found

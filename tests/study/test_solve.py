@@ -9,6 +9,7 @@ import pytest
 
 import crankwork
 from crankwork import CrankworkError, Description
+from crankwork.study.solution import solution_data, solution_text
 
 ENGINE = Description(crankwork.template("engine"))
 FOUR_BAR = Description(crankwork.template("four-bar"))
@@ -189,3 +190,14 @@ def test_an_absent_field_is_sought():
               .value("crank_torque", 30) for one in (0.0, 1.0)]  # fmt: skip
     (root,) = found.roots
     assert root.at == pytest.approx((200.0 - values[0]) / (values[1] - values[0]), rel=1e-9)
+
+
+def test_a_number_without_a_unit_is_in_the_system_that_the_machine_is_shown_in():
+    found = [
+        solved(ENGINE, wanted, "cylinder.bore", "80 mm", "110 mm", steps=10, overrides=[f"units={system}"])
+        for system, wanted in (("imperial", "crank_torque_max = 300"), ("metric", "crank_torque_max = 300 lbf*ft"))
+    ]
+    assert [one.at for one in found[0].roots] == pytest.approx([one.at for one in found[1].roots])
+    assert "= 300 lbf·ft" in solution_text(found[0])
+    assert "= 406.745 N·m" in solution_text(found[1])
+    assert solution_data(found[0])["wanted"]["unit"] == "lbf*ft"

@@ -23,6 +23,7 @@ from crankwork.method import Method
 from crankwork.quantities import QUANTITIES
 
 if TYPE_CHECKING:
+    from crankwork.analysis.compare import Comparison
     from crankwork.machine import Machine
 
 
@@ -68,6 +69,8 @@ class Results:
         may be rounding. [-]
     memory : mapping of str to Known
         How every column, every single value and what lies between them came about.
+    compared : Comparison, optional
+        Results that stand beside these, by `crankwork.compare`.
     """
 
     solved: Any
@@ -80,6 +83,7 @@ class Results:
     listings: Mapping[str, Listing] = field(default_factory=dict)
     allowed: Mapping[str, float] = field(default_factory=dict)
     memory: Mapping[str, Known] = field(default_factory=dict)
+    compared: Comparison | None = None
 
     @property
     def machine(self) -> Machine:

@@ -227,4 +227,5 @@ def as_engine(results: Results) -> Results:
     layout, notices = inline(1, (1,), strokes=4 if machine.cycle == _FOUR_STROKES else 2)
     if layout.cycle != machine.cycle:
         return results
-    return analyse_engine(replace(machine, engine=Engine(layout, notices=notices)), results.grid, method=results.method)
+    machine = replace(machine, engine=Engine(layout, notices=notices))
+    return replace(analyse_engine(machine, results.grid, method=results.method), compared=results.compared)

@@ -10,6 +10,7 @@ from crankwork.locale import Language, capital, say
 # what is called as something else is called already
 _SAME = {
     "headings.chambers": "tables.chambers",
+    "headings.comparison": "tables.comparison",
     "headings.driving": "quantities.driving_torque",
     "headings.firing": "columns.order",
     "headings.friction": "tables.friction",
@@ -25,6 +26,7 @@ _SAME = {
     "captions.acceleration": "quantities.piston_acceleration",
     "captions.balance": "figures.balance_orders",
     "captions.chambers": "tables.chambers",
+    "captions.comparison": "tables.comparison",
     "captions.displacement": "quantities.piston_displacement",
     "captions.firing": "tables.firing",
     "captions.friction": "tables.friction",

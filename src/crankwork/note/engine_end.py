@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from crankwork.analysis.solved import Notice
 from crankwork.locale import say
+from crankwork.note.comparison import comparison_blocks
 from crankwork.note.document import Bibliography, Block, Cell, ItemList, Math, Reference, Runs, Table
 from crankwork.note.engine_data import GEAR, cycle_keys
 from crankwork.note.engine_material import Material
@@ -48,6 +49,18 @@ def checks(material: Material) -> Iterator[Block]:
     if results.notices:
         yield words.paragraph("notices")
         yield ItemList(tuple((_notice(one, words),) for one in results.notices))
+
+
+def comparison(material: Material) -> Iterator[Block]:
+    """Yield the values and curves by other methods, or of another machine, beside those of this one."""
+    words = material.words
+    heading = words.heading("comparison", numbered=material.order != "vi")
+    # two machines have pistons of their own
+    compared = material.results.compared
+    per_area = material.per_area and compared is not None and compared.is_of_methods
+    caption = words.caption("comparison")
+    yield from comparison_blocks(material.results, words, heading, caption, per_area=per_area)
+    yield from material.presented((), ("comparison",))
 
 
 def _identity(key: str, words: EngineWords) -> Cell:

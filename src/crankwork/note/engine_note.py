@@ -11,7 +11,7 @@ from crankwork.errors import CrankworkError
 from crankwork.note.document import Block, Note
 from crankwork.note.engine_cycle import cycle, indicator
 from crankwork.note.engine_data import data, method, preface
-from crankwork.note.engine_end import appendix, checks, conclusion, sources
+from crankwork.note.engine_end import appendix, checks, comparison, conclusion, sources
 from crankwork.note.engine_forces import across, along, dynamics, inertia
 from crankwork.note.engine_material import Material
 from crankwork.note.engine_motion import acceleration, displacement, kinematics, velocity
@@ -23,18 +23,18 @@ Section = Callable[[Material], Iterator[Block]]
 
 _ORDERS: dict[str, tuple[Section, ...]] = {
     "ru": (
-        preface, data, cycle, indicator, kinematics, dynamics, total, crankpin, mains, balance, evenness, checks,
-        conclusion, sources, appendix,
+        preface, data, cycle, indicator, kinematics, dynamics, total, crankpin, mains, balance, evenness, comparison,
+        checks, conclusion, sources, appendix,
     ),
     # between the data and the checks the twelve sections that such notes have
     "vi": (
         preface, data, cycle, indicator, displacement, velocity, acceleration, inertia, along, across, total, polar,
-        unrolled, big_end, wear, checks, conclusion, sources, appendix,
+        unrolled, big_end, wear, comparison, checks, conclusion, sources, appendix,
     ),
     # engineers who read English want the results before the way to them
     "en": (
         data, method, conclusion, cycle, indicator, kinematics, dynamics, total, crankpin, mains, balance, evenness,
-        checks, sources, appendix,
+        comparison, checks, sources, appendix,
     ),
 }  # fmt: skip
 

@@ -16,7 +16,7 @@ from crankwork.note.linkage_friction import friction
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_motion import kinematics, law_of_motion
 from crankwork.note.linkage_quality import quality
-from crankwork.note.linkage_shaft import appendix, checks, conclusion, flywheel, motor, sources
+from crankwork.note.linkage_shaft import appendix, checks, comparison, conclusion, flywheel, motor, sources
 from crankwork.note.linkage_table_note import driving, dynamic, static, table_task
 from crankwork.note.linkage_transient import transient
 from crankwork.note.options import NoteOptions
@@ -25,19 +25,19 @@ Section = Callable[[Material], Iterator[Block]]
 
 _COURSE: tuple[Section, ...] = (
     task, structural_analysis, kinematics, quality, chambers, forces, balance, reduction, torques, friction, motor,
-    flywheel, law_of_motion, transient, checks, conclusion, sources, appendix,
+    flywheel, law_of_motion, transient, comparison, checks, conclusion, sources, appendix,
 )  # fmt: skip
 # engineers who read English want the results before the way to them
 _REPORT: tuple[Section, ...] = (
     task, conclusion, structural_analysis, kinematics, quality, chambers, forces, balance, reduction, torques, friction,
-    motor, flywheel, law_of_motion, transient, checks, sources, appendix,
+    motor, flywheel, law_of_motion, transient, comparison, checks, sources, appendix,
 )  # fmt: skip
 _DRIVEN: tuple[Section, ...] = (
-    driven_task, structural_analysis, driven_motion, quality, chambers, driven_forces, friction, checks, conclusion,
-    sources, appendix,
+    driven_task, structural_analysis, driven_motion, quality, chambers, driven_forces, friction, comparison, checks,
+    conclusion, sources, appendix,
 )  # fmt: skip
 # the tables keep the numbers that courses of machines give them
-_OF_TABLE: tuple[Section, ...] = (table_task, static, dynamic, driving, checks, conclusion, sources)
+_OF_TABLE: tuple[Section, ...] = (table_task, static, dynamic, driving, comparison, checks, conclusion, sources)
 
 
 def linkage_note(results: Results, options: NoteOptions) -> Note:

@@ -8,6 +8,7 @@ import numpy as np
 
 from crankwork.analysis.rounding import without_rounding
 from crankwork.locale import capital, say
+from crankwork.note.comparison import comparison_blocks
 from crankwork.note.document import Bibliography, Block, Bold, ItemList, Paragraph, Reference, Runs, Table
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_tables import equations, position_tables, quantity_columns
@@ -74,6 +75,14 @@ def _marks(ways: Iterable[str], words: Words) -> Mapping[str, str]:
         ends = {"largest": "max", "least": "min"}
         found |= {f"wittenbauer_slope.{way}.{end}": f"{slope}_{mark}" for end, mark in ends.items()}
     return found
+
+
+def comparison(material: Material) -> Iterator[Block]:
+    """Yield the values and curves of another machine beside those of this one."""
+    words = material.words
+    caption = words.caption("comparison")
+    yield from comparison_blocks(material.results, words, words.heading("comparison"), caption)
+    yield from material.figures("comparison")
 
 
 def checks(material: Material) -> Iterator[Block]:

@@ -21,7 +21,7 @@ def base_key(key: str) -> str:
     `piston_velocity_max_angle` is derived from `piston_velocity`, and `joint_force_max.A` from `joint_force`.
     """
     key = key.partition(".")[0]
-    for suffix in ("_angle", "_time", "_max", "_min", "_error"):
+    for suffix in ("_angle", "_time", "_max", "_min", "_error", "_difference"):
         if key not in QUANTITIES:
             key = key.removesuffix(suffix)
     return key

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from crankwork.analysis import Results
 from crankwork.quantities import Language
+from crankwork.report.comparison import comparison_figure
 from crankwork.report.engine_figure_list import engine_figures
 from crankwork.report.figure_data import drawn_from
 from crankwork.report.figure_look import drawing_library
@@ -30,4 +31,5 @@ def figures(results: Results, *, language: Language = "en", per_area: bool = Fal
     found = linkage_figures(results, language=language)
     if "piston_displacement" in results.columns:
         found |= engine_figures(drawn_from(results, language, per_area=per_area))
-    return found
+    compared = comparison_figure(results, language, per_area=per_area)
+    return found if compared is None else {**found, "comparison": compared}

@@ -116,7 +116,7 @@ def _label(key: str, language: Language) -> str:
         return say("report.max_angle", language)
     if key.endswith(("_max_time", "_min_time")):
         return say("report.max_time", language)
-    for suffix in ("max", "min", "error"):
+    for suffix in ("max", "min", "error", "difference"):
         if key.endswith(f"_{suffix}"):
             return say(f"report.{suffix}", language, name=_label(key.removesuffix(f"_{suffix}"), language))
     return say(f"report.{key.removesuffix('_angle')}", language)
@@ -132,7 +132,7 @@ def symbol(key: str, language: Language) -> str:
     if kind in QUANTITIES:
         return QUANTITIES[kind].symbol(language)
     base = QUANTITIES[base_key(kind.removesuffix("_error"))].symbol(language)
-    if kind.endswith("_error"):
+    if kind.endswith(("_error", "_difference")):
         return f"Δ{base}"
     return f"{base}{',' if '_' in base else '_'}{kind[-3:]}"
 

@@ -9,6 +9,7 @@ from crankwork.analysis import Results
 from crankwork.analysis.rounding import summary_without_rounding
 from crankwork.locale import say
 from crankwork.quantities import Language
+from crankwork.report.comparison import comparison_data, comparison_text
 from crankwork.report.language import (
     displayed,
     in_own_units,
@@ -43,6 +44,7 @@ def summary_data(results: Results, *, per_area: bool = False) -> dict[str, Any]:
         "allowed": dict(results.allowed),
         "not_met": list(results.unmet),
         "notices": [notice_text(notice.code, notice.values, "en") for notice in results.notices],
+        **comparison_data(results, per_area=per_area),
     }
 
 
@@ -75,6 +77,8 @@ def summary_text(results: Results, *, language: Language = "en", per_area: bool 
     if results.notices:
         lines += ["", say("report.notices", language)]
         lines += [f"  {notice_text(one.code, one.values, language)}" for one in results.notices]
+    if results.compared is not None:
+        lines += ["", comparison_text(results, language, per_area=per_area)]
     return "\n".join(lines)
 
 

@@ -15,6 +15,7 @@ from crankwork.analysis.rounding import without_rounding
 from crankwork.errors import MissingExtraError
 from crankwork.locale import Refusal, say
 from crankwork.quantities import QUANTITIES, Language, base_key
+from crankwork.report.comparison import comparison_columns
 from crankwork.report.language import in_own_units, key_unit, label, unit_name
 from crankwork.units import from_si
 
@@ -60,6 +61,8 @@ def sheets(results: Results, *, per_area: bool = False) -> dict[str, Sheet]:
         name: sheet((), {key: table_column(results, key, per_area=per_area) for key in keys})
         for name, keys in results.tables.items()
     }
+    if compared := comparison_columns(results, per_area=per_area):
+        tables["comparison"] = sheet((), compared)
     return tables | {
         name: sheet(one.names, {key: _displayed(key, values, area) for key, values in one.columns.items()})
         for name, one in results.listings.items()

@@ -8,13 +8,18 @@ from crankwork.locale import Language, capital, say, told
 from crankwork.report.language import displayed, key_unit, label, number, rounded, unit_name
 from crankwork.study.roots import Stretch
 from crankwork.study.solve import Solution
-from crankwork.units import from_si
+from crankwork.units import from_si, shown_in
 
 _DIGITS = 12
 
 
 def solution_text(solution: Solution, language: Language = "en") -> str:
     """Return what was asked, where it was looked for, and everything that was found there."""
+    with shown_in(solution.units):
+        return _text(solution, language)
+
+
+def _text(solution: Solution, language: Language) -> str:
     shown = _Shown(solution, language)
     found, lines = solution.found, [solution.title] if solution.title else []
     lines += [shown.question(), shown.range(), say("study.missed", language)]
@@ -105,6 +110,11 @@ def _aligned(rows: list[tuple[str, str, str, str]]) -> list[str]:
 
 def solution_data(solution: Solution) -> dict[str, Any]:
     """Return what was asked and found as plain data, in the units of tables and of the file."""
+    with shown_in(solution.units):
+        return _data(solution)
+
+
+def _data(solution: Solution) -> dict[str, Any]:
     (key, at, level), sought, found = solution.wanted, solution.sought, solution.found
 
     def shown(value: float) -> float:

@@ -14,6 +14,7 @@ from crankwork.machine import Machine
 from crankwork.study.roots import Found, Jump, Root, Sample, Stretch, find_roots
 from crankwork.study.sought import Places, Sought, places, sought_number
 from crankwork.study.wanted import Wanted, Written, is_rounding, shortest, wanted, written
+from crankwork.units import System
 
 STEPS = 400
 _FEWEST, _MOST = 10, 100_000
@@ -39,6 +40,8 @@ class Solution:
         Roots, jumps, stretches without a value, and what comes nearest; values are those above what is wanted.
     is_time : bool
         Whether the value is taken at a time, and not at a crank angle.
+    units : str
+        The system of units that the machine is shown in.
     """
 
     title: str
@@ -47,6 +50,7 @@ class Solution:
     places: Places
     found: Found
     is_time: bool = False
+    units: System = "metric"
 
     @property
     def roots(self) -> tuple[Root, ...]:
@@ -144,7 +148,8 @@ def solve(  # noqa: PLR0913 - what is asked, where to look, and what is laid ove
             raise CrankworkError(Refusal("value_absent", key=asked.key)) from None
 
     found = find_roots(above, where.at, abs(asked.level), told)
-    return Solution(results.machine.title, asked, number, where, found, is_time=bool(results.period))
+    shown = results.machine
+    return Solution(shown.title, asked, number, where, found, is_time=bool(results.period), units=shown.units)
 
 
 def _first_with_value(

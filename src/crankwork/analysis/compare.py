@@ -1,0 +1,144 @@
+"""Results beside others: of the same machine by other methods, or of another machine."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import NamedTuple
+
+from crankwork.analysis.results import Results
+from crankwork.analysis.rounding import summary_without_rounding
+from crankwork.errors import CrankworkError
+from crankwork.formula.known import Known
+from crankwork.formula.replay import Program
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.locale import Refusal
+
+# what is put side by side, of each kind that two results have in common
+_MOTION = (
+    "piston_displacement", "piston_velocity", "piston_acceleration", "slider_displacement", "slider_velocity",
+    "slider_acceleration", "link_angle", "link_angular_velocity", "link_angular_acceleration",
+)  # fmt: skip
+_FORCES = (
+    "piston_force", "side_force", "tangential_force", "crank_torque", "total_torque", "static_torque",
+    "balancing_torque", "driving_torque", "driver_force", "driver_torque",
+)  # fmt: skip
+# of a value, what rounding alone tells apart
+_ALIKE = 1e-12
+
+
+class Comparison(NamedTuple):
+    """What stands beside results: names, the results' own first, and other results in the same order."""
+
+    names: tuple[str, ...]
+    others: tuple[Results, ...]
+    keys: tuple[str, ...]  # Columns that all have, under which names and differences are found
+    memory: Mapping[str, Known]
+    columns: Mapping[str, Array]  # At the crank angles of the results [SI]
+
+    @property
+    def is_of_methods(self) -> bool:
+        """Whether one machine is compared by its methods."""
+        return self.names[0] in ("exact", "textbook") or self.names[0].startswith("series:")
+
+    def columns_at(self, degrees: Array) -> dict[str, Array]:
+        """Return what is compared at crank angles [deg]; nothing is a number where a machine does not get."""
+        return _played(self.memory, CrankGrid.from_degrees(degrees))
+
+    def values(self, results: Results) -> dict[str, tuple[float, ...]]:
+        """Return single values by key, of all results in the order of the names, none for those that lack one. [SI]
+
+        Of methods, those in which they differ.
+        """
+        each = [summary_without_rounding(one) for one in (results, *self.others)]
+        keys = dict.fromkeys(key for one in each for key in one)
+        found = {key: tuple(one.get(key, math.nan) for one in each) for key in keys}
+        return {key: one for key, one in found.items() if not self.is_of_methods or _differ(one)}
+
+
+def beside(key: str, name: str) -> str:
+    """Return the key of a column of the results of a name."""
+    return f"{key}.{name}"
+
+
+def difference(key: str, name: str) -> str:
+    """Return the key of what the column of a name is above that of the results."""
+    kind, dot, owner = key.partition(".")
+    return f"{kind}_difference{dot}{owner}.{name}"
+
+
+def compare(results: Results, others: Mapping[str, Results], name: str = "") -> Results:
+    """Return results with others beside them.
+
+    Parameters
+    ----------
+    results : Results
+        What is compared.
+    others : mapping of str to Results
+        What it is compared with, by name: another method, or another machine.
+    name : str
+        What the results are called among them; their method if it is left out.
+
+    Returns
+    -------
+    Results
+        The same results, which tables, summary, figures and notes then show beside the others.
+
+    Raises
+    ------
+    CrankworkError
+        If the others have nothing in common with them.
+
+    Examples
+    --------
+    >>> import crankwork
+    >>> machine = crankwork.read_machine(crankwork.template("slider-crank"))
+    >>> textbook = crankwork.analyse(crankwork.with_method(machine, "textbook"))
+    >>> both = crankwork.compare(crankwork.analyse(machine), {"textbook": textbook})
+    >>> both.compared.names, both.compared.keys[:2]
+    (('exact', 'textbook'), ('piston_displacement', 'piston_velocity'))
+    """
+    own = name or results.method.name
+    every = (results, *others.values())
+    keys = tuple(_common(every)) if _go_alike(every) else ()
+    memory: dict[str, Known] = {}
+    for key in keys:
+        mine = results.memory[key].named(beside(key, own))
+        memory[beside(key, own)] = mine
+        for other, one in others.items():
+            its = one.memory[key].named(beside(key, other))
+            memory[beside(key, other)] = its
+            memory[difference(key, other)] = (its - mine).named(difference(key, other))
+    if not keys and not any(one.summary.keys() & results.summary.keys() for one in others.values()):
+        raise CrankworkError(Refusal("compare_nothing"))
+    columns = _played(memory, results.grid)
+    return replace(results, compared=Comparison((own, *others), tuple(others.values()), keys, memory, columns))
+
+
+def _common(every: tuple[Results, ...]) -> Iterator[str]:
+    """Yield the keys of columns that all results have."""
+    # a cycle of one turn has no forces of a second one
+    kinds = (*_MOTION, *_FORCES) if len({one.machine.cycle for one in every}) == 1 else _MOTION
+    for kind in kinds:
+        for key in every[0].columns:
+            if key.partition(".")[0] == kind and all(key in one.columns and key in one.memory for one in every):
+                yield key
+
+
+def _go_alike(every: tuple[Results, ...]) -> bool:
+    """Return whether columns of all results stand at angles, or times, that mean the same."""
+    return len({one.period for one in every}) == 1 and not any(one.has_positions for one in every)
+
+
+def _played(memory: Mapping[str, Known], grid: CrankGrid) -> dict[str, Array]:
+    with warnings.catch_warnings():
+        # at an angle that a crank does not reach
+        warnings.simplefilter("ignore", RuntimeWarning)
+        return Program(memory)(grid) if memory else {}
+
+
+def _differ(values: tuple[float, ...]) -> bool:
+    size = max(abs(one) for one in values)
+    return not max(values) - min(values) <= _ALIKE * size

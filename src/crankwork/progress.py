@@ -1,0 +1,41 @@
+"""Bars on the error stream, once something has taken more than a second."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+import time
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
+
+import click
+
+
+@contextlib.contextmanager
+def bar() -> Iterator[Callable[[float], None]]:
+    """Give a function that is told the part that is done, and shows it once a second has passed."""
+    started = time.monotonic()
+    shown: Any = None  # click does not say what its bars are
+
+    def told(share: float) -> None:
+        nonlocal shown
+        if shown is None and time.monotonic() - started > 1 and sys.stderr.isatty():
+            shown = click.progressbar(length=1000, file=sys.stderr)
+        if shown is not None:
+            shown.update(max(round(1000 * share) - shown.pos, 0))
+
+    try:
+        yield told
+    finally:
+        if shown is not None:
+            click.echo(err=True)
+
+
+def with_progress(steps: Iterable[dict[str, bytes]], count: int) -> dict[str, bytes]:
+    """Gather the files of a folder, with a bar on the error stream once a second has passed."""
+    contents: dict[str, bytes] = {}
+    with bar() as told:
+        for done, files in enumerate(steps, start=1):
+            contents |= files
+            told(done / count)
+    return contents
