@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+import signal
+import sys
+import time
 
 import pytest
 
@@ -158,3 +161,12 @@ def test_a_decimal_comma_and_settings_are_taken(crankwork, machine_file):
     asked = ("rod_ratio = 0,25", "--for", "crank.radius", "--from", "20,5 mm", "--to", "60", "--steps", "10")
     answer = crankwork("solve", machine_file(), *asked, "--set", "rod.length=100 mm")
     assert "  crank.radius  25 mm  the value rises through it" in answer.out
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals are those of Unix")
+def test_it_can_be_interrupted(machine_file, spawn):
+    running = spawn("solve", machine_file(), *ENGINE, "--steps", "100000")
+    time.sleep(2.0)
+    running.send_signal(signal.SIGINT)
+    out, err = running.communicate(timeout=20)
+    assert (running.returncode, out, err.strip()) == (130, b"", b"")

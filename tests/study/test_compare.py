@@ -12,7 +12,8 @@ import crankwork
 from crankwork import CrankworkError, NoteOptions
 from crankwork.analysis.compare import beside, difference
 from crankwork.note.document import Figure, Heading, Table
-from crankwork.report.comparison import comparison_figure, comparison_rows, comparison_text
+from crankwork.report.comparison import comparison_rows, comparison_text
+from crankwork.report.comparison_figure import comparison_figure
 from crankwork.report.tables import sheets
 
 MACHINES = Path(__file__).parents[1] / "machines"
@@ -173,3 +174,17 @@ def test_everything_is_shown_in_the_system_of_the_own_machine():
     assert "lbf·ft" in comparison_text(results)
     sheet = sheets(results)["comparison"]
     assert sheet.units["crank_torque_difference.short"] == "lbf*ft"
+
+
+def test_shafts_with_torques_are_compared():
+    text = (
+        '[crank]\nspeed = "100 rpm"\n[torque]\nperiod = "360 deg"\nat = ["0 deg", "80 deg", "360 deg"]\n'
+        'torque = ["0 N*m", "2000 N*m", "0 N*m"]\n'
+    )
+    one, other = (crankwork.analyse(crankwork.read_machine(some)) for some in (text, text.replace("2000", "1800")))
+    results = crankwork.compare(one, {"other": other}, "own")
+    assert {"turning_moment", "excess_torque"} <= set(results.compared.keys)
+    assert comparison_rows(results)["turning_moment_max"] == pytest.approx((2000.0, 1800.0, -200.0))
+    assert "comparison" in crankwork.figures(results)
+    headings = [one.text for one in crankwork.note_of(results).blocks if isinstance(one, Heading)]
+    assert "Comparison" in headings

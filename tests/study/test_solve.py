@@ -9,7 +9,10 @@ import pytest
 
 import crankwork
 from crankwork import CrankworkError, Description
+from crankwork.report.language import key_unit
 from crankwork.study.solution import solution_data, solution_text
+from crankwork.study.sought import sought_number
+from crankwork.units import coherent_unit
 
 ENGINE = Description(crankwork.template("engine"))
 FOUR_BAR = Description(crankwork.template("four-bar"))
@@ -201,3 +204,40 @@ def test_a_number_without_a_unit_is_in_the_system_that_the_machine_is_shown_in()
     assert "= 300 lbf·ft" in solution_text(found[0])
     assert "= 406.745 N·m" in solution_text(found[1])
     assert solution_data(found[0])["wanted"]["unit"] == "lbf*ft"
+
+
+def test_a_stroke_that_begins_and_ends_at_an_angle_makes_two_jumps():
+    work = Description(
+        '[crank]\nspeed = "100 rpm"\n[load]\nperiod = "360 deg"\n'
+        '[[load.strokes]]\nwork = "1000 J"\nfrom = "100 deg"\nover = "40 deg"\n'
+    )
+    found = solved(work, "load_torque@120deg = 700 N*m", "load.strokes[1].from", "40 deg", "200 deg", steps=50)
+    assert found.roots == ()
+    assert [math.degrees(one.at) for one in found.jumps] == pytest.approx([80.0, 120.0])
+    torque = 1000 / math.radians(40)
+    assert [(one.before, one.after) for one in found.jumps] == [
+        pytest.approx((-700.0, torque - 700.0)), pytest.approx((torque - 700.0, -700.0))
+    ]  # fmt: skip
+
+
+PRESENT = [
+    ("engine", "crank_torque@37deg", "crank.radius"),
+    ("engine", "indicated_power", "gas.points.z.pressure"),
+    ("whole-engine", "total_torque@100deg", "piston.mass"),
+    ("compressor", "piston_force_max", "cylinder.bore"),
+    ("four-bar", "joint_force.B@80deg", "links.coupler.mass"),
+    ("crank-shaper", "driving_torque_max", "crank.speed"),
+    ("toggle-press", "static_torque@270deg", "links.lower.length"),
+    ("watt-six-bar", "transmission_angle_min.B", "crank.radius"),
+]
+
+
+@pytest.mark.parametrize(("name", "key", "sought"), PRESENT, ids=[f"{name} {sought}" for name, _, sought in PRESENT])
+def test_the_value_that_a_machine_has_is_found_at_its_own_number(name, key, sought):
+    machine = Description(crankwork.template(name))
+    column, _, place = key.partition("@")
+    value = crankwork.analyse(machine.machine()).value(column, float(place.removesuffix("deg")) if place else None)
+    now = sought_number(machine.values, sought)
+    limits = [now.written(share * now.now) for share in (0.937, 1.071)]
+    found = solved(machine, f"{key} = {value!r} {coherent_unit(key_unit(column))}", sought, *limits, steps=12)
+    assert min(abs(one.at / now.now - 1) for one in found.roots) < 1e-9

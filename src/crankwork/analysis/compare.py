@@ -23,7 +23,8 @@ _MOTION = (
 )  # fmt: skip
 _FORCES = (
     "piston_force", "side_force", "tangential_force", "crank_torque", "total_torque", "static_torque",
-    "balancing_torque", "driving_torque", "driver_force", "driver_torque",
+    "balancing_torque", "driving_torque", "driver_force", "driver_torque", "turning_moment", "load_torque",
+    "excess_torque", "kinetic_energy_change",
 )  # fmt: skip
 # of a value, what rounding alone tells apart
 _ALIKE = 1e-12

@@ -16,7 +16,7 @@ from crankwork.note.legends import explained
 from crankwork.note.linkage_data import method
 from crankwork.note.linkage_lines import Told
 from crankwork.note.linkage_material import Material
-from crankwork.note.linkage_shaft import checks, conclusion, sources
+from crankwork.note.linkage_shaft import checks, comparison, conclusion, sources
 from crankwork.note.linkage_tables import Column, equations, position_tables
 from crankwork.note.options import NoteOptions
 from crankwork.note.words import in_display_unit
@@ -60,7 +60,17 @@ Section = Callable[[_Material], Iterator[Block]]
 def turning_note(results: Results, options: NoteOptions) -> Note:
     """Return the note of a shaft with torques on it (khurmi_gupta_2005, ch. 16)."""
     material = _Material(results, options)
-    sections: tuple[Section, ...] = (_task, _moments, _excess, _flywheel, _course, checks, conclusion, sources)
+    sections: tuple[Section, ...] = (
+        _task,
+        _moments,
+        _excess,
+        _flywheel,
+        _course,
+        comparison,
+        checks,
+        conclusion,
+        sources,
+    )
     blocks: list[Block] = [TitlePage(), Contents(), PageBreak()]
     for section in sections:
         blocks.extend(section(material))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from crankwork.analysis import Results
 from crankwork.quantities import Language
-from crankwork.report.comparison import comparison_figure
+from crankwork.report.comparison_figure import comparison_figure
 from crankwork.report.engine_figure_list import engine_figures
 from crankwork.report.figure_data import drawn_from
 from crankwork.report.figure_look import drawing_library
@@ -27,8 +27,9 @@ def figures(results: Results, *, language: Language = "en", per_area: bool = Fal
     # whose fonts all figures use
     drawing_library()
     if results.machine.turning is not None:
-        return turning_figures(results, language=language)
-    found = linkage_figures(results, language=language)
+        found = turning_figures(results, language=language)
+    else:
+        found = linkage_figures(results, language=language)
     if "piston_displacement" in results.columns:
         found |= engine_figures(drawn_from(results, language, per_area=per_area))
     compared = comparison_figure(results, language, per_area=per_area)

@@ -1,0 +1,131 @@
+"""The figure of results beside others: quantities by each name, and below each its differences."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from crankwork.analysis import Array, Results
+from crankwork.analysis.compare import Comparison, beside, difference
+from crankwork.locale import Language, say
+from crankwork.quantities import QUANTITIES
+from crankwork.report.comparison import shown_name
+from crankwork.report.engine_figure_axes import LEGEND_ROW, Box, Graph, Row, limits, over_cycle, round_ticks, sheet
+from crankwork.report.engine_figure_paper import Paper
+from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED, SOLID, Style
+from crankwork.report.language import displayed, in_own_units, key_unit, symbol, unit_name
+
+_STEP, _MOST = 1.0, 2000
+# a cycle of more has no lines at multiples of 90 degrees
+_LONG = 720.0
+_STYLES: tuple[Style, ...] = (SOLID, DASHED, DASH_DOT, DOTTED)
+_COLOURS = ("#000000", "#b03030", "#2f5fa8", "#3a7d44", "#8a5a9c", "#a87b1f", "#4d4d4d")
+_UPPER, _LOWER, _GAP = 110.0, 62.0, 12.0
+# what a page of a note holds of it beside its caption, without axis and edges [pt]
+_TALLEST = 540.0
+# what a figure shows: of each row the first kind that there is
+_DRAWN = (
+    ("piston_displacement", "slider_displacement", "link_angle", "turning_moment"),
+    ("piston_velocity", "slider_velocity", "link_angular_velocity", "excess_torque"),
+    ("piston_acceleration", "slider_acceleration", "link_angular_acceleration", "kinetic_energy_change"),
+    ("total_torque", "crank_torque", "driving_torque", "balancing_torque", "static_torque", "driver_force",
+     "driver_torque"),
+)  # fmt: skip
+
+
+@in_own_units
+def comparison_figure(results: Results, language: Language, *, per_area: bool = False) -> bytes | None:
+    """Return the figure of a comparison: quantities by each name, and below each its differences; none without any."""
+    compared = results.compared
+    keys = [] if compared is None else _drawn_keys(compared)
+    if compared is None or not keys:
+        return None
+    # two machines have pistons of their own
+    per_area = per_area and compared.is_of_methods
+    cycle = results.machine.cycle
+    degrees = np.linspace(0.0, cycle, min(round(cycle / _STEP), _MOST) + 1)
+    area = results.summary["piston_area"] if per_area else None
+    found = compared.columns_at(degrees)
+    others, named = compared.names[1:], [shown_name(name, language) for name in compared.names]
+    rows = [Row(shown_name(name, language), style, 1.2, colour) for name, style, colour in _looks(compared.names)]
+    if len(others) == 1:
+        rows.append(Row(f"Δ: {say('report.less', language, name=named[1], other=named[0])}", width=0.0))
+    else:
+        rows.append(Row(f"Δ: {say('report.less_own', language, other=named[0])}", width=0.0))
+    room = (_TALLEST - LEGEND_ROW * len(rows)) / len(keys) - 1.5 * _GAP
+    upper, lower = (min(most, share * room) for most, share in ((_UPPER, 0.63), (_LOWER, 0.37)))
+    paper, box = sheet(len(keys) * (upper + lower + 1.5 * _GAP) - _GAP, rows)
+    at = _across(results, degrees)
+    top = box.top
+    for key in keys:
+        scale, unit = displayed(key, 1.0, per_area=area), unit_name(key_unit(key, per_area=per_area), language)
+        sign = QUANTITIES[key.partition(".")[0]]._replace(key=key).symbol(language)
+        for names, place, tall, mark in (
+            ([(beside(key, one), one) for one in compared.names], top, upper, f"${sign}$"),
+            ([(difference(key, one), one) for one in others], top + upper + _GAP / 2, lower, f"$Δ{sign}$"),
+        ):
+            is_last = key == keys[-1] and place > top
+            curves = {name: found[column] * scale for column, name in names}
+            graph = _graph(paper, Box(box.left, place, box.width, tall), at, curves, results, language, numbers=is_last)
+            for name, style, colour in _looks(compared.names):
+                if name in curves:
+                    _draw(graph, name, at, curves[name], style, colour)
+            graph.y_title(f"{mark}, {unit}" if unit else mark)
+            if is_last:
+                graph.x_title(_x_title(results, language))
+        top += upper + lower + 1.5 * _GAP
+    return paper.svg(say("figures.comparison", language))
+
+
+def _drawn_keys(compared: Comparison) -> list[str]:
+    """Return the columns that a figure shows; of several links or sliders the last, which others move."""
+    found = []
+    for kinds in _DRAWN:
+        keys = {key.partition(".")[0]: key for key in compared.keys if np.any(compared.columns[_own(compared, key)])}
+        found += [keys[kind] for kind in kinds if kind in keys][:1]
+    return found
+
+
+def _own(compared: Comparison, key: str) -> str:
+    return beside(key, compared.names[0])
+
+
+def _looks(names: tuple[str, ...]) -> list[tuple[str, Style, str]]:
+    return [(name, _STYLES[min(at, len(_STYLES) - 1)], _COLOURS[at % len(_COLOURS)]) for at, name in enumerate(names)]
+
+
+def _across(results: Results, degrees: Array) -> Array:
+    return degrees * results.period / 360.0 if results.period else degrees
+
+
+def _x_title(results: Results, language: Language) -> str:
+    key = "time" if results.period else "crank_angle"
+    return f"{QUANTITIES[key].label(language)} ${symbol(key, language)}$, {unit_name(key_unit(key), language)}"
+
+
+def _graph(  # noqa: PLR0913 - place, curves and how they are told
+    paper: Paper,
+    box: Box,
+    at: Array,
+    curves: Mapping[str, Array],
+    results: Results,
+    language: Language,
+    *,
+    numbers: bool,
+) -> Graph:
+    """Return a graph that holds all numbers of some curves, with its frame drawn."""
+    known = [one[np.isfinite(one)] for one in curves.values()]
+    y = limits(*(one if one.size else np.zeros(1) for one in known))
+    if results.period or results.machine.cycle > _LONG:
+        graph = Graph(paper, box, (0.0, float(at[-1])), y, language)
+        graph.frame(round_ticks(0.0, float(at[-1])), round_ticks(*y, 4), labels=(numbers, True))
+        return graph
+    return over_cycle(paper, box, y, float(at[-1]), language, numbers=numbers)
+
+
+def _draw(graph: Graph, name: str, at: Array, values: Array, style: Style, colour: str) -> None:
+    """Draw a curve, with gaps where it has no value."""
+    ends = np.flatnonzero(np.diff(np.concatenate([[False], np.isfinite(values), [False]])))
+    for start, end in ends.reshape(-1, 2):
+        graph.curve(name, at[start:end], values[start:end], style, colour=colour)
