@@ -28,6 +28,9 @@ if TYPE_CHECKING:
         UnknownKeyError,
     )
     from crankwork.kinematics.crank_grid import CrankGrid
+    from crankwork.kinematics.motion import Motion
+    from crankwork.loads.applied import AppliedLoads, force_at
+    from crankwork.loads.load import LoadLaw
     from crankwork.machine import Machine
     from crankwork.mechanism.catalog import (
         crank_shaper,
@@ -39,11 +42,13 @@ if TYPE_CHECKING:
         watt_six_bar,
         whitworth,
     )
+    from crankwork.mechanism.mechanism import Mechanism
     from crankwork.method import Method
     from crankwork.note.contents import note_of, written_note
     from crankwork.note.options import NoteOptions
     from crankwork.quantities import QUANTITIES
     from crankwork.report.figures import figures
+    from crankwork.report.notebook import Picture
     from crankwork.report.summary import summary_text
     from crankwork.study.solve import Solution, solve
 
@@ -51,7 +56,7 @@ __version__ = "0.1.0"
 
 # Where each name lives; it is imported when first used, so that the command line starts fast.
 _HOMES = {
-    "QUANTITIES": "quantities",
+    "AppliedLoads": "loads.applied",
     "Comparison": "analysis.compare",
     "CrankGrid": "kinematics.crank_grid",
     "CrankworkError": "errors",
@@ -59,11 +64,16 @@ _HOMES = {
     "DoubtfulError": "errors",
     "GeometryError": "errors",
     "InputError": "errors",
+    "LoadLaw": "loads.load",
     "Machine": "machine",
+    "Mechanism": "mechanism.mechanism",
     "Method": "method",
     "MethodError": "errors",
     "MissingExtraError": "errors",
+    "Motion": "kinematics.motion",
     "NoteOptions": "note.options",
+    "Picture": "report.notebook",
+    "QUANTITIES": "quantities",
     "Results": "analysis",
     "Solution": "study.solve",
     "UnknownKeyError": "errors",
@@ -71,6 +81,7 @@ _HOMES = {
     "compare": "analysis.compare",
     "crank_shaper": "mechanism.catalog",
     "figures": "report.figures",
+    "force_at": "loads.applied",
     "four_bar": "mechanism.catalog",
     "json_schema": "description.machine_file",
     "load": "description.document",
@@ -92,6 +103,7 @@ _HOMES = {
 }
 
 __all__ = [
+    "AppliedLoads",
     "Comparison",
     "CrankGrid",
     "CrankworkError",
@@ -99,11 +111,15 @@ __all__ = [
     "DoubtfulError",
     "GeometryError",
     "InputError",
+    "LoadLaw",
     "Machine",
+    "Mechanism",
     "Method",
     "MethodError",
     "MissingExtraError",
+    "Motion",
     "NoteOptions",
+    "Picture",
     "QUANTITIES",
     "Results",
     "Solution",
@@ -112,6 +128,7 @@ __all__ = [
     "compare",
     "crank_shaper",
     "figures",
+    "force_at",
     "four_bar",
     "json_schema",
     "load",

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from crankwork.cylinders.layout import Layout
 from crankwork.dynamics.masses import CrankGearMasses
+from crankwork.errors import CrankworkError
 from crankwork.kinematics.piston import as_slider_crank
 from crankwork.loads.chamber import Chamber, Charge, cycle_of, least_common
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.loads.measured import MeasuredPressure
+from crankwork.locale import Refusal
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.method import EXACT, Method
 from crankwork.units import System
@@ -288,6 +291,8 @@ class Machine:
         Of the crank. [rad/s], [rad/s2]
     title : str
         What the owner calls it.
+    digest : str
+        SHA-256 of the machine file and of what was laid over it; empty for a machine made without one.
     units : str
         System of units of its tables, figures and notes: `metric`, `si` or `imperial`; results are in SI.
     linkage : Linkage or None
@@ -329,6 +334,7 @@ class Machine:
     angular_acceleration: float = 0.0
     title: str = ""
     units: System = "metric"
+    digest: str = field(default="", compare=False)
     linkage: Linkage | None = None
     transfer: TransferTable | None = None
     turning: Turning | None = None
@@ -358,6 +364,22 @@ class Machine:
     def lengths(self) -> SliderCrank | None:
         """The lengths of crank and rod, where neither a drawing nor a table gives the motion. [m]"""
         return as_slider_crank(self.mechanism) if self.linkage is None and self.transfer is None else None
+
+    def __post_init__(self) -> None:
+        """Refuse what a machine file could not state either."""
+        is_timed = self.mechanism.driver.law is not None
+        limits: dict[str, tuple[object, float]] = {
+            "speed": (self.speed, 0.0 if is_timed else sys.float_info.min),
+            "angular_acceleration": (self.angular_acceleration, -math.inf),
+            "table_step": (self.table_step, sys.float_info.min),
+        }
+        for name, (value, low) in limits.items():
+            if not isinstance(value, int | float) or not math.isfinite(value) or value < low:
+                kind = "object_number" if low < 0 else "object_positive"
+                raise CrankworkError(Refusal(kind, name=name, value=str(value)[:40]))
+        for load in self.loads:
+            if not hasattr(load, "forces") and not type(load).__module__.startswith("crankwork.loads."):
+                raise CrankworkError(Refusal("object_load", value=type(load).__name__))
 
     @property
     def drawn(self) -> Linkage:

@@ -4,39 +4,47 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from crankwork.analysis.engine import analyse_engine
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import Notice, solve
-from crankwork.errors import MethodError
+from crankwork.errors import CrankworkError, MethodError
 from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.locale import Refusal
 from crankwork.machine import Machine
 from crankwork.method import Method
-
-if TYPE_CHECKING:
-    from crankwork.machine import Machine
 
 _IN_JOINTS = ("joint_force", "normal_force")
 
 
+class Described(Protocol):
+    """What describes a machine, as `Description` does."""
+
+    def machine(self) -> Machine:
+        """Return the machine."""
+
+
 def analyse(
-    machine: Machine,
-    grid: CrankGrid | None = None,
+    machine: Machine | Described,
+    angles: CrankGrid | ArrayLike | None = None,
     *,
-    method: Method | None = None,
+    method: Method | str | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> Results:
     """Return everything a machine does over one cycle.
 
     Parameters
     ----------
-    machine : Machine
+    machine : Machine or Description
         What to compute.
-    grid : CrankGrid, shape (n,), optional
-        Ascending crank angles for the columns, within one cycle; the machine's own table otherwise. [rad]
-    method : Method, optional
-        Instead of the machine's own; an engine has more than one.
+    angles : array, shape (n,), or CrankGrid, optional
+        Ascending crank angles for the columns, within one cycle; the machine's own table otherwise. [deg]
+    method : Method or str, optional
+        Instead of the machine's own: `exact`, `textbook` or `series:N`.
     progress : callable, optional
         Told, now and again, the part of the time that a machine let go has been followed. [-]
 
@@ -51,13 +59,35 @@ def analyse(
         If the mechanism cannot be assembled or cannot turn, or the diagram does not hang together.
     MethodError
         If a method is asked for that the machine does not have.
+
+    Examples
+    --------
+    >>> import crankwork as cw
+    >>> engine = cw.Description(cw.template("engine"))
+    >>> cw.analyse(engine, [0, 90, 180], method="textbook")["piston_displacement"].round(6).tolist()
+    [0.0, 0.050625, 0.09]
     """
+    machine = machine if isinstance(machine, Machine) else machine.machine()
+    grid = angles if angles is None or isinstance(angles, CrankGrid) else _grid(angles, machine.cycle)
+    method = machine.method.named(method) if isinstance(method, str) else method
     asked = method or machine.method
     if not asked.is_exact and machine.lengths is None:
         raise MethodError(f"method {asked.name} exists for a slider-crank only; use exact")
     found = _analysed(machine, grid, method, progress)
     told = tuple(Notice(*one) for one in machine.notices)
     return replace(found, notices=(*told, *found.notices)) if told else found
+
+
+def _grid(angles: ArrayLike, cycle: float) -> CrankGrid:
+    """Return crank angles within one cycle that a program asks for. [deg]"""
+    try:
+        degrees = np.atleast_1d(np.asarray(angles, dtype=float))
+    except (TypeError, ValueError):
+        degrees = np.empty(0)
+    is_row = degrees.ndim == 1 and degrees.size > 0 and bool(np.all(np.isfinite(degrees)))
+    if not is_row or np.any(np.diff(degrees) <= 0) or degrees[0] < -cycle or degrees[-1] > cycle:
+        raise CrankworkError(Refusal("angles_wrong", cycle=f"{cycle:g}"))
+    return CrankGrid.from_degrees(degrees)
 
 
 def _analysed(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import math
 import warnings
-from collections.abc import Iterable, KeysView, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -21,10 +21,17 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.locale import Language, Refusal
 from crankwork.method import Method
 from crankwork.quantities import QUANTITIES
+from crankwork.units import coherent_unit
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
+    import pandas as pd
+    import xarray as xr
+
     from crankwork.analysis.compare import Comparison
     from crankwork.machine import Machine
+    from crankwork.report.notebook import Picture
 
 
 # a residual above this is more than rounding
@@ -42,9 +49,11 @@ class Listing(NamedTuple):
     names: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
-class Results:
+@dataclass(frozen=True, eq=False, repr=False)
+class Results(Mapping[str, Array | float]):
     """What a machine does over one cycle, in SI.
+
+    A mapping of every key, of columns, single values and what lies between them, to its value.
 
     Parameters
     ----------
@@ -158,16 +167,117 @@ class Results:
         return Moment(CrankGrid.from_degrees, at, mark)
 
     def __getitem__(self, key: str) -> Array | float:
-        """Return a column, or a single value of the summary, in SI."""
-        if key in self.columns:
-            return self.columns[key]
+        """Return a column, or a single value. [SI]"""
         if key in self.summary:
             return self.summary[key]
-        raise self._unknown(key, [*self.columns, *self.summary])
+        known = None if key in self.columns else self.memory.get(key)
+        return known.value if known is not None and not known.varies else self.column(key)
 
-    def keys(self) -> KeysView[str]:
-        """Return the keys of everything that `value` gives: columns, single values, and what lies between them."""
-        return {**self.columns, **self.summary, **self.memory}.keys()
+    def column(self, key: str) -> Array:
+        """Return a column, or what lies between columns, at the crank angles of the table, shape (n,). [SI]
+
+        Raises
+        ------
+        UnknownKeyError
+            If there is no such key.
+        """
+        if key in self.columns:
+            return self.columns[key]
+        if key not in self.memory:
+            raise self._unknown(key, self)
+        return np.asarray(Program({key: self.memory[key]})(self.grid)[key] + np.zeros(len(self.grid)))
+
+    # as objects: arrays do not say in a word whether they are equal
+    __eq__ = object.__eq__
+    __hash__ = object.__hash__
+
+    def __iter__(self) -> Iterator[str]:
+        return iter({**self.columns, **self.summary, **self.memory})
+
+    def __len__(self) -> int:
+        return len({*self.columns, *self.summary, *self.memory})
+
+    def __contains__(self, key: object) -> bool:
+        return key in self.columns or key in self.summary or key in self.memory
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self)
+
+    def unit(self, key: str) -> str:
+        """Return the SI unit of what a key gives, empty for a pure number."""
+        # words stand above the analysis, and these are doors to them
+        from crankwork.report.language import key_unit  # noqa: PLC0415
+
+        if key not in self:
+            raise self._unknown(key, self)
+        return coherent_unit(key_unit(key))
+
+    def __repr__(self) -> str:
+        from crankwork.report.notebook import short_text  # noqa: PLC0415
+
+        return short_text(self)
+
+    def _repr_html_(self) -> str:
+        from crankwork.report.notebook import page  # noqa: PLC0415
+
+        return page(self)
+
+    def figure(self, name: str, language: Language = "en") -> Picture:
+        """Return a figure by the name of its file, `crankpin_polar`; a notebook shows it.
+
+        Raises
+        ------
+        UnknownKeyError
+            If there is no such figure.
+        """
+        from crankwork.report.notebook import picture  # noqa: PLC0415
+
+        return picture(self, name, language)
+
+    def to_xarray(self, *, shown: bool = False) -> xr.Dataset:
+        """Return everything as a dataset with dimensions: crank angle, cylinder, crankpin, joint, point, link, ray ...
+
+        Parameters
+        ----------
+        shown : bool
+            In the units of tables instead of SI; the attribute `units` of each variable says which.
+
+        Raises
+        ------
+        MissingExtraError
+            If xarray is not installed.
+        """
+        from crankwork.report.dataset import dataset  # noqa: PLC0415
+
+        return dataset(self, shown=shown)
+
+    def to_dataframe(self, *, shown: bool = False) -> pd.DataFrame:
+        """Return the columns as a frame over the crank angle; `shown` as in `to_xarray`, with units in the headings.
+
+        Raises
+        ------
+        MissingExtraError
+            If pandas is not installed.
+        """
+        from crankwork.report.dataset import frame  # noqa: PLC0415
+
+        return frame(self, shown=shown)
+
+    def write(self, path: str | Path, *, overwrite: bool = False) -> None:
+        """Write the data as NetCDF (`.nc`), Parquet (`.parquet`) or MAT (`.mat`), in SI.
+
+        Raises
+        ------
+        CrankworkError
+            If the ending is another, or the file is there and is not to be replaced.
+        MissingExtraError
+            If a library is not installed.
+        """
+        from crankwork import files  # noqa: PLC0415
+        from crankwork.report.dataset import written  # noqa: PLC0415
+
+        files.check_files(path, overwrite=overwrite)
+        files.write_files({path: written(self, str(path))}, overwrite=overwrite)
 
     def value(self, key: str, at: float | None = None) -> float:
         """Return one value.
@@ -203,7 +313,7 @@ class Results:
         if key in self.summary or (known is not None and not known.varies):
             return float(self.summary[key]) if known is None else known.value
         if known is None and key not in self.columns:
-            raise self._unknown(key, self.keys())
+            raise self._unknown(key, self)
         return self._column_at(key, known, self._within(key, at))
 
     def explain(self, key: str, at: float | None = None, language: Language = "en") -> str:

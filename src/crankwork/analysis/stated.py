@@ -54,6 +54,7 @@ def _stated(load: Load) -> StatedLoad:
             return StatedLoad("slider_damper", {"name": load.slider}, {"damping": (load.damping, "N*s/m")})
         case Weight():
             return StatedLoad("weight", {}, {"gravity": (load.gravity, "m/s2")})
+    return StatedLoad("program", {"name": type(load).__name__}, {})
 
 
 def _largest(force: object) -> float | None:

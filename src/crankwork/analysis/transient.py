@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
-from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -50,7 +49,7 @@ class Ran(NamedTuple):
     listings: dict[str, Listing]
     checks: dict[str, float]
     notices: tuple[Notice, ...]
-    allowed: Mapping[str, float] = MappingProxyType({})
+    allowed: dict[str, float]
 
 
 def let_go(
@@ -65,11 +64,11 @@ def let_go(
     `progress`: told the part of the time that is done.
     """
     if solved.machine.transient is None:
-        return Ran({}, {}, {}, ())
+        return Ran({}, {}, {}, (), {})
     try:
         return _followed(solved, found, summary, progress)
     except (GeometryError, MethodError) as error:
-        return Ran({}, {}, {}, (Notice("transient_unfollowed", {"message": error.args[0]}),))
+        return Ran({}, {}, {}, (Notice("transient_unfollowed", {"message": error.args[0]}),), {})
 
 
 def _followed(
@@ -91,7 +90,7 @@ def _followed(
     cycles = _Cycles(loose, progress)
     course = Run(loose.felt, start, wanted.speed / rate).until(wanted.time, watched=wanted.speeds, each=cycles)
     if not course.steps:
-        return Ran({}, {}, {}, tuple(_told(loose, course)))
+        return Ran({}, {}, {}, tuple(_told(loose, course)), {})
     checks = {"energy_balance": _missing(loose, course)}
     if course.events and course.events[-1].word == "steady":
         checks |= cycles.against(summary)

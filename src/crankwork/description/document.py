@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from crankwork import files
 from crankwork.description.machine_file import Setting, entry_at, file_keys, lay, parse, read_machine, steps_of
 from crankwork.description.schema import Table, Values
-from crankwork.description.written import with_value, without
+from crankwork.description.written import document, with_value, without
 from crankwork.errors import CrankworkError, UnknownKeyError
 from crankwork.locale import Refusal
 
@@ -25,8 +25,8 @@ class Description:
 
     Parameters
     ----------
-    text : str
-        The machine file.
+    text : str or mapping
+        The machine file, or what it states, as nested mappings and lists.
     name : str
         What messages call it.
     folder : Path or None
@@ -48,7 +48,8 @@ class Description:
     mass = "0.9 kg"
     """
 
-    def __init__(self, text: str, name: str = "text", *, folder: Path | None = None) -> None:
+    def __init__(self, text: str | Mapping[str, Any], name: str = "text", *, folder: Path | None = None) -> None:
+        text = text if isinstance(text, str) else document(text)
         self._text, self._values = text, parse(text, name)
         self.name, self.folder = name, folder
 

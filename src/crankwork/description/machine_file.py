@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import hashlib
 import itertools
 import json
 import re
@@ -84,7 +85,9 @@ def read_machine(
     machine = _build(values, reader, folder)
     if reader.problems or machine is None:
         raise input_error(source, name, reader, settings)
-    return replace(machine, notices=(*machine.notices, *reader.notices), units=values.get("units", "metric"))
+    digest = hashlib.sha256("\0".join([source, *map(str, settings)]).encode("utf-8", "surrogatepass")).hexdigest()
+    told = (*machine.notices, *reader.notices)
+    return replace(machine, notices=told, units=values.get("units", "metric"), digest=digest)
 
 
 def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | None:

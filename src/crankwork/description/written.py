@@ -32,6 +32,24 @@ def toml(value: Any) -> str:  # noqa: ANN401 - whatever TOML holds
     return str(value)
 
 
+def document(values: Mapping[str, Any]) -> str:
+    """Return a whole machine file, what stands outside of tables first.
+
+    Examples
+    --------
+    >>> print(document({"crank": {"radius": "45 mm"}, "title": "Pump"}), end="")
+    title = "Pump"
+    <BLANKLINE>
+    [crank]
+    radius = "45 mm"
+    """
+    tables = {key: one for key, one in values.items() if isinstance(one, Mapping)}
+    lines = [f"{key_text(key)} = {toml(one)}" for key, one in values.items() if key not in tables]
+    for key, table in tables.items():
+        lines += ["", f"[{key_text(key)}]", *(f"{key_text(name)} = {toml(one)}" for name, one in table.items())]
+    return "\n".join([*lines, ""]).lstrip("\n")
+
+
 def key_text(name: str) -> str:
     """Return the name of a key as TOML writes it."""
     return name if _BARE.fullmatch(name) else toml(name)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Protocol, runtime_checkable
 
 from crankwork.formula.expression import Value
 from crankwork.kinematics.motion import Motion
-from crankwork.loads.applied import AppliedLoads, together
+from crankwork.loads.applied import AppliedLoads, force_at, together
 from crankwork.loads.damper import Damper, SliderDamper, point_damper, slider_damper
 from crankwork.loads.process import (
     ForceOnPoint,
@@ -26,6 +27,7 @@ __all__ = [
     "Damper",
     "ForceOnPoint",
     "Load",
+    "LoadLaw",
     "ProcessForce",
     "ProcessForceAtPoint",
     "SliderDamper",
@@ -34,11 +36,33 @@ __all__ = [
     "TorqueOnLink",
     "Weight",
     "applied_loads",
+    "force_at",
 ]
+
+
+@runtime_checkable
+class LoadLaw(Protocol):
+    """A load of one's own: what it puts on the links, wherever they are.
+
+    Examples
+    --------
+    A pull on point C that grows with its distance from the origin:
+
+    >>> class Tether:
+    ...     def forces(self, mechanism, motion, speed):
+    ...         at = motion.points["C"]
+    ...         return force_at(mechanism, motion, "C", (-50.0 * at.x.position, -50.0 * at.y.position))
+    >>> isinstance(Tether(), LoadLaw)
+    True
+    """
+
+    def forces(self, mechanism: Mechanism, motion: Motion, speed: Value) -> AppliedLoads:
+        """Return forces at moving points [N] and torques on links [N m]; `speed`: of the driver [rad/s] or [m/s]."""
+
 
 Load = (
     ProcessForce | ProcessForceAtPoint | ForceOnPoint | TorqueOnLink | Spring | SliderSpring | Damper | SliderDamper
-    | Weight
+    | Weight | LoadLaw
 )  # fmt: skip
 
 
@@ -72,3 +96,4 @@ def _applied(load: Load, mechanism: Mechanism, motion: Motion, speed: Value, pat
             return slider_damper(load, mechanism, motion, speed, path)
         case Weight():
             return weight(load, mechanism, motion)
+    return load.forces(mechanism, motion, speed)

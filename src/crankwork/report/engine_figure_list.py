@@ -62,10 +62,15 @@ _LOADS: dict[str, Draw] = {
 _OF_FORCES = ("piston_forces", "rod_forces", "crankpin_forces", "crankpin_polar", *_LOADS)
 
 
-def engine_figures(drawn: Drawn) -> Iterator[tuple[str, bytes]]:
-    """Yield the figures of one cylinder, and of a machine that has an engine those of all its cylinders."""
+def engine_figures(drawn: Drawn, only: str = "") -> Iterator[tuple[str, bytes]]:
+    """Yield the figures of one cylinder, and of a machine that has an engine those of all its cylinders.
+
+    `only`: the name of the one that is wanted.
+    """
     engine = EngineDrawn(drawn)
     for name, draw in figure_list(engine).items():
+        if only not in ("", name):
+            continue
         kind = name.rstrip("0123456789").rstrip("_")
         yield name, engine.finished(name, draw(engine)[0], _remark(engine, kind), forces=kind in _OF_FORCES)
 

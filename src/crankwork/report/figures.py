@@ -14,8 +14,10 @@ from crankwork.report.turning_figures import turning_figures
 
 
 @in_own_units
-def figures(results: Results, *, language: Language = "en", per_area: bool = False) -> dict[str, bytes]:
+def figures(results: Results, *, language: Language = "en", per_area: bool = False, only: str = "") -> dict[str, bytes]:
     """Return the figures of a machine as SVG by name; those for which nothing is known are left out.
+
+    `only`: the name of the one that is wanted; others may be there, too.
 
     Raises
     ------
@@ -31,6 +33,6 @@ def figures(results: Results, *, language: Language = "en", per_area: bool = Fal
     else:
         found = linkage_figures(results, language=language)
     if "piston_displacement" in results.columns:
-        found |= engine_figures(drawn_from(results, language, per_area=per_area))
+        found |= engine_figures(drawn_from(results, language, per_area=per_area), only)
     compared = comparison_figure(results, language, per_area=per_area)
     return found if compared is None else {**found, "comparison": compared}

@@ -49,7 +49,7 @@ def written(equation: str) -> Written:
 def wanted(parts: Written, results: Results) -> Wanted:
     """Return what is asked of a machine like one whose results are at hand, or refuse what it cannot have."""
     key, place, right = parts
-    if key not in results.keys():  # noqa: SIM118 - they are no mapping
+    if key not in results:
         # which names the nearest there are
         results.value(key)
     known = results.memory.get(key)

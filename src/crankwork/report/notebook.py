@@ -1,0 +1,88 @@
+"""Results as a notebook shows them."""
+
+from __future__ import annotations
+
+import base64
+import contextlib
+import difflib
+import html
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from crankwork import files
+from crankwork.analysis import Results
+from crankwork.analysis.rounding import summary_without_rounding
+from crankwork.errors import GeometryError, UnknownKeyError
+from crankwork.locale import Refusal, say
+from crankwork.quantities import Language
+from crankwork.report.drawing import moving_drawing
+from crankwork.report.language import displayed, in_own_units, key_unit, label, number, symbol
+from crankwork.report.summary import results_method
+
+_LINES = 9
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A drawing that a notebook shows and a file takes."""
+
+    svg: str = field(repr=False)
+    name: str
+
+    def _repr_svg_(self) -> str:
+        return self.svg
+
+    def save(self, path: str | Path, *, overwrite: bool = False) -> None:
+        """Write it as SVG."""
+        files.check_files(path, overwrite=overwrite)
+        files.write_files({path: self.svg.encode()}, overwrite=overwrite)
+
+
+def picture(results: Results, name: str, language: Language) -> Picture:
+    """Return a figure by name."""
+    # a notebook that draws nothing does not load it
+    from crankwork.report.figures import figures  # noqa: PLC0415
+
+    found = figures(results, language=language, only=name)
+    if name not in found:
+        known = list(figures(results, language=language))
+        near = difflib.get_close_matches(name, known, n=3, cutoff=0.5) or known
+        raise UnknownKeyError(Refusal("figure_unknown", name=name[:60], known=", ".join(near)))
+    return Picture(found[name].decode(), name)
+
+
+@in_own_units
+def short_text(results: Results) -> str:
+    """Return results in fifteen lines."""
+    kept = summary_without_rounding(results)
+    head = [f"<crankwork.Results: {results.machine.title or results.machine.mechanism.driver.__class__.__name__}"]
+    head.append(f"  {results_method(results, 'en')}; {len(results.columns)} columns at {len(results.grid)} angles")
+    rows = [f"  {key} = {number(displayed(key, kept[key]), 'en')} {key_unit(key)}".rstrip() for key in kept]
+    more = [f"  and {len(rows) - _LINES} single values more"] if len(rows) > _LINES else []
+    unmet = [f"  not met: {', '.join(results.unmet)}"] if results.unmet else []
+    told = [f"  {len(results.notices)} notices"] if results.notices else []
+    return "\n".join(
+        [*head, *rows[:_LINES], *more, *unmet, *told, "  SI inside: results[key], .value(key, at), .explain(key)>"]
+    )
+
+
+@in_own_units
+def page(results: Results, language: Language = "en") -> str:
+    """Return results as a notebook shows them: the machine moving, and the summary to be opened."""
+    kept, machine = summary_without_rounding(results), results.machine
+    rows = [
+        (label(key, language), symbol(key, language), number(displayed(key, value), language), key_unit(key))
+        for key, value in kept.items()
+    ]
+    table = "".join(f"<tr>{''.join(f'<td>{html.escape(one)}</td>' for one in row)}</tr>" for row in rows)
+    drawn = ""
+    if machine.transfer is None:
+        # what cannot turn is not shown turning
+        with contextlib.suppress(GeometryError):
+            data = base64.b64encode(moving_drawing(machine, language=language).encode()).decode()
+            drawn = f'<img alt="{html.escape(machine.title)}" width="400" src="data:image/svg+xml;base64,{data}">'
+    method = html.escape(results_method(results, language))
+    return (
+        f"<div><p><b>{html.escape(machine.title)}</b><br>{method}</p>{drawn}"
+        f"<details><summary>{say('report.summary', language)}</summary><table>{table}</table></details></div>"
+    )

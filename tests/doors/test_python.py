@@ -1,0 +1,265 @@
+"""The door for programs: descriptions and results as Python, notebooks and other programs take them."""
+
+from __future__ import annotations
+
+import ast
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import crankwork
+from crankwork.loads.load import force_at
+from crankwork.loads.spring import Spring
+
+ROOT = Path(__file__).parents[2]
+EXAMPLES = ROOT / "examples"
+
+
+@pytest.fixture(scope="module")
+def engine() -> crankwork.Results:
+    return crankwork.analyse(crankwork.load(EXAMPLES / "v8-diesel.toml"))
+
+
+@pytest.fixture(scope="module")
+def linkage() -> crankwork.Results:
+    return crankwork.analyse(crankwork.load(EXAMPLES / "knuckle-press.toml"))
+
+
+@pytest.mark.parametrize("name", sorted(one.name for one in EXAMPLES.glob("*.ipynb")))
+def test_notebooks_run_from_top_to_bottom(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for one in EXAMPLES.glob("*.toml"):
+        shutil.copy(one, tmp_path)
+    monkeypatch.chdir(tmp_path)
+    book = json.loads((EXAMPLES / name).read_text("utf-8"))
+    assert all(not cell.get("outputs") for cell in book["cells"])
+    names: dict[str, Any] = {}
+    for cell in book["cells"]:
+        if cell["cell_type"] == "code":
+            tree = ast.parse("".join(cell["source"]))
+            last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+            exec(compile(tree, name, "exec"), names)  # noqa: S102 - a notebook of ours
+            if last is not None:
+                shown = eval(compile(ast.Expression(last.value), name, "eval"), names)  # noqa: S307
+                for way in ("_repr_html_", "_repr_svg_", "__repr__"):
+                    assert not hasattr(shown, way) or getattr(shown, way)()
+
+
+def test_twelve_lines_from_a_file_to_netcdf_and_back(tmp_path: Path) -> None:
+    import pandas as pd
+    import xarray as xr
+
+    d = crankwork.load(EXAMPLES / "slider-crank.toml")
+    found = []
+    for ratio in (0.2, 0.25, 0.3):
+        d["rod.ratio"] = ratio
+        found.append(crankwork.analyse(d, np.arange(0, 360, 15)).to_xarray())
+    study = xr.concat(found, pd.Index([0.2, 0.25, 0.3], name="ratio"), data_vars="all")
+    study.to_netcdf(tmp_path / "study.nc", engine="h5netcdf")
+    with xr.open_dataset(tmp_path / "study.nc") as back:
+        assert back["piston_velocity"].attrs["units"] == "m/s"
+        assert np.array_equal(back["piston_velocity"], study["piston_velocity"])
+        assert back.attrs["source"].startswith("crankwork ")
+        assert len(back.attrs["machine_file_sha256"]) == 64
+
+
+def test_results_are_shown_in_fifteen_lines(engine: crankwork.Results, linkage: crankwork.Results) -> None:
+    for one in (engine, linkage):
+        assert len(repr(one).splitlines()) <= 15
+        assert len(repr(one)) < 2000
+        assert len(one._repr_html_()) < 100_000
+        assert "<img" in one._repr_html_()
+
+
+def test_results_are_a_mapping_of_what_they_know(engine: crankwork.Results) -> None:
+    assert set(engine.columns) | set(engine.summary) <= set(engine) == set(engine.keys())
+    assert len(engine) == len(set(engine))
+    assert "crank_torque.1" in engine._ipython_key_completions_()
+    assert engine.get("crank_tork") is None
+    with pytest.raises(KeyError, match=r"crank_torque\.1"):
+        engine["crank_torqe.1"]
+    for key in engine:
+        value = engine[key]
+        assert np.ndim(value) == 0 or np.shape(value) == (len(engine.grid),), key
+        assert engine.unit(key) is not None
+    assert hash(engine)
+
+
+def test_dimensions_have_the_names_of_the_field(engine: crankwork.Results, linkage: crankwork.Results) -> None:
+    data, other = engine.to_xarray(), linkage.to_xarray()
+    assert {"crank_angle", "cylinder", "crankpin", "journal", "order", "ray"} <= set(data.dims)
+    assert {"point", "link", "joint", "slider"} <= set(other.dims)
+    assert np.array_equal(data["crank_torque"].sel(cylinder=3), engine["crank_torque.3"])
+    assert np.array_equal(other["joint_force"].sel(joint="B_upper"), linkage["joint_force.B_upper"])
+    assert float(data["mean_crankpin_load"].sel(crankpin=4)) == engine["mean_crankpin_load.4"]
+    assert float(other["friction_power_by_joint"].sel(joint="A")[7] if "friction_power_by_joint" in other else 0) >= 0
+    for one in (data, other):
+        assert all(variable.attrs.get("units") is not None for variable in one.data_vars.values())
+
+
+def test_units_of_exports_are_said_and_true(engine: crankwork.Results) -> None:
+    plain, shown = engine.to_xarray(), engine.to_xarray(shown=True)
+    assert (plain["gas_pressure"].attrs["units"], shown["gas_pressure"].attrs["units"]) == ("Pa", "MPa")
+    assert np.allclose(plain["gas_pressure"], 1e6 * shown["gas_pressure"], rtol=1e-15)
+    frame, table = engine.to_dataframe(), engine.to_dataframe(shown=True)
+    assert np.allclose(frame["piston_displacement"], 1e-3 * table["piston_displacement [mm]"], rtol=1e-12)
+    assert frame.attrs["units"]["gas_pressure"] == "Pa"
+
+
+@pytest.mark.parametrize("name", sorted(one.stem for one in EXAMPLES.glob("*.toml")))
+def test_every_example_is_written_as_data(name: str, tmp_path: Path) -> None:
+    import pandas as pd
+    import xarray as xr
+    from scipy.io import loadmat
+
+    results = crankwork.analyse(crankwork.load(EXAMPLES / f"{name}.toml"))
+    for ending in ("nc", "parquet", "mat"):
+        results.write(tmp_path / f"my.{ending}")
+    key = next(key for key in results.columns if "." not in key and key not in ("crank_angle", "time"))
+    with xr.open_dataset(tmp_path / "my.nc") as data:
+        assert np.array_equal(data[key], results[key], equal_nan=True)
+    assert np.array_equal(pd.read_parquet(tmp_path / "my.parquet")[key], results[key], equal_nan=True)
+    matlab = loadmat(tmp_path / "my.mat", simplify_cells=True)
+    assert np.array_equal(matlab[key], results[key], equal_nan=True)
+    assert matlab["units"][key] == results.unit(key)
+    with pytest.raises(crankwork.CrankworkError, match=r"is there already|exists"):
+        results.write(tmp_path / "my.nc")
+    with pytest.raises(crankwork.CrankworkError, match=r"\.nc, \.parquet, \.mat"):
+        results.write(tmp_path / "my.csv")
+
+
+def test_a_figure_displays_and_is_saved(engine: crankwork.Results, tmp_path: Path) -> None:
+    picture = engine.figure("crankpin_polar_1", "ru") if "crankpin_polar_1" in repr(engine) else None
+    picture = picture or engine.figure("indicator", "ru")
+    assert picture._repr_svg_().lstrip().startswith(("<?xml", "<svg"))
+    picture.save(tmp_path / "indicator.svg")
+    assert (tmp_path / "indicator.svg").read_text("utf-8") == picture.svg
+    with pytest.raises(KeyError, match="indicator"):
+        engine.figure("indicater")
+
+
+def test_a_machine_of_plain_values_is_checked_as_a_file() -> None:
+    values = {"title": "Pump", "crank": {"radius": "45 mm", "speed": "300 rpm"}, "rod": {"length": "180 mm"}}
+    text = 'title = "Pump"\n[crank]\nradius = "45 mm"\nspeed = "300 rpm"\n[rod]\nlength = "180 mm"\n'
+    made, read = crankwork.analyse(crankwork.Description(values)), crankwork.analyse(crankwork.Description(text))
+    assert np.array_equal(made["piston_velocity"], read["piston_velocity"])
+    values["rod"] = {"length": "20 mm"}
+    with pytest.raises(crankwork.InputError, match="rod"):
+        crankwork.analyse(crankwork.Description(values))
+
+
+MACHINES = (crankwork.template("engine"), (EXAMPLES / "knuckle-press.toml").read_text("utf-8"))
+
+
+@pytest.mark.parametrize("text", MACHINES)
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"speed": -100.0}, {"speed": 0.0}, {"speed": float("nan")}, {"speed": float("inf")}, {"speed": "100 rpm"},
+        {"angular_acceleration": float("nan")}, {"table_step": 0.0}, {"table_step": -5.0}, {"loads": (3,)},
+    ],
+)  # fmt: skip
+def test_objects_are_refused_as_files_are(text: str, wrong: dict[str, Any]) -> None:
+    machine = crankwork.read_machine(text)
+    with pytest.raises(crankwork.CrankworkError, match=next(iter(wrong)).replace("loads", "load")):
+        replace(machine, **wrong)
+
+
+@pytest.mark.parametrize("angles", [[0, 90, float("nan")], [90, 0], [0, 90, 900], "x", [], [[0, 90]]])
+def test_angles_that_are_none_are_refused(angles: object) -> None:
+    with pytest.raises(crankwork.CrankworkError, match="720 deg"):
+        crankwork.analyse(crankwork.read_machine(crankwork.template("engine")), angles)
+
+
+def test_angles_and_methods_are_plain() -> None:
+    engine = crankwork.Description(crankwork.template("engine"))
+    found = crankwork.analyse(engine, [0, 33, 720], method="series:4")
+    assert found.method.name == "series:4"
+    assert found.grid.degrees.tolist() == [0, 33, 720]
+
+
+class Tether:
+    """Pulls point B towards a place."""
+
+    def __init__(self, x: float, y: float, stiffness: float) -> None:
+        self.x, self.y, self.stiffness = x, y, stiffness
+
+    def forces(self, mechanism: Any, motion: Any, speed: Any) -> Any:  # noqa: ARG002 - asked of every load
+        at = motion.points["B"]
+        pull = [(at.x.position - self.x) * -self.stiffness, (at.y.position - self.y) * -self.stiffness]
+        return force_at(mechanism, motion, "B", (pull[0], pull[1]))
+
+
+def test_a_load_of_ones_own_is_a_load() -> None:
+    """As a spring without a free length, which is one of ours."""
+    text = crankwork.template("four-bar") if "four-bar" in crankwork.template_names() else FOUR_BAR
+    machine = crankwork.read_machine(text)
+    ground = next(iter(machine.mechanism.ground))
+    x, y = machine.mechanism.ground[ground]
+    own = crankwork.analyse(replace(machine, loads=(Tether(x, y, 250.0),)))
+    ours = crankwork.analyse(replace(machine, loads=(Spring(ground, "B", 250.0, 0.0),)))
+    assert own["static_torque"] == pytest.approx(ours["static_torque"], abs=1e-12 * np.abs(ours["static_torque"]).max())
+    assert max(own.checks.values()) < 1e-12
+    assert crankwork.note_of(own).blocks
+
+
+FOUR_BAR = """
+[fixed_points]
+O = ["0 mm", "0 mm"]
+C = ["200 mm", "0 mm"]
+[crank]
+pivot = "O"
+pin = "A"
+radius = "60 mm"
+speed = "90 rpm"
+[links]
+coupler = { joins = ["A", "B"], length = "190 mm" }
+rocker = { joins = ["C", "B"], length = "130 mm" }
+"""
+
+SCRIPT = """
+import numpy as np
+import crankwork as cw
+
+
+class Pull:
+    def forces(self, mechanism: cw.Mechanism, motion: cw.Motion, speed: object) -> cw.AppliedLoads:
+        return cw.force_at(mechanism, motion, "B", (-10.0, 0.0))
+
+
+def largest(path: str) -> float:
+    description = cw.load(path)
+    description["crank.speed"] = "1200 rpm"
+    results = cw.analyse(description, np.arange(0, 720, 2), method="textbook")
+    column = results.column("crank_torque")
+    dataset = results.to_xarray()
+    assert dataset.attrs["method"] == "textbook"
+    text: str = results.explain("crank_torque", at=390.0)
+    picture = results.figure("indicator")
+    picture.save("indicator.svg")
+    for key, value in results.items():
+        print(key, np.asarray(value).shape, results.unit(key), text[:10])
+    try:
+        results["no such key"]
+    except cw.UnknownKeyError as error:
+        print(error)
+    return float(np.max(column)) + results.value("mean_torque")
+"""
+
+
+def test_a_users_script_passes_strict_mypy(tmp_path: Path) -> None:
+    script = tmp_path / "script.py"
+    script.write_text(SCRIPT, encoding="utf-8")
+    words = [sys.executable, "-m", "mypy", "--strict", "--config-file", os.devnull, str(script)]
+    paths = os.environ | {"MYPYPATH": str(ROOT / "src")}
+    done = subprocess.run(words, capture_output=True, text=True, cwd=tmp_path, env=paths, timeout=300, check=False)
+    assert done.returncode == 0, done.stdout
+    assert re.search("no issues found", done.stdout)
