@@ -168,9 +168,11 @@ class Results(Mapping[str, Array | float]):
 
     def __getitem__(self, key: str) -> Array | float:
         """Return a column, or a single value. [SI]"""
+        if key in self.columns:
+            return self.columns[key]
         if key in self.summary:
             return self.summary[key]
-        known = None if key in self.columns else self.memory.get(key)
+        known = self.memory.get(key)
         return known.value if known is not None and not known.varies else self.column(key)
 
     def column(self, key: str) -> Array:
