@@ -98,8 +98,9 @@ def turning_inertia(machine: Machine, key: str) -> Known:
 def _given_wheel(machine: Machine) -> Iterator[Known]:
     """Yield the moment of inertia of the flywheel that a description gives."""
     wheel, stated = machine.drive.wheel, machine.stated
-    if "flywheel.inertia" in stated:
-        yield given("flywheel_inertia", stated["flywheel.inertia"].value, "flywheel.inertia")
+    own = stated.get("flywheel.inertia")
+    if own is not None and own.value:
+        yield given("flywheel_inertia", own.value, "flywheel.inertia")
     elif wheel is not None and wheel.mass is not None and wheel.gyration_radius is not None:
         mass = given("flywheel_mass", wheel.mass, "flywheel.mass")
         yield inertia_of_wheel(mass, _gyration(wheel.gyration_radius))
@@ -139,8 +140,10 @@ def wheel_for(machine: Machine, excess: Known, w: Known, own: Known) -> Wheel:
             if wheel.value:
                 whole = between[needed.key] = needed
                 summary |= sizes_of(machine, wheel, w)
-    elif machine.drive.wheel is not None and own.value:
-        summary |= {key: one for key, one in sizes_of(machine, own, w).items() if key != "flywheel_mass"}
+    else:
+        for given_one in _given_wheel(machine):
+            found = sizes_of(machine, given_one, w)
+            summary |= {key: one for key, one in found.items() if f"flywheel.{key[9:]}" not in machine.stated}
     return Wheel(summary, between, tuple(notices), whole)
 
 

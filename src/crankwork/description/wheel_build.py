@@ -12,7 +12,6 @@ from crankwork.machine import Drive
 from crankwork.shaft.wheel import Rim, Wheel, inertia_of_rim, inertia_of_wheel, mass_of_rim
 
 WANTED = ("fluctuation", "percent", "speeds")
-_KNOWN = ("inertia", "mass")
 _SAME = 5e-3
 
 
@@ -42,7 +41,7 @@ def read_wheel(values: Values, drive: Drive, speed: float | None, reader: Reader
 def is_given(values: Values) -> bool:
     """Return whether a table states a flywheel, and not only what is wanted of it."""
     rim = values["rim"]
-    return bool({*_KNOWN} & set(values)) or {"diameter", "width", "thickness", "density"} <= set(rim)
+    return bool(values.si("inertia")) or "mass" in values or {"diameter", "width", "thickness", "density"} <= set(rim)
 
 
 def _rim(values: Values) -> Rim:
@@ -61,7 +60,7 @@ def _inertia(values: Values, wheel: Wheel, pi: float) -> float:
         return float(inertia_of_wheel(wheel.mass, wheel.gyration_radius))
     if rim is not None and wheel.mass is not None and rim.diameter is not None:
         return float(inertia_of_rim(wheel.mass, rim.diameter)) / rim.share
-    if rim is not None and "inertia" not in values and is_given(values):
+    if rim is not None and not values.si("inertia") and is_given(values):
         mass = float(mass_of_rim(rim.density, pi, rim.diameter, rim.width, rim.thickness))
         return float(inertia_of_rim(mass, rim.diameter)) / rim.share
     found: float = values.si("inertia") or 0.0

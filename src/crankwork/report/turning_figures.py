@@ -80,6 +80,7 @@ def _diagram(results: Results, drawn: TurningDiagram, style: Style) -> bytes:
         for axes in (upper, lower):
             over_period(axes, float(drawn.degrees[-1]), language)
         through_zero(lower, drawn.energy)
+        through_zero(upper, drawn.torque, drawn.load)
         upper.set_xlabel("")
         upper.tick_params(labelbottom=False)
         excess = results.summary["excess_work"]
@@ -103,7 +104,6 @@ def _torques(axes: Axes, results: Results, drawn: TurningDiagram, language: Lang
         row, mean = QUANTITIES[key], f" ({say('report.mean', language)})" if table not in given else ""
         name = f"{math_symbol(row.symbol(language))} – {plain(row.label(language))}{mean}"
         axes.plot(drawn.degrees, values, color="black", linestyle=line, label=name)
-    through_zero(axes, drawn.torque, drawn.load)
     names = ", ".join(math_symbol(QUANTITIES[key].symbol(language)) for key in ("turning_moment", "load_torque"))
     axes.set_ylabel(f"{names}, {unit_name(QUANTITIES['turning_moment'].unit, language)}")
     legend_above(axes)

@@ -1,0 +1,143 @@
+"""Torques on a shaft against brute sums, closed forms and values worked by hand; and everything that shows them."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from crankwork.analysis import Results, analyse
+from crankwork.description.machine_file import read, read_machine
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.locale import LANGUAGES, Language
+from crankwork.note.contents import note_of
+from crankwork.note.options import NoteOptions
+from crankwork.note.web import web
+from crankwork.report.figures import figures
+from crankwork.report.tables import sheets
+
+ROOT = Path(__file__).parents[2]
+FILES = [*sorted((ROOT / "tests" / "machines").glob("turning-*.toml")), ROOT / "examples" / "punching-machine.toml"]
+
+
+def analysed(text: str) -> Results:
+    return analyse(read_machine(text))
+
+
+@pytest.mark.elsewhere
+class TestByHand:
+    """A rim of 1 m, 100 mm by 50 mm, 7200 kg/m3, on a shaft of 20 rad/s."""
+
+    results = analysed("""
+        crank.speed = "20 rad/s"
+        torque = { period = "360 deg", constant = "50 N*m", harmonics = [{ order = 1, sin = "100 N*m" }] }
+        flywheel.rim = { diameter = "1 m", width = "100 mm", thickness = "50 mm", density = "7200 kg/m3" }
+        """)
+
+    def test_the_rim(self) -> None:
+        assert self.results["rim_mass"] == pytest.approx(36 * math.pi)
+        assert self.results["rim_speed"] == pytest.approx(10.0)
+        assert self.results["rim_stress"] == pytest.approx(720e3)
+
+    def test_the_speed(self) -> None:
+        """An energy of 100 (1 - cos) and an inertia of 9 pi."""
+        assert self.results["excess_work"] == pytest.approx(200.0)
+        assert self.results["speed_fluctuation"] == pytest.approx(200 / (9 * math.pi * 400))
+        assert self.results["angular_acceleration_max"] == pytest.approx(100 / (9 * math.pi))
+
+    def test_a_triangle_and_its_blow(self) -> None:
+        """Two thirds of 90 J rise to 60 N m at a third of the stretch of 2 rad; 30 J are lost at once."""
+        found = analysed("""
+            crank.speed = "20 rad/s"
+            [torque]
+            period = "6 rad"
+            [[torque.strokes]]
+            work = "60 J"
+            over = "2 rad"
+            shape = "triangle"
+            peak = 0.25
+            [[torque.strokes]]
+            work = "-30 J"
+            from = "3 rad"
+            """)
+        assert found["mean_torque"] == pytest.approx(5.0)
+        assert found["turning_moment_max"] == pytest.approx(60.0)
+        assert found["turning_moment_max_angle"] == pytest.approx(0.5)
+        # from 1/24 rad to 2 - 1/8 rad the triangle is above the mean
+        assert found["excess_work"] == pytest.approx(60 - 60 / 12 * 2 / 12 / 2 - 5 * (2 - 1 / 6) + 0.0, rel=0.02)
+
+
+@st.composite
+def broken_lines(draw: st.DrawFn) -> tuple[list[float], list[float], int]:
+    count = draw(st.integers(3, 9))
+    at = sorted(draw(st.lists(st.integers(0, 72), min_size=count, max_size=count)))
+    at = [5.0 * one for one in at]
+    kept = [one for number, one in enumerate(at) if at[max(number - 2, 0) : number].count(one) < 2]
+    torque = draw(st.lists(st.integers(-500, 900), min_size=len(kept), max_size=len(kept)))
+    return kept, [float(one) for one in torque], draw(st.integers(1, 4))
+
+
+@given(broken_lines())
+def test_a_broken_line_is_integrated_as_by_trapezoids(line: tuple[list[float], list[float], int]) -> None:
+    at, torque, cylinders = line
+    if at[0] == at[-1]:
+        return
+    found = analysed(f"""
+        crank.speed = "300 rpm"
+        [torque]
+        period = "360 deg"
+        at = {[f"{one} deg" for one in at]}
+        torque = {[f"{one} N*m" for one in torque]}
+        cylinders = {cylinders}
+        [flywheel]
+        inertia = "5000 kg*m2"
+        """)
+    step = 0.01
+    angles = (np.arange(round(360 / step)) + 0.5) * step
+    values = np.zeros_like(angles)
+    for number in range(cylinders):
+        local = np.mod(angles - 360 * number / cylinders, 360.0)
+        corners = np.array([at[-1] - 360, *at, at[0] + 360])
+        heights = np.array([torque[-1], *torque, torque[0]])
+        left = np.clip(np.searchsorted(corners, local, side="right") - 1, 0, len(corners) - 2)
+        width = corners[left + 1] - corners[left]
+        share = (local - corners[left]) / np.where(width > 0, width, 1.0)
+        values += heights[left] + (heights[left + 1] - heights[left]) * share
+    mean = float(values.mean())
+    energy = np.append(0.0, np.cumsum(values - mean) * math.radians(step))
+    size = max(float(np.max(np.abs(values))), 1.0)
+    assert found["mean_torque"] == pytest.approx(mean, abs=1e-3 * size)
+    assert found["excess_work"] == pytest.approx(float(np.ptp(energy)), abs=1e-3 * size)
+    assert not found.unmet
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda one: one.stem)
+def test_sampling_changes_nothing(path: Path) -> None:
+    machine = read(path)
+    first, *others = (analyse(machine, CrankGrid.steps(step, machine.cycle)) for step in (1.0, 7.0, 30.0))
+    for one in others:
+        assert one.summary == first.summary
+        assert not one.unmet
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("path", FILES, ids=lambda one: one.stem)
+def test_a_shaft_is_shown(path: Path, language: Language) -> None:
+    results = analyse(read(path))
+    assert set(figures(results, language=language)) in ({"turning_moment", "speed"}, {"loops"})
+    assert "energy_extremes" in sheets(results)
+    page = web(note_of(results, NoteOptions(language=language))).decode()
+    assert "<table" in page
+    assert "None" not in page
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda one: one.stem)
+def test_every_value_can_be_explained(path: Path) -> None:
+    results = analyse(read(path))
+    for key in results.keys():  # noqa: SIM118 - those of columns, single values and what lies between
+        at = results.machine.cycle / 3 if results.memory[key].varies else None
+        assert results.explain(key, at)
