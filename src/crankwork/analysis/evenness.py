@@ -84,15 +84,16 @@ def extreme_speeds(machine: Machine) -> tuple[Known, Known]:
 
 def turning_inertia(machine: Machine, key: str) -> Known:
     """Return the moment of inertia of all that turns and is given under a key; absent where nothing is."""
-    drive, parts = machine.drive, []
-    plain = given(key, drive.inertia, "flywheel.inertia")
-    if not drive.inertia:
+    whole, wheel = machine.drive.inertia, tuple(_given_wheel(machine))
+    if not whole:
         return absent(key)
-    if machine.stated.get("crank.inertia") is not None and machine.turning is not None:
-        own = machine.stated["crank.inertia"].value
-        parts.append(given("reduced_inertia.shaft", own, "crank.inertia"))
-    parts.extend(_given_wheel(machine))
-    return origins.checked(total(key, parts), plain) if parts else plain
+    plain, own = given(key, whole, "flywheel.inertia"), machine.stated.get("crank.inertia")
+    beside = () if own is None else (given("reduced_inertia.shaft", own.value, "crank.inertia"),)
+    # that of a heavy crank is one of the bodies
+    for parts in ((*beside, *wheel), wheel):
+        if parts and (found := origins.checked(total(key, parts), plain)) is not plain:
+            return found
+    return plain
 
 
 def _given_wheel(machine: Machine) -> Iterator[Known]:
@@ -141,9 +142,7 @@ def wheel_for(machine: Machine, excess: Known, w: Known, own: Known) -> Wheel:
                 whole = between[needed.key] = needed
                 summary |= sizes_of(machine, wheel, w)
     else:
-        for given_one in _given_wheel(machine):
-            found = sizes_of(machine, given_one, w)
-            summary |= {key: one for key, one in found.items() if f"flywheel.{key[9:]}" not in machine.stated}
+        summary |= sizes_of_given(machine, w)
     return Wheel(summary, between, tuple(notices), whole)
 
 
@@ -155,6 +154,14 @@ def _found(excess: Known, wanted: Known, w: Known, own: Known) -> tuple[Known, K
         needed = needed.named("whole_inertia")
         wheel = flywheel_beside_machine(needed, own)
     return (wheel if wheel.value > 0 else Known(Found(0.0, "none", (wheel,)))), needed
+
+
+def sizes_of_given(machine: Machine, w: Known) -> dict[str, Known]:
+    """Return what follows of the sizes of a flywheel that is given, beside those that are stated."""
+    found = dict[str, Known]()
+    for wheel in _given_wheel(machine):
+        found |= sizes_of(machine, wheel, w)
+    return {key: one for key, one in found.items() if key != "flywheel_mass" or "flywheel.mass" not in machine.stated}
 
 
 def sizes_of(machine: Machine, inertia: Known, w: Known) -> dict[str, Known]:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from crankwork.analysis import origins
+from crankwork.analysis.evenness import turning_inertia
 from crankwork.analysis.linkage_balance import shaking
 from crankwork.analysis.quality import transmissions
 from crankwork.analysis.running import is_shared, remembered_forces
@@ -155,7 +156,7 @@ def _at_work(solved: SolvedLinkage, running: Running) -> dict[str, Known]:
     """Return reduction, torques and forces in joints."""
     machine, mechanism, motion, loads = solved.machine, running.mechanism, running.motion, running.loads
     w, eps = running.speed, running.angular_acceleration
-    beside = _stated("reduced_inertia.drive", machine.drive.inertia, "crank.inertia")
+    beside = turning_inertia(machine, "reduced_inertia.drive")
     inertia = reduced_inertia(mechanism, motion, beside)
     reduced: Known = reduced_torque(motion, loads)
     static: Known = absent("static_torque") if reduced.is_absent else static_torque(reduced)

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from crankwork.analysis.evenness import sizes_of, sizes_of_given, wanted_fluctuation
 from crankwork.analysis.linkage_memory import efficiency_of, speed_of
 from crankwork.analysis.solved import Notice
 from crankwork.errors import MethodError
@@ -54,13 +55,13 @@ def turn_of(machine: Machine, over: OverCycle, memory: Mapping[str, Known]) -> T
     """Return flywheel, motor and true speed of a linkage, as far as they are asked for."""
     drive, w = machine.drive, speed_of(machine)
     turn = Turn({}, {}, {}, (), {})
-    if drive.fluctuation is None and drive.motor is None:
+    if drive.fluctuation is None and drive.motor is None and drive.wheel is None:
         return turn
     inertia, load = _curves(over, memory)
     added = 0.0
-    if drive.fluctuation is not None:
+    if drive.fluctuation is not None or drive.wheel is not None:
         try:
-            turn, added = _even(memory, inertia, load, w, drive.fluctuation)
+            turn, added = _even(machine, memory, inertia, load, w)
         except MethodError as error:
             return turn._replace(notices=(Notice("no_flywheel", {"message": error.args[0]}),))
     if drive.motor is not None and over.is_nothing("reduced_inertia") and not added + drive.motor.reduced_inertia:
@@ -83,31 +84,31 @@ def _curves(over: OverCycle, memory: Mapping[str, Known]) -> tuple[Curve, Curve]
     return followed("reduced_inertia"), -followed("static_torque")
 
 
-def _even(memory: Mapping[str, Known], inertia: Curve, load: Curve, w: Known, fluctuation: float) -> tuple[Turn, float]:
-    """Return the flywheel in four ways, and with the exact one the true speed and how well it keeps the fluctuation."""
-    found, speed = flywheels(inertia, load, w.value, fluctuation), w.value
-    of, wanted = (
-        (memory["static_torque"], memory["reduced_inertia"]),
-        given("speed_fluctuation", fluctuation, "flywheel.fluctuation"),
-    )
+def _even(machine: Machine, memory: Mapping[str, Known], inertia: Curve, load: Curve, w: Known) -> tuple[Turn, float]:
+    """Return the flywheel in four ways, where one is wanted, and with the exact one or a given one the true speed."""
+    of, wanted = (memory["static_torque"], memory["reduced_inertia"]), wanted_fluctuation(machine, w)
+    found = () if wanted is None else flywheels(inertia, load, w.value, wanted.value)
     # a way that finds a negative inertia says that it needs none
-    added = max(found[-1].inertia, 0.0)
-    turning = true_speed(inertia + added, load, speed)
-    wheels = {f"flywheel_inertia.{one.way}": _wheel(one, inertia, w, wanted, of) for one in found}
-    had = wanted if added else Known(Found(turning.fluctuation, "fluctuation", of), "speed_fluctuation")
-    summary = {"excess_work": _excess(found[0], (), of), "speed_fluctuation": had, **wheels}
-    change = Known(
-        Table(AtDegrees(excess_work(load).curve), "integral", np.degrees(load.angle), of[:1]), "kinetic_energy_change"
+    added = max(found[-1].inertia, 0.0) if found else 0.0
+    turning, excess = true_speed(inertia + added, load, w.value), excess_work(load)
+    wheels = (
+        {} if wanted is None else {f"flywheel_inertia.{one.way}": _wheel(one, inertia, w, wanted, of) for one in found}
     )
+    had = Known(Found(turning.fluctuation, "fluctuation", of), "speed_fluctuation")
+    work = Known(Found(excess.work, "range", of), "excess_work")
+    summary = {"excess_work": work, "speed_fluctuation": had if wanted is None or not added else wanted, **wheels}
+    change = Known(Table(AtDegrees(excess.curve), "integral", np.degrees(load.angle), of[:1]), "kinetic_energy_change")
     energy = Known(Found(turning.energy, "energy", of), "kinetic_energy.start")
-    crank_speed = speed_of_energy(
-        energy + change,
-        memory["reduced_inertia"] + (wheels["flywheel_inertia.exact"] if added else absent("flywheel_inertia")),
-    )
+    exact = wheels["flywheel_inertia.exact"] if added else absent("flywheel_inertia")
+    crank_speed = speed_of_energy(energy + change, memory["reduced_inertia"] + exact)
     columns = {"kinetic_energy_change": change, "crank_speed": crank_speed.named("crank_speed")}
-    residual = abs(turning.fluctuation - fluctuation) if added else max(turning.fluctuation - fluctuation, 0.0)
+    summary |= sizes_of(machine, exact, w) if added else sizes_of_given(machine, w)
+    checks = {}
+    if wanted is not None:
+        more = turning.fluctuation - wanted.value
+        checks["flywheel"] = abs(more) if added else max(more, 0.0)
     cycle = given("cycle_angle", float(load.angle[-1] - load.angle[0]))
-    return Turn(columns, summary, {"flywheel": residual}, (), _of_energy(memory, summary["excess_work"], cycle)), added
+    return Turn(columns, summary, checks, (), _of_energy(memory, work, cycle)), added
 
 
 def _of_energy(memory: Mapping[str, Known], excess: Known, cycle: Known) -> dict[str, Known]:

@@ -21,6 +21,7 @@ from crankwork.description.positions_build import settled, told_positions
 from crankwork.description.redundant_build import fitting, geometry_of, taken_out, without_unshared
 from crankwork.description.schema import Values
 from crankwork.description.stated import stated_numbers
+from crankwork.description.wheel_build import check_wanted, read_wheel
 from crankwork.dynamics.tabulated import TabulatedBody
 from crankwork.kinematics.memory import remembered_motion
 from crankwork.loads.damper import Damper, SliderDamper
@@ -31,11 +32,12 @@ from crankwork.loads.spring import SliderSpring, Spring
 from crankwork.loads.table import Table as LoadTable
 from crankwork.loads.weight import Weight
 from crankwork.locale import Refusal
-from crankwork.machine import Machine, TransferTable, Transient
+from crankwork.machine import Drive, Machine, TransferTable, Transient
 from crankwork.mechanism.description import linkage_from
 from crankwork.mechanism.driver import Law
 from crankwork.mechanism.linkage import GROUND, Linkage
 from crankwork.mechanism.mechanism import Crank, Mechanism
+from crankwork.method import Method
 
 _GEOMETRY = ("fixed_points", "crank", "geared", "links", "guides", "sliders", "branch", "positions")
 _STEP = 1.0
@@ -70,7 +72,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
     if "driver" in values:
         check_loads(values, reader)
         check_gas(values, reader)
-    drive = replace(read_drive(values, reader), fluctuation=values.get("flywheel", {}).get("fluctuation"))
+    drive = _drive(values, method, reader)
     transient = _transient(values, reader)
     if reader.problems or mechanism is None or linkage is None:
         return None
@@ -106,6 +108,16 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
     check_friction(machine, reader)
     moving = checked_motion(machine, crank, reader)
     return moving if moving is not None and _is_filled(moving, values, reader) else None
+
+
+def _drive(values: Values, method: Method, reader: Reader) -> Drive:
+    """Return efficiency, motor and flywheel."""
+    flywheel, crank = values["flywheel"], values["crank"]
+    speed = crank_speed(crank["speed"], method) if "speed" in crank else None
+    check_wanted(flywheel, reader)
+    if "recovery" in flywheel:
+        reader.complain("flywheel.recovery", Refusal("recovery_of_linkage"))
+    return read_wheel(flywheel, read_drive(values, reader), speed, reader, pi=method.pi)
 
 
 def _weighs(values: Values) -> bool:

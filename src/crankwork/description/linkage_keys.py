@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import get_args
 
-from crankwork.description.engine_keys import HEAT_RELEASE
+from crankwork.description.engine_keys import FLYWHEEL, HEAT_RELEASE
 from crankwork.description.keys import AMBIENT, DIAGRAM, METHOD, NO_ACCELERATION, PRESSURES, TABLE, TITLE
 from crankwork.description.kinds import Choice, Flag, Number, Quantity, Text
 from crankwork.description.schema import Key, ListOf, Named, NameOr, Nested, NumberOr, Table
@@ -239,7 +239,7 @@ LINKAGE_FILE = Table("file", {
     "charges": Key(Named(_CHARGE, most=20)),
     "efficiency": Key(EFFICIENCY),
     "motor": Key(_MOTOR),
-    "flywheel": Key(Table("flywheel", {"fluctuation": Key(Number(1e-6, 1.0), required=True)})),
+    "flywheel": Key(FLYWHEEL),
     "transient": Key(_TRANSIENT),
     "method": Key(METHOD),
     "table": Key(TABLE),

@@ -13,6 +13,7 @@ from crankwork.analysis.solved import SolvedCylinder
 from crankwork.cylinders.articulated import slave_stroke
 from crankwork.cylinders.layout import Place
 from crankwork.description.engine_keys import HEAT_RELEASE
+from crankwork.description.wheel_build import WANTED
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.loads.indicator import DiagramPoint
 from crankwork.machine import Gas, Machine
@@ -22,6 +23,8 @@ from crankwork.working_cycle.pressures import MisfirePressure
 _DIAGRAM = ("points", "pieces", "measured")
 _COUNTED = ("pressures", "ambient")
 _OF_FUEL = ("fuel_mass", "heating_value", "burning_efficiency", "cycle_heat")
+# of a flywheel that is to be found, what may be known of its sizes
+_SIZES = ("radius_of_gyration", "rim")
 _ALONE = Place(number=1, axis=0.0, crankpin=0, throw=0, pin_angle=0.0, position=0.0, firing_angle=0.0)
 
 
@@ -115,8 +118,10 @@ def linkage_tables(values: Mapping[str, Any], machine: Machine) -> Iterator[tupl
     yield "positions", {name: _place(at) for name, at in _positions(gears)}
     for one in gears:
         yield from _chambers(values, one)
-    if "fluctuation" in values.get("flywheel", {}):
-        yield "flywheel", {"fluctuation": values["flywheel"]["fluctuation"]}
+    if machine.drive.fluctuation is not None:
+        wheel = values["flywheel"]
+        shown = {name: wheel[name] for name in (*WANTED, *_SIZES) if name in wheel and "mass" not in wheel}
+        yield "flywheel", shown or {"fluctuation": machine.drive.fluctuation}
     method = {
         key: one for key, one in values.get("method", {}).items() if key in ("kinematics", "pi", "gravity", "weights")
     }

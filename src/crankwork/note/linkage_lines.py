@@ -38,6 +38,9 @@ _SHAKING = ("shaking_force_x", "shaking_force_y", "shaking_force", "shaking_mome
 _COUNTERWEIGHT = ("counterweight_moment", "counterweight_angle")
 _FRICTION = ("friction_torque", "friction_force", "friction_power")
 WORST_ANGLES = ("transmission_angle_min", "transmission_angle_max", "pressure_angle_max")
+WHEEL_SIZES = (
+    "flywheel_mass", "rim_speed", "rim_stress", "rim_diameter", "rim_mass", "rim_section", "rim_thickness", "rim_width",
+)  # fmt: skip
 _WHEEL = ("wittenbauer_slope", "whole_inertia", "flywheel_inertia")
 _TORQUES = ("static_torque", "dynamic_torque", "balancing_torque", "driving_torque")
 
@@ -189,4 +192,4 @@ def _flywheel(results: Results, told: Told) -> Iterator[Line]:
             elif kind in _WHEEL and isinstance(known.node, Use) and known.value > 0:
                 yield from told.of([known])
     if "excess_work" in memory:
-        yield from told.lines(["work_per_cycle", "energy_fluctuation"])
+        yield from told.lines(["work_per_cycle", "energy_fluctuation", *WHEEL_SIZES])

@@ -10,6 +10,7 @@ from crankwork.analysis.rounding import without_rounding
 from crankwork.locale import capital, say
 from crankwork.note.comparison import comparison_blocks
 from crankwork.note.document import Bibliography, Block, Bold, ItemList, Paragraph, Reference, Runs, Table
+from crankwork.note.linkage_lines import WHEEL_SIZES
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_tables import equations, position_tables, quantity_columns
 from crankwork.note.linkage_words import Words, named
@@ -38,19 +39,26 @@ def motor(material: Material) -> Iterator[Block]:
     yield from equations(material.lines("motor"), words)
 
 
+# lines about the work, and the sizes of the wheel found exactly
+_OF_ALL_WAYS = ("work_per_cycle", "energy_fluctuation", *WHEEL_SIZES)
+
+
 def flywheel(material: Material) -> Iterator[Block]:
     """Yield the flywheel in its four ways, where one is wanted."""
     words, summary = material.words, material.results.summary
     if "excess_work" not in summary:
         return
     yield words.heading("flywheel")
-    yield words.paragraph("flywheel", value=words.number(material.machine.drive.fluctuation or 0.0))
-    lines = material.lines("flywheel")
+    lines, wanted = material.lines("flywheel"), material.machine.drive.fluctuation
+    if wanted is None:
+        yield from equations(lines, words)
+        return
+    yield words.paragraph("flywheel", value=words.number(wanted))
     ways = [key.partition(".")[2] for key in summary if key.startswith("flywheel_inertia.")]
     last = ""
     for one in lines:
         way = next((name for name in ways if name in one.key.split(".")), last or ways[0])
-        if way != last and one.key != "work_per_cycle":
+        if way != last and one.key not in _OF_ALL_WAYS:
             yield Paragraph((Bold(capital(words.way(way))), ":"))
             last = way
         yield from equations((one,), words, marks=_marks(ways, words))

@@ -58,7 +58,7 @@ def _of_drawing(results: Results, linkage: Linkage, style: Style) -> dict[str, b
     drawn |= chamber_figures(results, degrees, known, style)
     drawn |= _dynamics(degrees, known, style)
     drawn |= transient_figures(results, style)
-    if is_whole and machine.drive.fluctuation is not None:
+    if is_whole:
         drawn |= _evenness(machine, degrees, known, results.solved.speed, style)
     return drawn
 
@@ -128,10 +128,13 @@ def _evenness(
     machine: Machine, degrees: Array, known: Mapping[str, Array], speed: float, style: Style
 ) -> dict[str, bytes]:
     """Return the energy-mass diagram and the speed with the flywheel found."""
-    if "crank_speed" not in known or machine.drive.fluctuation is None:
+    if "crank_speed" not in known:
         return {}
+    course = {"speed": speed_curve(degrees, known["crank_speed"], style)}
+    if machine.drive.fluctuation is None:
+        return course
     wanted = Fluctuation(speed, machine.drive.fluctuation)
     energy, inertia = known["kinetic_energy_change"], known["reduced_inertia"]
     # without masses the energy stands over one point
     drawn = {"wittenbauer": wittenbauer(inertia, energy, wanted, degrees, style)} if np.any(inertia) else {}
-    return {**drawn, "speed": speed_curve(degrees, known["crank_speed"], style)}
+    return drawn | course
