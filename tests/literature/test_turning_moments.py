@@ -319,6 +319,20 @@ CASES = {
         """,
         {"motor_power": (2674.12366674, 1e-7), "excess_work": (22462.6388006, 1e-6), "rim_mass": (1198.0074027, 1e-7)},
     ),
+    # p. 605; a rivet takes 10 kJ in a second, of which a motor of 3 kW can do 18 in a minute
+    "khurmi 16.21": Case(
+        """
+        crank.largest_speed = "300 rpm"
+        [load]
+        rate = "18 1/min"
+        strokes = [{ work = "10 kJ", over = "1 s" }]
+        [flywheel]
+        mass = "150 kg"
+        radius_of_gyration = "0.6 m"
+        """,
+        {"motor_power": (3000.0, 1e-8), "excess_work": (7000.0, 1e-8), "crank_speed_min": (257.6 * RPM, 0.05 * RPM),
+         "crank_speed_max": (300 * RPM, 1e-12)},
+    ),
     # p. 605; the sheared area is rounded to 1885 mm2
     "khurmi 16.22": Case(
         """
@@ -386,6 +400,19 @@ CASES = {
          "speed_fluctuation": (0.0132929763243, 1e-12), "angular_acceleration@60": (7.96574408024, 1e-9),
          "crank_speed_min_angle": (29.518121734 * DEGREE, 1e-9),
          "crank_speed_max_angle": (119.518121734 * DEGREE, 1e-9)},
+    ),
+    # p. 182; a press that takes 7500 J in a second from a motor of 5 kW; the drop of 10.7 rev/min
+    "sarkar 6.9": Case(
+        """
+        method.pi = 3.141
+        crank.largest_speed = "360 rpm"
+        [load]
+        rate = "40 1/min"
+        strokes = [{ work = "7500 J", over = "1 s" }]
+        [flywheel]
+        inertia = "60 kg*m2"
+        """,
+        {"motor_power": (5000.0, 1e-8), "crank_speed_min": ((360 - 10.7) * 3.141 / 30, 0.05 * RPM)},
     ),
     # p. 182; the flywheel does all of the cut; with pi = 3.141
     "sarkar 6.8": Case(

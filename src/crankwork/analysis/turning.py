@@ -83,6 +83,11 @@ def _speed(machine: Machine) -> Known:
     """Return the mean speed of the shaft: stated, or that of its extremes."""
     if "crank.speed" in machine.stated or not machine.stated:
         return origins.speed(machine, machine.method)
+    path = "crank.largest_speed"
+    if path in machine.stated:
+        largest = origins.speed_at(machine, machine.method, path, machine.stated[path].value, ".largest")
+        mean = machine.speed * machine.method.pi / math.pi
+        return Known(Found(mean, "of_largest", (largest,)), "speed")
     high, low = extreme_speeds(machine)
     return ((high + low) / 2).named("speed")
 

@@ -7,6 +7,7 @@ import math
 from dataclasses import replace
 from typing import NamedTuple
 
+from crankwork.analysis.turning import analyse_turning
 from crankwork.description.build import build_method, crank_speed
 from crankwork.description.drive_build import read_drive
 from crankwork.description.kinds import Measure, Reader
@@ -25,14 +26,20 @@ _OF_ENERGY = ("areas", "excess_work", "energy_fluctuation")
 # works of a document are rounded; beyond this share a shaft would not run at one speed
 _BALANCED = 5e-3
 _CLOSED = 1e-6
+_TRIES, _SETTLED = 50, 1e-15
 
 
 class _Shaft(NamedTuple):
-    """What diagrams need to know: speed of the shaft and method. [rad/s]"""
+    """What diagrams need to know: stated speed of the shaft and method. [rad/s]"""
 
-    speed: float
+    stated: float
     method: Method
     reader: Reader
+
+    @property
+    def speed(self) -> float:
+        """Speed with the method's own pi. [rad/s]"""
+        return self.stated * self.method.pi / math.pi
 
 
 def build_turning(values: Values, reader: Reader) -> Machine | None:
@@ -41,8 +48,8 @@ def build_turning(values: Values, reader: Reader) -> Machine | None:
     if not method.is_exact:
         reader.complain("method.kinematics", Refusal("turning_exact"))
     flywheel, crank = values["flywheel"], values["crank"]
-    stated = crank_speed(crank["speed"], method) if "speed" in crank else None
-    speed = stated or _mean_of_speeds(flywheel)
+    stated, largest = (crank_speed(crank[key], method) if key in crank else None for key in ("speed", "largest_speed"))
+    speed = stated or largest or _mean_of_speeds(flywheel)
     if speed is None and not reader.doubts("crank.speed", "flywheel.speeds"):
         reader.complain("crank.speed", Refusal("missing", advice=('speed = "100 rpm"',)))
     check_wanted(flywheel, reader)
@@ -53,7 +60,7 @@ def build_turning(values: Values, reader: Reader) -> Machine | None:
     turning = _turning(values, _Shaft(speed, method, reader))
     if reader.problems or turning is None:
         return None
-    return Machine(
+    machine = Machine(
         Mechanism(Crank(radius=0.0), ()),
         speed=speed,
         title=values["title"] or "",
@@ -64,6 +71,31 @@ def build_turning(values: Values, reader: Reader) -> Machine | None:
         table_special=tuple(round(math.degrees(one.value), 9) for one in values["table"]["special_angles"] if one),
         stated=stated_numbers(values),
     )
+    return machine if largest is None else _slowed(machine, turning, values, reader)
+
+
+def _slowed(machine: Machine, turning: Turning, values: Values, reader: Reader) -> Machine | None:
+    """Return the machine with the mean speed that its largest one leaves, or None after a complaint.
+
+    What is stated by time or by power changes its angle or torque with the speed.
+    """
+    if not machine.drive.inertia:
+        reader.complain("crank.largest_speed", Refusal("largest_speed_alone"))
+        return None
+    largest = machine.speed
+    for _ in range(_TRIES):
+        excess = analyse_turning(machine, turning).summary["excess_work"]
+        square = largest**2 - 2 * excess / machine.drive.inertia
+        if square <= 0:
+            reader.complain("crank.largest_speed", Refusal("largest_speed_small", excess=excess))
+            return None
+        speed = (largest + math.sqrt(square)) / 2
+        turning = _turning(values, _Shaft(speed, machine.method, reader)) or turning
+        settled = abs(speed - machine.speed) <= _SETTLED * largest
+        machine = replace(machine, speed=speed, turning=turning)
+        if settled:
+            break
+    return machine
 
 
 def _mean_of_speeds(flywheel: Values) -> float | None:

@@ -13,6 +13,7 @@ from crankwork.description.schema import Key, ListOf, NumberOr, Table
 from crankwork.shaft.torque_diagram import Shape
 
 _TORQUE = Quantity(("torque",), -1e9, 1e9)
+_SPEED = Quantity(("speed",), 1e-6, 3e4)
 _ANGLE = Quantity(("angle",), 0.0, 1e5)
 _LENGTH = Key(Quantity(("length",), 1e-6, 100.0))
 _ENERGY = Quantity(("energy", "area"), -1e12, 1e12)
@@ -72,7 +73,8 @@ _DIAGRAM = Table("torque_diagram", {
 TURNING_FILE = Table("file", {
     **TITLE,
     "crank": Key(Table("turning_crank", {
-        "speed": Key(Quantity(("speed",), 1e-6, 3e4)),
+        "speed": Key(_SPEED, instead_of=("largest_speed",)),
+        "largest_speed": Key(_SPEED, instead_of=("speed",)),
         "inertia": Key(Quantity(("inertia",), 0.0, 1e9), default="0 kg*m2"),
     })),
     "torque": Key(_DIAGRAM, required=True),

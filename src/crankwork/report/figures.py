@@ -28,10 +28,8 @@ def figures(results: Results, *, language: Language = "en", per_area: bool = Fal
     """
     # whose fonts all figures use
     drawing_library()
-    if results.machine.turning is not None:
-        found = turning_figures(results, language=language)
-    else:
-        found = linkage_figures(results, language=language)
+    shown = linkage_figures if results.machine.turning is None else turning_figures
+    found = shown(results, language=language)
     if "piston_displacement" in results.columns:
         found |= engine_figures(drawn_from(results, language, per_area=per_area), only)
     compared = comparison_figure(results, language, per_area=per_area)
