@@ -113,7 +113,7 @@ def engine_torque(
     wheel = wheel_for(whole.machine, excess, w, turning_inertia(whole.machine, "reduced_inertia"))
     course = course_of(all_, found, excess, w, wheel.inertia, of[0])
     summary |= wheel.summary | course.summary
-    summary |= recovery(whole.machine, wheel.inertia, summary)
+    summary |= recovery(whole.machine, wheel.inertia, w, summary)
     named = {key: known.named(key) for key, known in summary.items()}
     notices = wheel.notices + course.notices
     return EngineTorque(one, all_, found, course.speed, course.columns, named, between | wheel.between, notices)

@@ -234,11 +234,11 @@ def course_of(torque: Curve, found: ExcessWork, excess: Known, w: Known, inertia
     return Course(columns, summary, (), speed)
 
 
-def recovery(machine: Machine, inertia: Known, summary: Mapping[str, Known]) -> dict[str, Known]:
+def recovery(machine: Machine, inertia: Known, w: Known, summary: Mapping[str, Known]) -> dict[str, Known]:
     """Return the torque that brings a shaft back to its greatest speed in the time that is stated."""
     wheel = machine.drive.wheel
-    if wheel is None or wheel.recovery_time is None or "crank_speed_max" not in summary:
+    if wheel is None or wheel.recovery_time is None or "speed_fluctuation" not in summary:
         return {}
     time = given("recovery_time", wheel.recovery_time, "flywheel.recovery")
-    high, low = (summary[f"crank_speed_{word}"].named(f"crank_speed_{word}") for word in ("max", "min"))
-    return {"recovery_torque": recovery_torque(inertia, high, low, time)}
+    delta = summary["speed_fluctuation"].named("speed_fluctuation")
+    return {"recovery_torque": recovery_torque(inertia, delta, w, time)}

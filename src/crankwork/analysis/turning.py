@@ -143,7 +143,7 @@ def _of_course(machine: Machine, turning: Turning, w: Known) -> _Turned:
         turned = acceleration_of_crank(net, absent("speed"), wheel.inertia, absent("reduced_inertia_1"))
         columns["angular_acceleration"] = turned
         summary |= _extremes("angular_acceleration", turned, torque * (1 / wheel.inertia.value))
-    summary |= recovery(machine, wheel.inertia, summary)
+    summary |= recovery(machine, wheel.inertia, w, summary)
     checks = _checks(turning, over, columns, (found, course.speed, wheel.inertia.value))
     notices = (*_notices(turning), *wheel.notices, *course.notices)
     listings = {"energy_extremes": _listing(found, course.speed)}
@@ -359,7 +359,7 @@ def _of_energies(machine: Machine, turning: Turning, w: Known) -> _Turned:
         delta: Known = fluctuation_of_inertia(excess, wheel.inertia, w)
         summary["speed_fluctuation"] = delta = delta.named("speed_fluctuation")
         summary["crank_speed_max"], summary["crank_speed_min"] = w + delta * w / 2, w - delta * w / 2
-        summary |= recovery(machine, wheel.inertia, summary)
+        summary |= recovery(machine, wheel.inertia, w, summary)
     return _Turned({}, summary, {**between, **wheel.between}, checks, wheel.notices, listings)
 
 

@@ -185,8 +185,6 @@ ARGUMENTS: dict[str, Argument] = {
     "v_r": Argument("rim_speed"),
     "A_rim": Argument("rim_section"),
     "c_r": Argument("rim_ratio"),
-    "w_max": Argument("crank_speed", "{}_max"),
-    "w_min": Argument("crank_speed", "{}_min"),
     "t_rec": Argument("recovery_time"),
     "k_i": Argument("", "k_i"),
     "eta_i": Argument("efficiency", "{}_i"),

@@ -45,8 +45,18 @@ _WHEEL = ("wittenbauer_slope", "whole_inertia", "flywheel_inertia")
 _TORQUES = ("static_torque", "dynamic_torque", "balancing_torque", "driving_torque")
 
 
+_POWER_OF_SHAFT = ("speed", "mean_torque", "shaft_power", "efficiency", "motor_power", "work_per_cycle")
+_EXCESS = ("excess_work", "energy_fluctuation")
+_WHEEL_OF_SHAFT = ("speed_fluctuation", "whole_inertia", "flywheel_inertia", *WHEEL_SIZES, "recovery_torque")
+_COURSE_OF_SHAFT = (
+    "turning_moment", "load_torque", "excess_torque", "kinetic_energy_change", "crank_speed", "angular_acceleration",
+)  # fmt: skip
+
+
 def linkage_lines(results: Results, degrees: float | None = None) -> tuple[Group, ...]:
     """Return what the note of a linkage shows at a crank angle, or the nearest one of the columns, each once. [deg]"""
+    if results.machine.turning is not None:
+        return _of_shaft(results)
     row = int(np.argmin(np.abs(results.grid.degrees - (_DEGREES if degrees is None else degrees))))
     told = Told(results, float(results.grid.degrees[row]))
     groups = [
@@ -71,6 +81,25 @@ def linkage_lines(results: Results, degrees: float | None = None) -> tuple[Group
         Group("flywheel", tuple(_flywheel(results, told))),
         Group("motor", told.lines(["motor_power", "inertia_on_crank"])),
     ]
+    return tuple(group for group in groups if group.lines)
+
+
+def _of_shaft(results: Results) -> tuple[Group, ...]:
+    """Return what the note of a shaft with torques on it shows, at the position nearest to their greatest value."""
+    peaks = (results.memory.get(f"{key}_max") for key in ("turning_moment", "load_torque"))
+    at = next((one.node.at for one in peaks if one is not None and isinstance(one.node, Found)), None)
+    row = int(np.argmin(np.abs(results.grid.degrees - (at or 0.0))))
+    told, turning = Told(results, float(results.grid.degrees[row])), results.machine.turning
+    given = turning.diagrams if turning is not None else {}
+    acting = [key for table, key in (("torque", "turning_moment"), ("load", "load_torque")) if table in given]
+    course = [key for key in results.columns if key in _COURSE_OF_SHAFT]
+    groups = (
+        told.group("turning_moments", acting if course else ()),
+        Group("shaft_power", told.lines(_POWER_OF_SHAFT)),
+        Group("energy_extremes", told.lines(_EXCESS if course else ("kinetic_energy_change", *_EXCESS))),
+        Group("flywheel", told.lines(_WHEEL_OF_SHAFT)),
+        told.group("shaft_course", course),
+    )
     return tuple(group for group in groups if group.lines)
 
 

@@ -84,6 +84,8 @@ class Material:
     def groups(self) -> dict[str, Group]:
         """Lines of the memory by the name of their group, worked where the loads need the largest torque."""
         degrees = None
+        if self.machine.turning is not None:
+            return {one.name: one for one in linkage_lines(self.results)}
         largest = ("driver_force", "driver_torque") if self.results.period else ("static_torque",)
         key = next((one for one in largest if one in self.columns), None)
         if (self.machine.loads or self.machine.chambers) and key is not None:

@@ -5,16 +5,13 @@ from __future__ import annotations
 import math
 from collections import defaultdict
 from collections.abc import Callable, Iterator
-from functools import cached_property
 
 import numpy as np
 
 from crankwork.analysis import Results
-from crankwork.formula.known import Found
 from crankwork.note.document import Block, Contents, ItemList, Note, PageBreak, Runs, Table, TitlePage
 from crankwork.note.legends import explained
 from crankwork.note.linkage_data import method
-from crankwork.note.linkage_lines import Told
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_shaft import checks, comparison, conclusion, sources
 from crankwork.note.linkage_tables import Column, equations, position_tables
@@ -22,44 +19,20 @@ from crankwork.note.options import NoteOptions
 from crankwork.note.words import in_display_unit
 
 _TABLES = (("torque", "drives"), ("load", "resists"))
-_MOST_ROWS = 40
+# of a table over the angle
+_MOST_ROWS = 120
 # a speed changes little
 _DIGITS = defaultdict(lambda: 4, crank_speed=6)
 _COLUMNS = (
     "turning_moment", "load_torque", "excess_torque", "kinetic_energy_change", "crank_speed", "angular_acceleration",
 )  # fmt: skip
-_POWER = ("speed", "mean_torque", "shaft_power", "efficiency", "motor_power", "work_per_cycle")
-_EXCESS = ("kinetic_energy_change", "excess_work", "energy_fluctuation")
-_WHEEL = (
-    "speed_fluctuation", "whole_inertia", "flywheel_inertia", "flywheel_mass", "rim_speed", "rim_stress",
-    "rim_diameter", "rim_mass", "rim_section", "rim_thickness", "rim_width", "recovery_torque",
-)  # fmt: skip
 
-
-class _Material(Material):
-    """Results of a shaft, whose lines are told once."""
-
-    @cached_property
-    def worked_at(self) -> float:
-        """The angle at which the torques are worked: that of the greatest. [deg]"""
-        for key in ("turning_moment_max", "load_torque_max"):
-            known = self.results.memory.get(key)
-            if known is not None and isinstance(known.node, Found) and known.node.at is not None:
-                return known.node.at
-        return 0.0
-
-    @cached_property
-    def told(self) -> Told:
-        """Lines at that angle."""
-        return Told(self.results, self.worked_at)
-
-
-Section = Callable[[_Material], Iterator[Block]]
+Section = Callable[[Material], Iterator[Block]]
 
 
 def turning_note(results: Results, options: NoteOptions) -> Note:
     """Return the note of a shaft with torques on it (khurmi_gupta_2005, ch. 16)."""
-    material = _Material(results, options)
+    material = Material(results, options)
     sections: tuple[Section, ...] = (
         _task,
         _moments,
@@ -83,7 +56,7 @@ def turning_note(results: Results, options: NoteOptions) -> Note:
     )
 
 
-def _task(material: _Material) -> Iterator[Block]:
+def _task(material: Material) -> Iterator[Block]:
     """Yield what is asked and what is given."""
     words, machine = material.words, material.machine
     turning = machine.turning
@@ -104,7 +77,7 @@ def _task(material: _Material) -> Iterator[Block]:
     yield method(material)
 
 
-def _items(material: _Material, table: str) -> Iterator[Runs]:
+def _items(material: Material, table: str) -> Iterator[Runs]:
     """Yield what a torque is made of, in words."""
     words, turning = material.words, material.machine.turning
     diagram = turning.diagrams[table] if turning is not None else None
@@ -134,7 +107,7 @@ def _items(material: _Material, table: str) -> Iterator[Runs]:
         yield words.sentence("item_cylinders", count=str(len(diagram.delays)), delays=delays)
 
 
-def _points(material: _Material, table: str) -> Table:
+def _points(material: Material, table: str) -> Table:
     """Return the points of a torque."""
     words, turning = material.words, material.machine.turning
     points = turning.diagrams[table].points if turning is not None else ()
@@ -143,23 +116,21 @@ def _points(material: _Material, table: str) -> Table:
     return Table(words.caption("points_of_torque"), (words.titled("crank_angle"), words.titled(key)), rows, align="rr")
 
 
-def _moments(material: _Material) -> Iterator[Block]:
+def _moments(material: Material) -> Iterator[Block]:
     """Yield torque, mean and power."""
-    words, told = material.words, material.told
+    words = material.words
     yield words.heading("turning_moments")
     if "turning_moment" in material.results.columns:
-        keys = [
-            key
-            for key, table in (("turning_moment", "torque"), ("load_torque", "load"))
-            if material.machine.turning is not None and table in material.machine.turning.diagrams
-        ]
-        yield words.paragraph("worked_position", value=words.amount(math.radians(material.worked_at), "deg"))
-        yield from equations(told.lines(keys), words)
+        worked = material.groups.get("turning_moments")
+        if worked is not None:
+            place = words.amount(math.radians(worked.degrees or 0.0), "deg")
+            yield words.paragraph("worked_position", value=place)
+            yield from equations(worked.lines, words)
         yield words.paragraph("mean_of_torque")
-    yield from equations(told.lines(_POWER), words)
+    yield from equations(material.lines("shaft_power"), words)
 
 
-def _excess(material: _Material) -> Iterator[Block]:
+def _excess(material: Material) -> Iterator[Block]:
     """Yield the extremes of the energy, and the excess work."""
     words, results = material.words, material.results
     yield words.heading("energy_extremes")
@@ -172,21 +143,20 @@ def _excess(material: _Material) -> Iterator[Block]:
         rows = list(zip(*(one for _, one in columns), strict=True))
         titles = tuple(words.titled(key) for key, _ in columns)
         yield Table(words.caption("energy_extremes"), titles, rows, align="r" * len(columns), label="extremes")
-    keys = ("excess_work", "energy_fluctuation") if "turning_moment" in results.columns else _EXCESS
-    yield from equations(material.told.lines(keys), words)
+    yield from equations(material.lines("energy_extremes"), words)
     yield from material.figures("turning_moment", "loops")
 
 
-def _flywheel(material: _Material) -> Iterator[Block]:
+def _flywheel(material: Material) -> Iterator[Block]:
     """Yield the flywheel, given or found, and the fluctuation of the speed."""
     words = material.words
-    lines = material.told.lines(_WHEEL)
+    lines = material.lines("flywheel")
     if lines:
         yield words.heading("flywheel")
         yield from equations(lines, words)
 
 
-def _course(material: _Material) -> Iterator[Block]:
+def _course(material: Material) -> Iterator[Block]:
     """Yield the table over the angle, and the speed."""
     words, results = material.words, material.results
     shown = [key for key in _COLUMNS if key in results.columns]
@@ -195,9 +165,9 @@ def _course(material: _Material) -> Iterator[Block]:
     yield words.heading("law_of_shaft")
     if "crank_speed" in shown:
         yield words.paragraph("speed_of_shaft")
-        yield from equations(material.told.lines(("crank_speed", "angular_acceleration")), words)
+    yield from equations(material.lines("shaft_course"), words)
     degrees = results.grid.degrees
-    every = max(1, math.ceil((degrees.size - 1) / _MOST_ROWS))
+    every = math.ceil(degrees.size / _MOST_ROWS)
     rows = np.unique(np.append(np.arange(0, degrees.size, every), degrees.size - 1))
     columns = {key: results.columns[key][rows] for key in shown}
     tabulated = [

@@ -76,9 +76,9 @@ def rim_thickness(A_rim: Value, c_r: Value) -> Value:
 
 
 @formula("recovery_torque", "khurmi_gupta_2005, ch. 16")
-def recovery_torque(J_sum: Value, w_max: Value, w_min: Value, t_rec: Value) -> Value:
+def recovery_torque(J_sum: Value, delta: Value, w: Value, t_rec: Value) -> Value:
     """Torque that brings a shaft from its least speed back to its greatest in a time."""
-    return J_sum * (w_max - w_min) / t_rec
+    return J_sum * delta * w / t_rec
 
 
 @dataclass(frozen=True)
