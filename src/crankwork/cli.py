@@ -449,9 +449,12 @@ def _doubt(file: str, results: Results, language: Language) -> None:
     """Raise if the results do not hold together, or do not cover what was asked; they have been told and written."""
     from crankwork.report.summary import warning_text
 
-    warning = warning_text(results, language)
-    if warning:
-        raise DoubtfulError(f"{file}: {warning}")
+    every = {file: results}
+    if results.compared is not None:
+        every |= zip(results.compared.names[1:], results.compared.others, strict=True)
+    for name, one in every.items():
+        if warning := warning_text(one, language):
+            raise DoubtfulError(f"{name}: {warning}")
 
 
 def _degrees(text: str) -> str:

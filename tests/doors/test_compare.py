@@ -109,3 +109,17 @@ def test_what_cannot_be_compared_is_refused(crankwork, machine_file, check_mista
     check_mistakes(answer)
     assert answered in answer.err
     assert not Path("out").exists()
+
+
+def test_what_is_doubtful_of_the_other_machine_is_told_at_the_end(crankwork, machine_file):
+    Path("swing.toml").write_text(template("four-bar").replace('"175 mm"', '"260 mm"'), encoding="utf-8")
+    answer = crankwork("run", machine_file(name="four-bar"), "--compare", "swing.toml")
+    assert answer.code == 1
+    assert answer.err.startswith("swing: ")
+    assert "Comparison of machines" in answer.out
+
+
+def test_a_file_may_be_called_as_a_method(crankwork, machine_file):
+    Path("textbook.toml").write_text(template("engine"), encoding="utf-8")
+    answer = crankwork("run", machine_file(), "--compare", "textbook.toml")
+    assert "Comparison of machines" in answer.out

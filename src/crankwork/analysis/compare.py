@@ -38,11 +38,7 @@ class Comparison(NamedTuple):
     keys: tuple[str, ...]  # Columns that all have, under which names and differences are found
     memory: Mapping[str, Known]
     columns: Mapping[str, Array]  # At the crank angles of the results [SI]
-
-    @property
-    def is_of_methods(self) -> bool:
-        """Whether one machine is compared by its methods."""
-        return self.names[0] in ("exact", "textbook") or self.names[0].startswith("series:")
+    is_of_methods: bool  # Whether one machine is compared by its methods, which are the names
 
     def columns_at(self, degrees: Array) -> dict[str, Array]:
         """Return what is compared at crank angles [deg]; nothing is a number where a machine does not get."""
@@ -80,7 +76,7 @@ def compare(results: Results, others: Mapping[str, Results], name: str = "") -> 
     others : mapping of str to Results
         What it is compared with, by name: another method, or another machine.
     name : str
-        What the results are called among them; their method if it is left out.
+        What the results are called among other machines; left out where the others are other methods.
 
     Returns
     -------
@@ -90,7 +86,7 @@ def compare(results: Results, others: Mapping[str, Results], name: str = "") -> 
     Raises
     ------
     CrankworkError
-        If the others have nothing in common with them.
+        If the others have nothing in common with them, or one has their name.
 
     Examples
     --------
@@ -102,6 +98,8 @@ def compare(results: Results, others: Mapping[str, Results], name: str = "") -> 
     (('exact', 'textbook'), ('piston_displacement', 'piston_velocity'))
     """
     own = name or results.method.name
+    if own in others:
+        raise CrankworkError(Refusal("compare_own", method=own))
     every = (results, *others.values())
     keys = tuple(_common(every)) if _go_alike(every) else ()
     memory: dict[str, Known] = {}
@@ -115,7 +113,8 @@ def compare(results: Results, others: Mapping[str, Results], name: str = "") -> 
     if not keys and not any(one.summary.keys() & results.summary.keys() for one in others.values()):
         raise CrankworkError(Refusal("compare_nothing"))
     columns = _played(memory, results.grid)
-    return replace(results, compared=Comparison((own, *others), tuple(others.values()), keys, memory, columns))
+    compared = Comparison((own, *others), tuple(others.values()), keys, memory, columns, is_of_methods=not name)
+    return replace(results, compared=compared)
 
 
 def _common(every: tuple[Results, ...]) -> Iterator[str]:

@@ -8,7 +8,7 @@ from crankwork.analysis import Results
 from crankwork.note.document import Block, Heading, Reference, Runs, Table
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.words import NoteWords
-from crankwork.report.comparison import comparison_rows, shown_name
+from crankwork.report.comparison import comparison_rows, shown_names
 from crankwork.report.language import key_unit, label, told_as
 
 _LABEL = "compared"
@@ -25,7 +25,7 @@ def comparison_blocks(
     if compared is None:
         return
     yield heading
-    own, *others = (shown_name(one, words.language) for one in compared.names)
+    own, *others = shown_names(compared, words.language)
     key = "compared_methods" if compared.is_of_methods else "compared_machines"
     yield words.paragraph(key, table=Reference(_LABEL), own=own)
     titles: list[Runs] = [(words.column("quantity"),), (words.column("unit"),), (own,)]

@@ -21,7 +21,6 @@ from crankwork.report.language import (
 )
 
 _NONE = "–"
-_METHODS = ("exact", "textbook", "series")
 # of a value, what is no difference
 _ROUNDING = 1e-12
 
@@ -112,7 +111,9 @@ def comparison_data(results: Results, *, per_area: bool = False) -> dict[str, An
     return {"comparison": {"own": own, "others": each}}
 
 
-def shown_name(name: str, language: Language) -> str:
-    """Return what one of several is called: a method in words, a machine by the name of its file."""
-    kind, _, order = name.partition(":")
-    return method_name(kind, int(order or 0), "", language) if kind in _METHODS else name
+def shown_names(compared: Comparison, language: Language) -> list[str]:
+    """Return what each is called: methods in words, machines by the names of their files."""
+    if not compared.is_of_methods:
+        return list(compared.names)
+    parts = [one.partition(":") for one in compared.names]
+    return [method_name(kind, int(order or 0), "", language) for kind, _, order in parts]

@@ -10,7 +10,7 @@ from crankwork.analysis import Array, Results
 from crankwork.analysis.compare import Comparison, beside, difference
 from crankwork.locale import Language, say
 from crankwork.quantities import QUANTITIES
-from crankwork.report.comparison import shown_name
+from crankwork.report.comparison import shown_names
 from crankwork.report.engine_figure_axes import LEGEND_ROW, Box, Graph, Row, limits, over_cycle, round_ticks, sheet
 from crankwork.report.engine_figure_paper import Paper
 from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED, SOLID, Style
@@ -47,8 +47,9 @@ def comparison_figure(results: Results, language: Language, *, per_area: bool = 
     degrees = np.linspace(0.0, cycle, min(round(cycle / _STEP), _MOST) + 1)
     area = results.summary["piston_area"] if per_area else None
     found = compared.columns_at(degrees)
-    others, named = compared.names[1:], [shown_name(name, language) for name in compared.names]
-    rows = [Row(shown_name(name, language), style, 1.2, colour) for name, style, colour in _looks(compared.names)]
+    others, named = compared.names[1:], shown_names(compared, language)
+    looks = zip(named, _looks(compared.names), strict=True)
+    rows = [Row(shown, style, 1.2, colour) for shown, (_, style, colour) in looks]
     if len(others) == 1:
         rows.append(Row(f"Δ: {say('report.less', language, name=named[1], other=named[0])}", width=0.0))
     else:

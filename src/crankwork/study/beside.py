@@ -14,9 +14,10 @@ _MOST = 6
 
 
 def others(machine: Machine, file: str, asked: str) -> tuple[str, dict[str, Machine]]:
-    """Return what a machine, that of a file, is called in a comparison, and what it is compared with, by name.
+    """Return what a machine, that of a file, is called among machines, and what it is compared with, by name.
 
-    `asked`: methods with commas between them, or a machine file, which ends in .toml.
+    Among its own methods it needs no name. `asked`: methods with commas between them, or a machine file, which ends in
+    .toml.
     """
     if PurePath(asked.strip()).suffix.lower() == ".toml":
         names = [PurePath(one).stem for one in (file, asked.strip())]
@@ -35,4 +36,4 @@ def others(machine: Machine, file: str, asked: str) -> tuple[str, dict[str, Mach
         raise CrankworkError(Refusal("compare_linkage", methods=asked.strip()))
     if machine.method.name in found:
         raise CrankworkError(Refusal("compare_own", method=machine.method.name))
-    return machine.method.name, found
+    return "", found
