@@ -147,6 +147,196 @@ def test_degrees_taken_for_radians_are_told(read, step):
 def test_many_cycles_in_radians_are_radians(read):
     angles = np.radians(np.arange(0.0, 720.0 * 12 + 100, 3.0))
     samples = true_pressure(np.degrees(angles))
-    assert math.isclose(
-        peak(read(table(angles, samples), 'pressure_unit = "bar"\nangle_unit = "rad"')), 41, rel_tol=0.01
-    )
+    results = read(table(angles, samples), 'pressure_unit = "bar"\nangle_unit = "rad"\ncycle = "mean"')
+    assert math.isclose(peak(results), 41, rel_tol=0.01)
+
+
+ABSOLUTE = MACHINE.replace('cycle = "720 deg"', 'cycle = "720 deg"\npressures = "absolute"\nambient = "1 bar"')
+MEAN = 'pressure_unit = "bar"\ncycle = "mean"'
+SHARES = np.array([0.9, 1.0, 1.1])
+
+
+def stacked(*, anew: bool, last: bool = False) -> str:
+    """Return three cycles one below the other, whose angles run on or begin anew, with their last sample or not."""
+    angles = np.arange(0.0, 721.0 if last else 720.0)
+    cycles = [(angles + (0 if anew else 720 * k), share * true_pressure(angles)) for k, share in enumerate(SHARES)]
+    return "".join(table(*one) for one in cycles)
+
+
+STACKED = {
+    "running on": (stacked(anew=False), ""),
+    "beginning anew": (stacked(anew=True), ""),
+    "beginning anew, with the last sample": (stacked(anew=True, last=True), ""),
+    "from the middle": (table(np.tile(ANGLES - 360, 3), np.concatenate([BAR * one for one in SHARES])), "360"),
+    "side by side": (table(ANGLES, *(BAR * one for one in SHARES)), 'angle_column = 1\npressure_column = "2..4"'),
+}
+
+
+@pytest.mark.parametrize(("text", "keys"), STACKED.values(), ids=STACKED)
+def test_cycles_are_told_apart_however_they_stand(read, text, keys):
+    keys = 'shift = "360 deg"' if keys == "360" else keys
+    unit = f'pressure_unit = "bar"\n{keys}\n'
+    message = refusal(read, text, unit)
+    assert '3 cycles were recorded; write cycle = "mean", cycle = 1 or another number' in message
+    chosen = {'"mean"': 41.0, "1": 36.9, "3": 45.1, '"greatest peak"': 45.1, '"least peak"': 36.9}
+    for cycle, expected in chosen.items():
+        results = read(text, f"{unit}cycle = {cycle}")
+        assert peak(results) == pytest.approx(expected, rel=2e-3)
+        spread = told(results)["cycles_spread"]
+        assert spread["cycles"] == 3
+        assert spread["peak"] == pytest.approx(10.0, rel=1e-6)
+        assert spread["work"] == pytest.approx(10.0, rel=1e-6)
+    assert "there is no cycle 4; recorded are 3" in refusal(read, text, f"{unit}cycle = 4")
+
+
+def test_what_is_done_to_samples_is_explained(read):
+    explained = read(STACKED["running on"][0], MEAN).explain("gas_pressure", at=33.0)
+    assert "gas.measured.cycle" in str(explained)
+
+
+CLOSED = np.arange(180.0, 540.0)
+
+
+@pytest.mark.parametrize("times", [1, 3])
+def test_a_closed_period_needs_a_pressure_for_the_rest(read, times):
+    text = table(np.tile(CLOSED, times), np.tile(true_pressure(CLOSED), times))
+    message = refusal(read, table(CLOSED, true_pressure(CLOSED)), MEAN)
+    assert "the samples cover 359 deg; one cycle is 720 deg" in message
+    assert 'rest_pressure = "1 bar"' in message
+    results = read(text, f'{MEAN}\nrest_pressure = "1.1 bar"')
+    assert is_right(results)
+    found = results.columns_at(np.array([100.0, 372.0, 600.0]), ("gas_pressure",))["gas_pressure"]
+    assert found == pytest.approx([1.1e5, 41e5, 1.1e5])
+    assert "cycles_averaged" not in told(results) or told(results)["cycles_averaged"] == {"cycles": times}
+
+
+def test_a_rest_of_nothing_is_refused(read):
+    assert "rest_pressure is for what is left" in refusal(read, table(ANGLES, BAR), f'{MEAN}\nrest_pressure = "1 bar"')
+
+
+def test_noise_below_vacuum_is_told(read):
+    noise = np.where(np.arange(720) == 50, -1.2, 0.0)
+    message = refusal(read, table(ANGLES, BAR + noise), MEAN, ABSOLUTE)
+    assert "line 51: the pressure is below vacuum; correct it, peg or smooth it" in message
+    message = refusal(read, table(ANGLES, BAR + 2 * noise), MEAN)
+    assert "line 51: a gauge pressure of -0.14 MPa is below vacuum" in message
+
+
+def test_a_spike_is_told_with_its_line(read):
+    spiked = np.where(np.arange(720) == 50, 1e9, BAR)
+    assert "line 51: 1e+08 MPa is no pressure of a gas" in refusal(read, table(ANGLES, spiked), MEAN)
+    values = told(read(table(ANGLES, np.where(np.arange(720) == 50, 20.0, BAR)), MEAN))["pressure_spike"]
+    assert values == {"line": "51", "step": 2e6, "count": 1.0}
+    assert "pressure_spike" not in told(read(table(ANGLES, BAR), MEAN))
+
+
+def test_pegging_at_an_angle_recovers_an_offset(read):
+    results = read(table(ANGLES, BAR - 3.7), f'{MEAN}\npeg = {{ angle = "180 deg", pressure = "{BAR[180]:.6f} bar" }}')
+    assert told(results)["pressure_pegged"]["step"] == pytest.approx(3.7e5, abs=20)
+    assert is_right(results)
+
+
+def volume(degrees: Array) -> Array:
+    """Return the volume above the piston as a share of the swept one."""
+    angle, ratio = np.radians(degrees), 45 / 160
+    moved = 1 - np.cos(angle) + (1 - np.sqrt(1 - (ratio * np.sin(angle)) ** 2)) / ratio
+    return np.asarray(1 / 8 + moved / 2)
+
+
+def motored(degrees: Array, exponent: float = 1.34) -> Array:
+    """Return a pressure that is compressed and expanded around 360 degrees, and 1 bar elsewhere. [bar]"""
+    closed = np.abs(degrees - 360) < 180
+    return np.asarray(np.where(closed, (volume(np.array([180.0])) / volume(degrees)) ** exponent, 1.0))
+
+
+def test_pegging_to_an_exponent_recovers_an_offset(read):
+    peg = 'peg = { exponent = 1.34, from = "250 deg", to = "320 deg" }'
+    text = table(ANGLES, motored(ANGLES) + 0.43)
+    results = read(text, f"{MEAN}\n{peg}", ABSOLUTE)
+    assert told(results)["pressure_pegged"]["step"] == pytest.approx(-0.43e5, abs=20)
+    assert 'pressures = "gauge"' in refusal(read, text, f"{MEAN}\n{peg}")
+
+
+def test_smoothing_says_what_it_changed(read):
+    noise = np.random.default_rng(5).normal(0, 0.4, len(ANGLES))
+    results = read(table(ANGLES, 5 + BAR + noise), f'{MEAN}\nsmooth = "15 deg"')
+    values = told(results)["pressure_smoothed"]
+    assert values["window"] == pytest.approx(15.0)
+    assert abs(values["after"] - 4.6) < abs(values["before"] - 4.6)
+    found = results.columns_at(ANGLES, ("gas_pressure",))["gas_pressure"] / 1e5 - 5 - BAR
+    # a cubic through fifteen samples leaves the root of 0.167 of the noise
+    assert 0.8 < np.std(found) / (0.4 * math.sqrt(0.167)) < 1.2
+
+
+def test_smoothing_asks_for_even_angles_and_a_wide_window(read):
+    uneven = np.concatenate([np.arange(0.0, 300.0), np.arange(300.0, 420.0, 0.5), np.arange(420.0, 720.0)])
+    text = table(uneven, true_pressure(uneven))
+    assert 'write resample = "1 deg" too' in refusal(read, text, f'{MEAN}\nsmooth = "9 deg"')
+    assert is_right(read(text, f'{MEAN}\nsmooth = "9 deg"\nresample = "1 deg"'))
+    assert 'write smooth = "4 deg" or more' in refusal(read, text, f'{MEAN}\nsmooth = "2 deg"\nresample = "1 deg"')
+
+
+@pytest.mark.parametrize("shift", [-2.0, -0.7, 0.9, 3.0])
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_motored_cycle_proposes_the_shift_that_it_needs(read, shift, seed):
+    """The peak of the true cycle is 0.6 degrees early; what the recorder counts is late by the shift."""
+    angles = np.arange(0.0, 720.0, 0.5)
+    noise = np.random.default_rng(seed).normal(0, 0.02, len(angles))
+    text = table(angles, motored(np.mod(angles + 0.6 + shift, 720)) + noise)
+    keys = f'{MEAN}\nloss_angle = "0.6 deg"\n'
+    values = told(read(text, keys))["dead_centre_motored"]
+    assert values["error"] < 0.3
+    assert abs(values["shift"] - shift) < values["error"]
+    assert "dead_centre_motored" not in told(read(text, f'{keys}shift = "{shift} deg"'))
+
+
+@pytest.mark.parametrize("shift", [-4.0, 4.0])
+def test_a_compression_line_proposes_a_shift_with_an_honest_uncertainty(read, shift):
+    angles = np.arange(0.0, 720.0, 0.5)
+    fired = motored(np.mod(angles + shift, 720)) * (1 + 1.5 / (1 + np.exp(-(angles + shift - 370) / 6)))
+    values = told(read(table(angles, fired), MEAN, ABSOLUTE))["dead_centre_compression"]
+    assert abs(values["shift"] - shift) < values["error"]
+    assert 0.3 < values["error"] < 4
+    assert "dead_centre_compression" not in told(read(table(angles, fired), f'{MEAN}\nshift = "{shift} deg"', ABSOLUTE))
+
+
+def test_a_peak_far_from_top_dead_centre_is_told(read):
+    values = told(read(table(ANGLES, true_pressure(ANGLES + 187)), MEAN))["peak_far"]
+    assert (values["angle"], values["apart"]) == (pytest.approx(185), pytest.approx(175))
+
+
+def test_negative_work_and_odd_exponents_are_told(read):
+    early = table(ANGLES, true_pressure(ANGLES + 30))
+    assert "work_negative" in told(read(early, MEAN))
+    odd = table(ANGLES, motored(ANGLES, 1.7))
+    assert told(read(odd, MEAN, ABSOLUTE))["exponent_odd"]["exponent"] == pytest.approx(1.7, abs=1e-3)
+    right = table(ANGLES, motored(ANGLES) * np.where(ANGLES > 361, 1.5, 1))
+    assert not {"work_negative", "exponent_odd", "peak_far"} & set(told(read(right, MEAN, ABSOLUTE)))
+
+
+KG = BAR / 0.980665
+AWKWARD = {
+    "words and units before the numbers": (
+        "Engine test 14.03.2019\nSpeed: 3000 rpm, load 80 %\n\nCrank angle\tCylinder pressure\n[°CA]\t[bar]\n"
+        + table(ANGLES, BAR), ""),
+    "an old encoding": (
+        ("Kurbelwinkel [°KW];Zylinderdrücke [bar]\n" + table(ANGLES, BAR, separator=";")).encode("latin-1"), ""),
+    "another old encoding": (
+        ("Угол ПКВ, град;Давление, кгс/см2\n" + table(ANGLES, KG, separator=";", mark=",")).encode("cp1251"), ""),
+    "decimal commas": ("phi;p\n" + table(ANGLES, BAR, separator=";", mark=","), 'pressure_unit = "bar"'),
+    "as Excel saves Unicode": (("Góc (độ)\tÁp suất (bar)\n" + table(ANGLES, BAR, mark=",")).encode("utf-16"), ""),
+    "a program's preamble": (
+        "Program 4.3.0\nEngine = D-245, 4 cylinders\nRPM = 3000\nBore, mm = 85; Stroke, mm = 90\n==========\n"
+        " CA,deg    p,bar     T,K\n" + table(ANGLES, BAR, 300 + BAR, separator="   "), ""),
+    "a trailing tab": ("phi [deg]\tp [bar]\t\n" + table(ANGLES, BAR, end="\t"), ""),
+    "rows numbered": ("No\tphi [deg]\tp [bar]\n" + table(np.arange(720.0), ANGLES, BAR), ""),
+    "time, volume and temperature beside": (
+        "t, s;phi, deg;V, cm3;p, MPa;T, K\n" + table(ANGLES, ANGLES, ANGLES, BAR / 10, ANGLES, separator=";"), ""),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("content", "keys"), AWKWARD.values(), ids=AWKWARD)
+def test_awkward_files_are_read_rightly(read, content, keys):
+    results = read(content, keys)
+    assert is_right(results)
+    assert results.columns_at(np.array([372.0]), ("gas_pressure",))["gas_pressure"] == pytest.approx(41e5, rel=1e-6)

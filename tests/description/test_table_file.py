@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import time
+import zipfile
 
 import numpy as np
 import pytest
+import xlsxwriter
 
 from crankwork.description.table_file import read_table
 from crankwork.errors import CrankworkError
@@ -106,15 +108,77 @@ def test_one_heading_of_two_columns_is_asked_about(tmp_path):
         read_table(tmp_path / "p.csv").position("p")
 
 
+def _workbook(path, **sheets):
+    with xlsxwriter.Workbook(path) as book:
+        for name, rows in sheets.items():
+            sheet = book.add_worksheet(name)
+            for at, row in enumerate(rows):
+                sheet.write_row(at, 1, row)
+
+
+ROWS = [
+    ("Test of 2024", "ВМТ"),
+    (),
+    ("phi", "p"),
+    ("[°]", "[bar]"),
+    *zip(ANGLES.tolist(), PRESSURES.tolist(), strict=True),
+]
+
+
+def test_a_workbook_is_a_table(tmp_path):
+    _workbook(tmp_path / "p.xlsx", first=ROWS, empty=[])
+    table = read_table(tmp_path / "p.xlsx")
+    assert (table.names, table.units) == (("", "phi", "p"), ("", "deg", "bar"))
+    assert (table.heading, table.lines[0]) == (3, 5)
+    assert table.columns((1, 2)).tolist() == [list(one) for one in ROWS[4:]]
+
+
+def test_a_sheet_of_several_is_asked_for(tmp_path):
+    _workbook(tmp_path / "p.xlsx", first=ROWS, second=ROWS[:40])
+    with pytest.raises(CrankworkError, match=r'p.xlsx, write sheet = "first"; the sheets are "first" or "second"'):
+        read_table(tmp_path / "p.xlsx")
+    assert len(read_table(tmp_path / "p.xlsx", sheet="second").rows) == 36
+    with pytest.raises(CrankworkError, match=r'the sheets are "first" or "second"'):
+        read_table(tmp_path / "p.xlsx", sheet="third")
+
+
+@pytest.mark.parametrize("data", [b"PK\x03\x04", b"PK\x03\x04" + b"x" * 99, "a zip", "a bomb", "entities"])
+def test_what_is_no_workbook_is_refused(tmp_path, data):
+    path = tmp_path / "p.xlsx"
+    if isinstance(data, bytes):
+        path.write_bytes(data)
+    else:
+        _workbook(path, first=ROWS)
+        with zipfile.ZipFile(path) as book:
+            parts = {name: book.read(name) for name in book.namelist()}
+        if data == "a zip":
+            del parts["xl/workbook.xml"]
+        if data == "a bomb":
+            parts["xl/worksheets/sheet1.xml"] = b" " * (300 << 20)
+        if data == "entities":
+            parts["xl/workbook.xml"] = b'<!DOCTYPE x [<!ENTITY a "b">]>' + parts["xl/workbook.xml"]
+        with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as book:
+            for name, part in parts.items():
+                book.writestr(name, part)
+    with pytest.raises(CrankworkError, match=r"p.xlsx, is no workbook of Excel|larger than 256 MB"):
+        read_table(path)
+
+
+def test_a_sheet_of_a_text_is_refused(tmp_path):
+    (tmp_path / "p.csv").write_text(WRITTEN["commas"])
+    with pytest.raises(CrankworkError, match="is no workbook and has no sheets; leave sheet out"):
+        read_table(tmp_path / "p.csv", sheet="first")
+
+
 def test_a_million_rows_take_less_than_five_seconds(tmp_path):
     degrees = np.arange(1_000_000) * 0.5
     pressure = 1 + 40 * np.exp(12 * (np.cos(np.radians(degrees - 372) / 2) - 1))
     rows = "\n".join(f"{a:.1f},{p:.8f}" for a, p in zip(degrees.tolist(), pressure.tolist(), strict=True))
     (tmp_path / "p.csv").write_text(f"phi [deg],p [bar]\n{rows}\n")
-    begun = time.perf_counter()
+    begun = time.process_time()
     table = read_table(tmp_path / "p.csv")
     found = table.columns((0, 1))
-    taken = time.perf_counter() - begun
+    taken = time.process_time() - begun
     print(f"{len(rows) / 1e6:.0f} MB, a million rows: {taken:.2f} s")  # noqa: T201 - the time is what is looked at
     assert found.shape == (1_000_000, 2)
     assert found[-1, 0] == degrees[-1]

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from crankwork.kinematics.crank_grid import Array
+from crankwork.loads import treated
 from crankwork.loads.indicator import DiagramError, IndicatorDiagram
-from crankwork.loads.measured import MeasuredPressure, measured_diagram, wrap_is_rough
+from crankwork.loads.measured import MeasuredPressure, Treatment, recorded_cycles, wrap_is_rough
 
 CYCLE = 720.0
 
@@ -21,7 +22,18 @@ def _true_pressure(degrees: Array) -> Array:
 
 def _recorded(degrees: Array, pressure: Array | None = None, first_line: int = 2) -> MeasuredPressure:
     values = _true_pressure(degrees) if pressure is None else pressure
-    return MeasuredPressure(degrees, values, range(first_line, first_line + len(degrees)))
+    rows = range(first_line, first_line + len(degrees))
+    return MeasuredPressure(degrees, values, rows, treatment=Treatment(cycle="mean"))
+
+
+def measured_diagram(
+    measured: MeasuredPressure, cycle: float, *, shift: float = 0.0, step: float | None = None
+) -> tuple[IndicatorDiagram, int, float]:
+    """Return the diagram of a recording, its cycles, and the step from their end to their start."""
+    around = treated.Around(lambda degrees: 2 - np.cos(np.radians(degrees)))
+    diagram, _ = treated.measured_diagram(measured, cycle, around, shift=shift, step=step, path="gas")
+    recorded = recorded_cycles(measured, cycle, step=step, path="gas")
+    return diagram, len(recorded.cycles), recorded.wrap
 
 
 def _pressure(diagram: IndicatorDiagram, degrees: Array) -> Array:
@@ -115,7 +127,7 @@ def test_noise_shrinks_with_the_root_of_the_number_of_cycles() -> None:
 
 def test_a_cycle_that_is_not_whole_is_left_out_of_the_average() -> None:
     degrees = np.arange(0.0, 1000.0)
-    spoilt = np.where(degrees < 720, _true_pressure(degrees), 9e9)
+    spoilt = np.where(degrees < 720, _true_pressure(degrees), 9e8)
     diagram, cycles, _ = measured_diagram(_recorded(degrees, spoilt), CYCLE)
     assert cycles == 1
     assert np.max(_pressure(diagram, degrees[:720])) < 4.2e6
@@ -156,7 +168,7 @@ def test_a_smooth_wrap_is_not_worth_a_warning() -> None:
 @pytest.mark.parametrize(("drift", "rough"), [(1e5, False), (-1e5, False), (3e5, True), (-3e5, True)])
 def test_a_drift_over_the_cycle_shows_at_the_wrap(drift: float, *, rough: bool) -> None:
     degrees = np.arange(0.0, 721.0)
-    drifting = _true_pressure(degrees) + drift * degrees / 720
+    drifting = 5e5 + _true_pressure(degrees) + drift * degrees / 720
     diagram, _, wrap = measured_diagram(_recorded(degrees, drifting), CYCLE)
     assert wrap == pytest.approx(drift, rel=1e-9)
     assert wrap_is_rough(diagram, wrap) == rough
@@ -173,6 +185,11 @@ class TestRefusals:
     def test_too_few_samples(self) -> None:
         error = _error(_recorded(np.linspace(0, 720, 7)))
         assert (error.key, str(error)) == ("gas.measured", "only 7 samples; a cycle needs at least 8")
+
+    def test_too_many_samples_are_to_be_resampled(self) -> None:
+        degrees = np.linspace(0, 720, 60_001)
+        assert str(_error(_recorded(degrees))).startswith('60000 samples in one cycle; write resample = "0.1 deg"')
+        assert measured_diagram(_recorded(degrees), CYCLE, step=0.5)[1] == 1
 
     @pytest.mark.parametrize("wrong", [49.0, 48.0, -3.0])
     def test_an_angle_that_does_not_rise_is_told_with_its_line(self, wrong: float) -> None:

@@ -66,6 +66,7 @@ cycle = "720 deg"
 [gas.measured]
 file = "data/p-v.csv"
 pressure_unit = "bar"
+cycle = "mean"
 shift = "-12 deg"
 """
 

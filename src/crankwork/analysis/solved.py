@@ -22,7 +22,7 @@ from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.filling import NO_GAS, Filling
 from crankwork.loads.indicator import IndicatorDiagram, solve_diagram
-from crankwork.loads.measured import measured_diagram, wrap_is_rough
+from crankwork.loads.treated import Around, measured_diagram
 from crankwork.machine import Cylinder, Gas, Machine
 from crankwork.method import Method
 
@@ -192,14 +192,11 @@ def _given_diagram(
 ) -> IndicatorDiagram:
     """Return the diagram that the description or a measurement gives."""
     if gas.measured is not None:
-        diagram, cycles, wrap = measured_diagram(
-            gas.measured, gas.cycle, shift=gas.angle_shift, step=gas.resample, path=gas.path
+        around = Around(volume_at, centres[0])
+        diagram, told = measured_diagram(
+            gas.measured, gas.cycle, around, shift=gas.angle_shift, step=gas.resample, path=gas.path
         )
-        notices += [Notice(*one) for one in gas.measured.told]
-        if cycles > 1:
-            notices.append(Notice("cycles_averaged", {"cycles": cycles}))
-        if wrap_is_rough(diagram, wrap):
-            notices.append(Notice("wrap", {"step": wrap}))
+        notices += [Notice(*one) for one in told]
         return diagram
     diagram = solve_diagram(gas.points, gas.pieces, gas.cycle, volume_at, dead_centres=centres, path=gas.path)
     notices += [Notice("jump", {"point": name, "angle": angle, "step": step}) for name, angle, step in diagram.jumps]

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 from typing import NamedTuple
 
 from crankwork.description.kinds import Reader
+from crankwork.description.measured_build import treatment_of
 from crankwork.description.schema import Values, nearest_name
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.loads.measured import MeasuredPressure
@@ -99,16 +101,16 @@ def build_diagram(values: Values, path: str, reader: Reader, read_measured: Read
     """
     _check_points(values, path, reader)
     measured = read_measured(values["measured"], reader, path) if "measured" in values else None
-    source = values["measured"]
+    source, absolute = values["measured"], values["pressures"] == "absolute"
+    if measured is not None:
+        treatment = treatment_of(source, f"{path}.measured", reader, absolute=absolute)
+        measured = replace(measured, treatment=treatment)
     resample = source.si("resample")
-    if values["pressures"] == "absolute":
+    if absolute:
         for name, point in values["points"].items():
             pressure = None if point is None else point.si("pressure")
             if pressure is not None and pressure < 0:
                 reader.complain(f"{path}.points.{name}.pressure", Refusal("point_vacuum"))
-        if measured is not None and float(measured.pressure.min()) < 0:
-            row = measured.rows[int(measured.pressure.argmin())]
-            reader.complain(f"{path}.measured.file", Refusal("measured_vacuum", line=row))
     return Diagram(
         points={name: _point(one) for name, one in values["points"].items() if one is not None},
         pieces=tuple(_piece(one) for one in values["pieces"] if one and {"law", "points"} <= set(one)),

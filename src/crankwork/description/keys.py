@@ -9,7 +9,7 @@ import math
 
 from crankwork.description.engine_keys import BALANCE, BEARINGS, CYCLE, ENGINE, FLYWHEEL
 from crankwork.description.kinds import Choice, Flag, Number, Quantity, Text
-from crankwork.description.schema import By, Key, ListOf, Named, NameOr, Table
+from crankwork.description.schema import By, Key, ListOf, Named, NameOr, Table, WordOr
 from crankwork.method import STANDARD_GRAVITY
 
 _LENGTH = Quantity(("length",), 1e-6, 100.0)
@@ -67,14 +67,28 @@ PIECE = Table("piece", {
     "reference": Key(Text(60)),
 })  # fmt: skip
 
+SHEET = Key(Text(), only={"file": ()})
+_PEG = Table("peg", {
+    "angle": Key(_ANGLE, required=True, instead_of=("exponent",)),
+    "pressure": Key(_PRESSURE, required=True, only={"angle": ()}),
+    "exponent": Key(Number(1.0, 2.0), instead_of=("angle",)),
+    "from": Key(_ANGLE, required=True, only={"exponent": ()}),
+    "to": Key(_ANGLE, required=True, only={"exponent": ()}),
+})  # fmt: skip
 _COLUMN = NameOr(Number(1, 16_384, whole=True))
 MEASURED = Table("measured", {
     "file": Key(Text(1000), required=True),
+    "sheet": SHEET,
     "angle_column": Key(_COLUMN),
     "pressure_column": Key(_COLUMN),
     "angle_unit": Key(Choice(("deg", "rad")), default="deg"),
     "pressure_unit": Key(Choice(("MPa", "kPa", "Pa", "bar", "kgf/cm2", "psi", "atm", "hPa"))),
     "shift": Key(_ANGLE, default="0 deg"),
+    "cycle": Key(WordOr(Choice(("mean", "greatest peak", "least peak")), Number(1, 1e6, whole=True))),
+    "rest_pressure": Key(_PRESSURE),
+    "peg": Key(_PEG),
+    "smooth": Key(Quantity(("angle",), math.radians(0.1), math.radians(90))),
+    "loss_angle": Key(Quantity(("angle",), 0.0, math.radians(10))),
     "resample": Key(Quantity(("angle",), math.radians(0.01), math.radians(30))),
 })  # fmt: skip
 

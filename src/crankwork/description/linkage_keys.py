@@ -6,7 +6,7 @@ import math
 from typing import get_args
 
 from crankwork.description.engine_keys import FLYWHEEL, HEAT_RELEASE
-from crankwork.description.keys import AMBIENT, DIAGRAM, METHOD, NO_ACCELERATION, PRESSURES, TABLE, TITLE
+from crankwork.description.keys import AMBIENT, DIAGRAM, METHOD, NO_ACCELERATION, PRESSURES, SHEET, TABLE, TITLE
 from crankwork.description.kinds import Choice, Flag, Number, Quantity, Text
 from crankwork.description.schema import Key, ListOf, Named, NameOr, Nested, NumberOr, Table
 from crankwork.mechanism.driver import LawKind
@@ -117,9 +117,11 @@ _LOAD = Table("load", {
     "x": Key(_FORCE, default="0 N", only=_PUSH),
     "y": Key(_FORCE, default="0 N", only=_PUSH),
     "against": Key(Choice(("stroke", "angle")), default="stroke", only=_PROCESS),
-    "at": Key(ListOf(Quantity(("length", "angle"), -1e3, 1e3), fewest=2), only=_BY_COLUMN),
-    "force": Key(ListOf(_FORCE, fewest=1), required=True, only=_PROCESS),
-    "torque": Key(ListOf(_TORQUE, fewest=1), required=True, only=_TURNS),
+    "file": Key(Text(1000), only=_BY_COLUMN),
+    "sheet": SHEET,
+    "at": Key(ListOf(Quantity(("length", "angle"), -1e3, 1e3), fewest=2, from_file=True), only=_BY_COLUMN),
+    "force": Key(ListOf(_FORCE, fewest=1, from_file=True), required=True, only=_PROCESS),
+    "torque": Key(ListOf(_TORQUE, fewest=1, from_file=True), required=True, only=_TURNS),
     "curve": Key(Choice(("straight", "smooth")), default="straight", only=_BY_COLUMN),
     "stroke": Key(Choice(("growing", "falling")), default="growing", only=_PROCESS),
     "start": Key(_COORDINATE, only=_PROCESS),
@@ -260,14 +262,17 @@ DRIVEN_FILE = LINKAGE_FILE._replace(keys={
 _BODY = Table("body", {
     "mass": Key(Quantity(("mass",), 0.0, 1e6), default="0 kg"),
     "inertia": _INERTIA,
-    "velocity": Key(ListOf(_COORDINATE, fewest=2)),
-    "rotation": Key(ListOf(Number(-1e3, 1e3), fewest=2)),
+    "velocity": Key(ListOf(_COORDINATE, fewest=2, from_file=True)),
+    "rotation": Key(ListOf(Number(-1e3, 1e3), fewest=2, from_file=True)),
 })  # fmt: skip
-_TORQUES = ListOf(_TORQUE, fewest=2)
+_TORQUES = ListOf(_TORQUE, fewest=2, from_file=True)
 _TRANSFER = Table("transfer", {
-    "angles": Key(ListOf(_TURN, fewest=2), required=True),
+    "file": Key(Text(1000)),
+    "sheet": SHEET,
+    "angles": Key(ListOf(_TURN, fewest=2, from_file=True), required=True),
     "bodies": Key(Named(_BODY), required=True),
-    "reduced_inertia_1": Key(ListOf(Quantity(("inertia",), -1e9, 1e9), fewest=2), instead_of=("differences",)),
+    "reduced_inertia_1": Key(ListOf(Quantity(("inertia",), -1e9, 1e9), fewest=2, from_file=True),
+                             instead_of=("differences",)),
     "differences": Key(Choice(("forward", "central", "spectral")), default="central",
                        instead_of=("reduced_inertia_1",)),
     "static_torque": Key(_TORQUES, instead_of=("balancing_torque",)),

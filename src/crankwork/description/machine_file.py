@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from crankwork import files
 from crankwork.analysis import solve
 from crankwork.description.build import build_machine
+from crankwork.description.file_columns import with_columns
 from crankwork.description.keys import FORMATS, MACHINE_FILE, SIZED_FILE
 from crankwork.description.kinds import Reader, is_one_line
 from crankwork.description.linkage_keys import DRIVEN_FILE, LINKAGE_FILE, TRANSFER_FILE
@@ -99,7 +100,7 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
     keys = file_keys(values)
     if keys in (MACHINE_FILE, SIZED_FILE) and values.pop("friction", None) is not None:
         reader.complain("friction", Refusal("friction_of_engine"))
-    read_values = keys.read(values, "", reader) or Values({}, keys)
+    read_values = keys.read(with_columns(values, keys, reader, folder), "", reader) or Values({}, keys)
 
     def read_samples(table: Values, one: Reader, path: str) -> MeasuredPressure | None:
         return read_measured(table, one, path, folder)

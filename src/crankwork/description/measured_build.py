@@ -11,11 +11,11 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.description.kinds import Choice, Reader
-from crankwork.description.schema import Values
+from crankwork.description.schema import Values, means_nothing
 from crankwork.description.table_file import FileTable, read_table
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
-from crankwork.loads.measured import MeasuredPressure, Told
+from crankwork.loads.measured import MeasuredPressure, Pegging, Told, Treatment
 from crankwork.locale import Refusal
 from crankwork.units import UNITS
 
@@ -47,7 +47,7 @@ def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> Me
         return None
     file = values["file"]
     try:
-        table = read_table(folder / file, name=file)
+        table = read_table(folder / file, name=file, sheet=values["sheet"])
         found = _columns(table, values)
         samples = table.columns((found.angle, *found.pressures))
         _check_angles(samples[:, 0], found.angle_unit, table)
@@ -63,7 +63,28 @@ def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> Me
     pressure = samples[:, 1:] * UNITS[found.pressure_unit].factor
     # the name in a note is the same whichever system wrote the folders before it
     name = PureWindowsPath(file).name
-    return MeasuredPressure(degrees, pressure[:, 0], table.lines, name, told=found.told)
+    return MeasuredPressure(degrees, pressure, table.lines, name, found.told)
+
+
+def treatment_of(values: Values, path: str, reader: Reader, *, absolute: bool) -> Treatment:
+    """Return what a description wants done to samples; `path`: where it says so."""
+    peg, which, smooth, loss = values.get("peg"), values["cycle"], values.si("smooth"), values.si("loss_angle")
+    pegging = None
+    if peg is not None and "exponent" in peg and not absolute:
+        reader.complain(f"{path}.peg.exponent", means_nothing("pressures", "gauge", ("absolute",)))
+    elif peg is not None and {"angle", "pressure"} <= set(peg):
+        pegging = Pegging(math.degrees(peg.si("angle")), peg.si("pressure"))
+    elif peg is not None and {"exponent", "from", "to"} <= set(peg):
+        start, end = (round(math.degrees(peg.si(one)), 9) for one in ("from", "to"))
+        pegging = Pegging(exponent=peg["exponent"], start=start, end=start + (end - start) % 720.0)
+    return Treatment(
+        cycle=int(which) if isinstance(which, float) else which,
+        rest=values.si("rest_pressure"),
+        peg=pegging,
+        smooth=None if smooth is None else math.degrees(smooth),
+        loss_angle=None if loss is None else math.degrees(loss),
+        absolute=absolute,
+    )
 
 
 def _columns(table: FileTable, values: Values) -> _Columns:

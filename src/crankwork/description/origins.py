@@ -72,6 +72,9 @@ class _File:
         """Yield what a value may stand under: its path, keys that say the same, and what it follows from."""
         yield path
         around, _, entry = path.rpartition("[")
+        if around in self._lines and path not in self._lines:
+            # a list that is a column of a file
+            yield around
         named = self._raw(around)
         if isinstance(named, str):
             # a place may be that of a fixed point

@@ -16,16 +16,19 @@ _LONGEST_NAME = 60
 
 
 class ListOf(NamedTuple):
-    """A list whose entries are of one kind."""
+    """A list whose entries are of one kind; `from_file`: or a column of the file that stands beside it."""
 
     entry: Kind
     fewest: int = 0
     most: int = _MAX_ENTRIES
+    from_file: bool = False
 
     def read(self, value: object, key: str, reader: Reader) -> list[Any] | None:
         """Return the entries; a bad one is left out after its complaint."""
         if not isinstance(value, list):
-            reader.complain(key, self._advice(key))
+            # what a file that is none would have held is not told
+            if not (self.from_file and reader.doubts(key)):
+                reader.complain(key, self._advice(key))
             return None
         if not self.fewest <= len(value) <= self.most:
             wanted: object = self.fewest
@@ -38,12 +41,20 @@ class ListOf(NamedTuple):
     def _advice(self, key: str) -> Refusal:
         if isinstance(self.entry, Table):
             return Refusal("list_of_tables", key=key)
+        if self.from_file:
+            return Refusal("list_or_file")
         example = units.EXAMPLES[self.entry.dimensions[0]] if isinstance(self.entry, Quantity) else "a"
         return Refusal("list_like", example=f'["{example}"]')
 
     def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of an array."""
-        return {"type": "array", "items": self.entry.schema(language), "minItems": self.fewest, "maxItems": self.most}
+        own = {"type": "array", "items": self.entry.schema(language), "minItems": self.fewest, "maxItems": self.most}
+        if not self.from_file:
+            return own
+        name = {"anyOf": [{"type": "string"}, {"type": "integer", "minimum": 1}]}
+        properties = {"column": name, "unit": {"type": "string"}}
+        with_unit = {"type": "object", "properties": properties, "required": ["column"], "additionalProperties": False}
+        return {"anyOf": [own, *name["anyOf"], with_unit]}
 
 
 class Nested(NamedTuple):
@@ -84,6 +95,21 @@ class NameOr(NamedTuple):
     def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of either."""
         return {"anyOf": [{"type": "string"}, self.other.schema(language)]}
+
+
+class WordOr(NamedTuple):
+    """One of a few words, or a plain number."""
+
+    words: Choice
+    number: Number
+
+    def read(self, value: object, key: str, reader: Reader) -> str | float | None:
+        """Return the word or the number."""
+        return (self.words if isinstance(value, str) else self.number).read(value, key, reader)
+
+    def schema(self, language: Language, /) -> dict[str, Any]:
+        """Return the schema of either."""
+        return {"anyOf": [self.words.schema(language), self.number.schema(language)]}
 
 
 class NumberOr(NamedTuple):

@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from crankwork import files
+from crankwork.description.workbook import START, workbook_text
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Refusal
@@ -28,7 +29,7 @@ _BLANKS = re.compile(r"\s{2,}|\t")
 # separators in the order in which they are believed; None: blanks
 _SEPARATORS = (";", "\t", ",", None)
 _BRACKETED = re.compile(r"(.*\S)\s*[\[(]\s*([^\[\]()]*(?:\([^()]*\))?)\s*[\])]\.?")
-_DIVIDED = re.compile(r"(.*\S)(?:\s*[,/]\s*|\s+|_)(\S+)")
+_DIVIDING = re.compile(r"\s*[,/]\s*|\s+|_")
 _IN_BRACKETS = re.compile(r"[\[(](.*)[\])]")
 _NUMBER_LAST = re.compile(r"(?:^|[\s_,/=@])\d[\d.,]*$")
 # what stands behind a unit of crank angle, and behind one of pressure
@@ -53,8 +54,8 @@ class FileTable:
     names: tuple[str, ...]  # As the file writes them, with a unit that stands in them; empty where there is none
     units: tuple[str, ...]  # As the table of units spells them; empty where there is none, or one that is unknown
     heading: int  # Line of the headings, or of the first row where there are none
-    lines: tuple[int, ...] = field(repr=False)  # Line of every row
-    rows: tuple[str, ...] = field(repr=False)
+    lines: Sequence[int] = field(repr=False)  # Line of every row
+    rows: Sequence[str] = field(repr=False)
     separator: str | None
 
     def position(self, column: str | float) -> int:
@@ -83,7 +84,7 @@ class FileTable:
         """Return the numbers of some columns, shape (rows, columns); raise with the line of what is none."""
         text = self.rows
         if self.separator != "," and any("," in one for one in text):
-            text = tuple(one.replace(",", ".") for one in text)
+            text = [one.replace(",", ".") for one in text]
         # the cells of a row that is not like the others are looked at one by one
         with contextlib.suppress(ValueError):
             if not any('"' in one for one in text) and self._is_even(text):
@@ -122,15 +123,16 @@ class FileTable:
         return CrankworkError(Refusal("in_file", file=self.file, mistake=Refusal(name, **values)))
 
 
-def read_table(path: str | Path, *, name: str = "") -> FileTable:
-    """Return the table of numbers in a file, wherever it begins.
+def read_table(path: str | Path, *, name: str = "", sheet: str | None = None) -> FileTable:
+    """Return the table of numbers in a text or an Excel workbook, wherever it begins.
 
-    `name`: what messages call the file. CrankworkError if there is none, with the line and what to write.
+    `name`: what messages call the file; `sheet`: that of a workbook. CrankworkError if there is none, with the line and
+    what to write.
     """
     path = Path(path)
     called = name or path.name
     try:
-        return _table(_text(files.read_data(path, limit=files.MAX_DATA_FILE), path), called)
+        return _table(_text(files.read_data(path), path, sheet), called)
     except ValueError as error:
         raise CrankworkError(Refusal("in_file", file=called, mistake=error.args[0])) from None
 
@@ -142,21 +144,21 @@ def _table(text: str, name: str) -> FileTable:
         line = next(number for number, one in enumerate(lines, start=1) if len(one) > _LONGEST_LINE)
         raise ValueError(Refusal("measured_cell", line=line))
     filled = [
-        (number, one)
+        number
         for number, one in enumerate(lines, start=1)
         if one.strip(" \t;,\ufeff") and not one.lstrip().startswith(_MARKS)
     ]
     if not filled:
         raise ValueError(Refusal("measured_empty"))
-    separator, start, count = _block([one for _, one in filled[:_FIRST_LINES]])
+    separator, start, count = _block([lines[number - 1] for number in filled[:_FIRST_LINES]])
     if start < 0:
-        single = next((number for number, one in filled if _float(one.strip(" \t;")) is not None), 0)
+        single = next((one for one in filled if _float(lines[one - 1].strip(" \t;")) is not None), 0)
         told = "measured_one_column" if single else "measured_heading"
-        raise ValueError(Refusal(told, line=single or filled[0][0]))
-    first = filled[start][0]
-    heading, names, units = _headings(lines[: first - 1], separator, count)
-    numbers, rows = zip(*filled[start:], strict=True)
-    return FileTable(name, names, units, heading or first, numbers, rows, separator)
+        raise ValueError(Refusal(told, line=single or filled[0]))
+    numbers = filled[start:]
+    heading, names, units = _headings(lines[: numbers[0] - 1], separator, count)
+    rows = [lines[number - 1] for number in numbers]
+    return FileTable(name, names, units, heading or numbers[0], numbers, rows, separator)
 
 
 def _block(lines: Sequence[str]) -> tuple[str | None, int, int]:
@@ -265,10 +267,11 @@ def _apart(heading: str) -> tuple[str, str]:
     found = _BRACKETED.fullmatch(heading.strip())
     if found:
         return found[1].rstrip(" ,/"), found[2]
-    found = _DIVIDED.fullmatch(heading.strip())
-    # 800 rpm is where something was measured, and not its unit
-    if found and unit_of(found[2]) and not _NUMBER_LAST.search(found[1]):
-        return found[1], found[2]
+    for mark in _DIVIDING.finditer(heading.strip()):
+        name, unit = heading.strip()[: mark.start()], heading.strip()[mark.end() :]
+        # 800 rpm is where something was measured, and not its unit
+        if name and unit_of(unit) and not _NUMBER_LAST.search(name):
+            return name, unit
     return heading.strip(), ""
 
 
@@ -302,8 +305,12 @@ def _float(cell: str) -> float | None:
         return None
 
 
-def _text(data: bytes, path: Path) -> str:
-    """Return bytes as text in the encoding that they seem to have."""
+def _text(data: bytes, path: Path, sheet: str | None) -> str:
+    """Return bytes as text in the encoding that they seem to have, and a workbook as the text of a sheet."""
+    if data.startswith(START):
+        return workbook_text(data, sheet)
+    if sheet is not None:
+        raise ValueError(Refusal("workbook_needed"))
     if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         with contextlib.suppress(UnicodeDecodeError):
             return data.decode("utf-16")

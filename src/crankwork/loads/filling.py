@@ -20,8 +20,9 @@ from crankwork.loads import gas
 from crankwork.loads.applied import AppliedLoads, force_on_slider, together
 from crankwork.loads.chamber import Chamber, Charge, Face, cycle_of, face_owners, least_common, own_cycle
 from crankwork.loads.indicator import DeadCentres, DiagramError, IndicatorDiagram, Segment, VolumeAt, solve_diagram
-from crankwork.loads.measured import Told, measured_diagram, wrap_is_rough
+from crankwork.loads.measured import Told
 from crankwork.loads.pressure import at_angle, remembered_pressure
+from crankwork.loads.treated import Around, measured_diagram
 from crankwork.locale import Refusal
 from crankwork.mechanism.driver import Law
 from crankwork.mechanism.mechanism import Mechanism
@@ -261,12 +262,11 @@ def _of_its_own(
     # where the volume is what it was in an earlier cycle, the diagram is that of then
     phases = [one % space.period for one in np.arange(0.0, whole, chamber.cycle).tolist()]
     if chamber.measured is not None:
-        samples, cycles, wrap = measured_diagram(
-            chamber.measured, chamber.cycle, shift=chamber.angle_shift, step=chamber.resample, path=path
+        around = Around(_volume_from(space, begins))
+        samples, said = measured_diagram(
+            chamber.measured, chamber.cycle, around, shift=chamber.angle_shift, step=chamber.resample, path=path
         )
-        told += chamber.measured.told
-        told += [("cycles_averaged", {"cycles": cycles})] * (cycles > 1)
-        told += [("wrap", {"step": wrap})] * wrap_is_rough(samples, wrap)
+        told += said
         found = dict.fromkeys(phases, samples)
     elif chamber.released is not None:
         found = {}

@@ -108,7 +108,7 @@ class Segment:
     @property
     def is_measured(self) -> bool:
         """Whether its knots are samples of a file."""
-        return any(":" in one or one.endswith("measured.file") for one in self.places)
+        return any(":" in one or ".measured." in one for one in self.places)
 
     def rounded(self, degrees: Array) -> Array:
         """Return the pressure on the curve through the knots, shape (n,). [Pa]"""

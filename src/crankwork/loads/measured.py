@@ -1,9 +1,10 @@
-"""Measured cylinder pressure: from rows of angle and pressure to a closed diagram."""
+"""Measured cylinder pressure: from rows of angle and pressure to the cycles that they hold, and a closed diagram."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,63 +16,162 @@ from crankwork.locale import Refusal
 _GAP_FACTOR = 4.0
 _SAME_ANGLE = 1e-6
 _WRAP = 0.05
-
+# samples of one cycle
+_FEWEST, _MOST = 8, 50_000
+# least part of a cycle that is one where the rest is stated [deg]
+_CLOSED = 60.0
+# what no gas comes to [Pa]
+_HIGHEST = 1e9
 
 # what the reader should know: the code of a notice and its values
 Told = tuple[str, Mapping[str, float | str]]
+
+
+class Pegging(NamedTuple):
+    """The pressure that one is to be at an angle, or the exponent that it is to follow between two. [deg], [Pa]"""
+
+    angle: float = 0.0
+    pressure: float = 0.0
+    exponent: float | None = None
+    start: float = 0.0
+    end: float = 0.0
+
+
+class Treatment(NamedTuple):
+    """What is done to samples because a description says so; nothing by itself. [deg], [Pa]"""
+
+    cycle: str | int | None = None  # Which of several cycles, or their mean
+    rest: float | None = None  # The pressure where a cycle was not recorded
+    peg: Pegging | None = None
+    smooth: float | None = None
+    loss_angle: float | None = None  # That of a motored cycle, from its peak to top dead centre
+    absolute: bool = False  # Whether pressures are absolute
+
+
+AS_RECORDED = Treatment()
 
 
 @dataclass(frozen=True)
 class MeasuredPressure:
     """Pressure samples of one or more cycles, as recorded."""
 
-    # Crank angles, rising throughout, and pressures, shape (n,) [deg], [Pa]
+    # Crank angles, running on or beginning anew with every cycle, shape (n,) [deg], and pressures, shape (n,), or
+    # (n, cycles) for cycles side by side [Pa]
     degrees: Array
     pressure: Array
     rows: Sequence[int]  # Line numbers of the samples in their file, for messages
     file: str = ""  # Name of that file, without its folder
     told: tuple[Told, ...] = ()  # How the file was read
+    treatment: Treatment = AS_RECORDED
 
 
-def measured_diagram(
-    measured: MeasuredPressure, cycle: float, *, shift: float = 0.0, step: float | None = None, path: str = "gas"
-) -> tuple[IndicatorDiagram, int, float]:
-    """Return the closed diagram of measured pressure, how many cycles it averages, and its step from end to start. [Pa]
+class Recorded(NamedTuple):
+    """The cycles of a recording at the same crank angles, those of the file, shape (n,) and (cycles, n). [deg], [Pa]
 
-    `shift` is added to every angle, so that zero is top dead centre [deg]; without a `step` to resample at, the samples
-    of the first cycle set the angles [deg]. `path`: where a description states the diagram.
+    `rows` are the lines of the samples of the only cycle, none for others; `wrap` is the pressure one cycle after the
+    first sample less that of the first.
     """
-    _check_angles(measured, cycle, f"{path}.measured")
-    file = f"{path}.measured.file"
-    start, end = measured.degrees[0], measured.degrees[-1]
-    typical = float(np.median(np.diff(measured.degrees)))
-    cycles = max(1, int((end - start + 1.5 * typical) // cycle))
-    wrap = _wrap_step(measured, cycle)
-    first = measured.degrees[measured.degrees < start + cycle - _SAME_ANGLE] - start
-    offsets = first if step is None else step * np.arange(np.ceil(cycle / step - 1e-6))
+
+    degrees: Array
+    cycles: Array
+    rows: Sequence[int]
+    wrap: float
+
+
+def recorded_cycles(measured: MeasuredPressure, cycle: float, *, step: float | None = None, path: str) -> Recorded:
+    """Return the cycles of a recording, at the angles of the first or at every `step`. [deg]
+
+    `path`: where a description states them.
+    """
+    key = f"{path}.measured"
+    columns = measured.pressure.reshape(len(measured.degrees), -1)
+    _check_size(measured, columns, key)
+    running = _running_on(measured, cycle, key)
+    _check_angles(running, cycle, key)
+    degrees = running.degrees
+    start = degrees[0]
+    typical = float(np.median(np.diff(degrees)))
+    count = max(1, int((degrees[-1] - start + 1.5 * typical) // cycle))
+    first = degrees[degrees < start + cycle - _SAME_ANGLE] - start
+    offsets = first if step is None else np.asarray(step * np.arange(np.ceil(cycle / step - 1e-6)), float)
+    if len(offsets) > _MOST:
+        raise DiagramError(key, Refusal("samples_many", count=len(offsets)))
+    found = [one for column in running.pressure.T for one in _of_column(degrees, column, (cycle, count), offsets)]
+    # what is resampled stands on no line
+    rows = running.rows[: len(offsets)] if len(found) == 1 and step is None else ()
+    return Recorded(offsets + start, np.array(found), rows, _wrap_step(running, cycle))
+
+
+def _of_column(degrees: Array, pressure: Array, cycles: tuple[float, int], offsets: Array) -> Iterator[Array]:
+    """Yield the pressures of each of so many cycles of a column at angles from its start. [Pa]"""
+    (cycle, count), start = cycles, degrees[0]
     # a cycle recorded without its last angle is closed by its first sample
-    degrees = np.append(measured.degrees, start + cycle * cycles)
-    pressure = np.append(measured.pressure, measured.pressure[0])
-    keep = np.append(measured.degrees < start + cycle * cycles - 1e-9, True)
-    degrees, pressure = degrees[keep], pressure[keep]
+    keep = np.append(degrees < start + cycle * count - 1e-9, True)
+    degrees = np.append(degrees, start + cycle * count)[keep]
+    pressure = np.append(pressure, pressure[0])[keep]
     slopes = monotone_slopes(degrees, pressure, periodic=True)
-    samples = [hermite(degrees, pressure, slopes, start + number * cycle + offsets) for number in range(cycles)]
-    # what is averaged or resampled stands on no line
-    rows = measured.rows[: len(offsets)] if cycles == 1 and step is None else ()
-    places = [f"{measured.file}:{row}" for row in rows] or [file] * len(offsets)
-    return _closed(offsets + start + shift, np.mean(samples, axis=0), cycle, (places, file)), cycles, wrap
+    for number in range(count):
+        yield hermite(degrees, pressure, slopes, start + number * cycle + offsets)
 
 
-def _closed(degrees: Array, pressure: Array, cycle: float, stated: tuple[Sequence[str], str]) -> IndicatorDiagram:
-    """Return a diagram from 0 to `cycle` through samples at any angles of one period.
+def _check_size(measured: MeasuredPressure, columns: Array, key: str) -> None:
+    if len(measured.degrees) < _FEWEST:
+        raise DiagramError(key, Refusal("samples_few", count=len(measured.degrees)))
+    worst = int(np.argmax(np.max(np.abs(columns), axis=1)))
+    largest = float(np.max(np.abs(columns[worst])))
+    if largest > _HIGHEST:
+        raise DiagramError(key, Refusal("samples_no_gas", line=measured.rows[worst], pressure=largest / 1e6))
 
-    `stated`: the line of each sample, and the key of their file.
+
+def _running_on(measured: MeasuredPressure, cycle: float, key: str) -> MeasuredPressure:
+    """Return samples whose angles run on, where those of a file begin anew with every cycle, and its rest if stated."""
+    degrees, rows, rest = measured.degrees, np.asarray(measured.rows), measured.treatment.rest
+    pressure = measured.pressure.reshape(len(degrees), -1)
+    steps = np.diff(degrees)
+    typical = float(np.median(steps))
+    # a recording of a part of every cycle goes back by most of this part
+    back = (0.5 * np.ptp(degrees), np.inf) if rest is not None else (cycle - 3 * typical, cycle + typical / 2)
+    anew = (-steps > back[0]) & (-steps < back[1])
+    turns = np.concatenate([[0], np.cumsum(anew)])
+    degrees = degrees + cycle * turns
+    # a sample at the end of a cycle that is taken again at the beginning of the next
+    keep = np.append(~(anew & (np.diff(degrees) < _SAME_ANGLE)), True)
+    degrees, pressure, rows, turns = degrees[keep], pressure[keep], rows[keep], turns[keep]
+    if rest is not None:
+        blocks = [turns == number for number in range(int(turns[-1]) + 1)]
+        ends = [_with_rest(degrees[one], (cycle, typical)) for one in blocks]
+        added = np.concatenate(ends)
+        if min(float(np.ptp(degrees[one])) for one in blocks) < _CLOSED or not len(added):
+            raise DiagramError(key, Refusal("samples_rest", covered=float(np.ptp(degrees[blocks[0]])), cycle=cycle))
+        degrees = np.concatenate([degrees, added])
+        pressure = np.concatenate([pressure, np.full((len(added), pressure.shape[1]), rest)])
+        last = [rows[one][-1] for one, more in zip(blocks, ends, strict=True) for _ in more]
+        rows = np.concatenate([rows, np.array(last, dtype=rows.dtype)])
+        order = np.argsort(degrees, kind="stable")
+        degrees, pressure, rows = degrees[order], pressure[order], rows[order]
+    return replace(measured, degrees=degrees, pressure=pressure, rows=rows.tolist())
+
+
+def _with_rest(degrees: Array, steps: tuple[float, float]) -> Array:
+    """Return the angles at which the rest of a cycle begins and ends, none where it was recorded whole. [deg]"""
+    cycle, typical = steps
+    left = degrees[0] + cycle - degrees[-1]
+    return (
+        degrees[-1] + typical + np.arange(0.0, left - 1.5 * typical, typical) if left > 2.5 * typical else degrees[:0]
+    )
+
+
+def closed_diagram(
+    degrees: Array, pressure: Array, cycle: float, stated: tuple[Sequence[str], str]
+) -> IndicatorDiagram:
+    """Return a diagram from 0 to `cycle` through samples at any angles of one period. [deg], [Pa]
+
+    `stated`: the line of each sample, and what states them all.
     """
     places, file = stated
     degrees = np.asarray(np.round(np.mod(degrees, cycle), 9) % cycle)
     order = np.argsort(degrees)
     degrees, pressure = degrees[order], pressure[order]
-    lines = {degree: places[at] for degree, at in zip(degrees.tolist(), order.tolist(), strict=True)}
     around = np.concatenate([[degrees[-1] - cycle], degrees, [degrees[0] + cycle]])
     values = np.concatenate([pressure[-1:], pressure, pressure[:1]])
     slopes = monotone_slopes(around[1:], values[1:], periodic=True)
@@ -79,14 +179,13 @@ def _closed(degrees: Array, pressure: Array, cycle: float, stated: tuple[Sequenc
     curve = (around, values, slopes)
     inside = np.concatenate([[0.0], around[(around > 0) & (around < cycle)], [cycle]])
     values, slopes = hermite(*curve, inside), hermite_slope(*curve, inside)
+    lines = {degree: places[at] for degree, at in zip(degrees.tolist(), order.tolist(), strict=True)}
     names = tuple(lines.get(one % cycle, file) for one in inside.tolist())
     return IndicatorDiagram((Segment(0.0, cycle, "rounded", inside, values, slopes, places=names),), {})
 
 
 def _check_angles(measured: MeasuredPressure, cycle: float, key: str) -> None:
     degrees, rows = measured.degrees, measured.rows
-    if len(degrees) < 8:
-        raise DiagramError(key, Refusal("samples_few", count=len(degrees)))
     steps = np.diff(degrees)
     if np.any(steps <= 0):
         worst = int(np.argmax(steps <= 0))
@@ -117,7 +216,7 @@ def _check_angles(measured: MeasuredPressure, cycle: float, key: str) -> None:
 
 def _wrap_step(measured: MeasuredPressure, cycle: float) -> float:
     """Return the pressure one cycle after the first sample less that of the first sample."""
-    degrees, pressure = measured.degrees, measured.pressure
+    degrees, pressure = measured.degrees, measured.pressure[:, 0]
     end = degrees[0] + cycle
     if degrees[-1] >= end:
         after = float(np.interp(end, degrees, pressure))
@@ -125,7 +224,7 @@ def _wrap_step(measured: MeasuredPressure, cycle: float) -> float:
         # the last row of a cycle is often left out; carry on as the samples before it go
         slope = (pressure[-1] - pressure[-2]) / (degrees[-1] - degrees[-2])
         after = float(pressure[-1] + slope * (end - degrees[-1]))
-    return after - float(measured.pressure[0])
+    return after - float(pressure[0])
 
 
 def wrap_is_rough(diagram: IndicatorDiagram, wrap: float) -> bool:

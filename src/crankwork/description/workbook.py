@@ -1,0 +1,103 @@
+"""The cells of a sheet of an Excel workbook as lines of text, columns apart by tabs."""
+
+from __future__ import annotations
+
+import io
+import re
+import zipfile
+from collections.abc import Iterator
+from xml.etree import ElementTree as ET
+
+from crankwork import files
+from crankwork.locale import Refusal
+
+START = b"PK\x03\x04"
+_LARGEST = 4 * files.MAX_DATA_FILE
+_MOST_ROWS, _MOST_COLUMNS = 1_048_576, 16_384
+_MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
+_ID = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}id"
+_CELL = re.compile(r"([A-Z]{1,3})([0-9]{1,7})")
+
+
+def workbook_text(data: bytes, sheet: str | None = None) -> str:
+    """Return the text of a sheet: that of a name, or the only one with anything in it.
+
+    ValueError with what is wrong, and the names there are.
+    """
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as book:
+            return _sheet_text(book, sheet)
+    except (zipfile.BadZipFile, KeyError, ET.ParseError, NotImplementedError, RuntimeError, OverflowError):
+        raise ValueError(Refusal("workbook_none")) from None
+
+
+def _sheet_text(book: zipfile.ZipFile, wanted: str | None) -> str:
+    related = {one.get("Id", ""): one.get("Target", "") for one in _root(book, "xl/_rels/workbook.xml.rels")}
+    sheets = {
+        one.get("name", ""): _member(related[one.get(_ID, "")])
+        for one in _root(book, "xl/workbook.xml").iter(f"{_MAIN}sheet")
+    }
+    filled = [name for name, member in sheets.items() if b"<v>" in _read(book, member)]
+    if wanted not in sheets and (wanted is not None or len(filled) != 1):
+        known = tuple(f'"{one[:60]}"' for one in list(sheets)[:12])
+        raise ValueError(Refusal("workbook_sheet", known=known, example=f'"{(filled or list(sheets))[0][:60]}"'))
+    words = []
+    if "xl/sharedStrings.xml" in book.namelist():
+        words = [_words(one) for one in _root(book, "xl/sharedStrings.xml").iter(f"{_MAIN}si")]
+    lines: list[str] = []
+    for number, row in _rows(_read(book, sheets[filled[0] if wanted is None else wanted]), words):
+        lines += [""] * (number - 1 - len(lines))
+        lines.append("\t".join(row))
+    return "\n".join(lines)
+
+
+def _member(target: str) -> str:
+    return target.lstrip("/") if target.startswith("/") else f"xl/{target}"
+
+
+def _read(book: zipfile.ZipFile, name: str) -> bytes:
+    """Return a part of a workbook that is not too large, and refers to nothing."""
+    if book.getinfo(name).file_size > _LARGEST:
+        raise ValueError(Refusal("workbook_large", size=_LARGEST >> 20))
+    data = book.read(name)
+    if b"<!DOCTYPE" in data or b"\0" in data:
+        raise ValueError(Refusal("workbook_none"))
+    return data
+
+
+def _root(book: zipfile.ZipFile, name: str) -> ET.Element:
+    return ET.fromstring(_read(book, name))  # noqa: S314 - as above
+
+
+def _words(element: ET.Element) -> str:
+    return " ".join("".join(one.text or "" for one in element.iter(f"{_MAIN}t")).split())
+
+
+def _rows(data: bytes, words: list[str]) -> Iterator[tuple[int, list[str]]]:
+    """Yield the number and the cells of every row, from the first column on."""
+    number = 0
+    for _, row in ET.iterparse(io.BytesIO(data)):  # noqa: S314 - as above
+        if row.tag != f"{_MAIN}row":
+            continue
+        number = max(number + 1, min(int(row.get("r", number + 1)), _MOST_ROWS))
+        cells: list[str] = []
+        for one in row.iter(f"{_MAIN}c"):
+            found = _CELL.fullmatch(one.get("r", ""))
+            cells += [""] * (min(_column(found[1]), _MOST_COLUMNS) - 1 - len(cells)) if found else []
+            cells.append(_shown(one, words))
+        row.clear()
+        yield number, cells
+
+
+def _column(letters: str) -> int:
+    number = 0
+    for one in letters:
+        number = 26 * number + ord(one) - 64
+    return number
+
+
+def _shown(cell: ET.Element, words: list[str]) -> str:
+    kind, value = cell.get("t", "n"), cell.findtext(f"{_MAIN}v", "")
+    if kind == "s":
+        return words[int(value)] if value.isdecimal() and int(value) < len(words) else ""
+    return _words(cell) if kind == "inlineStr" else " ".join(value.split())

@@ -1,0 +1,164 @@
+"""Measured pressure as a description wants it: which cycle, pegged, smoothed; and what the data contradict."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.kinematics.crank_grid import Array
+from crankwork.loads.dead_centre import contradictions
+from crankwork.loads.indicator import DiagramError, IndicatorDiagram, VolumeAt
+from crankwork.loads.measured import (
+    MeasuredPressure,
+    Pegging,
+    Told,
+    closed_diagram,
+    recorded_cycles,
+    wrap_is_rough,
+)
+from crankwork.locale import Refusal
+
+# what gauge pressures lie above wherever people live [Pa]
+_VACUUM = -110e3
+_EVEN = 1e-3
+_FEWEST = 5
+# share of all pressures by which one sample alone may miss its neighbours, and their own share of it
+_SPIKE, _NEIGHBOURS = 0.25, 0.2
+
+
+class Around(NamedTuple):
+    """What the samples are held against: the volume at crank angles of the machine, and top dead centre if known."""
+
+    volume_at: VolumeAt  # [deg] -> [m3]
+    top: float | None = None  # [deg]
+
+
+def measured_diagram(
+    measured: MeasuredPressure, cycle: float, around: Around, *, shift: float, step: float | None, path: str
+) -> tuple[IndicatorDiagram, list[Told]]:
+    """Return the closed diagram of measured pressure, and what the reader should know of it. [Pa]
+
+    `shift` is added to every angle, so that zero is top dead centre [deg]; without a `step` to resample at, the samples
+    of the first cycle set the angles [deg]. `path`: where a description states the diagram.
+    """
+    treatment, key = measured.treatment, f"{path}.measured"
+    recorded = recorded_cycles(measured, cycle, step=step, path=path)
+    told = [*measured.told, *_spikes(measured)]
+    degrees = recorded.degrees + shift
+    volume = around.volume_at(np.mod(degrees, cycle))
+    cycles = recorded.cycles
+    if treatment.peg is not None:
+        offsets = _offsets(cycles, degrees, volume, treatment.peg, (cycle, f"{key}.peg"))
+        cycles = cycles + offsets[:, None]
+        told.append(("pressure_pegged", {"step": float(offsets.mean())}))
+    told += _spread(cycles, volume)
+    pressure = _chosen(cycles, treatment.cycle, f"{key}.cycle", told)
+    stated = f"{key}.cycle" if len(cycles) > 1 else f"{key}.peg" if treatment.peg else f"{key}.file"
+    if treatment.smooth is not None:
+        before, pressure = pressure, _smooth(degrees, pressure, (cycle, treatment.smooth), f"{key}.smooth")
+        stated = f"{key}.smooth"
+        window, peaks = treatment.smooth, (float(before.max()) / 1e6, float(pressure.max()) / 1e6)
+        told.append(("pressure_smoothed", {"window": window, "before": peaks[0], "after": peaks[1]}))
+    _check_vacuum(pressure, measured, key)
+    is_raw = stated.endswith("file") and len(recorded.rows) > 0
+    places = [f"{measured.file}:{row}" for row in recorded.rows] if is_raw else [stated] * len(degrees)
+    diagram = closed_diagram(degrees, pressure, cycle, (places, stated))
+    if treatment.rest is None and wrap_is_rough(diagram, recorded.wrap):
+        told.append(("wrap", {"step": recorded.wrap}))
+    if around.top is not None:
+        absolute = pressure if treatment.absolute else pressure + 101325.0
+        against = contradictions(
+            (degrees, absolute), around.volume_at, (cycle, around.top), shift=shift, loss_angle=treatment.loss_angle
+        )
+        told += [(code, {**values, "name": key}) for code, values in against]
+    return diagram, told
+
+
+def _spikes(measured: MeasuredPressure) -> Iterator[Told]:
+    """Yield the samples that stand alone among their neighbours, the worst of each column."""
+    for pressure in measured.pressure.reshape(len(measured.degrees), -1).T:
+        middle = np.median(np.stack([pressure[:-2], pressure[1:-1], pressure[2:]]), axis=0)
+        off = np.abs(pressure[1:-1] - (pressure[:-2] + pressure[2:]) / 2)
+        alone = (off > _SPIKE * np.ptp(middle)) & (np.abs(pressure[2:] - pressure[:-2]) < _NEIGHBOURS * off)
+        if np.any(alone):
+            worst = int(np.argmax(np.where(alone, off, 0.0)))
+            line, step, count = measured.rows[worst + 1], float(pressure[worst + 1]), float(np.sum(alone))
+            yield "pressure_spike", {"line": str(line), "step": step, "count": count}
+
+
+def _offsets(cycles: Array, degrees: Array, volume: Array, peg: Pegging, by: tuple[float, str]) -> Array:
+    """Return what is added to each cycle for it to have the pressure or the exponent that is stated. [Pa]"""
+    cycle, key = by
+    if peg.exponent is None:
+        at = np.mod(degrees, cycle)
+        there = [np.interp(peg.angle % cycle, at, one, period=cycle) for one in cycles]
+        return peg.pressure - np.array(there)
+    inside = np.mod(degrees - peg.start, cycle) <= peg.end - peg.start
+    if np.sum(inside) < _FEWEST:
+        raise DiagramError(key, Refusal("peg_few", count=int(np.sum(inside)), fewest=_FEWEST))
+    # p + offset = constant V^-n
+    polytrope = (volume[inside] / volume[inside].mean()) ** -peg.exponent
+    system = np.stack([polytrope, -np.ones_like(polytrope)], axis=1)
+    return np.asarray(np.linalg.lstsq(system, cycles[:, inside].T)[0][1])
+
+
+def _spread(cycles: Array, volume: Array) -> Iterator[Told]:
+    """Yield how much peak pressure and work differ from cycle to cycle. [%]"""
+    if len(cycles) < 2:
+        return
+    peaks = cycles.max(axis=1)
+    closed = np.concatenate([cycles, cycles[:, :1]], axis=1)
+    work = (closed[:, 1:] + closed[:, :-1]) @ np.diff(np.append(volume, volume[0])) / 2
+    means = [float(abs(np.mean(one))) for one in (peaks, work)]
+    shares = [
+        float(np.std(one, ddof=1)) / mean if mean else 0.0 for one, mean in zip((peaks, work), means, strict=True)
+    ]
+    varies = [round(100 * one, 6) for one in shares]
+    yield "cycles_spread", {"cycles": float(len(cycles)), "peak": varies[0], "work": varies[1]}
+
+
+def _chosen(cycles: Array, which: str | int | None, key: str, told: list[Told]) -> Array:
+    """Return one of the cycles, or their mean, as stated. [Pa]"""
+    count = len(cycles)
+    if which is None and count > 1:
+        raise DiagramError(key.removesuffix(".cycle"), Refusal("samples_cycles", cycles=str(count)))
+    if which == "mean" and count > 1:
+        told.append(("cycles_averaged", {"cycles": count}))
+        return np.asarray(np.mean(cycles, axis=0))
+    peaks = cycles.max(axis=1)
+    at = {"least peak": int(peaks.argmin()), "greatest peak": int(peaks.argmax())}.get(str(which), 0)
+    if isinstance(which, int):
+        if which > count:
+            raise DiagramError(key, Refusal("samples_cycle", number=str(which), cycles=str(count)))
+        at = which - 1
+    if count > 1:
+        told.append(("cycle_chosen", {"number": float(at + 1), "cycles": float(count)}))
+    return np.asarray(cycles[at])
+
+
+def _smooth(degrees: Array, pressure: Array, by: tuple[float, float], key: str) -> Array:
+    """Return samples with a cubic through each window put in their place as Savitzky and Golay do. [Pa]"""
+    cycle, window = by
+    steps = np.diff(np.append(degrees, degrees[0] + cycle))
+    typical = float(np.median(steps))
+    if np.max(np.abs(steps - typical)) > _EVEN * typical:
+        raise DiagramError(key, Refusal("smooth_uneven", step=f"{typical:.3g} deg"))
+    half = round(window / typical / 2)
+    if 2 * half + 1 < _FEWEST:
+        raise DiagramError(key, Refusal("smooth_short", count=2 * half + 1, window=f"{4 * typical:.3g} deg"))
+    along = np.arange(-half, half + 1) / half
+    weights = np.linalg.pinv(np.vander(along, 4, increasing=True))[0]
+    closed = np.take(pressure, np.arange(-half, len(pressure) + half), mode="wrap")
+    return np.convolve(closed, weights, mode="valid")
+
+
+def _check_vacuum(pressure: Array, measured: MeasuredPressure, key: str) -> None:
+    least = float(pressure.min())
+    if least >= (0.0 if measured.treatment.absolute else _VACUUM):
+        return
+    columns = measured.pressure.reshape(len(measured.degrees), -1)
+    line = measured.rows[int(np.argmin(columns.min(axis=1)))]
+    name = "measured_vacuum" if measured.treatment.absolute else "measured_vacuum_gauge"
+    raise DiagramError(key, Refusal(name, line=line, pressure=least / 1e6))
