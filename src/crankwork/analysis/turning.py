@@ -13,8 +13,8 @@ from crankwork.analysis.evenness import course_of, extreme_speeds, recovery, tur
 from crankwork.analysis.linkage_memory import efficiency_of
 from crankwork.analysis.results import Listing, Results
 from crankwork.analysis.solved import Notice, Solved
-from crankwork.analysis.turning_memory import torque_memory, work_scale
-from crankwork.formula.known import Found, Known, OfAngle, absent, breaks_of, given
+from crankwork.analysis.turning_memory import torque_memory, work_scale, works_at_once
+from crankwork.formula.known import Found, Known, OfAngle, absent, breaks_of, given, in_order
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
@@ -35,6 +35,8 @@ from crankwork.shaft.torque_diagram import TorqueDiagram, Turning
 COLUMNS = (
     "turning_moment", "load_torque", "excess_torque", "kinetic_energy_change", "crank_speed", "angular_acceleration",
 )  # fmt: skip
+_COLUMN_OF = {"torque": "turning_moment", "load": "load_torque"}
+_STRETCHES = ("sheared_area", "stroke_work", "stroke_angle")
 _ROUNDED = 1e-9
 _NOTHING = 1e-13
 # of figures: how far beside a jump a curve is drawn [deg], and of how many points
@@ -124,7 +126,7 @@ def _of_course(machine: Machine, turning: Turning, w: Known) -> _Turned:
     """Return what follows of torques that are known at every angle."""
     made = {key: torque_memory(machine, turning, table, key, w) for table, key in _keys(turning)}
     over = OverCycle(made, CrankGrid.from_degrees, machine.cycle)
-    means = {key: _mean(over, key, turning, table) for table, key in _keys(turning)}
+    means = {key: _mean(over, machine, turning, table, w) for table, key in _keys(turning)}
     mean = next(iter(means.values()))
     # what is not given is constant
     drive, load = (made.get(key, mean).named(key) for key in ("turning_moment", "load_torque"))
@@ -148,12 +150,14 @@ def _of_course(machine: Machine, turning: Turning, w: Known) -> _Turned:
     notices = (*_notices(turning), *wheel.notices, *course.notices)
     listings = {"energy_extremes": _listing(found, course.speed)}
     columns = {key: one.named(key) for key, one in columns.items()}
-    return _Turned(columns, summary, wheel.between, checks, notices, listings)
+    stretches = (one for one in in_order([*made.values(), *means.values()]) if one.key.partition(".")[0] in _STRETCHES)
+    between = {one.key: one for one in stretches if one.key not in _STRETCHES} | wheel.between
+    return _Turned(columns, summary, between, checks, notices, listings)
 
 
 def _keys(turning: Turning) -> Iterator[tuple[str, str]]:
     """Yield tables that are given and the columns that they make."""
-    yield from ((table, {"torque": "turning_moment", "load": "load_torque"}[table]) for table in turning.diagrams)
+    yield from ((table, _COLUMN_OF[table]) for table in turning.diagrams)
 
 
 def _blows(diagram: TorqueDiagram) -> float:
@@ -161,14 +165,16 @@ def _blows(diagram: TorqueDiagram) -> float:
     return sum(one.work for one in diagram.strokes if not one.over) * len(diagram.delays)
 
 
-def _mean(over: OverCycle, key: str, turning: Turning, table: str) -> Known:
+def _mean(over: OverCycle, machine: Machine, turning: Turning, table: str, w: Known) -> Known:
     """Return the mean of a torque, with what is done at once."""
-    diagram, mean = turning.diagrams[table], over.mean(key, "mean_torque")
-    at_once = _blows(diagram)
-    if not at_once:
+    key, diagram = _COLUMN_OF[table], turning.diagrams[table]
+    mean = over.mean(key, "mean_torque")
+    if not _blows(diagram):
         return mean
-    blow = Known(Found(at_once, "at_once", (given("stroke_work", at_once, f"{table}.strokes"),)), "stroke_work")
-    return (mean + blow / given("cycle_angle", diagram.period, f"{table}.period")).named("mean_torque")
+    at_once = works_at_once(machine, turning, table, key, w)
+    period = given("cycle_angle", diagram.period, f"{table}.period")
+    evened = (at_once.named("stroke_work") / period).named("mean_torque")
+    return evened if over.is_nothing(key) else (mean.named("mean_torque.stretched") + evened).named("mean_torque")
 
 
 def _curve(over: OverCycle, key: str) -> Curve:

@@ -32,6 +32,14 @@ def torque_memory(machine: Machine, turning: Turning, table: str, key: str, w: K
     return total(key, parts)
 
 
+def works_at_once(machine: Machine, turning: Turning, table: str, key: str, w: Known) -> Known:
+    """Return the work of a period that is done at once."""
+    diagram = turning.diagrams[table]
+    one = _Torque(machine, diagram, table, key, w, turning.cycle)
+    works = [one.work(at) for at, stroke in enumerate(diagram.strokes, start=1) if not stroke.over]
+    return total("stroke_work", works * len(diagram.delays))
+
+
 def work_scale(machine: Machine, table: str) -> Known | None:
     """Return the work that an area of a drawing stands for, None without a scale."""
     stated = {name: machine.stated.get(f"{table}.scale.{name}") for name in ("work", "torque", "angle")}
@@ -106,7 +114,7 @@ class _Torque:
     def _stretch(self, stroke: Stroke, number: int) -> list[Known]:
         """Return the torque that does work in a stretch, in each period."""
         path, name = f"{self._table}.strokes[{number}]", f"{self._key}.stretch_{number}"
-        work, over, end = self._work(stroke, path), self._over(stroke, path), math.degrees(stroke.over)
+        work, over, end = self.work(number), self._over(stroke, number), math.degrees(stroke.over)
         nothing, angle = absent(self._key), KnownAngle().angle
         if stroke.shape == "constant":
             laws, ends = [torque_of_work(work, over)], [end]
@@ -130,10 +138,10 @@ class _Torque:
             for turn in range(self._times)
         ]
 
-    def _work(self, stroke: Stroke, path: str) -> Known:
+    def work(self, number: int) -> Known:
         """Return the work of a stretch: stated, of an area of the drawing, or of shearing."""
-        machine, stated = self._machine, self._machine.stated
-        plain = given("stroke_work", stroke.work, f"{path}.work")
+        machine, stated, path = self._machine, self._machine.stated, f"{self._table}.strokes[{number}]"
+        plain = given(f"stroke_work.{number}", self._diagram.strokes[number - 1].work, f"{path}.work")
         scale = work_scale(machine, self._table)
         work, shear = stated.get(f"{path}.work"), stated.get(f"{path}.shear_energy")
         if shear is not None:
@@ -144,16 +152,17 @@ class _Torque:
                 area: Known = sheared_area_of_hole(machine.method.pi, diameter, thickness)
             else:
                 width = given("cut_width", strip.value if strip else 0.0, f"{path}.cut_width")
-                area = (width * thickness).named("sheared_area")
+                area = width * thickness
             energy = given("shear_energy", shear.value, f"{path}.shear_energy")
-            return origins.checked(energy * area.named("sheared_area"), plain)
+            return origins.checked(energy * area.named(f"sheared_area.{number}"), plain)
         if scale is not None and work is not None and UNITS[work.unit].dimension == "area":
             return origins.checked(scale * given("drawn_area", work.value, f"{path}.work"), plain)
         return plain
 
-    def _over(self, stroke: Stroke, path: str) -> Known:
+    def _over(self, stroke: Stroke, number: int) -> Known:
         """Return the angle of a stretch: stated, of a time, of a part of the period, or of a punch in a plate."""
-        stated, plain = self._machine.stated, given("stroke_angle", stroke.over, f"{path}.over")
+        stated, path = self._machine.stated, f"{self._table}.strokes[{number}]"
+        plain = given(f"stroke_angle.{number}", stroke.over, f"{path}.over")
         over, punch = stated.get(f"{path}.over"), stated.get(f"{path}.punch_stroke")
         period = given("cycle_angle", self._diagram.period, f"{self._table}.period")
         if punch is not None:

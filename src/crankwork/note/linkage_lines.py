@@ -45,6 +45,7 @@ _WHEEL = ("wittenbauer_slope", "whole_inertia", "flywheel_inertia")
 _TORQUES = ("static_torque", "dynamic_torque", "balancing_torque", "driving_torque")
 
 
+_STRETCHES = ("sheared_area", "stroke_work", "stroke_angle")
 _POWER_OF_SHAFT = ("speed", "mean_torque", "shaft_power", "efficiency", "motor_power", "work_per_cycle")
 _EXCESS = ("excess_work", "energy_fluctuation")
 _WHEEL_OF_SHAFT = ("speed_fluctuation", "whole_inertia", "flywheel_inertia", *WHEEL_SIZES, "recovery_torque")
@@ -94,6 +95,7 @@ def _of_shaft(results: Results) -> tuple[Group, ...]:
     acting = [key for table, key in (("torque", "turning_moment"), ("load", "load_torque")) if table in given]
     course = [key for key in results.columns if key in _COURSE_OF_SHAFT]
     groups = (
+        Group("stretches", told.lines(_STRETCHES)),
         told.group("turning_moments", acting if course else ()),
         Group("shaft_power", told.lines(_POWER_OF_SHAFT)),
         Group("energy_extremes", told.lines(_EXCESS if course else ("kinetic_energy_change", *_EXCESS))),

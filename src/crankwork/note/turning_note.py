@@ -121,6 +121,7 @@ def _moments(material: Material) -> Iterator[Block]:
     words = material.words
     yield words.heading("turning_moments")
     if "turning_moment" in material.results.columns:
+        yield from equations(material.lines("stretches"), words)
         worked = material.groups.get("turning_moments")
         if worked is not None:
             place = words.amount(math.radians(worked.degrees or 0.0), "deg")
