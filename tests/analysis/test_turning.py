@@ -115,6 +115,25 @@ def test_a_broken_line_is_integrated_as_by_trapezoids(line: tuple[list[float], l
     assert not found.unmet
 
 
+def test_points_may_stand_in_a_file(tmp_path: Path) -> None:
+    """Two lobes a turn, 1000 (1 - cos 2 phi), by 721 points: a mean of 1000 N m and an excess work of 1000 J."""
+    angles = np.linspace(0.0, 360.0, 721).tolist()
+    rows = [f"{one};{1000 * (1 - math.cos(2 * math.radians(one)))!r}" for one in angles]
+    (tmp_path / "torque.csv").write_text("\n".join(["phi [deg];M [N*m]", *rows]), encoding="utf-8")
+    machine = tmp_path / "machine.toml"
+    machine.write_text(
+        """
+        crank.speed = "100 rpm"
+        torque = { period = "360 deg", file = "torque.csv", at = "phi", torque = "M" }
+        """,
+        encoding="utf-8",
+    )
+    found = analyse(read(machine))
+    assert found["mean_torque"] == pytest.approx(1000.0, rel=1e-12)
+    assert found["excess_work"] == pytest.approx(1000.0, rel=1e-4)
+    assert not found.unmet
+
+
 @pytest.mark.parametrize("path", FILES, ids=lambda one: one.stem)
 def test_sampling_changes_nothing(path: Path) -> None:
     machine = read(path)

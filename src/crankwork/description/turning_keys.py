@@ -6,8 +6,8 @@ import math
 from typing import get_args
 
 from crankwork.description.engine_keys import FLYWHEEL
-from crankwork.description.keys import METHOD, TABLE, TITLE
-from crankwork.description.kinds import Choice, Number, Quantity
+from crankwork.description.keys import METHOD, SHEET, TABLE, TITLE
+from crankwork.description.kinds import Choice, Number, Quantity, Text
 from crankwork.description.linkage_keys import EFFICIENCY
 from crankwork.description.schema import Key, ListOf, NumberOr, Table
 from crankwork.shaft.torque_diagram import Shape
@@ -58,11 +58,13 @@ _DIAGRAM = Table("torque_diagram", {
     "rate": Key(Quantity(("speed",), 1e-6, 1e5), instead_of=("period",)),
     "constant": Key(_TORQUE, instead_of=("power", "at", "torque")),
     "power": Key(Quantity(("power",), -1e12, 1e12), instead_of=("constant", "at", "torque")),
-    "at": Key(ListOf(_ANGLE, fewest=2, most=2000), only={"torque": ()}),
-    "torque": Key(ListOf(_TORQUE, fewest=2, most=2000), instead_of=_other("torque"), only={"at": ()}),
+    "file": Key(Text(1000)),
+    "sheet": SHEET,
+    "at": Key(ListOf(_ANGLE, fewest=2, most=2000, from_file=True), only={"torque": ()}),
+    "torque": Key(ListOf(_TORQUE, fewest=2, most=2000, from_file=True), instead_of=_other("torque"), only={"at": ()}),
     "harmonics": Key(ListOf(_HARMONIC, fewest=1, most=200), instead_of=_other("harmonics")),
     "strokes": Key(ListOf(_STROKE, fewest=1, most=200), instead_of=_other("strokes")),
-    "areas": Key(ListOf(_ENERGY, fewest=2, most=1000), instead_of=_other("areas")),
+    "areas": Key(ListOf(_ENERGY, fewest=2, most=1000, from_file=True), instead_of=_other("areas")),
     "excess_work": Key(Quantity(("energy", "area"), 0.0, 1e12, above=True), instead_of=_other("excess_work")),
     "energy_fluctuation": Key(Number(0.0, 1e3, above=True), instead_of=_other("energy_fluctuation")),
     "scale": Key(_SCALE),

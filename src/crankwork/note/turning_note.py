@@ -19,6 +19,8 @@ from crankwork.note.options import NoteOptions
 from crankwork.note.words import in_display_unit
 
 _TABLES = (("torque", "drives"), ("load", "resists"))
+# of a diagram that is told point by point
+_MOST_POINTS = 60
 # of a table over the angle
 _MOST_ROWS = 120
 # a speed changes little
@@ -72,7 +74,7 @@ def _task(material: Material) -> Iterator[Block]:
             continue
         yield words.paragraph(verb, period=words.amount(diagram.period, "deg"))
         yield ItemList(tuple(_items(material, table)))
-        if diagram.points:
+        if 0 < len(diagram.points) <= _MOST_POINTS:
             yield _points(material, table)
     yield method(material)
 
