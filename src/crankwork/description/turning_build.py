@@ -19,7 +19,15 @@ from crankwork.locale import Refusal
 from crankwork.machine import Machine
 from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.method import Method
-from crankwork.shaft.torque_diagram import Harmonic, Stroke, TorqueDiagram, Turning, common_period, sheared_area_of_hole
+from crankwork.shaft.torque_diagram import (
+    Harmonic,
+    Stroke,
+    TorqueDiagram,
+    Turning,
+    angle_in_plate,
+    common_period,
+    sheared_area_of_hole,
+)
 
 _TABLES = ("torque", "load")
 _OF_ENERGY = ("areas", "excess_work", "energy_fluctuation")
@@ -251,7 +259,7 @@ def _sheared_area(values: Values, pi: float) -> float:
 def _over(values: Values, period: float, shaft: _Shaft) -> float:
     """Return over which angle work is done, zero where it is done at once. [rad]"""
     if "punch_stroke" in values and "thickness" in values:
-        return float(values.si("thickness") * period / (2 * values.si("punch_stroke")))
+        return float(angle_in_plate(values.si("thickness"), period, values.si("punch_stroke")))
     over = values.get("over", 0.0)
     if isinstance(over, Measure):
         return _angle(over, shaft)
