@@ -120,6 +120,13 @@ def test_units_that_contradict_the_machine_file_are_told(read):
     assert is_right(results)
 
 
+@pytest.mark.parametrize("heading", ["phi [deg]\tp [bar(a)]\n", "phi\tp\ndeg\tbara\n", "phi, deg\tp abs, bar\n"])
+def test_absolute_pressures_taken_for_gauge_are_told(read, heading):
+    text = heading + table(ANGLES, BAR)
+    assert told(read(text, ""))["measured_reference"] == {"reference": "absolute", "stated": "gauge"}
+    assert "measured_reference" not in told(read(text, "", ABSOLUTE))
+
+
 def test_units_are_asked_for_where_no_one_states_them(read):
     message = refusal(read, "phi\tp\n" + table(ANGLES, BAR), "")
     assert message.startswith("gas.measured.pressure_unit: is missing; write pressure_unit")

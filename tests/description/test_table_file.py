@@ -70,6 +70,7 @@ HEADINGS = {
     "phi [deg ATDC];p [mbar]": ("deg", "hPa"),
     "góc quay (độ);áp suất (kgf/cm²)": ("deg", "kgf/cm2"),
     "n;P [kW]": ("", "kW"),
+    "phi;p, kg/cm2": ("", "kgf/cm2"),
 }
 
 
@@ -100,6 +101,14 @@ def test_columns_have_names_and_numbers(tmp_path):
         table.position("q")
     with pytest.raises(CrankworkError, match=r"p.csv, there is no column 6; the table has 5"):
         table.position(6)
+
+
+def test_two_decimal_marks_in_one_table_are_told(tmp_path):
+    (tmp_path / "p.csv").write_text("phi;p;day\n0;999,5;1.5.2020\n1;1000,5;2.5.2020\n2;1.000;2.5.2020\n")
+    table = read_table(tmp_path / "p.csv")
+    assert table.columns((0,)).tolist() == [[0], [1], [2]]
+    with pytest.raises(CrankworkError, match=r'line 4: "1.000" has another decimal mark than the numbers before it'):
+        table.columns((0, 1))
 
 
 def test_one_heading_of_two_columns_is_asked_about(tmp_path):

@@ -81,7 +81,7 @@ MEASURED = Table("measured", {
     "sheet": SHEET,
     "angle_column": Key(_COLUMN),
     "pressure_column": Key(_COLUMN),
-    "angle_unit": Key(Choice(("deg", "rad")), default="deg"),
+    "angle_unit": Key(Choice(("deg", "rad"))),
     "pressure_unit": Key(Choice(("MPa", "kPa", "Pa", "bar", "kgf/cm2", "psi", "atm", "hPa"))),
     "shift": Key(_ANGLE, default="0 deg"),
     "cycle": Key(WordOr(Choice(("mean", "greatest peak", "least peak")), Number(1, 1e6, whole=True))),

@@ -24,6 +24,10 @@ _WORDS = {
     "angle": re.compile(r"ang|crank|phi|φ|alpha|α|theta|θ|deg|°|\bca\b|cad|winkel|угол|угла|пкв|góc", re.IGNORECASE),
     "pressure": re.compile(r"^p(?![a-z]{2}|ow)|press|druck|zyl|давл|р_?ц|áp", re.IGNORECASE),
 }
+_REFERENCES = {
+    "absolute": re.compile(r"\b(?:abs(?:olut\w*)?|bara|psia)\b|\(a\)|абс", re.IGNORECASE),
+    "gauge": re.compile(r"\b(?:gauge|barg|psig)\b|\(g\)|изб", re.IGNORECASE),
+}
 _RANGE = re.compile(r"(\d+)\s*\.\.\s*(\d+)")
 _MOST = 16_384
 _FEWEST = 8
@@ -63,7 +67,10 @@ def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> Me
     pressure = samples[:, 1:] * UNITS[found.pressure_unit].factor
     # the name in a note is the same whichever system wrote the folders before it
     name = PureWindowsPath(file).name
-    return MeasuredPressure(degrees, pressure, table.lines, name, found.told)
+    at = found.pressures[0]
+    spelled = f"{table.names[at]} {table.written[at]}"
+    reference = next((one for one, words in _REFERENCES.items() if words.search(spelled)), "")
+    return MeasuredPressure(degrees, pressure, table.lines, name, found.told, reference=reference)
 
 
 def treatment_of(values: Values, path: str, reader: Reader, *, absolute: bool) -> Treatment:
@@ -148,7 +155,7 @@ def _unit(table: FileTable, values: Values, kind: str, at: int, told: list[Told]
             "measured_foreign", line=table.heading, column=table.told(at), unit=own, key=f"{kind}_column"
         )
     if key not in values:
-        return own if own or kind == "pressure" else str(values[key])
+        return own if own or kind == "pressure" else "deg"
     stated = str(values[key])
     if own and UNITS[own] != UNITS[stated]:
         told.append(("measured_other_unit", {"column": table.told(at), "unit": own, "stated": stated, "name": key}))

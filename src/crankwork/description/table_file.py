@@ -38,6 +38,8 @@ _OF_REFERENCE = re.compile(r"(?<=..)[\s(]*(?:absolute|abs|gauge|a|g|абс|из�
 _UNITLESS = ("", "-", "–", "1", "[-]", "[]", "(-)", "%")
 _SPOKEN = {
     **dict.fromkeys(("degree", "degrees", "cad", "grad", "градусы", "градусов", "гр"), "deg"),
+    # as weights once were forces
+    **dict.fromkeys(("kg/cm2", "kg/cm²", "кг/см2", "кг/см²"), "kgf/cm2"),
     **dict.fromkeys(("radian", "radians", "радианы"), "rad"),
 }
 _FIRST = {unit: name for name, unit in reversed(UNITS.items())}
@@ -53,6 +55,7 @@ class FileTable:
     file: str
     names: tuple[str, ...]  # As the file writes them, with a unit that stands in them; empty where there is none
     units: tuple[str, ...]  # As the table of units spells them; empty where there is none, or one that is unknown
+    written: tuple[str, ...]  # Units as the file writes them
     heading: int  # Line of the headings, or of the first row where there are none
     lines: Sequence[int] = field(repr=False)  # Line of every row
     rows: Sequence[str] = field(repr=False)
@@ -83,15 +86,18 @@ class FileTable:
     def columns(self, positions: Sequence[int]) -> Array:
         """Return the numbers of some columns, shape (rows, columns); raise with the line of what is none."""
         text = self.rows
-        if self.separator != "," and any("," in one for one in text):
+        has_commas = self.separator != "," and any("," in one for one in text)
+        has_both = has_commas and any("." in one for one in text)
+        if has_commas:
             text = [one.replace(",", ".") for one in text]
         # the cells of a row that is not like the others are looked at one by one
         with contextlib.suppress(ValueError):
-            if not any('"' in one for one in text) and self._is_even(text):
+            if not has_both and not any('"' in one for one in text) and self._is_even(text):
                 found = np.loadtxt(text, delimiter=self.separator, usecols=positions, comments=None, ndmin=2)
                 if np.all(np.abs(found) < _LARGEST):
                     return found
-        return np.array([self._numbers(*one, positions) for one in zip(self.lines, self.rows, strict=True)])
+        marks: set[str] = set()
+        return np.array([self._numbers(*one, positions, marks) for one in zip(self.lines, self.rows, strict=True)])
 
     def _is_even(self, rows: Iterable[str]) -> bool:
         """Return whether every row has as many cells as there are columns."""
@@ -105,7 +111,8 @@ class FileTable:
     def _ends_in_separator(self) -> bool:
         return all(one.rstrip(" ").endswith(self.separator or " ") for one in self.rows)
 
-    def _numbers(self, line: int, row: str, positions: Sequence[int]) -> list[float]:
+    def _numbers(self, line: int, row: str, positions: Sequence[int], marks: set[str]) -> list[float]:
+        """Return the numbers of a row; `marks` are the decimal marks so far, of which there is to be one."""
         cells = _cells(row, self.separator)
         if len(cells) == len(self.names) + 1 and not cells[-1].strip():
             cells.pop()
@@ -116,6 +123,9 @@ class FileTable:
         for number, at in zip(found, positions, strict=True):
             if number is None or not abs(number) < _LARGEST:
                 raise self.refused("measured_no_number", line=line, cell=cells[at].strip()[:40])
+            marks |= {mark for mark in ".," if mark in cells[at]}
+            if len(marks) > 1:
+                raise self.refused("table_marks", line=line, cell=cells[at].strip()[:40])
         return [number for number in found if number is not None]
 
     def refused(self, name: str, /, **values: object) -> CrankworkError:
@@ -156,9 +166,10 @@ def _table(text: str, name: str) -> FileTable:
         told = "measured_one_column" if single else "measured_heading"
         raise ValueError(Refusal(told, line=single or filled[0]))
     numbers = filled[start:]
-    heading, names, units = _headings(lines[: numbers[0] - 1], separator, count)
+    heading, names, written = _headings(lines[: numbers[0] - 1], separator, count)
     rows = [lines[number - 1] for number in numbers]
-    return FileTable(name, names, units, heading or numbers[0], numbers, rows, separator)
+    units = tuple(unit_of(one) for one in written)
+    return FileTable(name, names, units, written, heading or numbers[0], numbers, rows, separator)
 
 
 def _block(lines: Sequence[str]) -> tuple[str | None, int, int]:
@@ -204,12 +215,11 @@ def _cells(line: str, separator: str | None) -> list[str]:
 
 
 def _headings(above: Sequence[str], separator: str | None, count: int) -> tuple[int, tuple[str, ...], tuple[str, ...]]:
-    """Return the line of the headings, zero for none, the headings, and the unit of each column."""
+    """Return the line of the headings, zero for none, the headings, and the unit of each column as it is written."""
     nearest = list(_divided(above, separator, count))
     of_units = next((one for _, one in nearest if _are_units(one)), None)
     line, names = next(((at, one) for at, one in nearest if one is not of_units), (0, ("",) * count))
-    units = of_units or [_apart(one)[1] for one in names]
-    return line, names, tuple(unit_of(one) for one in units)
+    return line, names, of_units or tuple(_apart(one)[1] for one in names)
 
 
 def _divided(above: Sequence[str], separator: str | None, count: int) -> Iterator[tuple[int, tuple[str, ...]]]:

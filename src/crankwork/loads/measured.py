@@ -63,6 +63,7 @@ class MeasuredPressure:
     file: str = ""  # Name of that file, without its folder
     told: tuple[Told, ...] = ()  # How the file was read
     treatment: Treatment = AS_RECORDED
+    reference: str = ""  # Whether the file says that its pressures are absolute, or gauge
 
 
 class Recorded(NamedTuple):
