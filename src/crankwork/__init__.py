@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from crankwork.report.notebook import Picture
     from crankwork.report.summary import summary_text
     from crankwork.study.solve import Solution, solve
+    from crankwork.study.spread import Spreads, spread
 
 __version__ = "0.1.0"
 
@@ -76,6 +77,7 @@ _HOMES = {
     "QUANTITIES": "quantities",
     "Results": "analysis",
     "Solution": "study.solve",
+    "Spreads": "study.spread",
     "UnknownKeyError": "errors",
     "analyse": "analysis",
     "compare": "analysis.compare",
@@ -91,6 +93,7 @@ _HOMES = {
     "scotch_yoke": "mechanism.catalog",
     "slotted_press": "mechanism.catalog",
     "solve": "study.solve",
+    "spread": "study.spread",
     "stephenson_six_bar": "mechanism.catalog",
     "summary_text": "report.summary",
     "template": "description.machine_file",
@@ -123,6 +126,7 @@ __all__ = [
     "QUANTITIES",
     "Results",
     "Solution",
+    "Spreads",
     "UnknownKeyError",
     "analyse",
     "compare",
@@ -138,6 +142,7 @@ __all__ = [
     "scotch_yoke",
     "slotted_press",
     "solve",
+    "spread",
     "stephenson_six_bar",
     "summary_text",
     "template",

@@ -291,6 +291,8 @@ class Machine:
         Of the crank. [rad/s], [rad/s2]
     title : str
         What the owner calls it.
+    deviations : mapping of str to float
+        Standard deviations of numbers that the file states with one, by key. [SI]
     digest : str
         SHA-256 of the machine file and of what was laid over it; empty for a machine made without one.
     units : str
@@ -335,6 +337,7 @@ class Machine:
     title: str = ""
     units: System = "metric"
     digest: str = field(default="", compare=False)
+    deviations: Mapping[str, float] = field(default_factory=dict, compare=False)
     linkage: Linkage | None = None
     transfer: TransferTable | None = None
     turning: Turning | None = None

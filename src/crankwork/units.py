@@ -335,6 +335,14 @@ def parse(text: str, dimensions: tuple[str, ...], *, decimal_comma: bool = False
     return Parsed(value / KGF, "mass", "kg", "weight") if is_weight else Parsed(value, unit.dimension, spelling, told)
 
 
+def size_of(found: Parsed, deviation: str) -> float:
+    """Return a standard deviation in SI, given in the unit of the value or as a share of it, `2%`."""
+    size = float(deviation.rstrip("%").replace(",", "."))
+    if deviation.endswith("%"):
+        return abs(found.value) * size / 100
+    return size * UNITS[found.unit].factor if found.unit else size
+
+
 def parse_in(text: str, unit: str) -> float:
     """Return the SI value of a quantity written by hand: a bare number is in a unit, and a comma is a decimal mark.
 

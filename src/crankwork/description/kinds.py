@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import unicodedata
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 from typing import Any, NamedTuple, Protocol
@@ -12,6 +13,12 @@ from crankwork.errors import Problem
 from crankwork.locale import Language, Refusal, say
 
 _MAX_PROBLEMS = 50
+# text of a value with a standard deviation; the unit stands behind either
+_LONG = 100
+_DEVIATION = re.compile(
+    r"\s*([+-]?[0-9][0-9.,]*(?:[eE][+-]?[0-9]+)?)\s*([^\s±+\d][^±+]*)?(?:±|\+-|\+/-)"
+    r"\s*([0-9][0-9.,]*(?:[eE][+-]?[0-9]+)?)\s*(\S.*)?"
+)
 # what is nearer to zero than this is zero, and nothing is divided by it
 _NOTHING = 1e-30
 
@@ -22,6 +29,21 @@ def _in_range(limit: float, rounding: str) -> str:
     if math.isclose(float(near), limit, rel_tol=1e-9):
         return near
     return f"{float(Context(prec=6, rounding=rounding).create_decimal(limit)):.6g}"
+
+
+def apart(text: str) -> tuple[str, str | None]:
+    """Return a stated value and its standard deviation, which may be a share of it; nothing where none is stated.
+
+    Examples
+    --------
+    >>> apart("75 ± 0.1 mm"), apart("0.25 ± 2 %"), apart("75 mm +- 1%"), apart("75 mm")
+    (('75 mm', '0.1'), ('0.25', '2%'), ('75 mm', '1%'), ('75 mm', None))
+    """
+    match = _DEVIATION.fullmatch(text) if len(text) < _LONG else None
+    if match is None:
+        return text, None
+    value, first, size, last = (one.strip() for one in match.groups(""))
+    return f"{value} {first or ('' if last == '%' else last)}".strip(), f"{size}%" if last == "%" else size
 
 
 class Measure(NamedTuple):
@@ -41,6 +63,8 @@ class Reader:
     def __init__(self, *, decimal_comma: bool = False, metric_hp: bool = False) -> None:
         self.problems: list[Problem] = []
         self.notices: list[tuple[str, dict[str, float | str]]] = []
+        # standard deviations of what is stated with one, by key [SI]
+        self.deviations: dict[str, float] = {}
         self.more = 0
         self.decimal_comma, self.metric_hp = decimal_comma, metric_hp
         self._blamed: set[str] = set()
@@ -101,6 +125,7 @@ class Quantity(NamedTuple):
             written = f'"{text} {known}"' if _is_moderate(value) else f'"{example}"'
             reader.complain(key, Refusal("no_unit", value=text, example=written))
             return None
+        value, deviation = apart(value)
         try:
             found = units.parse(value, self.dimensions, decimal_comma=reader.decimal_comma, metric_hp=reader.metric_hp)
         except ValueError as error:
@@ -109,6 +134,8 @@ class Quantity(NamedTuple):
         if not self._holds(found.value):
             reader.complain(key, self._out_of_range(value.strip(), found.dimension))
             return None
+        if deviation is not None:
+            reader.deviations[key] = units.size_of(found, deviation)
         if found.told:
             reader.notices.append((found.told, {"path": key, "text": value.strip(), "value": found.value}))
         return Measure(found.value if abs(found.value) > _NOTHING else 0.0, found.dimension, found.unit)
@@ -162,8 +189,11 @@ class Number(NamedTuple):
 
     def read(self, value: object, key: str, reader: Reader) -> float | None:
         """Return the number."""
-        if isinstance(value, str) and reader.decimal_comma and value.count(",") == 1:
-            value = _float(value.replace(",", "."))
+        deviation = None
+        if isinstance(value, str):
+            stated, deviation = apart(value)
+            is_number = deviation is not None or (reader.decimal_comma and value.count(",") == 1)
+            value = _float(stated.replace(",", ".")) if is_number else value
         if isinstance(value, bool) or not isinstance(value, int | float):
             reader.complain(key, Refusal("number_plain", value=shown(value), example=self.example()))
             return None
@@ -174,6 +204,8 @@ class Number(NamedTuple):
         if self.whole and not number.is_integer():
             reader.complain(key, self._out_of_range("whole", value))
             return None
+        if deviation is not None:
+            reader.deviations[key] = units.size_of(units.Parsed(number, "", ""), deviation)
         return number if abs(number) > _NOTHING else 0.0
 
     def _out_of_range(self, kind: str, value: object) -> Refusal:

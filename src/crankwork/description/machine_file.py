@@ -88,7 +88,9 @@ def read_machine(
         raise input_error(source, name, reader, settings)
     digest = hashlib.sha256("\0".join([source, *map(str, settings)]).encode("utf-8", "surrogatepass")).hexdigest()
     told = (*machine.notices, *reader.notices)
-    return replace(machine, notices=told, units=values.get("units", "metric"), digest=digest)
+    return replace(
+        machine, notices=told, units=values.get("units", "metric"), digest=digest, deviations=reader.deviations
+    )
 
 
 def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | None:
