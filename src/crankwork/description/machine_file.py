@@ -22,7 +22,7 @@ from crankwork.description.kinds import Reader, is_one_line
 from crankwork.description.linkage_keys import DRIVEN_FILE, LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.locate import locate
 from crankwork.description.measured_build import read_measured
-from crankwork.description.schema import ListOf, Named, Nested, Table, Values
+from crankwork.description.schema import ListOf, Named, NameOr, Nested, Table, Values
 from crankwork.description.turning_keys import PRESS_FILE, TURNING_FILE
 from crankwork.errors import CrankworkError, InputError, Problem, UnknownKeyError
 from crankwork.loads.indicator import DiagramError
@@ -279,6 +279,8 @@ def entry_at(entry: object, step: str | int) -> object:
             return entry.keys[step].kind if isinstance(step, str) and step in entry.keys else None
         case Named() | ListOf() | Nested():
             return entry.entry
+        case NameOr():
+            return entry_at(entry.other, step)
     return None
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import io
 import json
-import math
 import os
 import re
 import sys
@@ -14,15 +13,13 @@ from typing import TYPE_CHECKING, TextIO
 
 import click
 
+from crankwork.cli.asked import analysed, compared, doubt, laid_over, machine_of, place_of, refusal
 from crankwork.errors import CrankworkError, DoubtfulError, InputError
 from crankwork.progress import bar, with_progress
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from crankwork.analysis import Results
-    from crankwork.description.machine_file import Setting
-    from crankwork.machine import Machine
     from crankwork.quantities import Language
 
 _LANGUAGE = click.Choice(["en", "ru", "vi"])
@@ -47,7 +44,7 @@ def _exit_code() -> int:
         if sys.stdout is not None:
             sys.stdout.flush()
     except InputError as error:
-        _tell(*error.lines(_told), _told(_refusal("nothing_computed")))
+        _tell(*error.lines(_told), _told(refusal("nothing_computed")))
     except CrankworkError as error:
         _tell(_told(error.args[0]))
         return 1 if isinstance(error, DoubtfulError) else 2
@@ -63,7 +60,7 @@ def _exit_code() -> int:
     except OSError as error:
         # everything else that touches the disk is in `files`, so this is the output itself
         _send_nowhere(sys.stdout)
-        _tell(_told(_refusal("output_unwritable", reason=(error.strerror or "unknown reason").lower())))
+        _tell(_told(refusal("output_unwritable", reason=(error.strerror or "unknown reason").lower())))
     else:
         return 0
     return 2
@@ -82,13 +79,6 @@ def _tell(*lines: str) -> None:
         click.echo("\n".join(lines), err=True)
 
 
-def _refusal(name: str, **values: object) -> str:
-    """Return a refusal, which `_told` can say in another language."""
-    from crankwork.locale import Refusal
-
-    return Refusal(name, **values)
-
-
 def _told(message: str) -> str:
     """Return a refusal in the language that the command line asks for, which may be what is wrong with it."""
     from crankwork.locale import told
@@ -102,23 +92,23 @@ def _usage_sentence(error: click.ClickException) -> str:
     match error:
         case click.NoSuchOption():
             if error.possibilities:
-                return _refusal("option_unknown_near", option=error.option_name, nearest=error.possibilities[0])
-            return _refusal("option_unknown", option=error.option_name)
+                return refusal("option_unknown_near", option=error.option_name, nearest=error.possibilities[0])
+            return refusal("option_unknown", option=error.option_name)
         case click.BadOptionUsage():
-            return _refusal("option_value", option=error.option_name)
+            return refusal("option_value", option=error.option_name)
         case click.MissingParameter() if isinstance(error.param, click.Option):
             option = f"{error.param.opts[0]} {error.param.metavar or ''}".strip()
-            return _refusal("option_missing", option=error.param.opts[0], written=option)
+            return refusal("option_missing", option=error.param.opts[0], written=option)
         case click.MissingParameter():
             name = (error.param.name or "argument").upper() if error.param else "argument"
-            return _refusal("argument_missing", argument=name)
+            return refusal("argument_missing", argument=name)
         case click.BadParameter() if error.param and isinstance(error.param.type, click.Choice):
             found = re.search(r"'(.*)' is not one of", error.message)
-            given, choices = found[1] if found else _refusal("this"), tuple(error.param.type.choices)
-            return _refusal("option_choice", option=error.param.opts[0], given=given, choices=choices)
+            given, choices = found[1] if found else refusal("this"), tuple(error.param.type.choices)
+            return refusal("option_choice", option=error.param.opts[0], given=given, choices=choices)
         case click.exceptions.NoSuchCommand():
             known = ", ".join(commands.commands)
-            return _refusal("no_command", command=error.command_name[:40], known=known)
+            return refusal("no_command", command=error.command_name[:40], known=known)
         case _:
             return f"{error.format_message().rstrip('.')}; see crankwork --help"
 
@@ -169,7 +159,7 @@ def check(  # noqa: PLR0913 - one argument per option of the command
 ) -> None:
     """Say what a machine file describes, or every mistake in it at once."""
     if expand and (circuits or as_json):
-        raise CrankworkError(_refusal("expand_alone"))
+        raise CrankworkError(refusal("expand_alone"))
     if expand:
         from crankwork.description.expand import expanded
 
@@ -181,15 +171,15 @@ def check(  # noqa: PLR0913 - one argument per option of the command
     from crankwork.report.summary import description_text
 
     if as_json and not circuits:
-        raise CrankworkError(_refusal("json_of_circuits"))
-    machine = read(file, _overrides(settings, units=units))
+        raise CrankworkError(refusal("json_of_circuits"))
+    machine = read(file, laid_over(settings, units=units))
     if circuits and as_json:
         from crankwork.analysis.ways import ways
         from crankwork.report.ways import ways_data
 
         click.echo(json.dumps(ways_data(machine, ways(machine)), ensure_ascii=False, indent=1))
         return
-    results = _analysed(machine)
+    results = analysed(machine)
     click.echo(f"{file}: {machine.title}" if machine.title else file)
     click.echo(description_text(results, language))
     if circuits:
@@ -199,7 +189,7 @@ def check(  # noqa: PLR0913 - one argument per option of the command
         click.echo(ways_text(machine, ways(machine), language))
     for notice in results.notices:
         click.echo(say("check.note", language, notice=notice_text(notice.code, notice.values, language)))
-    _doubt(file, results, language)
+    doubt(file, results, language)
 
 
 @commands.command()
@@ -238,12 +228,12 @@ def run(  # noqa: PLR0913 - one argument per option of the command
     from crankwork import files
     from crankwork.report import summary
 
-    machine = _machine(file, _overrides(settings, step, method, units), per_area=per_area)
+    machine = machine_of(file, laid_over(settings, step, method, units), per_area=per_area)
     if output is not None:
         if not output:
-            raise CrankworkError(_refusal("folder_unnamed"))
+            raise CrankworkError(refusal("folder_unnamed"))
         files.check_folder(output, overwrite=overwrite)
-    results = _compared(machine, file, compare, per_area=per_area)
+    results = compared(machine, file, compare, per_area=per_area)
     if as_json:
         click.echo(json.dumps(summary.summary_data(results, per_area=per_area), ensure_ascii=False, indent=1))
     else:
@@ -260,7 +250,7 @@ def run(  # noqa: PLR0913 - one argument per option of the command
         click.echo(f"\n{say('report.written', language)} {output}", err=as_json)
         if (missing := left_out(with_figures=not no_figures)) is not None:
             _tell(say("check.note", language, notice=_told(missing.args[0])))
-    _doubt(file, results, language)
+    doubt(file, results, language)
 
 
 @commands.command()
@@ -312,19 +302,19 @@ def report(  # noqa: PLR0913 - one argument per option of the command
     from crankwork.note.options import NoteOptions
 
     files.check_files(output, overwrite=overwrite)
-    machine = _machine(file, _overrides(settings, step, method, units), per_area=per_area)
+    machine = machine_of(file, laid_over(settings, step, method, units), per_area=per_area)
     options = NoteOptions(
         language=language, school=school or "", per_area=per_area, title=title.strip(), author=author.strip(),
         figures=not no_figures, sheets=sheets,
     )  # fmt: skip
-    results = _compared(machine, file, compare, per_area=per_area)
+    results = compared(machine, file, compare, per_area=per_area)
     written: dict[str | Path, bytes] = {output: written_note(note_of(results, options), output)}
     if sheets:
         stem = os.path.splitext(output)[0]  # noqa: PTH122 - a name, not a file
         written |= {stem + ending: data for ending, data in sheets_of(results, options).items()}
     files.write_files(written, overwrite=overwrite)
     click.echo(f"{say('report.written', language)} {', '.join(map(str, written))}")
-    _doubt(file, results, language)
+    doubt(file, results, language)
 
 
 @commands.command()
@@ -353,12 +343,12 @@ def explain(  # noqa: PLR0913 - one argument per option of the command
     from crankwork.note.explain import explanation, key_lines, place_text
 
     if key is None and not with_keys:
-        raise CrankworkError(_refusal("explain_what"))
-    overrides = _overrides(settings, None, method, units)
+        raise CrankworkError(refusal("explain_what"))
+    overrides = laid_over(settings, None, method, units)
     # what is no crank angle may be a time, which the machine knows
     machine = read(file, overrides)
-    where = None if at is None else _at(at, "time" if machine.mechanism.driver.law else "angle")
-    results = _analysed(machine)
+    where = None if at is None else place_of(at, "time" if machine.mechanism.driver.law else "angle")
+    results = analysed(machine)
     if key is None or with_keys:
         click.echo("\n".join(key_lines(results, language)))
         return
@@ -409,6 +399,38 @@ def solve(  # noqa: PLR0913 - one argument per option of the command
 
 
 @commands.command()
+@click.argument("file")
+@click.argument("keys", nargs=-1)
+@click.option("--samples", default="2000", show_default=True, help="Draws where numbers do not act one by one.")
+@click.option("--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the output.")
+@click.option("--units", type=_UNITS, help="System of units of the output, instead of the file's own.")
+@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
+@click.option("--json", "as_json", is_flag=True, help="Print the spreads as one JSON object.")
+def spread(  # noqa: PLR0913 - one argument per option of the command
+    file: str,
+    keys: tuple[str, ...],
+    samples: str,
+    language: Language,
+    units: str | None,
+    settings: tuple[str, ...],
+    *,
+    as_json: bool,
+) -> None:
+    """Tell how far results spread where the file states numbers with a deviation: "75 ± 0.1 mm"."""
+    from crankwork.description.document import load
+    from crankwork.study.spread import spread as found_spread
+    from crankwork.study.spread_text import spread_data, spread_text
+
+    count = int(samples) if samples.isascii() and samples.isdecimal() and len(samples) < 10 else 0
+    with bar() as told:
+        found = found_spread(load(file), keys, samples=count, overrides=laid_over(settings, units=units), told=told)
+    if as_json:
+        click.echo(json.dumps(spread_data(found), ensure_ascii=False, indent=1))
+    else:
+        click.echo(spread_text(found, language))
+
+
+@commands.command()
 @click.option(
     "--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the descriptions."
 )
@@ -417,80 +439,3 @@ def schema(language: Language) -> None:
     from crankwork.description.machine_file import json_schema
 
     click.echo(json_schema(language))
-
-
-def _machine(file: str, overrides: list[str | Setting], *, per_area: bool) -> Machine:
-    """Return the machine of a file with the options of a command put into it."""
-    from crankwork.description.machine_file import read
-
-    machine = read(file, overrides)
-    if per_area and machine.cylinder is None:
-        raise CrankworkError(_refusal("per_area_bore"))
-    return machine
-
-
-def _overrides(
-    settings: tuple[str, ...], step: str | None = None, method: str | None = None, units: str | None = None
-) -> list[str | Setting]:
-    """Return the settings of a command with what its options say."""
-    from crankwork.description.machine_file import Setting
-
-    overrides: list[str | Setting] = list(settings)
-    if step is not None:
-        overrides.append(Setting("--step", "table.step", _degrees(step)))
-    if method is not None:
-        overrides.append(Setting("--method", "method.kinematics", method))
-    if units is not None:
-        overrides.append(Setting("--units", "units", units))
-    return overrides
-
-
-def _doubt(file: str, results: Results, language: Language) -> None:
-    """Raise if the results do not hold together, or do not cover what was asked; they have been told and written."""
-    from crankwork.report.summary import warning_text
-
-    every = {file: results}
-    if results.compared is not None:
-        every |= zip(results.compared.names[1:], results.compared.others, strict=True)
-    for name, one in every.items():
-        if warning := warning_text(one, language):
-            raise DoubtfulError(f"{name}: {warning}")
-
-
-def _degrees(text: str) -> str:
-    """Return a step with its unit, which may be left out."""
-    return f"{text} deg" if text.strip()[-1:].isdecimal() else text
-
-
-def _at(text: str, dimension: str) -> float:
-    """Return a crank angle [deg] or a time [s], as a person writes it: without a unit, or with a decimal comma."""
-    from crankwork.units import parse_in
-
-    try:
-        value = parse_in(text, "deg" if dimension == "angle" else "s")
-    except ValueError as error:
-        raise CrankworkError(_refusal("option_wrong", option="--at", mistake=error.args[0])) from None
-    return round(math.degrees(value), 9) if dimension == "angle" else value
-
-
-def _analysed(machine: Machine) -> Results:
-    """Return the results of a machine, with a bar on the error stream where one let go takes more than a second."""
-    from crankwork.analysis import analyse
-
-    with bar() as told:
-        return analyse(machine, progress=told)
-
-
-def _compared(machine: Machine, file: str, asked: str | None, *, per_area: bool) -> Results:
-    """Return the results of a machine, with those beside them that it is to be compared with."""
-    if asked is None:
-        return _analysed(machine)
-    from crankwork.analysis.compare import compare
-    from crankwork.study.beside import others
-
-    name, machines = others(machine, file, asked)
-    results = _analysed(machine)
-    found = compare(results, {other: _analysed(one) for other, one in machines.items()}, name)
-    if per_area and found.compared is not None and not found.compared.is_of_methods:
-        raise CrankworkError(_refusal("compare_per_area"))
-    return found

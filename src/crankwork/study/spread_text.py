@@ -1,0 +1,65 @@
+"""Spreads of single values as text and as plain data."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from crankwork.locale import Language, say
+from crankwork.report.language import displayed, key_unit, label, number, rounded, unit_name
+from crankwork.study.spread import Spreads
+from crankwork.units import from_si, shown_in
+
+# causes that bring less of the variance are not told
+_LEAST = 0.005
+
+
+def spread_text(found: Spreads, language: Language = "en") -> str:
+    """Return every value that spreads with its deviation, and where that comes from."""
+    with shown_in(found.results.machine.units):
+        return _text(found, language)
+
+
+def _text(found: Spreads, language: Language) -> str:
+    title = found.results.machine.title
+    lines = [title] if title else []
+    lines += [say("study.normal", language), ""]
+    rows = []
+    for key, one in found.items():
+        causes = ", ".join(
+            f"{cause.key} {number(100 * cause.share, language, digits=3)} %"
+            for cause in one.causes
+            if cause.share > _LEAST
+        )
+        sign = say("study.sampled", language) if one.is_sampled else ""
+        shown = [number(one_value, language) for one_value in (displayed(key, one.value), _size(key, one.deviation))]
+        rows.append((label(key, language), " ± ".join(shown), unit_name(key_unit(key), language), causes, sign))
+    wide = [max((len(row[at]) for row in rows), default=0) for at in range(4)]
+    lines += ["  ".join(cell.ljust(size) for cell, size in zip(row, [*wide, 0], strict=True)).rstrip() for row in rows]
+    if found.samples:
+        lines += ["", say("study.samples", language, count=str(found.samples), sign=say("study.sampled", language))]
+    return "\n".join(lines)
+
+
+def _size(key: str, deviation: float) -> float:
+    """Return a difference in the unit of a key, whose zero does not count."""
+    unit = key_unit(key)
+    return float(from_si(deviation, unit) - from_si(0.0, unit)) if unit else deviation
+
+
+def spread_data(found: Spreads) -> dict[str, Any]:
+    """Return the spreads as plain data, in the units of the tables."""
+    with shown_in(found.results.machine.units):
+        return {
+            "title": found.results.machine.title,
+            "samples": found.samples,
+            "spreads": {
+                key: {
+                    "value": rounded(displayed(key, one.value)),
+                    "deviation": rounded(_size(key, one.deviation)),
+                    "unit": key_unit(key),
+                    "is_sampled": one.is_sampled,
+                    "causes": {cause.key: rounded(cause.share) for cause in one.causes},
+                }
+                for key, one in found.items()
+            },
+        }

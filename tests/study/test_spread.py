@@ -1,0 +1,141 @@
+"""Spreads against closed forms and a hundred thousand draws of formulas that are written here."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+import crankwork
+from crankwork.study.spread_text import spread_text
+
+pytestmark = pytest.mark.elsewhere
+
+COUNT = 100_000
+
+
+def draws(*pairs: tuple[float, float]) -> list[np.ndarray]:
+    generator = np.random.default_rng(20261122)
+    return [mean + size * generator.standard_normal(COUNT) for mean, size in pairs]
+
+
+def slider_crank(**changes: str) -> crankwork.Description:
+    description = crankwork.Description(crankwork.template("slider-crank"))
+    description.replace({key.replace("__", "."): value for key, value in changes.items()})
+    return description
+
+
+def test_one_per_cent_of_four_numbers_against_draws() -> None:
+    description = slider_crank(
+        crank__radius="50 mm ± 1 %",
+        rod__length="200 ± 2 mm",
+        crank__speed="1500 +- 15 rpm",
+        piston__mass="0.8 kg ± 1 %",
+    )
+    found = crankwork.spread(description)
+    r, rod, w, _ = draws((0.05, 0.0005), (0.2, 0.002), (50 * math.pi, 0.5 * math.pi), (0.8, 0.008))
+    phi = np.radians(np.linspace(68, 84, 161))[:, None]
+    shift = (r / rod) * np.sin(phi)
+    velocity = (r * w * (np.sin(phi) + shift * np.cos(phi) / np.sqrt(1 - shift**2))).max(axis=0)
+    expected = {
+        "stroke": 2 * r,
+        "rod_ratio": r / rod,
+        "piston_velocity_max": velocity,
+        "piston_acceleration_max": r * w**2 * (1 + r / rod),
+    }
+    for key, drawn in expected.items():
+        assert found[key].deviation == pytest.approx(float(drawn.std()), rel=0.01), key
+        assert sum(cause.share for cause in found[key].causes) == pytest.approx(1)
+        assert not found[key].is_sampled
+    # of r w^2 (1 + r/l) the speed brings (2 %)^2 of the variance, the crank (1.2 %)^2, the rod (0.2 %)^2
+    shares = {cause.key: cause.share for cause in found["piston_acceleration_max"].causes}
+    assert shares["crank.speed"] == pytest.approx(4 / (4 + 1.44 + 0.04), rel=1e-3)
+    assert next(iter(shares)) == "crank.speed"
+
+
+def test_a_value_at_its_least_spreads_by_its_curvature() -> None:
+    """The stroke of a centric slider-crank is the least over its offset."""
+    found = crankwork.spread(slider_crank(cylinder__offset="0 ± 8 mm"))
+    (e,) = draws((0.0, 0.008))
+    stroke = np.sqrt(0.25**2 - e**2) - np.sqrt(0.15**2 - e**2)
+    assert found["stroke"].deviation == pytest.approx(float(stroke.std()), rel=0.02)
+
+
+OFFSET = """
+[fixed_points]
+O = ["0 mm", "0 mm"]
+[crank]
+pivot = "O"
+pin = "A"
+radius = "50 mm"
+speed = "60 rpm"
+[links]
+rod = { joins = ["A", "B"], length = "200 mm" }
+[guides]
+bed = { through = ["0 mm", "0 ± 2 mm"] }
+[sliders]
+ram = { guide = "bed", pin = "B" }
+"""
+
+
+def test_where_the_largest_of_two_peaks_changes_draws_are_taken_and_told() -> None:
+    """The largest pressure angle of a centric slider-crank is asin((r + |e|) / l)."""
+    description = crankwork.Description(OFFSET)
+    found = crankwork.spread(description, ["pressure_angle_max.B"], samples=1500)
+    (e,) = draws((0.0, 0.002))
+    expected = float(np.arcsin((0.05 + np.abs(e)) / 0.2).std())
+    one = found["pressure_angle_max.B"]
+    assert one.is_sampled
+    assert found.samples == 1500
+    # of 1500 draws a deviation is known to 1.8 %
+    assert one.deviation == pytest.approx(expected, rel=0.06)
+    assert "1500" in spread_text(found)
+
+
+def test_the_command_tells_values_deviations_and_causes(tmp_path, capsys, monkeypatch) -> None:
+    from crankwork import cli
+
+    (tmp_path / "my.toml").write_text(slider_crank(crank__radius="50 ± 0.1 mm").dump(), encoding="utf-8")
+    for language, words in (("en", "Standard deviations"), ("ru", "отклонения"), ("vi", "Độ lệch chuẩn")):
+        monkeypatch.setattr("sys.argv", ["crankwork", "spread", str(tmp_path / "my.toml"), "--lang", language])
+        with pytest.raises(SystemExit) as ended:
+            cli.main()
+        out = capsys.readouterr().out
+        assert not ended.value.code
+        assert words in out
+        assert "crank.radius 100 %" in out
+    monkeypatch.setattr(
+        "sys.argv", ["crankwork", "spread", str(tmp_path / "my.toml"), "stroke", "--units", "imperial", "--json"]
+    )
+    with pytest.raises(SystemExit):
+        cli.main()
+    data = json.loads(capsys.readouterr().out)["spreads"]
+    assert list(data) == ["stroke"]
+    assert data["stroke"]["deviation"] == pytest.approx(0.2 / 25.4)
+    assert data["stroke"]["unit"] == "in"
+
+
+@pytest.mark.parametrize(
+    ("changes", "keys", "message"),
+    [
+        ({}, (), "no number of the file has a deviation"),
+        ({"crank__radius": "50 ± 0.1 mm"}, ("strok",), "stroke"),
+        ({"crank__radius": "50 ± 0.1 mm"}, ("piston_velocity",), "single values|angle"),
+        ({"crank__radius": "50 ± -1 mm"}, (), "crank.radius"),
+        ({"crank__radius": "50 ± mm"}, (), "crank.radius"),
+        ({"crank__radius": "50 ± 1 kg"}, (), "crank.radius"),
+        ({"crank__radius": "50 ± 80 mm"}, (), "crank.radius"),
+    ],
+)
+def test_what_cannot_be_spread_is_refused(changes: dict[str, str], keys: tuple[str, ...], message: str) -> None:
+    with pytest.raises(crankwork.CrankworkError, match=message):
+        crankwork.spread(slider_crank(**changes), keys)
+
+
+def test_a_file_with_deviations_is_the_machine_of_its_values() -> None:
+    plain = crankwork.analyse(slider_crank())
+    spread = crankwork.analyse(slider_crank(crank__radius="50 ± 0.1 mm", rod__length="200 mm +- 1%"))
+    assert dict(plain.summary) == dict(spread.summary)
+    assert spread.machine.deviations == {"crank.radius": pytest.approx(1e-4), "rod.length": pytest.approx(2e-3)}
