@@ -15,7 +15,7 @@ import pytest
 from crankwork import cli
 from crankwork.description.machine_file import template
 
-SOURCE = Path(cli.__file__).parents[1]
+SOURCE = Path(cli.__file__).parents[2]
 # file:line: key: what is wrong; what to write instead
 LINE = re.compile(r"(?P<place>[^\n]+?:\d+): (?P<key>[^\s:][^:\n]*): (?P<message>[^\n]+)")
 

@@ -202,7 +202,7 @@ def test_a_title_with_emoji_and_any_script_is_printed_as_it_is(crankwork, machin
 def test_new_prints_the_names_or_the_template(crankwork) -> None:
     assert crankwork("new").out.split() == [
         "compressor", "crank-shaper", "engine", "four-bar", "press", "scotch-yoke", "slider-crank",
-        "stephenson-six-bar", "toggle-press", "watt-six-bar", "whitworth", "whole-engine",
+        "stephenson-six-bar", "toggle-press", "turning-moment", "watt-six-bar", "whitworth", "whole-engine",
     ]  # fmt: skip
     assert crankwork("new", "engine").out == template("engine")
 
