@@ -16,6 +16,11 @@ from crankwork.formula.expression import FORMULAS, Formula
 
 Report = TypeVar("Report", pytest.TestReport, pytest.CollectReport)
 
+# commands speak the language of the system, and tests expect English
+os.environ.pop("LC_ALL", None)
+os.environ.pop("LC_MESSAGES", None)
+os.environ["LANG"] = "C.UTF-8"
+
 IN_CI = os.environ.get("CI") == "true"
 
 # Parallel tests share the processor, so a deadline would measure the neighbours.

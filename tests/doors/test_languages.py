@@ -157,3 +157,34 @@ def test_why_a_linkage_stops_short_of_a_turn_is_told_in_the_language(crankwork):
     Path("my.toml").write_text(template("four-bar").replace("112.5 mm", "75 mm"), "utf-8")
     for language, said in (("ru", "звенья coupler и rocker не сходятся"), ("vi", "các khâu coupler và rocker không")):
         assert said in crankwork("run", "my.toml", "--lang", language).out
+
+
+@pytest.mark.parametrize(
+    ("variables", "words"),
+    [
+        ({"LANG": "ru_RU.UTF-8"}, "ход поршня"),
+        ({"LC_ALL": "vi_VN", "LANG": "ru_RU.UTF-8"}, "hành trình"),
+        ({"LC_MESSAGES": "ru_UA.UTF-8"}, "ход поршня"),
+        ({"LANG": "uk_UA.UTF-8"}, "stroke"),
+        ({"LANG": "C"}, "stroke"),
+    ],
+)
+def test_commands_speak_the_language_of_the_system(crankwork, machine_file, monkeypatch, variables, words) -> None:
+    for name, value in variables.items():
+        monkeypatch.setenv(name, value)
+    path = machine_file(name="slider-crank")
+    assert words in crankwork("run", path).out
+    assert "stroke" in crankwork("run", path, "--lang", "en").out
+    refused = crankwork("run", "nothing.toml").err
+    assert ("проверьте" in refused) == (words == "ход поршня")
+
+
+@pytest.mark.parametrize("language", ["ru", "vi"])
+def test_the_short_introductions_show_files_and_commands_that_work(crankwork, tmp_path, language) -> None:
+    text = (EXAMPLES.parent / f"docs/README.{language}.md").read_text("utf-8")
+    (sample,) = re.findall(r"```toml\n(.*?)```", text, re.DOTALL)
+    (tmp_path / "my.toml").write_text(sample, encoding="utf-8")
+    assert crankwork("check", "my.toml", "--lang", language).code == 0
+    for command, file in re.findall(r"^\.venv/bin/crankwork (\w+) (\S+)", text, re.MULTILINE):
+        options = set(re.findall(rf"crankwork {command} .*?(--[a-z]+)", text))
+        assert options <= set(re.findall(r"--[a-z-]+", crankwork(command, "--help").out)), (command, file)

@@ -13,7 +13,16 @@ from typing import TYPE_CHECKING, TextIO
 
 import click
 
-from crankwork.cli.asked import analysed, compared, doubt, laid_over, machine_of, place_of, refusal
+from crankwork.cli.asked import (
+    analysed,
+    compared,
+    doubt,
+    laid_over,
+    language_of_system,
+    machine_of,
+    place_of,
+    refusal,
+)
 from crankwork.errors import CrankworkError, DoubtfulError, InputError
 from crankwork.progress import bar, with_progress
 
@@ -84,7 +93,7 @@ def _told(message: str) -> str:
     from crankwork.locale import told
 
     asked = re.findall(r"(?<=\0)--lang(?:\0|=)(en|ru|vi)(?=\0)", "\0".join(["", *sys.argv[1:], ""]))
-    return told(message, asked[-1] if asked else "en")
+    return told(message, asked[-1] if asked else language_of_system())
 
 
 def _usage_sentence(error: click.ClickException) -> str:
@@ -141,7 +150,14 @@ def new(name: str | None, output: str | None, *, overwrite: bool) -> None:
 
 @commands.command()
 @click.argument("file")
-@click.option("--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the output.")
+@click.option(
+    "--lang",
+    "language",
+    type=_LANGUAGE,
+    default=language_of_system,
+    show_default="of the system, or en",
+    help="Language of the output.",
+)
 @click.option("--units", type=_UNITS, help="System of units of the output, instead of the file's own.")
 @click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
 @click.option("--circuits", is_flag=True, help="List every way to assemble a linkage, and how far it moves on each.")
@@ -197,7 +213,14 @@ def check(  # noqa: PLR0913 - one argument per option of the command
 @click.option("-o", "--output", metavar="DIR", help="Write tables, figures and the moving drawing into this folder.")
 @click.option("--step", metavar="DEG", help="Step of the tables, in degrees of crank angle.")
 @click.option("--method", metavar="NAME", help="exact, textbook or series:N, instead of the file's own.")
-@click.option("--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the output.")
+@click.option(
+    "--lang",
+    "language",
+    type=_LANGUAGE,
+    default=language_of_system,
+    show_default="of the system, or en",
+    help="Language of the output.",
+)
 @click.option("--units", type=_UNITS, help="System of units of the output, instead of the file's own.")
 @click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
 @click.option(
@@ -260,7 +283,14 @@ def run(  # noqa: PLR0913 - one argument per option of the command
 )
 @click.option("--step", metavar="DEG", help="Step of the tables, in degrees of crank angle.")
 @click.option("--method", metavar="NAME", help="exact, textbook or series:N, instead of the file's own.")
-@click.option("--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the note.")
+@click.option(
+    "--lang",
+    "language",
+    type=_LANGUAGE,
+    default=language_of_system,
+    show_default="of the system, or en",
+    help="Language of the note.",
+)
 @click.option("--school", type=_LANGUAGE, help="Whose order of sections; that of the language if left out.")
 @click.option("--units", type=_UNITS, help="System of units of the output, instead of the file's own.")
 @click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
@@ -323,7 +353,14 @@ def report(  # noqa: PLR0913 - one argument per option of the command
 @click.option("--at", metavar="DEG", help="Crank angle, or time where a law drives, for what varies with it.")
 @click.option("--list", "with_keys", is_flag=True, help="Print the keys.")
 @click.option("--method", metavar="NAME", help="exact, textbook or series:N, instead of the file's own.")
-@click.option("--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the output.")
+@click.option(
+    "--lang",
+    "language",
+    type=_LANGUAGE,
+    default=language_of_system,
+    show_default="of the system, or en",
+    help="Language of the output.",
+)
 @click.option("--units", type=_UNITS, help="System of units of the output, instead of the file's own.")
 @click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
 def explain(  # noqa: PLR0913 - one argument per option of the command
@@ -367,7 +404,14 @@ def explain(  # noqa: PLR0913 - one argument per option of the command
 @click.option("--from", "start", metavar="VALUE", help="Where to begin looking, with a unit or in that of the file.")
 @click.option("--to", "end", metavar="VALUE", help="Where to end looking.")
 @click.option("--steps", metavar="N", default="400", show_default=True, help="How many steps to look at.")
-@click.option("--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the output.")
+@click.option(
+    "--lang",
+    "language",
+    type=_LANGUAGE,
+    default=language_of_system,
+    show_default="of the system, or en",
+    help="Language of the output.",
+)
 @click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
 @click.option("--json", "as_json", is_flag=True, help="Print what was found as one JSON object.")
 def solve(  # noqa: PLR0913 - one argument per option of the command
@@ -402,7 +446,14 @@ def solve(  # noqa: PLR0913 - one argument per option of the command
 @click.argument("file")
 @click.argument("keys", nargs=-1)
 @click.option("--samples", default="2000", show_default=True, help="Draws where numbers do not act one by one.")
-@click.option("--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the output.")
+@click.option(
+    "--lang",
+    "language",
+    type=_LANGUAGE,
+    default=language_of_system,
+    show_default="of the system, or en",
+    help="Language of the output.",
+)
 @click.option("--units", type=_UNITS, help="System of units of the output, instead of the file's own.")
 @click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
 @click.option("--json", "as_json", is_flag=True, help="Print the spreads as one JSON object.")
@@ -432,7 +483,12 @@ def spread(  # noqa: PLR0913 - one argument per option of the command
 
 @commands.command()
 @click.option(
-    "--lang", "language", type=_LANGUAGE, default="en", show_default=True, help="Language of the descriptions."
+    "--lang",
+    "language",
+    type=_LANGUAGE,
+    default=language_of_system,
+    show_default="of the system, or en",
+    help="Language of the descriptions.",
 )
 def schema(language: Language) -> None:
     """Print the JSON Schema of the machine file, for editors."""

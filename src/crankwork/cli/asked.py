@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from typing import TYPE_CHECKING
 
 from crankwork.errors import CrankworkError, DoubtfulError
@@ -13,6 +14,17 @@ if TYPE_CHECKING:
     from crankwork.description.machine_file import Setting
     from crankwork.machine import Machine
     from crankwork.quantities import Language
+
+
+def language_of_system() -> Language:
+    """Return the language that the system is set to, if there are words in it; English otherwise."""
+    stated = (os.environ.get(name) for name in ("LC_ALL", "LC_MESSAGES", "LANG"))
+    match next((one for one in stated if one), "").partition("_")[0]:
+        case "ru":
+            return "ru"
+        case "vi":
+            return "vi"
+    return "en"
 
 
 def refusal(name: str, **values: object) -> str:
