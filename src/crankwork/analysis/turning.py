@@ -188,6 +188,11 @@ def _excess(turning: Turning, over: OverCycle) -> tuple[Curve, ExcessWork]:
     for table, key in _keys(turning):
         net = net + _curve(over, key) * parts[table]
     found = excess_work(net)
+    low, _, high, _ = net.extremes()
+    if found.work <= _NOTHING * turning.cycle * max(abs(low), abs(high)):
+        # what only rounding moves stands
+        net = Curve.constant(found.mean_torque, turning.cycle)
+        found = excess_work(net)
     jumps = [
         _saw(diagram, turning.cycle) * parts[table] for table, diagram in turning.diagrams.items() if _blows(diagram)
     ]

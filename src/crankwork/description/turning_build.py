@@ -34,6 +34,7 @@ _OF_ENERGY = ("areas", "excess_work", "energy_fluctuation")
 # works of a document are rounded; beyond this share a shaft would not run at one speed
 _BALANCED = 5e-3
 _CLOSED = 1e-6
+_MOST_ROWS = 10_000
 _TRIES, _SETTLED = 50, 1e-15
 
 
@@ -66,6 +67,8 @@ def build_turning(values: Values, reader: Reader) -> Machine | None:
     if reader.problems or speed is None:
         return None
     turning = _turning(values, _Shaft(speed, method, reader))
+    if turning is not None:
+        _check_rows(turning, values, reader)
     if reader.problems or turning is None:
         return None
     machine = Machine(
@@ -80,6 +83,13 @@ def build_turning(values: Values, reader: Reader) -> Machine | None:
         stated=stated_numbers(values),
     )
     return machine if largest is None else _slowed(machine, turning, values, reader)
+
+
+def _check_rows(turning: Turning, values: Values, reader: Reader) -> None:
+    """Complain of a table that would be longer than anybody reads."""
+    rows = turning.cycle / values["table"].si("step")
+    if rows > _MOST_ROWS:
+        reader.complain("table.step", Refusal("transient_rows", rows=rows, most=_MOST_ROWS))
 
 
 def _slowed(machine: Machine, turning: Turning, values: Values, reader: Reader) -> Machine | None:
