@@ -78,7 +78,7 @@ def test_twelve_columns_are_asked_about(read):
     message = refusal(read, text)
     assert "p.txt, line 1: say which column is meant" in message
     assert '2 ("p_800 rpm"), 3 ("p_1200 rpm")' in message
-    assert 'write pressure_column = "p_800 rpm"' in message
+    assert 'write pressure_column = "p_800 rpm", or "2..12" if each of them is a cycle' in message
     assert is_right(read(text, 'pressure_unit = "bar"\npressure_column = "p_4800 rpm"'))
     assert is_right(read(text, 'pressure_unit = "bar"\npressure_column = 12'))
 
@@ -262,6 +262,49 @@ def test_pegging_to_an_exponent_recovers_an_offset(read):
     results = read(text, f"{MEAN}\n{peg}", ABSOLUTE)
     assert told(results)["pressure_pegged"]["step"] == pytest.approx(-0.43e5, abs=20)
     assert 'pressures = "gauge"' in refusal(read, text, f"{MEAN}\n{peg}")
+
+
+def test_without_a_clearance_no_exponent_is_asked_for_or_told(read):
+    machine = ABSOLUTE.replace("compression_ratio = 9.0", "")
+    text = table(ANGLES, motored(ANGLES, 1.7))
+    message = refusal(read, text, f'{MEAN}\npeg = {{ exponent = 1.34, from = "250 deg", to = "320 deg" }}', machine)
+    assert "compression_ratio" in message
+    assert not {"exponent_odd", "dead_centre_compression"} & set(told(read(text, MEAN, machine)))
+
+
+def test_chambers_of_linkages_have_measured_cycles_too(tmp_path):
+    (tmp_path / "p.txt").write_text(table(np.arange(1080.0), 5 + np.cos(np.radians(np.arange(1080.0)))))
+    machine = """
+[fixed_points]
+O = ["0 mm", "0 mm"]
+[crank]
+pivot = "O"
+pin = "A"
+radius = "40 mm"
+speed = "600 rpm"
+[guides]
+bed = { through = "O" }
+[links]
+rod = { joins = ["A", "B"], length = "200 mm" }
+[sliders]
+piston = { guide = "bed", pin = "B" }
+[chambers.gas]
+slider = "piston"
+area = "20 cm2"
+sense = -1
+[chambers.gas.measured]
+file = "p.txt"
+pressure_unit = "bar"
+cycle = 2
+peg = { angle = "0 deg", pressure = "4 bar" }
+"""
+    results = crankwork.analyse(crankwork.read_machine(machine, folder=tmp_path))
+    assert told(results)["pressure_pegged"]["step"] == pytest.approx(-2e5)
+    assert told(results)["cycle_chosen"] == {"number": 2.0, "cycles": 3.0}
+    expected = [4e5, 3e5, 2e5]
+    assert results.columns_at(np.array([0.0, 90.0, 180.0]), ("gas_pressure.gas",))["gas_pressure.gas"] == pytest.approx(
+        expected
+    )
 
 
 def test_smoothing_says_what_it_changed(read):

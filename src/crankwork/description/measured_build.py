@@ -99,8 +99,10 @@ def _columns(table: FileTable, values: Values) -> _Columns:
     angle, *_ = _chosen(table, values, "angle", ())
     pressures = _chosen(table, values, "pressure", (angle,))
     told: list[Told] = []
+    more = f"..{table.told(pressures[-1])}" if len(pressures) > 1 else ""
+    taken = table.told(pressures[0]) + more
     if len(table.names) > 2 and not {"angle_column", "pressure_column"} <= set(values):
-        told.append(("measured_columns_taken", {"angle": table.told(angle), "pressure": table.told(pressures[0])}))
+        told.append(("measured_columns_taken", {"angle": table.told(angle), "pressure": taken}))
     units = [_unit(table, values, "angle", angle, told), _unit(table, values, "pressure", pressures[0], told)]
     of_file = [unit for unit, key in zip(units, ("angle_unit", "pressure_unit"), strict=True) if key not in values]
     if pressures and "pressure_unit" not in values and units[1]:
@@ -134,7 +136,10 @@ def _chosen(table: FileTable, values: Values, kind: str, taken: Sequence[int]) -
     if not any(table.names):
         raise table.refused("measured_no_heading", line=table.heading, count=str(count), key=key, example=example)
     columns = tuple(table.told(at) for at in (able or free)[:12])
-    raise table.refused("measured_which", line=table.heading, columns=columns, key=key, example=example)
+    asked = {"line": table.heading, "columns": columns, "key": key, "example": example}
+    if kind == "pressure" and able and able[-1] - able[0] == len(able) - 1:
+        raise table.refused("measured_which_cycles", **asked, cycles=f"{able[0] + 1}..{able[-1] + 1}")
+    raise table.refused("measured_which", **asked)
 
 
 def _stated(table: FileTable, stated: str | float, key: str, taken: Sequence[int]) -> tuple[int, ...]:

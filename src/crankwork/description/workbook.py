@@ -26,6 +26,7 @@ def workbook_text(data: bytes, sheet: str | None = None) -> str:
     """
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as book:
+            _check_size(book)
             return _sheet_text(book, sheet)
     except (zipfile.BadZipFile, KeyError, ET.ParseError, NotImplementedError, RuntimeError, OverflowError):
         raise ValueError(Refusal("workbook_none")) from None
@@ -55,10 +56,14 @@ def _member(target: str) -> str:
     return target.lstrip("/") if target.startswith("/") else f"xl/{target}"
 
 
-def _read(book: zipfile.ZipFile, name: str) -> bytes:
-    """Return a part of a workbook that is not too large, and refers to nothing."""
-    if book.getinfo(name).file_size > _LARGEST:
+def _check_size(book: zipfile.ZipFile) -> None:
+    """Raise if there is more in a workbook than is read; no part gives more than it says."""
+    if sum(one.file_size for one in book.infolist()) > _LARGEST:
         raise ValueError(Refusal("workbook_large", size=_LARGEST >> 20))
+
+
+def _read(book: zipfile.ZipFile, name: str) -> bytes:
+    """Return a part of a workbook, which is to refer to nothing."""
     data = book.read(name)
     if b"<!DOCTYPE" in data or b"\0" in data:
         raise ValueError(Refusal("workbook_none"))

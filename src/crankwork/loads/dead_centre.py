@@ -19,6 +19,8 @@ _COMPRESSION = (90.0, 20.0)
 # around the peak of a motored cycle [deg]
 _PEAK = 12.0
 _FEWEST = 8
+# share of the largest volume below which the least one is without that of the clearance
+_NO_CLEARANCE = 1e-3
 # how far a dead centre is looked for [deg]
 _FARTHEST = 6.0
 # what bends a compression line although its dead centre is right: a pressure that is off [Pa], an exponent that changes
@@ -92,7 +94,8 @@ def _by_compression(
     """Yield what the exponent of the compression says, and the shift that makes its line straight. [deg]"""
     cycle, centre = where
     x, y = _between(samples, cycle, centre - _COMPRESSION[0], centre - _COMPRESSION[1])
-    if len(x) < _FEWEST or float(y.min()) <= 2 * _OFF:
+    ends = volume_at(np.array([centre, centre + _TURN / 2]) % cycle)
+    if len(x) < _FEWEST or float(y.min()) <= 2 * _OFF or ends[0] < _NO_CLEARANCE * ends[1]:
         return
 
     def line(by: float, off: float = 0.0) -> tuple[float, float, float, float]:

@@ -23,6 +23,8 @@ from crankwork.locale import Refusal
 # what gauge pressures lie above wherever people live [Pa]
 _VACUUM = -110e3
 _EVEN = 1e-3
+# share of the largest volume below which the least one is without that of the clearance
+_NO_CLEARANCE = 1e-3
 _FEWEST = 5
 # share of all pressures by which one sample alone may miss its neighbours, and their own share of it
 _SPIKE, _NEIGHBOURS = 0.25, 0.2
@@ -95,6 +97,8 @@ def _offsets(cycles: Array, degrees: Array, volume: Array, peg: Pegging, by: tup
         at = np.mod(degrees, cycle)
         there = [np.interp(peg.angle % cycle, at, one, period=cycle) for one in cycles]
         return peg.pressure - np.array(there)
+    if np.min(volume) < _NO_CLEARANCE * np.max(volume):
+        raise DiagramError(key, Refusal("gas_volume"))
     inside = np.mod(degrees - peg.start, cycle) <= peg.end - peg.start
     if np.sum(inside) < _FEWEST:
         raise DiagramError(key, Refusal("peg_few", count=int(np.sum(inside)), fewest=_FEWEST))
