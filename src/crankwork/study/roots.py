@@ -19,7 +19,7 @@ Kind = Literal["rising", "falling", "touching"]
 # of the place itself, and of the largest value
 _CONVERGED, _ZERO = 1e-13, 1e-12
 # how near the ends of stretches are found, of the range
-_EDGE = 1e-7
+_EDGE = 1e-6
 # a step that nothing makes smaller is a jump: it is looked at across this part of a step of the search
 _ACROSS, _STAYS, _SEEN = 1e-8, 0.5, 1e-9
 _GOLDEN = (3 - math.sqrt(5)) / 2

@@ -88,7 +88,7 @@ class _Shown:
 
     def stretch(self, stretch: Stretch) -> str:
         """Return from where to where a stretch is, to the digits that are found of its ends."""
-        start, end = (self.number(one, digits=6) for one in (stretch.start, stretch.end))
+        start, end = (self.number(one, digits=5) for one in (stretch.start, stretch.end))
         return start if start == end else f"{start} … {end}"
 
     def nearest(self) -> list[str]:
