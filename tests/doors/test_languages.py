@@ -188,3 +188,19 @@ def test_the_short_introductions_show_files_and_commands_that_work(crankwork, tm
     for command, file in re.findall(r"^\.venv/bin/crankwork (\w+) (\S+)", text, re.MULTILINE):
         options = set(re.findall(rf"crankwork {command} .*?(--[a-z]+)", text))
         assert options <= set(re.findall(r"--[a-z-]+", crankwork(command, "--help").out)), (command, file)
+
+
+@pytest.mark.parametrize(
+    ("line", "fix"),
+    [
+        ("ratio = 0,25", "0.25"), ("ratio = 0,25  # r/l", "0.25"), ("small_end = { share = 0,5 }", "0.5"),
+        ("[цилиндр]", '["цилиндр"]'), ("[[нагрузки]]", '[["нагрузки"]]'), ("шатун = 1", '"шатун" = ...'),
+        ("масса шатуна = 3", '"масса шатуна" = ...'), ("khối_lượng = 3", '"khối_lượng" = ...'),
+    ],
+)  # fmt: skip
+def test_decimal_commas_and_letters_that_need_quotes_are_told_with_the_fix(crankwork, tmp_path, line, fix) -> None:
+    (tmp_path / "my.toml").write_text(f'[crank]\nradius = "45 mm"\n[rod]\n{line}\n', encoding="utf-8")
+    for language in ("en", "ru", "vi"):
+        told = crankwork("check", "my.toml", "--lang", language).err.splitlines()[0]
+        assert told.startswith("my.toml:4: ")
+        assert told.endswith(fix)

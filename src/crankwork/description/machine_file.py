@@ -204,6 +204,14 @@ def _syntax_message(source: str, name: str, text: str) -> Refusal:
     line = _printable(lines[number - 1].strip()[:60]) if number <= len(lines) else ""
     if any(word in text for word in ("overwrite", "twice", "already", "mutate", "Duplicate", "immutable")):
         return Refusal("stands_twice", place=place, line=line)
+    comma = re.match(r"(.*?=\s*\[?(?:.*,\s)?)([+-]?\d+),(\d+)\s*(?:[\],#}]|$)", line)
+    key = re.match(r"(\[{0,2})\s*([^=\[\]\"'#.]*[^\x00-\x7f][^=\[\]\"'#.]*)", line)
+    if key is not None:
+        written = f'"{key[2].strip()}"'
+        written = f"{key[1]}{written}{']' * len(key[1])}" if key[1] else f"{written} = ..."
+        return Refusal("letters_need_quotes", place=place, line=line, written=written)
+    if comma is not None:
+        return Refusal("number_comma", place=place, line=line, point=f"{comma[2]}.{comma[3]}")
     if re.match(r"[\w.\-]+\s*=\s*[+-]?[\d.,]+\s*[^\W\d_]", line):
         return Refusal("needs_quotes", place=place, line=line)
     return Refusal("not_toml", place=place, line=line or Refusal("ends_early"))
