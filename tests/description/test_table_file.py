@@ -151,7 +151,9 @@ def test_a_sheet_of_several_is_asked_for(tmp_path):
         read_table(tmp_path / "p.xlsx", sheet="third")
 
 
-@pytest.mark.parametrize("data", [b"PK\x03\x04", b"PK\x03\x04" + b"x" * 99, "a zip", "a bomb", "entities"])
+@pytest.mark.parametrize(
+    "data", [b"PK\x03\x04", b"PK\x03\x04" + b"x" * 99, "a zip", "a bomb", "entities", "no encoding", "a spoilt byte"]
+)
 def test_what_is_no_workbook_is_refused(tmp_path, data):
     path = tmp_path / "p.xlsx"
     if isinstance(data, bytes):
@@ -166,9 +168,16 @@ def test_what_is_no_workbook_is_refused(tmp_path, data):
             parts["xl/worksheets/sheet1.xml"] = b" " * (300 << 20)
         if data == "entities":
             parts["xl/workbook.xml"] = b'<!DOCTYPE x [<!ENTITY a "b">]>' + parts["xl/workbook.xml"]
+        if data == "no encoding":
+            parts["xl/workbook.xml"] = parts["xl/workbook.xml"].replace(b"UTF-8", b"UTF-X")
         with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as book:
             for name, part in parts.items():
                 book.writestr(name, part)
+        if data == "a spoilt byte":
+            with zipfile.ZipFile(path) as book:
+                at = book.getinfo("xl/worksheets/sheet1.xml").header_offset + 60
+            packed = path.read_bytes()
+            path.write_bytes(packed[:at] + bytes(64) + packed[at + 64 :])
     with pytest.raises(CrankworkError, match=r"p.xlsx, is no workbook of Excel|larger than 256 MB"):
         read_table(path)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import re
 import zipfile
+import zlib
 from collections.abc import Iterator
 from xml.etree import ElementTree as ET
 
@@ -13,6 +14,8 @@ from crankwork.locale import Refusal
 
 START = b"PK\x03\x04"
 _LARGEST = 4 * files.MAX_DATA_FILE
+# what a part that is cut short, altered, encrypted or packed otherwise raises
+_BROKEN = (zipfile.BadZipFile, zlib.error, ET.ParseError, LookupError, EOFError, RuntimeError, OSError)
 _MOST_ROWS, _MOST_COLUMNS = 1_048_576, 16_384
 _MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 _ID = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}id"
@@ -28,7 +31,7 @@ def workbook_text(data: bytes, sheet: str | None = None) -> str:
         with zipfile.ZipFile(io.BytesIO(data)) as book:
             _check_size(book)
             return _sheet_text(book, sheet)
-    except (zipfile.BadZipFile, KeyError, ET.ParseError, NotImplementedError, RuntimeError, OverflowError):
+    except _BROKEN:
         raise ValueError(Refusal("workbook_none")) from None
 
 
@@ -84,7 +87,8 @@ def _rows(data: bytes, words: list[str]) -> Iterator[tuple[int, list[str]]]:
     for _, row in ET.iterparse(io.BytesIO(data)):  # noqa: S314 - as above
         if row.tag != f"{_MAIN}row":
             continue
-        number = max(number + 1, min(int(row.get("r", number + 1)), _MOST_ROWS))
+        stated = row.get("r", "")
+        number = max(number + 1, min(int(stated), _MOST_ROWS)) if stated.isdecimal() else number + 1
         cells: list[str] = []
         for one in row.iter(f"{_MAIN}c"):
             found = _CELL.fullmatch(one.get("r", ""))
