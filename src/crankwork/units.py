@@ -313,7 +313,7 @@ def parse(text: str, dimensions: tuple[str, ...], *, decimal_comma: bool = False
             raise ValueError(Refusal(_DOUBTFUL[spelling.lower()], unit=_short(name), number=number))
         spelling, told = "PS", "metric_horsepower"
     unit = UNITS.get(spelling)
-    is_weight = unit is not None and unit.dimension == "force" and "mass" in dimensions
+    is_weight = unit is not None and unit.dimension == "force" and "mass" in dimensions and "force" not in dimensions
     fits = unit is not None and (unit.dimension in dimensions or is_weight)
     wanted = tuple(_dimension(one) for one in dimensions)
     known = ", ".join(one for dimension in dimensions for one in spellings(dimension))

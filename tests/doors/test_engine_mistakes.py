@@ -69,8 +69,8 @@ MISTAKES = {
                             'write at least "0.0001 MPa"'),
     "counterweights twice": ("petrol-four", "[balance]", 'counterweight = "0.02 kg*m"\n[balance]',
                              "bearings.counterweight", "counterweights of balance.rotating_share; keep one"),
-    "metric or not": ("petrol-four", 'kind = "petrol"', 'kind = "petrol"\npower = "80 hp"', "cycle.power",
-                      '745.7 W in others; write "100 PS" for the first, or the power in kW'),
+    "metric or not": ("narrow-v6", 'kind = "petrol"', 'kind = "petrol"\npower = "80 hp"', "cycle.power",
+                      '"80 PS" for the first, "80 hp(I)" for the second, or the power in kW'),
     "heat of a dozen cylinders": ("two-stroke", "560 J", "56 kJ", "cycle", "more than any fuel gives; write less"),
     "intake below the residual gas": ("petrol-four", '"0.085 MPa"', '"0.005 MPa"', "cycle", "no fresh charge"),
 }  # fmt: skip
