@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import signal
 import subprocess
 import sys
 from collections.abc import Callable
@@ -82,7 +83,13 @@ def spawn() -> Callable[..., subprocess.Popen[bytes]]:
     """Start a command and do not wait for it."""
 
     def start(*arguments: str) -> subprocess.Popen[bytes]:
-        return subprocess.Popen(command(*arguments), env=environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        # what is run behind a shell would go on ignoring interrupts
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        try:
+            words, streams = command(*arguments), {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+            return subprocess.Popen(words, env=environment(), **streams)
+        finally:
+            signal.signal(signal.SIGINT, before)
 
     return start
 
