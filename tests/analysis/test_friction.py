@@ -117,6 +117,7 @@ OVERHUNG = """
 """
 
 
+@pytest.mark.elsewhere
 @pytest.mark.parametrize(
     ("length", "coefficient", "beside", "ahead"),
     [(0.5, 0.15, 0.2, 0.0), (0.5, 0.15, 0.2, 0.1), (0.4, 0.3, 0.1, -0.15), (0.061, 0.15, 0.2, 0.0)],
@@ -139,6 +140,7 @@ def test_an_overhung_guide_is_pressed_by_the_moment_about_its_middle(
     assert max(results.checks.values()) < 1e-12
 
 
+@pytest.mark.elsewhere
 @pytest.mark.parametrize(("length", "jams"), [(0.0599, True), (0.0601, False)])
 def test_an_overhung_guide_jams_where_it_is_shorter_than_twice_the_overhang_times_friction(
     length: float, jams: bool

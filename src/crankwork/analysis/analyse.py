@@ -65,7 +65,7 @@ def analyse(
     >>> import crankwork as cw
     >>> engine = cw.Description(cw.template("engine"))
     >>> cw.analyse(engine, [0, 90, 180], method="textbook")["piston_displacement"].round(6).tolist()
-    [0.0, 0.050625, 0.09]
+    [0.0, 0.051328, 0.09]
     """
     machine = machine if isinstance(machine, Machine) else machine.machine()
     grid = angles if angles is None or isinstance(angles, CrankGrid) else _grid(angles, machine.cycle)
