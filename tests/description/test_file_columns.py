@@ -68,7 +68,7 @@ BROKEN = {
     "a bad cell": (NAMED, TABLE.replace("1,5", "x"), 'force: f.csv, line 6: "x" is not a number'),
     "no reference": (f"file = 'f.csv'\n{LISTS}", TABLE, "loads.1..file: is a file of which no column is named"),
     "no form": (NAMED.replace('"F"', "{ col = 2 }"), TABLE, "force: is no column; write force = "),
-    "nothing beside it": ('at = "s"\nforce = ["1 N", "2 N"]\n', TABLE, "at: write a list, .*and file ="),
+    "nothing beside it": ('at = "s"\nforce = ["1 N", "2 N"]\n', TABLE, "at: is neither a list .*; write .*and file ="),
 }  # fmt: skip
 
 
