@@ -8,7 +8,7 @@ import json
 import os
 import re
 import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, TextIO
 
 import click
@@ -33,6 +33,26 @@ if TYPE_CHECKING:
 
 _LANGUAGE = click.Choice(["en", "ru", "vi"])
 _UNITS = click.Choice(["metric", "si", "imperial"])
+
+
+def _lang(what: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Return the option for the language of what a command gives."""
+    return click.option(
+        "--lang", "language", type=_LANGUAGE, default=language_of_system, show_default="of the system, or en",
+        help=f"Language of the {what}.",
+    )  # fmt: skip
+
+
+# options that commands share
+_SYSTEM = click.option("--units", type=_UNITS, help="System of units of the output, instead of the file's own.")
+_SET = click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
+_METHOD = click.option("--method", metavar="NAME", help="exact, textbook or series:N, instead of the file's own.")
+_STEP = click.option("--step", metavar="DEG", help="Step of the tables, in degrees of crank angle.")
+_PER_AREA = click.option("--per-area", is_flag=True, help="Forces per piston area, in MPa.")
+_NO_FIGURES = click.option("--no-figures", is_flag=True, help="Leave the figures out.")
+_COMPARE = click.option(
+    "--compare", metavar="METHODS|FILE", help="Put textbook, series:N ... or the machine of OTHER.toml beside."
+)
 
 
 def main() -> None:
@@ -150,16 +170,9 @@ def new(name: str | None, output: str | None, *, overwrite: bool) -> None:
 
 @commands.command()
 @click.argument("file")
-@click.option(
-    "--lang",
-    "language",
-    type=_LANGUAGE,
-    default=language_of_system,
-    show_default="of the system, or en",
-    help="Language of the output.",
-)
-@click.option("--units", type=_UNITS, help="System of units of the output, instead of the file's own.")
-@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
+@_lang("output")
+@_SYSTEM
+@_SET
 @click.option("--circuits", is_flag=True, help="List every way to assemble a linkage, and how far it moves on each.")
 @click.option("--json", "as_json", is_flag=True, help="Print the circuits as one JSON object.")
 @click.option("--expand", is_flag=True, help="Print the file with its shorthand and every default written out.")
@@ -211,24 +224,15 @@ def check(  # noqa: PLR0913 - one argument per option of the command
 @commands.command()
 @click.argument("file")
 @click.option("-o", "--output", metavar="DIR", help="Write tables, figures and the moving drawing into this folder.")
-@click.option("--step", metavar="DEG", help="Step of the tables, in degrees of crank angle.")
-@click.option("--method", metavar="NAME", help="exact, textbook or series:N, instead of the file's own.")
-@click.option(
-    "--lang",
-    "language",
-    type=_LANGUAGE,
-    default=language_of_system,
-    show_default="of the system, or en",
-    help="Language of the output.",
-)
-@click.option("--units", type=_UNITS, help="System of units of the output, instead of the file's own.")
-@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
-@click.option(
-    "--compare", metavar="METHODS|FILE", help="Put textbook, series:N ... or the machine of OTHER.toml beside."
-)
-@click.option("--per-area", is_flag=True, help="Forces per piston area, in MPa.")
+@_STEP
+@_METHOD
+@_lang("output")
+@_SYSTEM
+@_SET
+@_COMPARE
+@_PER_AREA
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as one JSON object.")
-@click.option("--no-figures", is_flag=True, help="Leave the figures out.")
+@_NO_FIGURES
 @click.option("--excel-csv", is_flag=True, help="CSV with semicolons and decimal commas.")
 @click.option("--overwrite", is_flag=True, help="Write into a folder that holds files already.")
 def run(  # noqa: PLR0913 - one argument per option of the command
@@ -281,26 +285,17 @@ def run(  # noqa: PLR0913 - one argument per option of the command
 @click.option(
     "-o", "--output", required=True, metavar="NOTE", help="Write the note here; its ending is .pdf, .docx or .html."
 )
-@click.option("--step", metavar="DEG", help="Step of the tables, in degrees of crank angle.")
-@click.option("--method", metavar="NAME", help="exact, textbook or series:N, instead of the file's own.")
-@click.option(
-    "--lang",
-    "language",
-    type=_LANGUAGE,
-    default=language_of_system,
-    show_default="of the system, or en",
-    help="Language of the note.",
-)
+@_STEP
+@_METHOD
+@_lang("note")
 @click.option("--school", type=_LANGUAGE, help="Whose order of sections; that of the language if left out.")
-@click.option("--units", type=_UNITS, help="System of units of the output, instead of the file's own.")
-@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
-@click.option(
-    "--compare", metavar="METHODS|FILE", help="Put textbook, series:N ... or the machine of OTHER.toml beside."
-)
-@click.option("--per-area", is_flag=True, help="Forces per piston area, in MPa.")
+@_SYSTEM
+@_SET
+@_COMPARE
+@_PER_AREA
 @click.option("--title", default="", metavar="TEXT", help="Title of the note, instead of the file's.")
 @click.option("--author", default="", metavar="TEXT", help="Who hands it in.")
-@click.option("--no-figures", is_flag=True, help="Leave the figures out.")
+@_NO_FIGURES
 @click.option("--sheets", is_flag=True, help="Write drawing sheets beside it: NOTE-sheet-1.pdf, .svg and .dxf.")
 @click.option("--overwrite", is_flag=True, help="Replace a note that is there.")
 def report(  # noqa: PLR0913 - one argument per option of the command
@@ -352,17 +347,10 @@ def report(  # noqa: PLR0913 - one argument per option of the command
 @click.argument("key", required=False)
 @click.option("--at", metavar="DEG", help="Crank angle, or time where a law drives, for what varies with it.")
 @click.option("--list", "with_keys", is_flag=True, help="Print the keys.")
-@click.option("--method", metavar="NAME", help="exact, textbook or series:N, instead of the file's own.")
-@click.option(
-    "--lang",
-    "language",
-    type=_LANGUAGE,
-    default=language_of_system,
-    show_default="of the system, or en",
-    help="Language of the output.",
-)
-@click.option("--units", type=_UNITS, help="System of units of the output, instead of the file's own.")
-@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
+@_METHOD
+@_lang("output")
+@_SYSTEM
+@_SET
 def explain(  # noqa: PLR0913 - one argument per option of the command
     file: str,
     key: str | None,
@@ -404,15 +392,8 @@ def explain(  # noqa: PLR0913 - one argument per option of the command
 @click.option("--from", "start", metavar="VALUE", help="Where to begin looking, with a unit or in that of the file.")
 @click.option("--to", "end", metavar="VALUE", help="Where to end looking.")
 @click.option("--steps", metavar="N", default="400", show_default=True, help="How many steps to look at.")
-@click.option(
-    "--lang",
-    "language",
-    type=_LANGUAGE,
-    default=language_of_system,
-    show_default="of the system, or en",
-    help="Language of the output.",
-)
-@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
+@_lang("output")
+@_SET
 @click.option("--json", "as_json", is_flag=True, help="Print what was found as one JSON object.")
 def solve(  # noqa: PLR0913 - one argument per option of the command
     file: str,
@@ -446,16 +427,9 @@ def solve(  # noqa: PLR0913 - one argument per option of the command
 @click.argument("file")
 @click.argument("keys", nargs=-1)
 @click.option("--samples", default="2000", show_default=True, help="Draws where numbers do not act one by one.")
-@click.option(
-    "--lang",
-    "language",
-    type=_LANGUAGE,
-    default=language_of_system,
-    show_default="of the system, or en",
-    help="Language of the output.",
-)
-@click.option("--units", type=_UNITS, help="System of units of the output, instead of the file's own.")
-@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
+@_lang("output")
+@_SYSTEM
+@_SET
 @click.option("--json", "as_json", is_flag=True, help="Print the spreads as one JSON object.")
 def spread(  # noqa: PLR0913 - one argument per option of the command
     file: str,
@@ -482,14 +456,7 @@ def spread(  # noqa: PLR0913 - one argument per option of the command
 
 
 @commands.command()
-@click.option(
-    "--lang",
-    "language",
-    type=_LANGUAGE,
-    default=language_of_system,
-    show_default="of the system, or en",
-    help="Language of the descriptions.",
-)
+@_lang("descriptions")
 def schema(language: Language) -> None:
     """Print the JSON Schema of the machine file, for editors."""
     from crankwork.description.machine_file import json_schema

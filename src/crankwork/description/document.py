@@ -3,12 +3,21 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from crankwork import files
-from crankwork.description.machine_file import Setting, entry_at, file_keys, lay, parse, read_machine, steps_of
+from crankwork.description.machine_file import (
+    Setting,
+    entry_at,
+    file_keys,
+    lay,
+    parse,
+    read_machine,
+    settings_of,
+    steps_of,
+)
 from crankwork.description.schema import Table, Values
 from crankwork.description.written import document, with_value, without
 from crankwork.errors import CrankworkError, UnknownKeyError
@@ -92,6 +101,13 @@ class Description:
                 raise CrankworkError(Refusal("entry_table", key=key[:60]))
         self._text, self._values = text, values
 
+    def values_with(self, overrides: Sequence[str | Setting]) -> dict[str, Any]:
+        """Return what the file states with settings laid over it, as nested tables and lists."""
+        values = self.values
+        for one in settings_of(overrides):
+            lay(values, one)
+        return values
+
     @property
     def values(self) -> dict[str, Any]:
         """What the file states, as nested tables and lists; a copy."""
@@ -101,15 +117,15 @@ class Description:
         """Return the text, with the comments of whoever wrote it."""
         return self._text
 
-    def machine(self) -> Machine:
-        """Return the machine that the file describes.
+    def machine(self, overrides: Sequence[str | Setting] = ()) -> Machine:
+        """Return the machine that the file describes, with settings `KEY=VALUE` laid over it.
 
         Raises
         ------
         InputError
             With every mistake, each on its line.
         """
-        return read_machine(self._text, self.name, folder=self.folder)
+        return read_machine(self._text, self.name, overrides, folder=self.folder)
 
     def __repr__(self) -> str:
         return f"<Description {self.name}: {', '.join(self._values)}>"

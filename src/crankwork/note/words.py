@@ -6,12 +6,13 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from string import Formatter
 
+import numpy as np
+
 from crankwork.locale import Language, capital, decimal, say, texts
 from crankwork.note.captions import note_text
 from crankwork.note.document import Math, Paragraph, Run, Runs
 from crankwork.note.printed_units import printed_unit
-from crankwork.quantities import QUANTITIES
-from crankwork.report.language import displayed, number
+from crankwork.report.language import displayed, displayed_column, number
 from crankwork.units import from_si, shown_unit
 
 _TIGHT = ("°", "%")
@@ -89,6 +90,5 @@ class NoteWords(ABC):
 
 def in_display_unit(key: str, values: Sequence[float]) -> list[float]:
     """Return values in SI in the unit in which tables show their key."""
-    unit = QUANTITIES[key.partition(".")[0]].unit
-    # adding zero turns -0.0 into 0.0
-    return [float(from_si(one, unit)) + 0.0 for one in values] if unit else [float(one) + 0.0 for one in values]
+    shown: list[float] = displayed_column(key.partition(".")[0], np.asarray(values, dtype=float)).tolist()
+    return shown

@@ -14,9 +14,9 @@ from crankwork.analysis import Array, Results
 from crankwork.errors import CrankworkError, MissingExtraError, missing_extras
 from crankwork.locale import Refusal
 from crankwork.quantities import QUANTITIES, base_key
-from crankwork.report.language import in_own_units, key_unit, label, symbol
+from crankwork.report.language import displayed_column, in_own_units, key_unit, label, symbol
 from crankwork.report.tables import table_column
-from crankwork.units import coherent_unit, from_si
+from crankwork.units import coherent_unit
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -125,7 +125,7 @@ def _listing(results: Results, name: str, taken: Mapping[str, object], *, shown:
 
 
 def _in_unit(key: str, values: Array, *, shown: bool) -> Array:
-    return np.asarray(from_si(values, key_unit(key)) if shown else values, dtype=float)
+    return displayed_column(key, values) if shown else np.asarray(values, dtype=float)
 
 
 def _attributes(key: str, *, shown: bool) -> dict[str, str]:

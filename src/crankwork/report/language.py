@@ -7,12 +7,14 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Concatenate, ParamSpec, TypeVar
 
+import numpy as np
+
 from crankwork.locale import decimal, has_text, say, texts
 from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.units import from_si, shown_in
 
 if TYPE_CHECKING:
-    from crankwork.analysis import Results
+    from crankwork.analysis import Array, Results
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -82,9 +84,15 @@ def key_unit(key: str, *, per_area: bool = False) -> str:
 
 def displayed(key: str, value: float, *, per_area: float | None = None) -> float:
     """Return an SI value in the display unit of its key; `per_area` is the piston area to divide by. [m2]"""
+    return float(displayed_column(key, np.asarray(value), per_area=per_area))
+
+
+def displayed_column(key: str, values: Array, *, per_area: float | None = None) -> Array:
+    """Return SI values in the display unit of their key; `per_area` as `displayed` takes it."""
     if per_area is not None and QUANTITIES.get(base_key(key), None) and _is_per_area(key):
-        value = value / per_area
-    return float(from_si(value, key_unit(key, per_area=per_area is not None)))
+        values = values / per_area
+    # adding zero turns -0.0 into 0.0
+    return np.asarray(from_si(values, key_unit(key, per_area=per_area is not None)) + 0.0)
 
 
 def _is_per_area(key: str) -> bool:

@@ -68,7 +68,8 @@ def quantity_of(key: str) -> Quantity:
 
 def displayed_values(row: Quantity, values: Array) -> Array:
     """Return SI values in the display unit of a quantity."""
-    return values * float(from_si(1.0, row.unit)) if row.unit else values
+    shown: Array = from_si(values, row.unit)
+    return shown
 
 
 def axis_title(row: Quantity, language: Language) -> str:

@@ -14,10 +14,9 @@ from crankwork.analysis import Array, Results
 from crankwork.analysis.rounding import without_rounding
 from crankwork.errors import MissingExtraError
 from crankwork.locale import Refusal, say
-from crankwork.quantities import QUANTITIES, Language, base_key
+from crankwork.quantities import Language
 from crankwork.report.comparison import comparison_columns
-from crankwork.report.language import in_own_units, key_unit, label, unit_name
-from crankwork.units import from_si
+from crankwork.report.language import displayed_column, in_own_units, key_unit, label, unit_name
 
 _CREATED = datetime(2000, 1, 1)  # noqa: DTZ001 - a workbook knows no time zones
 # kinds of rows whose number is an order
@@ -28,11 +27,7 @@ def table_column(results: Results, key: str, *, per_area: bool = False) -> Array
     """Return a column in its display unit."""
     if key == "crank_angle":
         return results.grid.degrees
-    values = results.columns[key]
-    if per_area and QUANTITIES[base_key(key)].per_area_unit:
-        values = values / results.summary["piston_area"]
-    # adding zero turns -0.0 into 0.0
-    return np.asarray(from_si(values, key_unit(key, per_area=per_area)) + 0.0)
+    return displayed_column(key, results.columns[key], per_area=results.summary["piston_area"] if per_area else None)
 
 
 def any_nonzero(keys: Iterable[str], columns: Mapping[str, Array]) -> list[str]:
@@ -64,15 +59,9 @@ def sheets(results: Results, *, per_area: bool = False) -> dict[str, Sheet]:
     if compared := comparison_columns(results, per_area=per_area):
         tables["comparison"] = sheet((), compared)
     return tables | {
-        name: sheet(one.names, {key: _displayed(key, values, area) for key, values in one.columns.items()})
+        name: sheet(one.names, {key: displayed_column(key, one.columns[key], per_area=area) for key in one.columns})
         for name, one in results.listings.items()
     }
-
-
-def _displayed(key: str, values: Array, area: float | None) -> Array:
-    if area is not None and key_unit(key, per_area=True) != key_unit(key):
-        values = values / area
-    return np.asarray(from_si(values, key_unit(key, per_area=area is not None)) + 0.0)
 
 
 def row_name(name: str, language: Language) -> str:

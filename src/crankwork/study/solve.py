@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from crankwork.analysis import Results, analyse
 from crankwork.description.document import Description
-from crankwork.description.machine_file import Setting, lay, read_machine, settings_of
+from crankwork.description.machine_file import Setting
 from crankwork.errors import CrankworkError, UnknownKeyError
 from crankwork.locale import Refusal
 from crankwork.machine import Machine
@@ -124,17 +124,13 @@ def solve(  # noqa: PLR0913 - what is asked, where to look, and what is laid ove
     """
     if not _FEWEST <= steps <= _MOST:
         raise CrankworkError(Refusal("steps_outside", fewest=str(_FEWEST), most=str(_MOST)))
-    parts, values = written(equation), description.values
-    for one in settings_of(overrides):
-        lay(values, one)
-    number = sought_number(values, sought)
+    parts = written(equation)
+    number = sought_number(description.values_with(overrides), sought)
     where = places(number, *limits, steps)
-
-    text, name, folder = description.dump(), description.name, description.folder
 
     def machine_with(value: float | None) -> Machine:
         changed = [] if value is None else [Setting("--for", sought, number.written(value))]
-        return read_machine(text, name, [*overrides, *changed], folder=folder)
+        return description.machine([*overrides, *changed])
 
     asked, machine, results = _first_with_value(parts, machine_with, where)
     value = shortest(asked, machine, results)

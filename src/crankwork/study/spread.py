@@ -10,11 +10,10 @@ import numpy as np
 
 from crankwork.analysis import Results, analyse
 from crankwork.description.document import Description
-from crankwork.description.machine_file import Setting, lay, read_machine, settings_of
+from crankwork.description.machine_file import Setting
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Refusal
-from crankwork.machine import Machine
 from crankwork.study.sought import Sought, sought_number
 
 SAMPLES = 2000
@@ -171,23 +170,17 @@ class _Beside:
 
     def __init__(self, description: Description, overrides: Sequence[str | Setting]) -> None:
         self._description, self._overrides = description, list(overrides)
-        values = description.values
-        for one in settings_of(overrides):
-            lay(values, one)
-        deviations = self._machine(()).deviations
+        deviations = description.machine(overrides).deviations
         if not deviations:
             raise CrankworkError(Refusal("no_deviation"))
+        values = description.values_with(overrides)
         self._numbers: dict[str, Sought] = {key: sought_number(values, key) for key in deviations}
         self.given = {key: (one.now or 0.0, deviations[key]) for key, one in self._numbers.items()}
-
-    def _machine(self, changes: Sequence[Setting]) -> Machine:
-        name, folder = self._description.name, self._description.folder
-        return read_machine(self._description.dump(), name, [*self._overrides, *changes], folder=folder)
 
     def results(self, values: Mapping[str, float]) -> Results:
         """Return the results with other values of some numbers. [SI]"""
         changes = [Setting(key, key, self._numbers[key].written(value)) for key, value in values.items()]
-        return analyse(self._machine(changes))
+        return analyse(self._description.machine([*self._overrides, *changes]))
 
 
 def _values(results: Results, names: Sequence[str]) -> Array:
