@@ -100,10 +100,10 @@ def _slowed(machine: Machine, turning: Turning, values: Values, reader: Reader) 
     if not machine.drive.inertia:
         reader.complain("crank.largest_speed", Refusal("largest_speed_alone"))
         return None
-    largest = machine.speed
+    largest, counted = machine.speed, machine.method.pi / math.pi
     for _ in range(_TRIES):
         excess = analyse_turning(machine, turning).summary["excess_work"]
-        square = largest**2 - 2 * excess / machine.drive.inertia
+        square = largest**2 - 2 * excess / machine.drive.inertia / counted**2
         if square <= 0:
             reader.complain("crank.largest_speed", Refusal("largest_speed_small", excess=excess))
             return None
