@@ -128,6 +128,15 @@ def columns_only(machine: Machine) -> Results:
     return Results(solved, grid, {}, {}, {}, (), {}, memory=memory)
 
 
+def value_only(machine: Machine, key: str) -> Results:
+    """Return results that give a single value, and maybe no others; they take a part of the time of `analyse`."""
+    if machine.linkage is None or machine.transfer is not None or machine.turning is not None:
+        return analyse(machine)
+    from crankwork.analysis.linkage import linkage_value  # noqa: PLC0415 - loaded where it is needed
+
+    return linkage_value(machine, key)
+
+
 def with_method(machine: Machine, name: str) -> Machine:
     """Return the machine with another method by name, constants kept.
 

@@ -89,22 +89,9 @@ def analyse_linkage(
     moved = _moved(machine, grid)
     machine, reached, motion, solved = moved.machine, moved.reached, moved.motion, moved.solved
     memory, rubbing, table, found = moved.memory, moved.rubbing, moved.table, reached.travel
+    over, summary, told, unusual = _singles(moved, memory)
     notices = reached.notices + tuple(Notice(*one) for one in solved.filling.notices)
-    notices += rubbing.notices
-    followed = _followed(memory, has_friction=rubbing.is_free) | dict(smooth_transmissions(machine.mechanism, motion))
-    start, end = (0.0, machine.cycle) if found is None else machine.working_range or open_range(found)
-    ends = _where_unbounded(machine, found)
-    without = boundless(followed, *ends, machine.cycle if found is None else found.end - found.start)
-    notices += tuple(_told_boundless(without))
-    if machine.working_range is None or found is None:
-        followed = {key: one for key, one in followed.items() if not any(key in some for some in without)}
-    else:
-        notices += (Notice("working_range", {"from": start, "to": end}),)
-    over = OverCycle(followed, CrankGrid.from_degrees, end - start, start)
-    quality, unusual = quality_of(over)
-    summary = _summary(solved, over, quality, is_whole=found is None)
-    if found is not None:
-        summary |= limits_of(found, memory)
+    notices += rubbing.notices + told
     checks = (
         _checks(solved, clear_of_changes(machine.mechanism, reached.motion))
         | gas_check(solved, motion)
@@ -140,6 +127,46 @@ def linkage_columns(machine: Machine) -> Results:
     """Return what is remembered over the crank angle of a linkage, without what is found over its whole cycle."""
     moved = _moved(machine, None)
     return Results(moved.solved, moved.table, {}, {}, {}, (), {}, memory=moved.memory)
+
+
+def linkage_value(machine: Machine, key: str) -> Results:
+    """Return what is found over the cycle of a linkage of one thing, which a key names; no checks, and no table."""
+    moved, (_, _, name) = _moved(machine, None), key.partition(".")
+    of_one = {one: known for one, known in moved.memory.items() if one.partition(".")[2] == name}
+    summary = _singles(moved, of_one, name).summary
+    values = {one: known.value for one, known in summary.items()}
+    return Results(moved.solved, moved.table, {}, values, {}, (), {}, memory=of_one | summary)
+
+
+class _Singles(NamedTuple):
+    """What is found over the whole cycle of a linkage, and what is to be told of it, last what is unusual."""
+
+    over: OverCycle
+    summary: dict[str, Known]
+    told: tuple[Notice, ...]
+    unusual: tuple[Notice, ...]
+
+
+def _singles(moved: _Moved, memory: Mapping[str, Known], name: str | None = None) -> _Singles:
+    """Return the single values that follow from remembered columns; `name`: of one thing only."""
+    machine, found = moved.machine, moved.reached.travel
+    quality = dict(smooth_transmissions(machine.mechanism, moved.motion))
+    quality = {key: one for key, one in quality.items() if name is None or key.partition(".")[2] == name}
+    followed, told = _followed(memory, has_friction=moved.rubbing.is_free) | quality, list[Notice]()
+    start, end = (0.0, machine.cycle) if found is None else machine.working_range or open_range(found)
+    ends = _where_unbounded(machine, found)
+    without = boundless(followed, *ends, machine.cycle if found is None else found.end - found.start)
+    told += _told_boundless(without)
+    if machine.working_range is None or found is None:
+        followed = {key: one for key, one in followed.items() if not any(key in some for some in without)}
+    else:
+        told.append(Notice("working_range", {"from": start, "to": end}))
+    over = OverCycle(followed, CrankGrid.from_degrees, end - start, start)
+    extremes, unusual = quality_of(over)
+    summary = _summary(moved.solved, over, extremes, is_whole=found is None)
+    if found is not None:
+        summary |= limits_of(found, memory)
+    return _Singles(over, summary, tuple(told), unusual)
 
 
 class _Moved(NamedTuple):
@@ -260,7 +287,7 @@ def _summary(
                 result |= _at_time(extreme, angle, law) if law else {f"{kind}_{word}_angle{dot}{name}": angle}
     if is_whole and law is None:
         result |= time_ratios(over, {key: one.named(key) for key, one in result.items()})
-    if (machine.loads or machine.chambers) and is_whole and law is None:
+    if (machine.loads or machine.chambers) and is_whole and law is None and "static_torque" in over.knowns:
         result["mean_torque"] = over.mean("static_torque", "mean_torque")
     if is_whole:
         result |= {one.key: one for one in mean_values(over)}

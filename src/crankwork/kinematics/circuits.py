@@ -146,8 +146,16 @@ class Circuit:
 
     def extent(self, coordinate: Coordinate, part: Part | None = None) -> Extent:
         """Return the least and greatest value of a coordinate on a part, by default on the whole circuit."""
-        part = part or self.whole
+        (found,) = self.extents(coordinate, part or self.whole)
+        return found
+
+    def extents(self, coordinate: Coordinate, *parts: Part) -> list[Extent]:
+        """Return the least and greatest value of a coordinate on each of some parts."""
         turns = self.turning_points(coordinate)
+        return [self._between(coordinate, turns, part) for part in parts]
+
+    def _between(self, coordinate: Coordinate, turns: Array, part: Part) -> Extent:
+        """Return the least and greatest value of a coordinate that turns back at some arcs, on a part."""
         every = np.concatenate([turns + k * self.curve.length for k in (-1, 0, 1)])
         arc = np.concatenate([[part.start], every[(every > part.start) & (every < part.end)], [part.end]])
         values = self.values(coordinate, arc)
@@ -376,6 +384,8 @@ def _narrow(mechanism: Mechanism, sweep: _Sweep, degrees: Array) -> Iterator[Arr
         low, high, before = degrees[change], degrees[change + 1], works[change]
         for _ in range(_BISECTIONS if change.size else 0):
             middle = (low + high) / 2
+            if np.all((middle == low) | (middle == high)):
+                break
             same = (margin(middle) > _SINGULAR) == before
             low, high = np.where(same, middle, low), np.where(same, high, middle)
         yield np.where(before, low, high)

@@ -22,7 +22,8 @@ _LONGEST_STEP = 0.2
 _CLOSE_STEP = 0.02
 _SHORTEST_STEP = 1e-8
 _MOST_STEPS = 1_500
-_MOST_TURNED = math.cos(0.15)
+# how far the direction may turn from knot to knot, and what a step aims at, so that few have to be repeated [rad]
+_MOST_TURNED, _TURNED = math.cos(0.15), 0.13
 _FARTHEST = 0.02
 _LAST_STEP = 1e-8
 _ITERATIONS = 10
@@ -62,9 +63,8 @@ class PositionEquations:
     def closed(self, u: Array) -> tuple[Array, Array]:
         """Return what is left open, shape (n, equations), and its derivative, shape (n, equations, coordinates)."""
         scale, row_scale = self.equations.scale, self.equations.row_scale
-        rows = self.equations.rows(u * scale, None, None, self.around, np.arange(len(u)))
-        value = np.stack([row.value.position for row in rows], axis=-1)
-        return value / row_scale, self.equations.jacobian(rows, len(u)) * scale / row_scale[:, None]
+        value, slope = self.equations.closed(u * scale, self.around, np.arange(len(u)))
+        return value / row_scale, slope * scale / row_scale[:, None]
 
     def corrected(self, guess: Array, normal: Array) -> Array:
         """Return positions on the curve in the planes through guesses, NaN where there are none."""
@@ -212,11 +212,17 @@ class Curve:
         width = (self.arc[left + 1] - self.arc[left])[:, None]
         t = (arc[:, None] - self.arc[left][:, None]) / width
         start, end, way, way_end = self.knots[left], self.knots[left + 1], self.ways[left], self.ways[left + 1]
+        place = _cubic(t, start, end, width * way, width * way_end)
         rise = end - start
         a, b = width * way - rise, width * way_end - rise
-        place = start + t * rise + t * (1 - t) * ((1 - t) * a - t * b)
         slope = rise + (1 - 2 * t) * ((1 - t) * a - t * b) - t * (1 - t) * (a + b)
         return place, slope / width
+
+
+def _cubic(t: Array | float, start: Array, end: Array, slope: Array, slope_end: Array) -> Array:
+    """Return a cubic by what it is, and its slope, where t is 0 and where it is 1."""
+    rise = end - start
+    return np.asarray(start + t * rise + t * (1 - t) * ((1 - t) * (slope - rise) - t * (slope_end - rise)))
 
 
 def follow(system: PositionEquations, start: Array, ahead: Array) -> Curve:
@@ -246,7 +252,8 @@ class _Follower:
         ways, sides = system.ways(start[None], way[None])
         self.here = self.first = _Knot(start, ways[0], float(sides[0]))
         self.arcs, self.knots = [0.0], [self.here]
-        self.bend = np.zeros_like(start)
+        # the knot before, so far away that the first step is straight on
+        self.before, self.width = _Knot(start - self.here.way, self.here.way, self.here.side), 1.0
         self.step = _CLOSE_STEP
         self.crossings: list[int] = []
         self.is_closed = False
@@ -271,9 +278,14 @@ class _Follower:
         """Return how far the farthest link has come, in longest lengths."""
         return float(max(np.max(np.abs(self.here.u[axis::3])) for axis in (0, 1)))
 
+    def _ahead(self, step: float) -> Array:
+        """Return where the curve is some way on, by the cubic through the last two knots."""
+        before, here, width = self.before, self.here, self.width
+        return _cubic(1 + step / width, before.u, here.u, width * before.way, width * here.way)
+
     def _next(self) -> _Knot | None:
         """Return the position one step on, or None if the step is too long."""
-        guess = self.here.u + self.step * (self.here.way + 0.5 * self.step * self.bend)
+        guess = self._ahead(self.step)
         u = self.system.corrected(guess[None], self.here.way[None])[0]
         if not np.linalg.norm(u - guess) < _FARTHEST * min(1.0, 10 * self.step):
             return None
@@ -284,11 +296,12 @@ class _Follower:
         chord = float(np.linalg.norm(knot.u - self.here.u))
         turned = knot.way - self.here.way
         arc = chord * (1 + float(turned @ turned) / 24)
-        self.bend = turned / arc
+        self.before, self.width = self.here, arc
         self.arcs.append(self.arcs[-1] + arc)
         self.knots.append(knot)
         self.here = knot
-        self.step = min(1.5 * self.step, _LONGEST_STEP * max(1.0, self._away() / _FAR_OUT))
+        growth = min(1.5, _TURNED / max(float(np.linalg.norm(turned)), _SAME))
+        self.step = min(growth * self.step, _LONGEST_STEP * max(1.0, self._away() / _FAR_OUT))
 
     def _cross(self, following: _Knot) -> None:
         """Go through a change point straight on, or step shorter where it is none."""
@@ -315,7 +328,7 @@ class _Follower:
         if not 0 < along <= float((following.u - self.here.u) @ way) or self.first.way @ way < 0.9:
             return
         there = self.here.u + to_start
-        guess = self.here.u + along * (way + 0.5 * along * self.bend)
+        guess = self._ahead(along)
         guess += self.first.way * float((there - guess) @ self.first.way)
         reached = self.system.corrected(guess[None], self.first.way[None])[0]
         if np.linalg.norm(reached - there) < _SAME:

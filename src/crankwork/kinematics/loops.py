@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.errors import GeometryError
-from crankwork.kinematics.closing import ClosingEquations, Positions, Surroundings, line_at, point_of
+from crankwork.kinematics.closing import ClosingEquations, Positions, Surroundings, point_of
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.dyads import Closure, LinkMotion, guide_on_link, seen_from
+from crankwork.kinematics.dyads import Closure, LinkMotion, seen_from
 from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.locale import Refusal
 from crankwork.mechanism.chain import Chain, ChainLink, Slide
@@ -198,12 +198,11 @@ def _led(equations: ClosingEquations, given: Array, surroundings: Surroundings) 
     Newton's method alone may end far from where it began.
     """
     here, q, still, step = np.array([0]), given, 1.0, _FIRST_PART
-    rows = equations.rows(q, None, None, surroundings, here)
-    first = np.stack([row.value.position for row in rows], axis=-1)
+    first, _ = equations.closed(q, surroundings, here)
     while still > 0 and step > _SMALLEST_STEP:
         to = max(still - step, 0.0)
-        rows = equations.rows(q, None, None, surroundings, here)
-        guess = q + _solved(equations.jacobian(rows, 1), (to - still) * first)
+        _, jacobian = equations.closed(q, surroundings, here)
+        guess = q + _solved(jacobian, (to - still) * first)
         found, _ = _newton(equations, guess, surroundings, here, to * first)
         if np.max(np.abs(found - guess) / equations.scale) < _FARTHEST:
             q, still, step = found, to, 2 * step
@@ -278,11 +277,10 @@ def _newton(
     for iteration in range(_ITERATIONS):
         if not active.size:
             break
-        rows = equations.rows(q[active], None, None, surroundings, at[active])
-        value = np.stack([row.value.position for row in rows], axis=-1)
+        value, jacobian = equations.closed(q[active], surroundings, at[active])
         if iteration == 0:
             miss[active] = np.abs(value).max(axis=1)
-        step = _solved(equations.jacobian(rows, active.size), aim - value)
+        step = _solved(jacobian, aim - value)
         q[active] += step
         active = active[~(np.max(np.abs(step) / equations.scale, axis=1) < _LAST_STEP)]
     q[active] = np.nan
@@ -291,11 +289,12 @@ def _newton(
 
 def _derivatives(equations: ClosingEquations, q: Array, surroundings: Surroundings, at: Positions) -> _Solution:
     """Return the transfer functions of the coordinates."""
-    rows = equations.rows(q, np.zeros_like(q), np.zeros_like(q), surroundings, at)
-    jacobian = equations.jacobian(rows, len(q))
-    q_1 = _solved(jacobian, -np.stack([row.value.position_1 for row in rows], axis=-1))
-    rows = equations.rows(q, q_1, np.zeros_like(q), surroundings, at)
-    q_2 = _solved(jacobian, -np.stack([row.value.position_2 for row in rows], axis=-1))
+    _, jacobian = equations.closed(q, surroundings, at)
+    still = np.zeros_like(q)
+    first, _ = equations.rates(q, still, still, surroundings, at)
+    q_1 = _solved(jacobian, -first)
+    _, second = equations.rates(q, q_1, still, surroundings, at)
+    q_2 = _solved(jacobian, -second)
     return _Solution(q, q_1, q_2, np.linalg.det(jacobian))
 
 
@@ -323,8 +322,7 @@ def _as_motion(
     }
     sliders = {}
     for slide in chain.slides:
-        carrier = frames.get(slide.guide.link)
-        line = guide_on_link(carrier, slide.guide) if carrier else line_at(around.guide(slide.guide), at)
+        line = equations.line(slide, frames, around, at)
         sliders[slide.link] = seen_from(line, frames[slide.link].origin).x
     ratio = solution.determinant / determinant
     return ChainMotion(points, frames, sliders, Closure(np.where(ratio > 0, ratio * ratio, np.nan), 1.0, ratio))

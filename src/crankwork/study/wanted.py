@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
-from crankwork.analysis import Results, analyse, columns_only
+from crankwork.analysis import Results, analyse, columns_only, value_only
 from crankwork.errors import CrankworkError
 from crankwork.formula.known import Known
 from crankwork.locale import Refusal
@@ -97,7 +97,9 @@ def shortest(asked: Wanted, machine: Machine, results: Results) -> Callable[[Mac
     ways: list[Callable[[Machine], Results]] = [analyse]
     if machine.transient is not None:
         ways.insert(0, lambda one: analyse(replace(one, transient=None)))
-    if asked.at is not None and not results.has_positions:
+    if asked.at is None:
+        ways.insert(0, lambda one: value_only(one, asked.key))
+    elif not results.has_positions:
         ways.insert(0, columns_only)
     value = results.value(asked.key, asked.at)
     for way in ways[:-1]:
