@@ -10,11 +10,21 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from crankwork.description.machine_file import file_keys, json_schema, read_machine, template, template_names
+import crankwork
+from crankwork.description.machine_file import (
+    TEMPLATES,
+    file_keys,
+    json_schema,
+    read_machine,
+    template,
+    template_names,
+)
 from crankwork.description.schema import ListOf, Named, NameOr, Nested, Table
 from crankwork.errors import CrankworkError
+from crankwork.locale import texts
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
+WRITTEN = sorted((Path(crankwork.__file__).parent / TEMPLATES).glob("*.toml"))
 TEXTS = {name: template(name) for name in template_names()} | {path.stem: path.read_text("utf-8") for path in EXAMPLES}
 SCHEMA = json.loads(json_schema())
 
@@ -95,7 +105,7 @@ def _undocumented(value, kind, path):
 
 
 COMMENTED = re.compile(r"# (?P<key>\w+) = (?P<value>\"[^\"]*\"|\[[^\]]*\]|[\w.]+)")
-ALTERNATIVE = re.compile(r"(?:or|;|which is r/l;|add) (?P<key>\w+) = (?P<value>\"[^\"]*\"|[\d.]+)")
+ALTERNATIVE = re.compile(r"(?:or|add) (?P<key>\w+) = (?P<value>\"[^\"]*\"|[\d.]+)")
 
 
 HEADER = re.compile(r"# \[+(?!gas\.)[a-z_.]+\]")
@@ -190,3 +200,39 @@ def test_a_measured_pressure_takes_the_place_of_points_and_pieces(tmp_path) -> N
     assert machine.gas is not None
     assert machine.gas.measured is not None
     assert machine.gas.angle_shift == 0.0
+
+
+def _names(schema: object) -> set[str]:
+    """Return the keys and the words that machine files may hold."""
+    if isinstance(schema, list):
+        return set().union(*map(_names, schema))
+    if not isinstance(schema, dict):
+        return set()
+    own = {*schema.get("properties", {}), *map(str, schema.get("enum", ()))}
+    return own.union(*map(_names, schema.values()))
+
+
+@pytest.mark.parametrize("path", WRITTEN, ids=lambda path: path.stem)
+def test_what_a_template_says_in_words_stands_in_the_languages(path) -> None:
+    known = _names(SCHEMA) | {"exact", "textbook", "series", "n1", "n2", "true"}
+    comments = " ".join(re.findall(r"#(.*)", path.read_text("utf-8")))
+    plain = re.sub(r"\{[a-z][\w.]*\}|\"[^\"]*\"", "", comments)
+    assert {word for word in re.findall(r"[^\W\d]\w+(?:-\w+)*", plain) if word not in known} == set()
+
+
+@pytest.mark.parametrize("language", ["ru", "vi"])
+@pytest.mark.parametrize("name", template_names())
+def test_a_template_states_the_same_in_every_language(name, language) -> None:
+    english, other = template(name), template(name, language)
+    values, others = tomllib.loads(english), tomllib.loads(other)
+    assert values.pop("title") != others.pop("title")
+    assert values == others
+    assert read_machine(other).title
+
+
+def test_every_comment_of_the_templates_is_translated() -> None:
+    english = texts("templates", "en")
+    assert [
+        (name, language) for language in ("ru", "vi") for name, said in texts("templates", language).items()
+        if said == english[name] or re.findall(r"\d+", said) != re.findall(r"\d+", english[name])
+    ] == []  # fmt: skip

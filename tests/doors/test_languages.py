@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from crankwork.cli import commands
 from crankwork.description.machine_file import template
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -74,12 +75,35 @@ def test_every_mistake_of_a_file_is_told_in_the_language(crankwork, language, li
     ("command", "said"),
     [
         (("run", "x.toml", "--lang=ru", "--foo"), "--foo: такого параметра нет; см. --help"),
-        (("report", "--lang", "vi", "x.toml"), "-o: còn thiếu; hãy ghi -o NOTE, xem --help"),
+        (("report", "--lang", "vi", "x.toml"), "-o: còn thiếu; hãy ghi -o TỆP-GHI, xem --help"),
         (("run", "x.toml", "--lang", "de"), "--lang: de is not possible; write en, ru or vi"),
+        (("run", "--lang", "ru"), "ФАЙЛ: отсутствует; запишите после команды, см. --help"),
+        (
+            ("run", "x.toml", "my", "note", "--lang", "vi"),
+            "my note: thừa ở đây; hãy bỏ đi, hoặc đặt các từ thuộc về nhau trong dấu ngoặc kép",
+        ),
+        (("run", "x.toml", "--json=yes", "--lang", "ru"), "--json: значения не имеет; уберите знак = и то, что за ним"),
     ],
 )
 def test_the_command_line_is_explained_in_the_language(crankwork, command, said):
     assert crankwork(*command).err.splitlines() == [said]
+
+
+@pytest.mark.parametrize("command", [(), *((name,) for name in commands.commands)], ids=" ".join)
+def test_help_is_said_in_the_language_of_the_system_or_of_the_command_line(crankwork, monkeypatch, command):
+    # what Click says by itself, and stand-ins for values
+    clicks = r"\b(Usage|Options|Commands|Show|OPTIONS|ARGS|FILE|VALUE|default|required)\b"
+    english = crankwork(*command, "--help")
+    assert (english.code, english.err) == (0, "")
+    assert re.search(clicks, english.out)
+    options = re.findall(r"^  (?:-\w, )?--[a-z-]+", english.out, re.MULTILINE)
+    for language in ("ru", "vi"):
+        monkeypatch.setenv("LC_ALL", f"{language}.UTF-8")
+        said = crankwork(*command, "--help").out
+        assert re.findall(r"^  (?:-\w, )?--[a-z-]+", said, re.MULTILINE) == options
+        assert re.findall(f"{clicks}|{ENGLISH.pattern}", re.sub(r"--[a-z-]+", "", said)) == []
+        if command:
+            assert crankwork(*command, "--lang", language, "--help").out == said
 
 
 @pytest.mark.parametrize(("language", "said"), [("en", "with masses"), ("ru", "с массами"), ("vi", "có khối lượng")])

@@ -50,7 +50,7 @@ WRONG = {
     "language": (("--lang", "xx"), "--lang: xx is not possible; write en, ru or vi"),
     "unknown option": (("--overwirte",), "--overwirte: there is no such option; did you mean --overwrite?"),
     "no value": (("--set",), "--set: needs a value; see --help"),
-    "two files": (("other.toml",), "Got unexpected extra argument (other.toml); see crankwork --help"),
+    "two files": (("other.toml",), "other.toml: is not expected here; leave it out, or put"),
 }  # fmt: skip
 
 
@@ -102,7 +102,7 @@ def test_forces_per_area_need_the_bore(crankwork, machine_file, check_mistakes, 
         (("new", "a\x1b[31m"), '"a\\x1b[31m"'),
         (("check",), "FILE: is missing; write it after the command"),
         (("draw", "my.toml"), '"draw": there is no such command; write new, check, run, report, explain, solve, '),
-        (("schema", "x"), "unexpected extra argument"),
+        (("schema", "x"), "x: is not expected here; leave it out"),
     ],
 )
 def test_a_wrong_command_is_answered_in_one_line(crankwork, check_mistakes, arguments, answered) -> None:

@@ -8,11 +8,14 @@ import re
 from collections import defaultdict
 from pathlib import Path
 
+import click
 import pytest
 
 import crankwork
 from crankwork.analysis.results import Notice
-from crankwork.description.machine_file import FILES
+from crankwork.cli import commands
+from crankwork.cli.spoken import option_key, stand_in_key
+from crankwork.description import machine_file
 from crankwork.description.schema import Table
 from crankwork.locale import LANGUAGES, Refusal, has_text, say, texts, told
 from crankwork.mechanism import dyads
@@ -24,6 +27,7 @@ from crankwork.report.notices import notice_text
 from crankwork.units import UNITS
 
 PACKAGE = Path(crankwork.__file__).parent
+TEMPLATES = sorted((PACKAGE / machine_file.TEMPLATES).glob("*.toml"))
 ROOMS = sorted({path.stem for path in (PACKAGE / "locale").glob("*/*.toml")})
 # rooms whose names are put together with their room where they are asked for, and the folder whose constants name them
 NAMED_IN = {
@@ -45,15 +49,29 @@ def texts_of(kind: object) -> set[str]:
     return texts_of(below) if below is not None else set()
 
 
+def texts_of_help() -> set[str]:
+    """Return the names of the texts that the help of every command is made of."""
+    found = {"usage", "options", "commands"}
+    for command in (commands, *commands.commands.values()):
+        context = click.Context(command, info_name="crankwork", help_option_names=["-h", "--help"])
+        options = [one for one in command.get_params(context) if isinstance(one, click.Option)]
+        stand_ins = " ".join([*command.collect_usage_pieces(context), *(one.metavar or "" for one in options)])
+        found |= {f"command_{command.name}", *map(stand_in_key, re.findall(r"[A-Z]+", stand_ins))}
+        found |= {option_key(str(command.name), one) for one in options}
+    return {one.removeprefix("help.") for one in found}
+
+
 # and rooms with one text for each entry of a table
 TABLES = {
     "arguments": ARGUMENTS,
-    "fields": set().union(*map(texts_of, FILES)),
+    "fields": set().union(*map(texts_of, machine_file.FILES)),
+    "help": texts_of_help(),
     "kinds": (*vars(dyads), "opposed"),
     "refusals": (*(f"dimension_{one.dimension}" for one in UNITS.values()), "or", "and"),
     "places": re.findall(r"\w{2,}\.?|p\.", _PLACE.pattern.replace("\\", "")),
     "quantities": QUANTITIES,
     "symbols": QUANTITIES,
+    "templates": {word for path in TEMPLATES for word in re.findall(r"\{(\w+)\}", path.read_text("utf-8"))},
     "units": {*UNITS, "kmol", "mol", "h"},
 }
 
@@ -148,7 +166,11 @@ def test_what_is_the_same_in_english_is_one_text():
 
 
 def test_every_key_of_a_machine_file_says_what_it_means():
-    assert {name for one in FILES for name in texts_of(one)} <= set(texts("fields", "en"))
+    assert {name for one in machine_file.FILES for name in texts_of(one)} <= set(texts("fields", "en"))
+
+
+def test_every_command_option_and_stand_in_of_the_help_has_its_text():
+    assert texts_of_help() - {"columns.value"} == set(texts("help", "en"))
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

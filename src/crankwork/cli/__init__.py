@@ -8,7 +8,7 @@ import json
 import os
 import re
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, TextIO
 
 import click
@@ -18,41 +18,30 @@ from crankwork.cli.asked import (
     compared,
     doubt,
     laid_over,
-    language_of_system,
     machine_of,
     place_of,
-    refusal,
 )
+from crankwork.cli.spoken import SpokenGroup, language_asked, language_of_system, placeholder
 from crankwork.errors import CrankworkError, DoubtfulError, InputError
+from crankwork.locale import LANGUAGES, Language, Refusal, say, told
 from crankwork.progress import bar, with_progress
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from crankwork.quantities import Language
+_LANGUAGE = click.Choice(LANGUAGES)
 
-_LANGUAGE = click.Choice(["en", "ru", "vi"])
-_UNITS = click.Choice(["metric", "si", "imperial"])
-
-
-def _lang(what: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Return the option for the language of what a command gives."""
-    return click.option(
-        "--lang", "language", type=_LANGUAGE, default=language_of_system, show_default="of the system, or en",
-        help=f"Language of the {what}.",
-    )  # fmt: skip
-
-
-# options that commands share
-_SYSTEM = click.option("--units", type=_UNITS, help="System of units of the output, instead of the file's own.")
-_SET = click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Override a key of the file.")
-_METHOD = click.option("--method", metavar="NAME", help="exact, textbook or series:N, instead of the file's own.")
-_STEP = click.option("--step", metavar="DEG", help="Step of the tables, in degrees of crank angle.")
-_PER_AREA = click.option("--per-area", is_flag=True, help="Forces per piston area, in MPa.")
-_NO_FIGURES = click.option("--no-figures", is_flag=True, help="Leave the figures out.")
-_COMPARE = click.option(
-    "--compare", metavar="METHODS|FILE", help="Put textbook, series:N ... or the machine of OTHER.toml beside."
-)
+# options that commands share; what each is told by stands in the room `help`
+_LANG = click.option("--lang", "language", type=_LANGUAGE, default=language_of_system)
+_SYSTEM = click.option("--units", type=click.Choice(["metric", "si", "imperial"]))
+_SET = click.option("--set", "settings", multiple=True, metavar="KEY=VALUE")
+_METHOD = click.option("--method", metavar="NAME")
+_STEP = click.option("--step", metavar="DEG")
+_PER_AREA = click.option("--per-area", is_flag=True)
+_NO_FIGURES = click.option("--no-figures", is_flag=True)
+_COMPARE = click.option("--compare", metavar="METHODS|FILE")
+_JSON = click.option("--json", "as_json", is_flag=True)
+_OVERWRITE = click.option("--overwrite", is_flag=True)
 
 
 def main() -> None:
@@ -73,7 +62,7 @@ def _exit_code() -> int:
         if sys.stdout is not None:
             sys.stdout.flush()
     except InputError as error:
-        _tell(*error.lines(_told), _told(refusal("nothing_computed")))
+        _tell(*error.lines(_told), _told(Refusal("nothing_computed")))
     except CrankworkError as error:
         _tell(_told(error.args[0]))
         return 1 if isinstance(error, DoubtfulError) else 2
@@ -89,7 +78,7 @@ def _exit_code() -> int:
     except OSError as error:
         # everything else that touches the disk is in `files`, so this is the output itself
         _send_nowhere(sys.stdout)
-        _tell(_told(refusal("output_unwritable", reason=(error.strerror or "unknown reason").lower())))
+        _tell(_told(Refusal("output_unwritable", reason=(error.strerror or "unknown reason").lower())))
     else:
         return 0
     return 2
@@ -110,10 +99,7 @@ def _tell(*lines: str) -> None:
 
 def _told(message: str) -> str:
     """Return a refusal in the language that the command line asks for, which may be what is wrong with it."""
-    from crankwork.locale import told
-
-    asked = re.findall(r"(?<=\0)--lang(?:\0|=)(en|ru|vi)(?=\0)", "\0".join(["", *sys.argv[1:], ""]))
-    return told(message, asked[-1] if asked else language_of_system())
+    return told(message, language_asked())
 
 
 def _usage_sentence(error: click.ClickException) -> str:
@@ -121,28 +107,31 @@ def _usage_sentence(error: click.ClickException) -> str:
     match error:
         case click.NoSuchOption():
             if error.possibilities:
-                return refusal("option_unknown_near", option=error.option_name, nearest=error.possibilities[0])
-            return refusal("option_unknown", option=error.option_name)
+                return Refusal("option_unknown_near", option=error.option_name, nearest=error.possibilities[0])
+            return Refusal("option_unknown", option=error.option_name)
         case click.BadOptionUsage():
-            return refusal("option_value", option=error.option_name)
+            name = "option_no_value" if "does not take" in error.message else "option_value"
+            return Refusal(name, option=error.option_name)
         case click.MissingParameter() if isinstance(error.param, click.Option):
-            option = f"{error.param.opts[0]} {error.param.metavar or ''}".strip()
-            return refusal("option_missing", option=error.param.opts[0], written=option)
+            option = f"{error.param.opts[0]} {placeholder(error.param.metavar or '')}".strip()
+            return Refusal("option_missing", option=error.param.opts[0], written=option)
         case click.MissingParameter():
             name = (error.param.name or "argument").upper() if error.param else "argument"
-            return refusal("argument_missing", argument=name)
+            return Refusal("argument_missing", argument=placeholder(name))
         case click.BadParameter() if error.param and isinstance(error.param.type, click.Choice):
             found = re.search(r"'(.*)' is not one of", error.message)
-            given, choices = found[1] if found else refusal("this"), tuple(error.param.type.choices)
-            return refusal("option_choice", option=error.param.opts[0], given=given, choices=choices)
+            given, choices = found[1] if found else Refusal("this"), tuple(error.param.type.choices)
+            return Refusal("option_choice", option=error.param.opts[0], given=given, choices=choices)
         case click.exceptions.NoSuchCommand():
             known = ", ".join(commands.commands)
-            return refusal("no_command", command=error.command_name[:40], known=known)
+            return Refusal("no_command", command=error.command_name[:40], known=known)
+        case _ if found := re.search(r"extra arguments? \((.*)\)$", error.message):
+            return Refusal("argument_extra", argument=found[1])
         case _:
             return f"{error.format_message().rstrip('.')}; see crankwork --help"
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"]})
+@click.group(cls=SpokenGroup, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(package_name="crankwork", message="crankwork %(version)s")
 def commands() -> None:
     """Kinematics and dynamics of crank-driven machines, from one text file."""
@@ -150,32 +139,33 @@ def commands() -> None:
 
 @commands.command()
 @click.argument("name", required=False)
-@click.option("-o", "--output", metavar="FILE", help="Write here instead of to the screen.")
-@click.option("--overwrite", is_flag=True, help="Replace a file that is there.")
-def new(name: str | None, output: str | None, *, overwrite: bool) -> None:
-    """Write a commented machine file to start from; without a name, list those there are."""
+@click.option("-o", "--output", metavar="FILE")
+@_LANG
+@_OVERWRITE
+def new(name: str | None, output: str | None, language: Language, *, overwrite: bool) -> None:
+    """Write a template, or list those there are."""
     from crankwork import files
     from crankwork.description.machine_file import template, template_names
 
     if name is None:
         click.echo("\n".join(template_names()))
         return
-    text = template(name)
+    text = template(name, language)
     if output is None:
         click.echo(text, nl=False)
         return
     files.write_new(output, text, overwrite=overwrite)
-    click.echo(f"{output} written; check it with: crankwork check {output}")
+    click.echo(say("report.written_new", language, file=output))
 
 
 @commands.command()
 @click.argument("file")
-@_lang("output")
+@_LANG
 @_SYSTEM
 @_SET
-@click.option("--circuits", is_flag=True, help="List every way to assemble a linkage, and how far it moves on each.")
-@click.option("--json", "as_json", is_flag=True, help="Print the circuits as one JSON object.")
-@click.option("--expand", is_flag=True, help="Print the file with its shorthand and every default written out.")
+@click.option("--circuits", is_flag=True)
+@_JSON
+@click.option("--expand", is_flag=True)
 def check(  # noqa: PLR0913 - one argument per option of the command
     file: str,
     language: Language,
@@ -186,21 +176,20 @@ def check(  # noqa: PLR0913 - one argument per option of the command
     as_json: bool,
     expand: bool,
 ) -> None:
-    """Say what a machine file describes, or every mistake in it at once."""
+    """Read a machine and say what it is."""
     if expand and (circuits or as_json):
-        raise CrankworkError(refusal("expand_alone"))
+        raise CrankworkError(Refusal("expand_alone"))
     if expand:
         from crankwork.description.expand import expanded
 
         click.echo(expanded(file, settings, language), nl=False)
         return
     from crankwork.description.machine_file import read
-    from crankwork.locale import say
     from crankwork.report.notices import notice_text
     from crankwork.report.summary import description_text
 
     if as_json and not circuits:
-        raise CrankworkError(refusal("json_of_circuits"))
+        raise CrankworkError(Refusal("json_of_circuits"))
     machine = read(file, laid_over(settings, units=units))
     if circuits and as_json:
         from crankwork.analysis.ways import ways
@@ -223,18 +212,18 @@ def check(  # noqa: PLR0913 - one argument per option of the command
 
 @commands.command()
 @click.argument("file")
-@click.option("-o", "--output", metavar="DIR", help="Write tables, figures and the moving drawing into this folder.")
+@click.option("-o", "--output", metavar="DIR")
 @_STEP
 @_METHOD
-@_lang("output")
+@_LANG
 @_SYSTEM
 @_SET
 @_COMPARE
 @_PER_AREA
-@click.option("--json", "as_json", is_flag=True, help="Print the summary as one JSON object.")
+@_JSON
 @_NO_FIGURES
-@click.option("--excel-csv", is_flag=True, help="CSV with semicolons and decimal commas.")
-@click.option("--overwrite", is_flag=True, help="Write into a folder that holds files already.")
+@click.option("--excel-csv", is_flag=True)
+@_OVERWRITE
 def run(  # noqa: PLR0913 - one argument per option of the command
     file: str,
     output: str | None,
@@ -258,7 +247,7 @@ def run(  # noqa: PLR0913 - one argument per option of the command
     machine = machine_of(file, laid_over(settings, step, method, units), per_area=per_area)
     if output is not None:
         if not output:
-            raise CrankworkError(refusal("folder_unnamed"))
+            raise CrankworkError(Refusal("folder_unnamed"))
         files.check_folder(output, overwrite=overwrite)
     results = compared(machine, file, compare, per_area=per_area)
     if as_json:
@@ -266,7 +255,6 @@ def run(  # noqa: PLR0913 - one argument per option of the command
     else:
         click.echo(summary.summary_text(results, language=language, per_area=per_area))
     if output is not None:
-        from crankwork.locale import say
         from crankwork.report.results_folder import left_out, results_folder
 
         steps = results_folder(
@@ -282,22 +270,20 @@ def run(  # noqa: PLR0913 - one argument per option of the command
 
 @commands.command()
 @click.argument("file")
-@click.option(
-    "-o", "--output", required=True, metavar="NOTE", help="Write the note here; its ending is .pdf, .docx or .html."
-)
+@click.option("-o", "--output", required=True, metavar="NOTE")
 @_STEP
 @_METHOD
-@_lang("note")
-@click.option("--school", type=_LANGUAGE, help="Whose order of sections; that of the language if left out.")
+@_LANG
+@click.option("--school", type=_LANGUAGE)
 @_SYSTEM
 @_SET
 @_COMPARE
 @_PER_AREA
-@click.option("--title", default="", metavar="TEXT", help="Title of the note, instead of the file's.")
-@click.option("--author", default="", metavar="TEXT", help="Who hands it in.")
+@click.option("--title", default="", metavar="TEXT")
+@click.option("--author", default="", metavar="TEXT")
 @_NO_FIGURES
-@click.option("--sheets", is_flag=True, help="Write drawing sheets beside it: NOTE-sheet-1.pdf, .svg and .dxf.")
-@click.option("--overwrite", is_flag=True, help="Replace a note that is there.")
+@click.option("--sheets", is_flag=True)
+@_OVERWRITE
 def report(  # noqa: PLR0913 - one argument per option of the command
     file: str,
     output: str,
@@ -322,7 +308,6 @@ def report(  # noqa: PLR0913 - one argument per option of the command
     # before anything else is loaded
     check_format(output, with_figures=not no_figures, with_sheets=sheets)
     from crankwork import files
-    from crankwork.locale import say
     from crankwork.note.contents import note_of, sheets_of
     from crankwork.note.options import NoteOptions
 
@@ -345,10 +330,10 @@ def report(  # noqa: PLR0913 - one argument per option of the command
 @commands.command()
 @click.argument("file")
 @click.argument("key", required=False)
-@click.option("--at", metavar="DEG", help="Crank angle, or time where a law drives, for what varies with it.")
-@click.option("--list", "with_keys", is_flag=True, help="Print the keys.")
+@click.option("--at", metavar="DEG")
+@click.option("--list", "with_keys", is_flag=True)
 @_METHOD
-@_lang("output")
+@_LANG
 @_SYSTEM
 @_SET
 def explain(  # noqa: PLR0913 - one argument per option of the command
@@ -368,7 +353,7 @@ def explain(  # noqa: PLR0913 - one argument per option of the command
     from crankwork.note.explain import explanation, key_lines, place_text
 
     if key is None and not with_keys:
-        raise CrankworkError(refusal("explain_what"))
+        raise CrankworkError(Refusal("explain_what"))
     overrides = laid_over(settings, None, method, units)
     # what is no crank angle may be a time, which the machine knows
     machine = read(file, overrides)
@@ -388,13 +373,13 @@ def explain(  # noqa: PLR0913 - one argument per option of the command
 @commands.command()
 @click.argument("file")
 @click.argument("equation")
-@click.option("--for", "sought", required=True, metavar="KEY", help="The number of the file that is sought.")
-@click.option("--from", "start", metavar="VALUE", help="Where to begin looking, with a unit or in that of the file.")
-@click.option("--to", "end", metavar="VALUE", help="Where to end looking.")
-@click.option("--steps", metavar="N", default="400", show_default=True, help="How many steps to look at.")
-@_lang("output")
+@click.option("--for", "sought", required=True, metavar="KEY")
+@click.option("--from", "start", metavar="VALUE")
+@click.option("--to", "end", metavar="VALUE")
+@click.option("--steps", metavar="N", default="400")
+@_LANG
 @_SET
-@click.option("--json", "as_json", is_flag=True, help="Print what was found as one JSON object.")
+@_JSON
 def solve(  # noqa: PLR0913 - one argument per option of the command
     file: str,
     equation: str,
@@ -413,9 +398,9 @@ def solve(  # noqa: PLR0913 - one argument per option of the command
     from crankwork.study.solve import solve as solved
 
     count = int(steps) if steps.isascii() and steps.isdecimal() and len(steps) < 10 else 0
-    with bar() as told:
+    with bar() as telling:
         found = solved(
-            load(file), equation, sought, limits=(start, end), steps=count, overrides=settings, told=told
+            load(file), equation, sought, limits=(start, end), steps=count, overrides=settings, told=telling
         )  # fmt: skip
     if as_json:
         click.echo(json.dumps(solution_data(found), ensure_ascii=False, indent=1))
@@ -426,11 +411,11 @@ def solve(  # noqa: PLR0913 - one argument per option of the command
 @commands.command()
 @click.argument("file")
 @click.argument("keys", nargs=-1)
-@click.option("--samples", default="2000", show_default=True, help="Draws where numbers do not act one by one.")
-@_lang("output")
+@click.option("--samples", metavar="N", default="2000")
+@_LANG
 @_SYSTEM
 @_SET
-@click.option("--json", "as_json", is_flag=True, help="Print the spreads as one JSON object.")
+@_JSON
 def spread(  # noqa: PLR0913 - one argument per option of the command
     file: str,
     keys: tuple[str, ...],
@@ -447,8 +432,8 @@ def spread(  # noqa: PLR0913 - one argument per option of the command
     from crankwork.study.spread_text import spread_data, spread_text
 
     count = int(samples) if samples.isascii() and samples.isdecimal() and len(samples) < 10 else 0
-    with bar() as told:
-        found = found_spread(load(file), keys, samples=count, overrides=laid_over(settings, units=units), told=told)
+    with bar() as telling:
+        found = found_spread(load(file), keys, samples=count, overrides=laid_over(settings, units=units), told=telling)
     if as_json:
         click.echo(json.dumps(spread_data(found), ensure_ascii=False, indent=1))
     else:
@@ -456,7 +441,7 @@ def spread(  # noqa: PLR0913 - one argument per option of the command
 
 
 @commands.command()
-@_lang("descriptions")
+@_LANG
 def schema(language: Language) -> None:
     """Print the JSON Schema of the machine file, for editors."""
     from crankwork.description.machine_file import json_schema

@@ -3,35 +3,16 @@
 from __future__ import annotations
 
 import math
-import os
 from typing import TYPE_CHECKING
 
 from crankwork.errors import CrankworkError, DoubtfulError
+from crankwork.locale import Language, Refusal
 from crankwork.progress import bar
 
 if TYPE_CHECKING:
     from crankwork.analysis import Results
     from crankwork.description.machine_file import Setting
     from crankwork.machine import Machine
-    from crankwork.quantities import Language
-
-
-def language_of_system() -> Language:
-    """Return the language that the system is set to, if there are words in it; English otherwise."""
-    stated = (os.environ.get(name) for name in ("LC_ALL", "LC_MESSAGES", "LANG"))
-    match next((one for one in stated if one), "").partition("_")[0]:
-        case "ru":
-            return "ru"
-        case "vi":
-            return "vi"
-    return "en"
-
-
-def refusal(name: str, **values: object) -> str:
-    """Return a refusal, which `_told` can say in another language."""
-    from crankwork.locale import Refusal
-
-    return Refusal(name, **values)
 
 
 def machine_of(file: str, overrides: list[str | Setting], *, per_area: bool) -> Machine:
@@ -40,7 +21,7 @@ def machine_of(file: str, overrides: list[str | Setting], *, per_area: bool) -> 
 
     machine = read(file, overrides)
     if per_area and machine.cylinder is None:
-        raise CrankworkError(refusal("per_area_bore"))
+        raise CrankworkError(Refusal("per_area_bore"))
     return machine
 
 
@@ -84,7 +65,7 @@ def place_of(text: str, dimension: str) -> float:
     try:
         value = parse_in(text, "deg" if dimension == "angle" else "s")
     except ValueError as error:
-        raise CrankworkError(refusal("option_wrong", option="--at", mistake=error.args[0])) from None
+        raise CrankworkError(Refusal("option_wrong", option="--at", mistake=error.args[0])) from None
     return round(math.degrees(value), 9) if dimension == "angle" else value
 
 
@@ -107,5 +88,5 @@ def compared(machine: Machine, file: str, asked: str | None, *, per_area: bool) 
     results = analysed(machine)
     found = compare(results, {other: analysed(one) for other, one in machines.items()}, name)
     if per_area and found.compared is not None and not found.compared.is_of_methods:
-        raise CrankworkError(refusal("compare_per_area"))
+        raise CrankworkError(Refusal("compare_per_area"))
     return found

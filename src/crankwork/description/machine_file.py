@@ -7,6 +7,7 @@ import hashlib
 import itertools
 import json
 import re
+import textwrap
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -26,7 +27,7 @@ from crankwork.description.schema import ListOf, Named, NameOr, Nested, Table, V
 from crankwork.description.turning_keys import PRESS_FILE, TURNING_FILE
 from crankwork.errors import CrankworkError, InputError, Problem, UnknownKeyError
 from crankwork.loads.indicator import DiagramError
-from crankwork.locale import Language, Refusal
+from crankwork.locale import Language, Refusal, say
 from crankwork.resources import read_resource, resource_names
 
 if TYPE_CHECKING:
@@ -39,6 +40,9 @@ _MAX_PARTS = 8
 _OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
 # a name, and numbers of entries where it is a list
 _STEP = re.compile(r"[^\[\]]+(\[[0-9]{1,4}\])*")
+# words of a template by their key, and a comment that is nothing else
+_WORDS = re.compile(r"\{([a-z][\w.]*)\}")
+_COMMENT = re.compile(rf"^# {_WORDS.pattern}$", re.MULTILINE)
 _STRINGS = re.compile(r"""\"(?:\\.|[^\"\\])*\"?|'[^']*'?""")
 
 
@@ -347,8 +351,8 @@ def template_names() -> list[str]:
     return resource_names(TEMPLATES, ".toml")
 
 
-def template(name: str) -> str:
-    """Return the commented machine file to start from.
+def template(name: str, language: Language = "en") -> str:
+    """Return the commented machine file to start from, its title and comments in a language.
 
     Raises
     ------
@@ -358,4 +362,13 @@ def template(name: str) -> str:
     if name not in template_names():
         known = ", ".join(template_names())
         raise CrankworkError(Refusal("no_template", name=_printable(name[:40]), known=known))
-    return read_resource(*TEMPLATES.split("/"), f"{name}.toml")
+
+    def said(found: re.Match[str]) -> str:
+        key = found[1] if "." in found[1] else f"templates.{found[1]}"
+        return say(key, language)
+
+    def comment(found: re.Match[str]) -> str:
+        return textwrap.fill(said(found), 116, initial_indent="# ", subsequent_indent="# ", break_on_hyphens=False)
+
+    written = read_resource(*TEMPLATES.split("/"), f"{name}.toml")
+    return _WORDS.sub(said, _COMMENT.sub(comment, written))
