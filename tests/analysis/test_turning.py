@@ -53,6 +53,7 @@ class TestByHand:
             flywheel.rim = { diameter = "2 m", width = "100 mm", thickness = "50 mm", density = "7200 kg/m3" }
             """)
         assert found["speed_fluctuation"] == pytest.approx(200 / (72 * math.pi * 400))
+        assert found["rim_speed"] == pytest.approx(20.0)
 
     def test_the_speed(self) -> None:
         """An energy of 100 (1 - cos) and an inertia of 9 pi."""

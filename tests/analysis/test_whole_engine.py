@@ -21,6 +21,7 @@ from crankwork.cylinders.torque import cylinder_angle
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.machine import Bearings, Drive, Engine, Machine
+from crankwork.report.summary import summary_data
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ENGINES = ("petrol-four", "v8-diesel", "radial-five", "two-stroke")
@@ -218,3 +219,40 @@ def test_listings_reach_the_tables():
     )
     assert {"engine_torque", "accumulated_torque", "bearings", "main_journals", "speed"} <= set(results.tables)
     assert results.listings["firing"].columns["firing_interval"] == pytest.approx(np.radians(180.0))
+
+
+@pytest.mark.parametrize("name", ["v-twin", "narrow-v6", "radial-five"])
+def test_the_best_share_leaves_least_of_what_turns_with_the_crank(name: str) -> None:
+    """Tried out: what is left of the first order is least at that share, with counterweights of that mass moment."""
+    v_twin = EXAMPLES.parent / "tests" / "machines" / "v-two.toml"
+    machine = crankwork.read(v_twin if name == "v-twin" else EXAMPLES / f"{name}.toml")
+    machine = replace(machine, method=machine.method.named("exact"))
+
+    def left(share: float) -> float:
+        engine = replace(
+            machine.engine, rotating_share=1.0, reciprocating_share=share, counterweight=0.0, balance_shafts=()
+        )
+        (first, *_) = engine_balance(whole_engine(crankwork.analyse(replace(machine, engine=engine)).solved)).residual
+        return abs(first.force.forward) or abs(first.moment.forward)
+
+    found = crankwork.analyse(machine)
+    best = found.value("best_balanced_share")
+    assert left(best) < min(left(best - 1e-4), left(best + 1e-4))
+    if name == "v-twin":
+        # half of a mass that swings turns with the crank, whatever the angle of the banks
+        assert best == pytest.approx(0.5, abs=1e-12)
+        assert found.value("best_counterweight_moment") == pytest.approx(
+            (found["rotating_mass"] * 2 - found.memory["crank_mass"].value + found["reciprocating_mass"])
+            * found["crank_radius"]
+        )
+
+
+def test_what_is_free_of_forces_stands_before_one_cylinder_and_its_cycle() -> None:
+    results = crankwork.analyse(crankwork.read(EXAMPLES / "petrol-four.toml"))
+    keys = list(summary_data(results)["summary"])
+    assert keys.index("free_force.residual.2") < keys.index("piston_velocity_max") < keys.index("excess_air")
+    assert set(keys) == set(results.summary)
+    second = 4 * results["reciprocating_mass"] * results["crank_radius"] * results["speed"] ** 2 * results["rod_ratio"]
+    # lambda cos 2 phi and what the next powers of lambda add to it, below lambda^2 / 4
+    assert results["free_force.residual.2"] == pytest.approx(second, rel=results["rod_ratio"] ** 2 / 3)
+    assert not any(key.startswith("best_") for key in keys)

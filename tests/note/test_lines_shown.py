@@ -170,7 +170,7 @@ NO_FORMULA = {
 }  # fmt: skip
 SOLVED_KINDS = (
     "joint_force", "normal_force", "normal_moment", "link_angle", "link_swing", "slider_stroke", "slider_displacement",
-    "point_x", "point_y", "transmission_angle", "time_ratio", "shaking_force_max", "free_force",
+    "point_x", "point_y", "transmission_angle", "time_ratio", "shaking_force_max", "free_force", "free_moment",
     "torque_with_friction", "static_torque_with_friction",
 )  # fmt: skip
 

@@ -29,11 +29,11 @@ from crankwork.cylinders.balance import (
     sampled_harmonics,
 )
 from crankwork.cylinders.balance_shafts import ShaftWeight, balance_shafts, shaft_forces
-from crankwork.cylinders.counterweights import Unbalance, rotating_unbalances, turning_forces
+from crankwork.cylinders.counterweights import Unbalance, counterweight_moment, rotating_unbalances, turning_forces
 from crankwork.cylinders.ellipse import Ellipse, OrderBalance, balance_sum, unit_vectors
 from crankwork.cylinders.journal_loads import unbalance_force
 from crankwork.cylinders.layout import Layout
-from crankwork.formula.known import Found, Known, given, in_order
+from crankwork.formula.known import Found, Known, given, in_order, total
 from crankwork.formula.replay import Samples, replay
 from crankwork.kinematics.crank_grid import CrankGrid
 
@@ -251,6 +251,45 @@ def _weights(whole: WholeEngine, balance: EngineBalance) -> dict[str, Known]:
 
 
 _OF_WEIGHTS = ("rotating_mass", "counterweight_moment")
+
+
+def balance_summary(whole: WholeEngine, balance: EngineBalance, memory: Mapping[str, Known]) -> dict[str, Known]:
+    """Return what is left free by order, and the share of the reciprocating masses that counterweights take best."""
+    kind = "residual" if any(name.startswith("residual") for name in balance.rows) else "reciprocating"
+    free = [key for key in memory if key.startswith((f"free_force.{kind}.", f"free_moment.{kind}."))]
+    return {key: memory[key] for key in free if memory[key].value} | _best_weights(whole, balance, memory)
+
+
+def _best_weights(whole: WholeEngine, balance: EngineBalance, memory: Mapping[str, Known]) -> dict[str, Known]:
+    """Return the share at which what turns with the crank is gone, or least, and the counterweights with that share.
+
+    Nothing where the reciprocating masses on the throws cancel each other.
+    """
+    layout, r, w = whole.layout, whole.master.lengths.crank_radius, whole.master.speed
+    before = balance_sum((*balance.reciprocating, *balance.knuckles))[0]
+    turning = turning_forces(layout, rotating_unbalances(layout, reciprocating_masses(whole), r), w)
+    swinging, whole_part = before.force.forward, turning.force.forward
+    if not whole_part:
+        swinging, whole_part = before.moment.forward, turning.moment.forward
+    if not whole_part:
+        return {}
+    free = tuple(memory[key] for key in ("free_force.reciprocating.1", "free_moment.reciprocating.1") if key in memory)
+    share = Known(Found((swinging * whole_part.conjugate()).real / abs(whole_part) ** 2, "vector_share", free))
+    share = share.named("best_balanced_share")
+    moments = [
+        total(f"best_counterweight_moment.{pin + 1}", [
+            counterweight_moment(
+                rotating_mass_of(whole, place), share,
+                whole.cylinders[place.number - 1].memory["reciprocating_mass"], whole.master.memory["crank_radius"],
+            ).named(f"best_counterweight_moment.{pin + 1}.{place.number}")
+            for place in whole.on_pin[pin]
+        ])
+        for pin in sorted(whole.on_pin)
+    ]  # fmt: skip
+    alike = all(math.isclose(one.value, moments[0].value, rel_tol=1e-12) for one in moments)
+    if alike:
+        moments = [moments[0].named("best_counterweight_moment")]
+    return {one.key: one for one in (share, *moments)}
 
 
 def balance_listing(whole: WholeEngine, balance: EngineBalance, memory: Mapping[str, Known]) -> Listing:

@@ -9,7 +9,13 @@ from typing import NamedTuple
 
 from crankwork.analysis.cylinders import WholeEngine, whole_engine
 from crankwork.analysis.engine import analyse_engine, moved_work
-from crankwork.analysis.engine_balance import balance_checks, balance_listing, balance_memory, engine_balance
+from crankwork.analysis.engine_balance import (
+    balance_checks,
+    balance_listing,
+    balance_memory,
+    balance_summary,
+    engine_balance,
+)
 from crankwork.analysis.engine_bearings import (
     bearing_columns,
     bearing_components,
@@ -118,12 +124,14 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
         "torque_harmonics": harmonics_listing(harmonics),
         **bearing_listings(whole, loads),
     }
-    balance, balanced = engine_balance(whole), dict[str, Known]()
+    balance, balanced, left = engine_balance(whole), dict[str, Known](), dict[str, Known]()
     if whole.machine.masses is not None:
         balanced = balance_memory(whole, balance)
         listings["balance"] = balance_listing(whole, balance, balanced)
+        left = balance_summary(whole, balance, balanced)
+        balanced |= left
     whole_values = {key: one for key, one in {**firing, **works}.items() if key in _WHOLE_VALUES}
-    single = {**whole_values, **torque.summary, **bearing_summary(whole, loads)}
+    single = {**whole_values, **torque.summary, **bearing_summary(whole, loads), **left}
     summary = {key: one.value for key, one in single.items()}
     thrown, joints = dict[str, float](), dict[str, Known]()
     if any(whole.engine.slaves):

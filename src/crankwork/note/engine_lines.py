@@ -247,4 +247,5 @@ def _weights(results: Results) -> Iterator[str]:
         if key.count(".") == 1 and known.value and known.value not in seen:
             seen.add(known.value)
             yield from (f"{key}.", key)
+    yield from ("best_balanced_share", "best_counterweight_moment", "best_counterweight_moment.")
     yield from ("balance_shaft_moment.", "unbalance_force.balance_shafts.")

@@ -21,7 +21,8 @@ _STATISTICS = (
 _ON_ROD = ("big_end_load", "piston_pin_force", "small_end_load")
 _OF_ORDERS = (
     "acceleration_coefficient", "order_inertia_force", "force_factor", "free_force", "moment_factor", "free_moment",
-    "rotating_mass", "counterweight_moment", "shaft_unbalance", "unbalance_force",
+    "rotating_mass", "counterweight_moment", "best_balanced_share", "best_counterweight_moment", "shaft_unbalance",
+    "unbalance_force",
 )  # fmt: skip
 _ON_MAINS = ("shaft_unbalance", "unbalance_force", "journal_share", "main_journal_load")
 

@@ -12,8 +12,7 @@ from crankwork.note.engine_material import Material
 from crankwork.note.engine_words import EngineWords
 from crankwork.note.printed_units import printed_unit
 from crankwork.quantities import QUANTITIES
-from crankwork.report.language import displayed, key_unit, label, symbol
-from crankwork.report.tables import row_name
+from crankwork.report.language import displayed, key_unit, label, row_name, symbol
 
 # columns of numbers that fit on a page upright
 _UPRIGHT = 9

@@ -10,7 +10,7 @@ from crankwork.note.document import Block, Citation, Runs, Table
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_tables import quantity_columns
 from crankwork.note.linkage_words import Words, named
-from crankwork.report.tables import row_name
+from crankwork.report.language import row_name
 
 _SOURCE = "artobolevsky_1988, ch. 15"
 _ROWS = 21

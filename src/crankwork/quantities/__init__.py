@@ -6,13 +6,30 @@ Tables, figures, notes, the studio and the nomenclature page all read it.
 from __future__ import annotations
 
 from crankwork.locale import LANGUAGES, Language
-from crankwork.quantities import balance, bearings, chambers, circuits, cycle, cylinders, driver, engine, linkage, shaft
+from crankwork.quantities import (
+    balance,
+    bearings,
+    chambers,
+    circuits,
+    cycle,
+    cylinders,
+    driver,
+    engine,
+    linkage,
+    machine,
+    shaft,
+)
 from crankwork.quantities.quantity import Quantity
 
-__all__ = ["LANGUAGES", "Language", "QUANTITIES", "Quantity", "base_key"]
+__all__ = ["LANGUAGES", "Language", "QUANTITIES", "Quantity", "SUBJECTS", "base_key", "subject"]
 
-_ROOMS = (engine, cycle, cylinders, bearings, balance, linkage, shaft, driver, chambers, circuits)
-QUANTITIES: dict[str, Quantity] = {row.key: row for room in _ROOMS for row in room.ROWS}
+# by subject, as a reader wants them: the whole before one cylinder, and last what its cycle was calculated with
+SUBJECTS = {
+    "machine": machine, "linkage": linkage, "driver": driver, "chambers": chambers, "circuits": circuits,
+    "cylinders": cylinders, "shaft": shaft, "bearings": bearings, "balance": balance, "engine": engine, "cycle": cycle,
+}  # fmt: skip
+QUANTITIES: dict[str, Quantity] = {row.key: row for room in SUBJECTS.values() for row in room.ROWS}
+_SUBJECT = {row.key: name for name, room in SUBJECTS.items() for row in room.ROWS}
 
 
 def base_key(key: str) -> str:
@@ -25,3 +42,9 @@ def base_key(key: str) -> str:
         if key not in QUANTITIES:
             key = key.removesuffix(suffix)
     return key
+
+
+def subject(key: str) -> str:
+    """Return the subject, of `SUBJECTS`, that a key of results belongs to: `piston_area.cycle` to the cycle."""
+    owner = key.partition(".")[2]
+    return owner if owner in SUBJECTS else _SUBJECT[base_key(key)]

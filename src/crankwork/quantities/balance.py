@@ -29,6 +29,10 @@ ROWS = (
              "Share of the reciprocating mass that counterweights balance as if it turned with the crankpin."),
     Quantity("counterweight_moment", "kg*m",
              "Mass of a counterweight times the distance of its centre of mass from the crankshaft axis."),
+    Quantity("best_balanced_share", "",
+             "Share of the reciprocating mass at which counterweights leave least of what turns with the crank."),
+    Quantity("best_counterweight_moment", "kg*m",
+             "Mass moment of a counterweight for the rotating mass and the best share of the reciprocating mass."),
     # balance shafts
     Quantity("balance_shaft_moment", "kg*m",
              "Mass of the weight on one balance shaft times the distance of its centre of mass from that shaft."),

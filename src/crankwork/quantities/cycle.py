@@ -145,7 +145,6 @@ ROWS = (
     Quantity("motored_pressure", "MPa",
              "Pressure that the cylinder would have at the same crank angle without burning."),
     Quantity("cylinder_temperature", "K", "Mean absolute temperature of the gas in the cylinder."),
-    Quantity("gas_mass", "g", "Mass enclosed: from intake closing to exhaust opening, or for good."),
     Quantity("specific_gas_constant", "J/(kg*K)", "Pressure times volume over mass and absolute temperature."),
     Quantity("gas_heat_ratio", "", "Specific heat at constant pressure over that at constant volume."),
     Quantity("gas_heat_ratio_slope", "1/K", "Derivative of the ratio of specific heats by the temperature; negative."),

@@ -14,6 +14,7 @@ ROWS = (
     Quantity("crankpin_sine", "", "Sine of the angle of the crankpin."),
     Quantity("crankpin_cosine", "", "Cosine of the angle of the crankpin."),
     # torque along the shaft
+    Quantity("engine_indicated_power", "kW", "Indicated work of all cylinders per unit of time."),
     Quantity("total_torque", "N*m", "Torque of all cylinders on the crankshaft, positive with the rotation."),
     Quantity("mean_total_torque", "N*m", "Mean of the torque of all cylinders over the cycle."),
     Quantity("throw_torque", "N*m", "Torque of all cylinders of one throw."),

@@ -30,7 +30,7 @@ from crankwork.report.engine_figure_data import EngineDrawn
 from crankwork.report.engine_figure_labels import label_marks, spread
 from crankwork.report.engine_figure_paper import Paper
 from crankwork.report.figure_look import DASHED, SOLID
-from crankwork.report.tables import row_name
+from crankwork.report.language import row_name
 
 _HEIGHT, _MARGIN = 340.0, 1.12
 _LINES = (SOLID, DASHED, (0, (7, 2, 1.5, 2)), (0, (1.2, 1.6)))

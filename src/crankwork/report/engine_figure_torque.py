@@ -25,7 +25,7 @@ from crankwork.report.engine_figure_axes import (
 from crankwork.report.engine_figure_data import EngineDrawn
 from crankwork.report.engine_figure_paper import GREY, Paper
 from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED
-from crankwork.report.tables import row_name
+from crankwork.report.language import row_name
 
 _MANY = 8
 _PANEL_GAP = 15.0

@@ -13,7 +13,7 @@ from crankwork.report.engine_figure_axes import TOP, WIDTH, Box, Graph, small_te
 from crankwork.report.engine_figure_data import EngineDrawn
 from crankwork.report.engine_figure_paper import GREY, Paper
 from crankwork.report.figure_look import DASH_DOT
-from crankwork.report.tables import row_name
+from crankwork.report.language import row_name
 
 # The largest sum takes this share of the radius of the journal.
 _DEEPEST = 0.45

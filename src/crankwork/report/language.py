@@ -20,6 +20,9 @@ P = ParamSpec("P")
 R = TypeVar("R")
 _RAISED = str.maketrans("0123456789-−", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻")
 # what is found in several ways
+# kinds of rows whose number is an order, and what is free of each
+_BY_ORDER = ("reciprocating", "knuckle_pins", "balance_shafts", "residual")
+_OF_ORDERS = ("free_force", "free_moment")
 _BY_WAY = ("excess_work", "flywheel_inertia", "whole_inertia")
 # key of the machine file: the quantity or word that it means, where that has another name
 FILE_KEYS = {
@@ -107,6 +110,9 @@ def told_as(key: str, results: Results) -> str:
 def label(key: str, language: Language) -> str:
     """Return the name of a key: `largest piston velocity`, and with its own name `joint force, A`."""
     kind, dot, name = key.partition(".")
+    if kind in _OF_ORDERS and dot:
+        what = say("report.order", language, order=name) if name.isdecimal() else row_name(name, language)
+        return f"{say(f'drawing.{kind}', language)}, {what}"
     return _label(kind, language) + (f", {_part(kind, name, language)}" if dot else "")
 
 
@@ -115,6 +121,15 @@ def _part(kind: str, name: str, language: Language) -> str:
     way = f"report.way_{name}"
     key = way if kind in _BY_WAY and has_text(way) else f"report.{name}"
     return say(key, language) if has_text(key) else name
+
+
+def row_name(name: str, language: Language) -> str:
+    """Return what a row of a listing is called: `crankpin.1` is crankpin 1."""
+    kind, _, number = name.partition(".")
+    what = say(f"report.{kind}", language)
+    if kind in _BY_ORDER:
+        return f"{what}, {say('report.order', language, order=number)}"
+    return f"{what} {number}".rstrip()
 
 
 def _label(key: str, language: Language) -> str:

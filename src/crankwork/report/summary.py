@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from crankwork.analysis import Results
 from crankwork.analysis.rounding import summary_without_rounding
 from crankwork.locale import say
-from crankwork.quantities import Language
+from crankwork.quantities import SUBJECTS, Language, subject
 from crankwork.report.comparison import comparison_data, comparison_text
 from crankwork.report.language import (
     displayed,
@@ -38,7 +38,8 @@ def summary_data(results: Results, *, per_area: bool = False) -> dict[str, Any]:
         "title": results.machine.title,
         "summary": {
             key: {"value": rounded(displayed(key, value, per_area=area)), "unit": key_unit(key, per_area=per_area)}
-            for key, value in summary_without_rounding(results).items()
+            for values in by_subject(results).values()
+            for key, value in values.items()
         },
         "checks": dict(results.checks),
         "allowed": dict(results.allowed),
@@ -56,16 +57,23 @@ def summary_text(results: Results, *, language: Language = "en", per_area: bool 
     lines.append(f"{say('report.method', language)}: {results_method(results, language)}")
     if per_area:
         lines.append(say("report.per_area", language))
-    rows = [
-        (
-            label(told_as(key, results), language),
-            symbol(key, language),
-            number(displayed(key, value, per_area=area), language),
-            unit_name(key_unit(key, per_area=per_area), language),
-        )
-        for key, value in summary_without_rounding(results).items()
-    ]
-    lines += ["", *aligned(rows)]
+    subjects = by_subject(results)
+    rows = aligned(
+        [
+            (
+                label(told_as(key, results), language),
+                symbol(key, language),
+                number(displayed(key, value, per_area=area), language),
+                unit_name(key_unit(key, per_area=per_area), language),
+            )
+            for values in subjects.values()
+            for key, value in values.items()
+        ]
+    )
+    for name, values in subjects.items():
+        lines += ["", *([say(f"subjects.{name}", language)] if len(subjects) > 1 else [])]
+        lines += rows[: len(values)]
+        rows = rows[len(values) :]
     if results.checks:
         lines += ["", say("report.checks", language)]
         lines += aligned(
@@ -80,6 +88,16 @@ def summary_text(results: Results, *, language: Language = "en", per_area: bool 
     if results.compared is not None:
         lines += ["", comparison_text(results, language, per_area=per_area)]
     return "\n".join(lines)
+
+
+def by_subject(results: Results) -> dict[str, dict[str, float]]:
+    """Return the single values by subject, what the whole machine does before one cylinder and its working cycle."""
+    found: dict[str, dict[str, float]] = {name: {} for name in SUBJECTS}
+    for key, value in summary_without_rounding(results).items():
+        name = subject(told_as(key, results))
+        # gas of a linkage has the names of that on a piston, and is that of a chamber
+        found["chambers" if name == "engine" and results.machine.lengths is None else name][key] = value
+    return {name: some for name, some in found.items() if some}
 
 
 def _met(results: Results, key: str, language: Language) -> str:

@@ -16,11 +16,9 @@ from crankwork.errors import MissingExtraError
 from crankwork.locale import Refusal, say
 from crankwork.quantities import Language
 from crankwork.report.comparison import comparison_columns
-from crankwork.report.language import displayed_column, in_own_units, key_unit, label, unit_name
+from crankwork.report.language import displayed_column, in_own_units, key_unit, label, row_name, unit_name
 
 _CREATED = datetime(2000, 1, 1)  # noqa: DTZ001 - a workbook knows no time zones
-# kinds of rows whose number is an order
-_BY_ORDER = ("reciprocating", "knuckle_pins", "balance_shafts", "residual")
 
 
 def table_column(results: Results, key: str, *, per_area: bool = False) -> Array:
@@ -62,15 +60,6 @@ def sheets(results: Results, *, per_area: bool = False) -> dict[str, Sheet]:
         name: sheet(one.names, {key: displayed_column(key, one.columns[key], per_area=area) for key in one.columns})
         for name, one in results.listings.items()
     }
-
-
-def row_name(name: str, language: Language) -> str:
-    """Return what a row of a listing is called: `crankpin.1` is crankpin 1."""
-    kind, _, number = name.partition(".")
-    what = say(f"report.{kind}", language)
-    if kind in _BY_ORDER:
-        return f"{what}, {say('report.order', language, order=number)}"
-    return f"{what} {number}".rstrip()
 
 
 def csv_of_sheet(sheet: Sheet, *, for_excel: bool = False) -> bytes:

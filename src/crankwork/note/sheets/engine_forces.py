@@ -17,9 +17,8 @@ from crankwork.note.sheets.placing import Named, lines_of, names_beside
 from crankwork.note.sheets.scene import Box, Circle, Item, LineKind, Text, arrow, indexed
 from crankwork.note.sheets.words import Words
 from crankwork.report.figure_data import Drawn
-from crankwork.report.language import displayed
+from crankwork.report.language import displayed, row_name
 from crankwork.report.linkage_look import round_scale
-from crankwork.report.tables import row_name
 
 MARKS = 30.0
 _LINES: dict[str, dict[str, LineKind]] = {
