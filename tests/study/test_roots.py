@@ -44,19 +44,28 @@ def test_every_change_of_sign_is_refined(function, expected, kinds):
 
 
 TOUCHES = {
-    "parabola": (lambda x: (x - 3.3333) ** 2, 3.3333, 1e-11),
-    "from below": (lambda x: -1.0 - math.sin(x), 1.5 * math.pi, 1e-11),
-    "corner": (lambda x: abs(x - 3.3333), 3.3333, 1e-11),
-    "at a place looked at": (lambda x: (x - 5.0) ** 2, 5.0, 1e-11),
+    "parabola": (lambda x: (x - 3.3333) ** 2, 3.3333, 1e-12),
+    "from below": (lambda x: -1.0 - math.sin(x), 1.5 * math.pi, 1e-12),
+    "a little steeper on one side": (lambda x: (x + 1) / 6.4 - 1 - math.log((x + 1) / 6.4), 5.4, 1e-12),
+    "between steep sides": (lambda x: math.cosh(3 * (x - 4.123456789)) - 1, 4.123456789, 1e-12),
+    "beside what has no value": (lambda x: gaps(x) - math.sqrt(x - 2) + 0.5 + (x - 2.03) ** 2, 2.03, 1e-12),
+    "with rounding of larger values": (lambda x: (x - 3.3333) ** 2 + 1e-13 * math.sin(1e7 * x), 3.3333, 1e-11),
+    "corner": (lambda x: abs(x - 3.3333), 3.3333, 1e-12),
+    "corner between curves": (
+        lambda x: math.expm1(3.3333 - x) if x < 3.3333 else math.expm1(x - 3.3333),
+        3.3333,
+        1e-12,
+    ),
+    "at a place looked at": (lambda x: (x - 5.0) ** 2, 5.0, 1e-12),
     "fourth power": (lambda x: (x - 3.3333) ** 4, 3.3333, 1e-3),
 }
 
 
 @pytest.mark.parametrize(("function", "expected", "nearness"), TOUCHES.values(), ids=TOUCHES)
 def test_a_touching_root_is_told_as_such(function, expected, nearness):
-    (root,) = find_roots(function, PLACES).roots
+    (root,) = find_roots(function, PLACES, 1.0).roots
     assert root.kind == "touching"
-    assert root.at == pytest.approx(expected, rel=nearness)
+    assert root.at == pytest.approx(expected, rel=0, abs=nearness * (PLACES[-1] - PLACES[0]))
 
 
 @pytest.mark.parametrize("above", [1e-9, 1e-3, 1.0])

@@ -94,7 +94,17 @@ def test_a_ratio_of_one_is_touched_at_the_centric_four_bar():
     found = solved(FOUR_BAR, "time_ratio.rocker = 1", "links.coupler.length", "160 mm", "200 mm", steps=50)
     (root,) = found.roots
     assert root.kind == "touching"
-    assert root.at == pytest.approx(math.sqrt(0.0625**2 + 0.2**2 - 0.1125**2), rel=1e-10)
+    assert root.at == pytest.approx(math.sqrt(0.0625**2 + 0.2**2 - 0.1125**2), rel=1e-11)
+
+
+@pytest.mark.elsewhere
+def test_a_swing_is_least_at_the_centric_four_bar():
+    least = 2 * math.asin(0.0625 / 0.1125)
+    limits = ("155 mm", "230 mm")
+    found = solved(FOUR_BAR, f"link_swing.rocker = {least!r} rad", "links.coupler.length", *limits, steps=50)
+    (root,) = found.roots
+    assert root.kind == "touching"
+    assert root.at == pytest.approx(math.sqrt(0.0625**2 + 0.2**2 - 0.1125**2), rel=0, abs=1e-12 * 0.075)
 
 
 def test_no_ratio_is_below_one_and_the_nearest_is_told():
@@ -109,7 +119,7 @@ def test_a_smooth_touching_root():
     found = solved(FOUR_BAR, "point_y.A@0 = 62.5 mm", "crank.start", "10 deg", "173 deg", steps=50)
     (root,) = found.roots
     assert root.kind == "touching"
-    assert root.at == pytest.approx(math.pi / 2, rel=1e-9)
+    assert root.at == pytest.approx(math.pi / 2, rel=0, abs=1e-12 * math.radians(163))
 
 
 @pytest.mark.elsewhere

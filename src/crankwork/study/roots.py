@@ -24,13 +24,21 @@ _EDGE = 1e-6
 _ACROSS, _STAYS, _SEEN = 1e-8, 0.5, 1e-9
 _GOLDEN = (3 - math.sqrt(5)) / 2
 _NARROW = 1e-9
+_ROUNDING = 4 * float(np.finfo(float).eps)
 _MOST = 200
 _USUAL = 1e3
 # how near beside a place that is zero it is looked which way the function passes it, of a step
 _BESIDE = 1e-3
 # a minimum that is further above zero than its neighbours are above it, times this, does not reach zero between them
 _REACH = 3.0
-_NODES, _SMOOTH = 10, 1e-10
+# places that a polynomial goes through, and what it may leave out of its largest coefficient
+_NODES, _SMOOTH = 16, 1e-5
+# what coefficients of rounding make of the slope of a polynomial, of the largest of them
+_SLOPE = math.sqrt(_NODES**3 / 6)
+# how much less exact than the best polynomial one is beyond which the others are worse still
+_WORSE = 1e3
+# the narrowest range that a polynomial is looked for in, of the whole
+_FINEST = 1600.0
 
 
 class Sample(NamedTuple):
@@ -244,20 +252,23 @@ class _Search:
             if sizes[at] > _REACH * rise and sizes[at] > least:
                 continue
             low, best, high = self._least(before, here, after)
-            if best.value * here.value < 0:
+            if best.value * here.value < 0 and abs(best.value) > self._zero:
                 self._cross(low, best, roots, jumps)
                 self._cross(best, high, roots, jumps)
                 continue
             near.append(best)
             if abs(best.value) <= self._zero:
-                roots.append(Root(self._smooth_least(before, best, after), best.value, "touching"))
+                roots.append(Root(self._smooth_least(run, best, after.at - before.at), best.value, "touching"))
 
     def _least(self, low: Sample, best: Sample, high: Sample) -> tuple[Sample, Sample, Sample]:
-        """Return where values of one sign are least, between the samples beside it, or where one has the other sign."""
+        """Return where values of one sign are least, between the samples beside it, or where one has the other sign.
+
+        What is zero to rounding has either.
+        """
         sign = math.copysign(1.0, best.value)
         for _ in range(_MOST):
             top = max(abs(low.value), abs(high.value))
-            settled = max(self._zero, (1 + _NARROW) * abs(best.value))
+            settled = max(_ROUNDING * self._size, (1 + _NARROW) * abs(best.value))
             if high.at - low.at <= _CONVERGED * max(abs(best.at), _CONVERGED * self._width) or top <= settled:
                 break
             # the lowest place of the parabola through the three, or else the golden section of the longer side
@@ -272,7 +283,7 @@ class _Search:
             tried = self._sample(at)
             if tried.reason:
                 break
-            if sign * tried.value < 0:
+            if sign * tried.value < -self._zero:
                 return (low, tried, best) if at < best.at else (best, tried, high)
             if sign * tried.value < sign * best.value:
                 low, best, high = (low, tried, best) if at < best.at else (best, tried, high)
@@ -280,22 +291,40 @@ class _Search:
                 low, high = (tried, high) if at < best.at else (low, tried)
         return low, best, high
 
-    def _smooth_least(self, before: Sample, best: Sample, after: Sample) -> float:
-        """Return where a smooth function is least near a place that its values cannot tell more exactly."""
-        half = min(best.at - before.at, after.at - best.at, (after.at - before.at) / 4)
-        if half <= 0:
-            return best.at
-        ends = [best.at - half, best.at + half]
-        nodes = best.at + half * np.cos(np.pi * (np.arange(_NODES) + 0.5) / _NODES)
+    def _smooth_least(self, run: Sequence[Sample], best: Sample, width: float) -> float:
+        """Return where a smooth function is least near a place that its values cannot tell more exactly.
+
+        That is where the slope of a polynomial vanishes: of the one that tells it most exactly, of those that follow
+        the function ever further around the place. Near to it values differ by rounding only; far from it no polynomial
+        follows them.
+        """
+        ends, half = min(best.at - run[0].at, run[-1].at - best.at), max(width / 4, self._width / _FINEST)
+        least, found = math.inf, best.at
+        while half <= ends:
+            told = self._least_of_polynomial(best.at, half)
+            if told is None or told[0] > _WORSE * least:
+                break
+            least, found = min((least, found), told)
+            half *= 2
+        return found
+
+    def _least_of_polynomial(self, middle: float, half: float) -> tuple[float, float] | None:
+        """Return how unsure it is where a function is least, and where; None if no polynomial follows it there."""
+        nodes = middle + half * np.cos(np.pi * (np.arange(_NODES) + 0.5) / _NODES)
         values = [self._sample(one) for one in nodes.tolist()]
         if any(one.reason for one in values):
-            return best.at
-        fit = Chebyshev.fit(nodes, [one.value for one in values], _NODES - 1, domain=ends)
-        if np.abs(fit.coef[-2:]).max() > _SMOOTH * np.abs(fit.coef).max():
-            return best.at
+            return None
+        fit = Chebyshev.fit(nodes, [one.value for one in values], _NODES - 1, domain=[middle - half, middle + half])
+        left = float(np.abs(fit.coef[-3:]).max())
+        if left > _SMOOTH * np.abs(fit.coef).max():
+            return None
+        left = max(left, _ROUNDING * self._size)
         roots = fit.deriv().roots()
-        inside = roots.real[(np.abs(roots.imag) < half * _NARROW) & (np.abs(roots.real - best.at) < half)]
-        return float(min(inside, key=lambda one: abs(one - best.at), default=best.at))
+        inside = roots.real[(np.abs(roots.imag) < half * _NARROW) & (np.abs(roots.real - middle) < half)]
+        at = float(min(inside, key=lambda one: abs(one - middle), default=math.nan))
+        # the slope of the slope, by the half width
+        bend = abs(float(fit.deriv(2)(at))) * half**2
+        return (_SLOPE * left / bend * half, at) if bend > 0 else None
 
 
 def _reason(error: CrankworkError) -> str:
