@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import csv
+import hashlib
 import io
 import json
 import re
 import zipfile
+from importlib.metadata import version
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -48,7 +50,12 @@ def test_a_template_is_written_checked_and_computed(crankwork, name, language) -
     assert answer.out.rstrip().endswith(" out")
     # a shaft with torques on it has nothing that could be drawn in motion
     drawing = set() if name in SHAFTS else {"machine.svg"}
-    assert {one.name for one in Path("out").iterdir()} == {".crankwork.json", "tables", "tables.xlsx"} | drawing
+    assert {one.name for one in Path("out").iterdir()} == {
+        ".crankwork.json",
+        "summary.json",
+        "tables",
+        "tables.xlsx",
+    } | drawing
     tables = {"kinematics.csv", "forces.csv"} if name in ENGINES else {"dynamics.csv", "points.csv", "links.csv"}
     tables = {"turning.csv", "energy_extremes.csv"} if name in SHAFTS else tables
     assert tables <= {one.name for one in Path("out/tables").iterdir()}
@@ -188,3 +195,32 @@ def test_three_lines_of_python_give_the_results() -> None:
     assert set(crankwork.__all__) <= set(dir(crankwork))
     with pytest.raises(AttributeError, match="no attribute 'nothing'"):
         _ = crankwork.nothing
+
+
+def test_every_export_says_program_file_and_method(crankwork) -> None:
+    """By the hash of the file and of what was set over it, so that results of another file are told apart."""
+    crankwork("new", "engine", "-o", "engine.toml")
+    digest = hashlib.sha256(Path("engine.toml").read_bytes()).hexdigest()
+    told = f"crankwork {version('crankwork')}", "exact", digest
+    _run(crankwork, "engine.toml", "--no-figures", "-o", "out")
+    data = json.loads(Path("out/summary.json").read_text(encoding="utf-8"))
+    assert (data["source"], data["method"], data["machine_file_sha256"]) == told
+    parts = {"out/tables.xlsx": "docProps/core.xml", "note.docx": "docProps/core.xml"}
+    for name in ("note.html", "note.docx"):
+        crankwork("report", "engine.toml", "-o", name)
+    for name in (*parts, "note.html"):
+        if name in parts:
+            with zipfile.ZipFile(name) as packed:
+                text = packed.read(parts[name]).decode()
+        else:
+            text = Path(name).read_text(encoding="utf-8")
+        assert all(one in text for one in told), name
+    assert all(one.encode() in _pdf(crankwork) for one in told)
+    other = json.loads(_run(crankwork, "engine.toml", "--set", "rod.ratio=0.3", "--json").out)
+    assert other["machine_file_sha256"] != digest
+
+
+def _pdf(crankwork) -> bytes:
+    """Return the description of a note as PDF, which stands there as it is."""
+    crankwork("report", "engine.toml", "-o", "note.pdf")
+    return Path("note.pdf").read_bytes()

@@ -14,6 +14,7 @@ from crankwork.note.pdf import pdf
 from crankwork.note.web import web
 from crankwork.note.word import word
 from crankwork.report.language import in_own_units
+from crankwork.report.summary import provenance
 from crankwork.units import shown_in
 
 if TYPE_CHECKING:
@@ -27,16 +28,12 @@ def note_of(results: Results, options: NoteOptions | None = None) -> Note:
     # words that are not needed are not loaded
     options = options or NoteOptions()
     if "piston_displacement" in results.columns:
-        from crankwork.note.engine_note import engine_note  # noqa: PLC0415 - loaded where it is needed
-
-        return replace(engine_note(results, options), units=results.machine.units)
-    if results.machine.turning is not None:
-        from crankwork.note.turning_note import turning_note  # noqa: PLC0415 - loaded where it is needed
-
-        return replace(turning_note(results, options), units=results.machine.units)
-    from crankwork.note.linkage_note import linkage_note  # noqa: PLC0415 - loaded where it is needed
-
-    return replace(linkage_note(results, options), units=results.machine.units)
+        from crankwork.note.engine_note import engine_note as written  # noqa: PLC0415 - loaded where it is needed
+    elif results.machine.turning is not None:
+        from crankwork.note.turning_note import turning_note as written  # noqa: PLC0415 - loaded where it is needed
+    else:
+        from crankwork.note.linkage_note import linkage_note as written  # noqa: PLC0415 - loaded where it is needed
+    return replace(written(results, options), units=results.machine.units, provenance=provenance(results))
 
 
 def sheets_of(results: Results, options: NoteOptions | None = None) -> dict[str, bytes]:

@@ -176,6 +176,7 @@ class Note:
     date: dt.date | None = None
     sources: tuple[str, ...] = ()
     units: System = "metric"
+    provenance: str = ""  # program, method and hash of the machine file
 
     @classmethod
     def of(cls, blocks: Iterable[Block], options: NoteOptions, title: str, subtitle: str) -> Self:

@@ -80,6 +80,7 @@ def typst_source(note: Note, numbers: Numbering) -> str:
     date = f"datetime(year: {year}, month: {month}, day: {day})"
     parts = [
         f"#set document(title: {typst_string(note.title)}, author: ({authors}), date: {date})",
+        f"#set document(keywords: {typst_string(note.provenance)})",
         f'#set text(lang: "{language}", region: "{region}")' + _SETTINGS,
     ]
     turned = False

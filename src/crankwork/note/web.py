@@ -51,6 +51,7 @@ def web(note: Note) -> bytes:
     parts = [
         f'<!DOCTYPE html>\n<html lang="{note.language}">\n<head>\n<meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
+        f'<meta name="generator" content="{xml_text(note.provenance)}">',
         f"<title>{xml_text(note.title)}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<main>",
     ]
     for k, (block, number) in enumerate(zip(note.blocks, numbers.blocks, strict=True)):

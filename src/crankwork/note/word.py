@@ -201,7 +201,7 @@ def _set_properties(document: Document, note: Note) -> None:
     properties.title = plain_text(note.title)[:255]
     properties.author = plain_text(", ".join(note.authors))[:255]
     properties.last_modified_by = ""
-    properties.comments = ""
+    properties.comments = plain_text(note.provenance)[:255]
     properties.language = LANGUAGE_TAGS[note.language]
     properties.created = properties.modified = when
     properties.revision = 1

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator, Mapping
-from importlib.metadata import version
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +14,7 @@ from crankwork.errors import CrankworkError, MissingExtraError, missing_extras
 from crankwork.locale import Refusal
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.report.language import displayed_column, in_own_units, key_unit, label, symbol
+from crankwork.report.summary import about
 from crankwork.report.tables import table_column
 from crankwork.units import coherent_unit
 
@@ -133,16 +133,6 @@ def _attributes(key: str, *, shown: bool) -> dict[str, str]:
     unit, row = key_unit(key), QUANTITIES.get(base_key(key))
     told = {"units": unit if shown else coherent_unit(unit), "long_name": label(key, "en"), "symbol": symbol(key, "en")}
     return told if row is None else told | {"definition": row.definition}
-
-
-def about(results: Results) -> dict[str, str]:
-    """Return what an export says of where it comes from: program, file, method."""
-    return {
-        "title": results.machine.title,
-        "source": f"crankwork {version('crankwork')}",
-        "method": results.method.name,
-        "machine_file_sha256": results.machine.digest,
-    }
 
 
 @in_own_units

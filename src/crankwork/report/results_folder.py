@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import json
 from collections.abc import Iterator
 
 from crankwork.analysis import Results
@@ -12,6 +13,7 @@ from crankwork.locale import Refusal
 from crankwork.quantities import Language
 from crankwork.report.drawing import moving_drawing
 from crankwork.report.figures import figures
+from crankwork.report.summary import summary_data
 from crankwork.report.tables import csv_of_sheet, sheets, workbook
 
 # What some files of the folder need that the base installation lacks: extra by module.
@@ -38,7 +40,10 @@ def results_folder(
     with_figures: bool = True,
 ) -> Iterator[dict[str, bytes]]:
     """Yield the files of a results folder in steps, so that progress can be shown; `left_out` says what is not made."""
+    summary = summary_data(results, per_area=per_area)
     yield {
+        "summary.json": f"{json.dumps(summary, ensure_ascii=False, indent=1)}\n".encode(),
+    } | {
         f"tables/{name}.csv": csv_of_sheet(sheet, for_excel=for_excel)
         for name, sheet in sheets(results, per_area=per_area).items()
     }

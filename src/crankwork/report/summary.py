@@ -29,13 +29,31 @@ if TYPE_CHECKING:
     from crankwork.mechanism.structure import Structure
 
 
+def about(results: Results) -> dict[str, str]:
+    """Return what an export says of where it comes from: program, file, method."""
+    from importlib.metadata import version  # noqa: PLC0415 - slow to load, and what the screen shows has no need of it
+
+    return {
+        "title": results.machine.title,
+        "source": f"crankwork {version('crankwork')}",
+        "method": results.method.name,
+        "machine_file_sha256": results.machine.digest,
+    }
+
+
+def provenance(results: Results) -> str:
+    """Return where results come from in one line, for documents that have one for it."""
+    told = about(results)
+    parts = [told["source"], told["method"], f"sha256 {told['machine_file_sha256']}"]
+    return "; ".join(parts if results.machine.digest else parts[:2])
+
+
 @in_own_units
 def summary_data(results: Results, *, per_area: bool = False) -> dict[str, Any]:
-    """Return the summary as plain data: method, value and unit by key, checks and notices."""
+    """Return the summary as plain data: where it comes from, value and unit by key, checks and notices."""
     area = results.summary["piston_area"] if per_area else None
     return {
-        "method": results.method.name,
-        "title": results.machine.title,
+        **about(results),
         "summary": {
             key: {"value": rounded(displayed(key, value, per_area=area)), "unit": key_unit(key, per_area=per_area)}
             for values in by_subject(results).values()

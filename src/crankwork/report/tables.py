@@ -17,6 +17,7 @@ from crankwork.locale import Refusal, say
 from crankwork.quantities import Language
 from crankwork.report.comparison import comparison_columns
 from crankwork.report.language import displayed_column, in_own_units, key_unit, label, row_name, unit_name
+from crankwork.report.summary import provenance
 
 _CREATED = datetime(2000, 1, 1)  # noqa: DTZ001 - a workbook knows no time zones
 
@@ -97,7 +98,8 @@ def workbook(results: Results, *, language: Language = "en", per_area: bool = Fa
     stream = io.BytesIO()
     with xlsxwriter.Workbook(stream, {"in_memory": True, "strings_to_formulas": False}) as book:
         # the same tables are the same bytes
-        book.set_properties({"created": _CREATED})
+        told = {"title": results.machine.title[:255], "comments": provenance(results)}
+        book.set_properties({"created": _CREATED, **told})
         heading = book.add_format({"bold": True, "text_wrap": True, "valign": "top", "bottom": 1})
         decimals = book.add_format({"num_format": "0.0000"})
         taken: set[str] = set()
