@@ -82,7 +82,7 @@ def test_every_mistake_of_a_file_is_told_in_the_language(crankwork, language, li
             ("run", "x.toml", "my", "note", "--lang", "vi"),
             "my note: thừa ở đây; hãy bỏ đi, hoặc đặt các từ thuộc về nhau trong dấu ngoặc kép",
         ),
-        (("run", "x.toml", "--json=yes", "--lang", "ru"), "--json: значения не имеет; уберите знак = и то, что за ним"),
+        (("run", "x.toml", "--json=yes", "--lang", "ru"), "--json: значение не нужно; уберите знак = и то, что за ним"),
     ],
 )
 def test_the_command_line_is_explained_in_the_language(crankwork, command, said):
