@@ -42,6 +42,7 @@ if TYPE_CHECKING:
         watt_six_bar,
         whitworth,
     )
+    from crankwork.mechanism.driver import Law, MotionLaw, Segment
     from crankwork.mechanism.mechanism import Mechanism
     from crankwork.method import Method
     from crankwork.note.contents import note_of, written_note
@@ -65,6 +66,7 @@ _HOMES = {
     "DoubtfulError": "errors",
     "GeometryError": "errors",
     "InputError": "errors",
+    "Law": "mechanism.driver",
     "LoadLaw": "loads.load",
     "Machine": "machine",
     "Mechanism": "mechanism.mechanism",
@@ -72,10 +74,12 @@ _HOMES = {
     "MethodError": "errors",
     "MissingExtraError": "errors",
     "Motion": "kinematics.motion",
+    "MotionLaw": "mechanism.driver",
     "NoteOptions": "note.options",
     "Picture": "report.notebook",
     "QUANTITIES": "quantities",
     "Results": "analysis",
+    "Segment": "mechanism.driver",
     "Solution": "study.solve",
     "Spreads": "study.spread",
     "UnknownKeyError": "errors",
@@ -114,6 +118,7 @@ __all__ = [
     "DoubtfulError",
     "GeometryError",
     "InputError",
+    "Law",
     "LoadLaw",
     "Machine",
     "Mechanism",
@@ -121,10 +126,12 @@ __all__ = [
     "MethodError",
     "MissingExtraError",
     "Motion",
+    "MotionLaw",
     "NoteOptions",
     "Picture",
     "QUANTITIES",
     "Results",
+    "Segment",
     "Solution",
     "Spreads",
     "UnknownKeyError",

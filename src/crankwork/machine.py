@@ -16,6 +16,7 @@ from crankwork.loads.chamber import Chamber, Charge, cycle_of, least_common
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.loads.measured import MeasuredPressure
 from crankwork.locale import Refusal
+from crankwork.mechanism.driver import Law
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.method import EXACT, Method
 from crankwork.units import System
@@ -383,6 +384,19 @@ class Machine:
         for load in self.loads:
             if not hasattr(load, "forces") and not type(load).__module__.startswith("crankwork.loads."):
                 raise CrankworkError(Refusal("object_load", value=type(load).__name__))
+
+    def driven_by(self, law: Law) -> Machine:
+        """Return the machine with another law of its driver, whose segments may move by a `MotionLaw` of one's own."""
+        driver = self.mechanism.driver
+        if driver.law is None or self.linkage is None:
+            raise CrankworkError(Refusal("law_unasked"))
+        changed = replace(driver, law=law)
+        return replace(
+            self,
+            mechanism=replace(self.mechanism, driver=changed),
+            linkage=replace(self.linkage, driver=changed),
+            way=None,
+        )
 
     @property
     def drawn(self) -> Linkage:

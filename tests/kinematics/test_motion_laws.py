@@ -1,8 +1,12 @@
 """Motion laws: they keep their places, their rates are derivatives, and they are smooth where they promise it."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+from crankwork import analyse, read
+from crankwork.errors import CrankworkError
 from crankwork.formula.known import breaks_of
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.kinematics.crank_grid import CrankGrid
@@ -99,3 +103,89 @@ def test_the_extent_of_a_rest_is_one_place():
         0.4,
         0.4,
     )
+
+
+class Swing:
+    """The law called harmonic, of one's own."""
+
+    breaks = ()
+
+    def ways(self, share):
+        angle = np.pi * share
+        return (1 - np.cos(angle)) / 2, np.pi / 2 * np.sin(angle), np.pi**2 / 2 * np.cos(angle)
+
+
+class Halves:
+    """The law called parabolic."""
+
+    breaks = (0.5,)
+
+    def ways(self, share):
+        rises, left = share < 0.5, 1 - share
+        return (
+            np.where(rises, 2 * share**2, 1 - 2 * left**2),
+            np.where(rises, 4 * share, 4 * left),
+            np.where(rises, 4.0, -4.0),
+        )
+
+
+class Beyond:
+    """Half a way further than it is to go, and back: 6 z^2 - 5 z^3."""
+
+    breaks = ()
+
+    def ways(self, share):
+        return 6 * share**2 - 5 * share**3, 12 * share - 15 * share**2, 12 - 30 * share
+
+
+@pytest.mark.parametrize(("own", "kind"), [(Swing(), "harmonic"), (Halves(), "parabolic")])
+def test_a_law_of_ones_own_moves_a_machine_as_the_same_law_of_ours(own, kind):
+    machine = read(Path(__file__).parents[1] / "machines" / "driven-slider.toml")
+    start, period = machine.mechanism.driver.law.start, 2.0
+    to = start + 0.02
+
+    def driven(law):
+        return analyse(
+            machine.driven_by(
+                Law((Segment(law, to, 0.5), Segment("dwell", to, 0.1), Segment(law, start, 0.4)), period, start)
+            )
+        )
+
+    ours, own = driven(kind), driven(own)
+    for key, column in ours.columns.items():
+        assert own[key] == pytest.approx(column, rel=1e-9, abs=1e-9 * np.nanmax(np.abs(column)), nan_ok=True), key
+    for key, value in ours.summary.items():
+        assert own.value(key) == pytest.approx(value, rel=1e-9, abs=1e-9), key
+    assert not own.unmet
+
+
+def test_a_law_of_ones_own_may_go_beyond_its_end():
+    """At z = 0.8 it has gone 6 (0.64) - 5 (0.512) = 1.28 of its way."""
+    law = Law((Segment(Beyond(), 0.1, 0.5), Segment("cubic", 0.0, 0.5)), 1.0, 0.0)
+    assert extent(law) == pytest.approx((0.0, 0.128), abs=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("ways", "breaks", "told"),
+    [
+        (lambda z: (2 * z, 0 * z + 2, 0 * z), (), "from 0 to 2"),
+        (lambda z: (z, 0 * z + 1.1, 0 * z), (), "derivative 1"),
+        (lambda z: (z**2, 2 * z, 0 * z), (), "derivative 2"),
+        (lambda z: (z, 0 * z + 1), (), "three arrays"),
+        (lambda z: (z, 0 * z + 1, np.log(z - 2)), (), "three arrays"),
+        (lambda z: (z, 0 * z + 1, 0 * z), (0.4, 0.2), "breaks"),
+        (lambda z: (z, 0 * z + 1, 0 * z), (1.0,), "breaks"),
+    ],
+)
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_a_law_of_ones_own_that_is_none_is_refused(ways, breaks, told):
+    own = type("Mine", (), {"ways": lambda _, share: ways(share), "breaks": breaks})()
+    with pytest.raises(CrankworkError, match=told) as refused:
+        at(Law((Segment(own, 0.1, 1.0),), 1.0, 0.0), [0.0, 90.0])
+    assert "Mine" in str(refused.value)
+
+
+def test_a_machine_without_a_law_is_driven_by_none():
+    machine = read(Path(__file__).parents[2] / "examples" / "press-geometry.toml")
+    with pytest.raises(CrankworkError, match="driver"):
+        machine.driven_by(TABLE)

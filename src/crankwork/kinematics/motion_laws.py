@@ -17,13 +17,16 @@ from typing import NamedTuple
 
 import numpy as np
 
+from crankwork.errors import CrankworkError
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import Known, Pieces, Table, absent, given
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.transfer import Transfer
-from crankwork.mechanism.driver import Law, LawKind, Segment
+from crankwork.locale import Refusal
+from crankwork.mechanism.driver import Law, LawKind, MotionLaw, Segment
 
+_STANDS = 1e-9
 _LAWS = "norton_2012, ch. 8"
 
 
@@ -196,6 +199,67 @@ def smooth_shape(shares: Sequence[float], ways: Sequence[float], *, is_closed: b
     return tuple(pieces)
 
 
+_TRIED, _HALVINGS = np.linspace(0.0, 1.0, 2001), 52
+# how far a derivative may be from the differences of what it is one of, of its largest
+_APART = 1e-3
+
+
+class _Own:
+    """A law of one's own, tried out before it is taken."""
+
+    def __init__(self, law: MotionLaw) -> None:
+        self.law, self.breaks = law, tuple(law.breaks)
+        tried = np.array(law.ways(_TRIED), dtype=float)
+        name = type(law).__name__
+        if tried.shape != (3, _TRIED.size) or not np.all(np.isfinite(tried)):
+            raise CrankworkError(Refusal("own_law_values", name=name))
+        if abs(tried[0, 0]) > _STANDS or abs(tried[0, -1] - 1.0) > _STANDS:
+            raise CrankworkError(Refusal("own_law_ends", name=name, start=tried[0, 0], end=tried[0, -1]))
+        if not all(0.0 < one < 1.0 for one in self.breaks) or list(self.breaks) != sorted(set(self.breaks)):
+            raise CrankworkError(Refusal("own_law_breaks", name=name))
+        step = _TRIED[1]
+        smooth = np.all(np.abs(_TRIED[1:-1, None] - np.array(self.breaks)) > step, axis=1)
+        for order, (one, rate) in enumerate(itertools.pairwise(tried), start=1):
+            apart = np.abs((one[2:] - one[:-2]) / (2 * step) - rate[1:-1])[smooth]
+            if np.max(apart) > _APART * max(1.0, np.max(np.abs(rate))):
+                raise CrankworkError(Refusal("own_law_rates", name=name, order=order))
+
+    def pieces(self, z: Known) -> Iterator[tuple[float, tuple[Known, Known, Known]]]:
+        """Yield stretches between breaks: where they end, share of the way, normalised velocity and acceleration."""
+        for begin, end in itertools.pairwise((0.0, *self.breaks, 1.0)):
+            way, rate, second = (
+                Known(Table(_Part(self.law, order, begin, end), "own_law", by=z), key)
+                for order, key in enumerate(("way_share", "way_share_1", "way_share_2"))
+            )
+            yield end, (way, rate, second)
+
+    def passed(self) -> Array:
+        """Return shares of the way, the least and the greatest that there are among them."""
+        ways, rates, _ = self.law.ways(_TRIED)
+        signs = np.sign(rates)
+        before = np.flatnonzero(signs[:-1] * signs[1:] < 0)
+        low, high = _TRIED[before], _TRIED[before + 1]
+        for _ in range(_HALVINGS):
+            middle = (low + high) / 2
+            is_low = np.sign(self.law.ways(middle)[1]) == signs[before]
+            low, high = np.where(is_low, middle, low), np.where(is_low, high, middle)
+        return np.array([np.min(ways), np.max(ways), *self.law.ways(low)[0]])
+
+
+@dataclass(frozen=True)
+class _Part:
+    """One of the three that a law of one's own gives, on its own side of breaks."""
+
+    law: MotionLaw
+    order: int
+    begin: float
+    end: float
+
+    def __call__(self, share: Array) -> Array:
+        inside = np.clip(share, np.nextafter(self.begin, 1.0), np.nextafter(self.end, 0.0))
+        return np.asarray(self.law.ways(inside)[self.order], dtype=float)
+
+
 # keys of coordinate, rates and way of a driver that moves along a line, and of one that turns
 _KEYS = {
     False: (("driver_displacement", "driver_velocity", "driver_acceleration"), "driver_way"),
@@ -204,13 +268,13 @@ _KEYS = {
 
 
 class _Way(NamedTuple):
-    """A segment in its place: where it starts and ends [deg], from which value on, how far, and its pieces."""
+    """A segment in its place: where it starts and ends [deg], from which value on, how far, and its pieces or law."""
 
     start: float
     end: float
     origin: float
     way: float
-    pieces: tuple[Piece, ...]
+    pieces: tuple[Piece, ...] | _Own
 
 
 def _ways(law: Law) -> Iterator[_Way]:
@@ -222,8 +286,10 @@ def _ways(law: Law) -> Iterator[_Way]:
         origin = segment.to
 
 
-def _shape_of(segment: Segment, origin: float, *, is_alone: bool) -> tuple[float, tuple[Piece, ...]]:
+def _shape_of(segment: Segment, origin: float, *, is_alone: bool) -> tuple[float, tuple[Piece, ...] | _Own]:
     """Return the way of a segment and its normalised law; a rest has neither."""
+    if not isinstance(segment.kind, str):
+        return segment.to - origin, _Own(segment.kind)
     if segment.kind == "table":
         shares = (0.0, *(share for share, _ in segment.points), 1.0)
         places = (origin, *(place for _, place in segment.points), segment.to)
@@ -272,9 +338,12 @@ def remembered_law(law: Law, *, turns: bool) -> Transfer:
         way = given(f"{way_key}.{number}", one.way, f"{here}.to")
         duration = given(f"segment_time.{number}", lasts, f"{here}.over")
         z = ((time - begin) / duration).named(f"time_share.{number}")
-        for piece in one.pieces:
-            f, f_1, f_2 = _normalised(piece, z)
-            ends.append(one.start + piece.end * (one.end - one.start))
+        for end, (f, f_1, f_2) in (
+            one.pieces.pieces(z)
+            if isinstance(one.pieces, _Own)
+            else ((piece.end, _normalised(piece, z)) for piece in one.pieces)
+        ):
+            ends.append(one.start + end * (one.end - one.start))
             columns[0].append(law_displacement(origin, way, f))
             columns[1].append(law_velocity(way, f_1, duration))
             columns[2].append(f_2 if f_2.is_absent else law_acceleration(way, f_2, duration))
@@ -312,7 +381,9 @@ def extent(law: Law) -> tuple[float, float]:
     passed = [law.start, *(one.to for one in law.segments)]
     for segment, one in zip(law.segments, _ways(law), strict=True):
         # of the other laws none leaves what lies between its ends
-        if segment.kind == "table":
+        if isinstance(one.pieces, _Own):
+            passed += (one.origin + one.way * one.pieces.passed()).tolist()
+        elif segment.kind == "table":
             passed += [place for _, place in segment.points]
             begin = 0.0
             for piece in one.pieces:

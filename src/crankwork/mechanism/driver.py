@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
 
 from crankwork.mechanism.dyads import Guide, Point
 
@@ -13,11 +17,35 @@ LawKind = Literal[
 ]  # fmt: skip
 
 
+@runtime_checkable
+class MotionLaw(Protocol):
+    """A motion law of one's own, from rest to rest or not: how much of the way is done when.
+
+    Examples
+    --------
+    Half a turn of a cosine, as `harmonic` has it:
+
+    >>> class Swing:
+    ...     breaks = ()
+    ...
+    ...     def ways(self, share):
+    ...         angle = np.pi * share
+    ...         return (1 - np.cos(angle)) / 2, np.pi / 2 * np.sin(angle), np.pi**2 / 2 * np.cos(angle)
+    >>> isinstance(Swing(), MotionLaw)
+    True
+    """
+
+    breaks: Sequence[float]  # Shares of the time between 0 and 1 where its second derivative jumps or bends [-]
+
+    def ways(self, share: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Return the share of the way, from 0 to 1, and its two derivatives, shape (n,), by the share of the time."""
+
+
 @dataclass(frozen=True)
 class Segment:
     """A rise, a return or a rest of the coordinate."""
 
-    kind: LawKind  # How it moves
+    kind: LawKind | MotionLaw  # How it moves
     to: float  # The coordinate at its end [m] or [rad]
     share: float  # Its part of the period [-]
     ramp: float = 1 / 3  # Of a trapezoidal velocity, the part of the segment that each ramp takes [-]

@@ -6,7 +6,8 @@ import itertools
 from collections.abc import Iterator
 
 from crankwork.analysis.stated import stated_loads
-from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor
+from crankwork.locale import say
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor, Segment
 from crankwork.mechanism.mechanism import Driver
 from crankwork.note.chambers import given_chambers
 from crankwork.note.document import Block, Citation, ItemList, Paragraph, Reference, Runs, Table
@@ -74,7 +75,7 @@ def _segments(law: Law, words: Words, *, turns: bool) -> Table:
     times = [one.share * law.period for one in law.segments]
     rows = [
         (
-            str(number), words.kind(one.kind), *(words.number(float(from_si(place, unit))) for place in ends),
+            str(number), _moves(one, words), *(words.number(float(from_si(place, unit))) for place in ends),
             words.number(sum(times[: number - 1])), words.number(times[number - 1]),
         )
         for number, (one, ends) in enumerate(zip(law.segments, itertools.pairwise(places), strict=True), start=1)
@@ -83,6 +84,10 @@ def _segments(law: Law, words: Words, *, turns: bool) -> Table:
     titles += [(words.column(one, unit),) for one in ("law_from", "law_to")]
     titles += [words.titled("start_time"), words.titled("segment_time")]
     return Table(words.caption("law"), tuple(titles), rows, align="clrrrr", label="law")
+
+
+def _moves(segment: Segment, words: Words) -> str:
+    return words.kind(segment.kind) if isinstance(segment.kind, str) else say("memory.own_law", words.language)
 
 
 def driven_motion(material: Material) -> Iterator[Block]:
