@@ -46,7 +46,10 @@ def loaded(torque, name="four-bar"):
 @pytest.mark.parametrize("name", NAMES)
 def test_columns_and_single_values_are_those_of_the_memory(name):
     results = analyse(read_machine(template(name)))
-    assert set(results.memory) - {"mobility"} == {*results.columns, *results.summary}
+    assert set(results.memory) - {"mobility", "work_per_cycle", "energy_fluctuation"} == {
+        *results.columns,
+        *results.summary,
+    }
     again = Program({key: results.memory[key] for key in results.columns})(results.grid)
     for key, column in results.columns.items():
         there = ~np.isnan(column) if key.startswith("instant_centre") else slice(None)

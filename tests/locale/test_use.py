@@ -22,7 +22,7 @@ from crankwork.mechanism import dyads
 from crankwork.notation import ARGUMENTS
 from crankwork.note.captions import _PLACE, _SAME
 from crankwork.note.sheets.words import _SAME as SAME
-from crankwork.quantities import QUANTITIES
+from crankwork.quantities import QUANTITIES, SUBJECTS
 from crankwork.report.notices import notice_text
 from crankwork.units import UNITS
 
@@ -70,6 +70,7 @@ TABLES = {
     "refusals": (*(f"dimension_{one.dimension}" for one in UNITS.values()), "or", "and"),
     "places": re.findall(r"\w{2,}\.?|p\.", _PLACE.pattern.replace("\\", "")),
     "quantities": QUANTITIES,
+    "subjects": SUBJECTS,
     "symbols": QUANTITIES,
     "templates": {word for path in TEMPLATES for word in re.findall(r"\{(\w+)\}", path.read_text("utf-8"))},
     "units": {*UNITS, "kmol", "mol", "h"},
