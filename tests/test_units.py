@@ -265,6 +265,7 @@ SIZES = {
     "N*m": 1.0, "MPa": 1e6, "Pa": 1.0, "J": 1.0, "kW": 1e3, "W": 1.0, "N/m": 1.0, "N*s/m": 1.0, "N*m*s/rad": 1.0,
     "kg/m3": 1.0, "MJ/kg": 1e6, "kJ/kg": 1e3, "J/kg": 1.0, "g/(kW*h)": 1e-3 / 3.6e6, "kg/J": 1.0, "kg/h": 1 / 3600,
     "kg/s": 1.0, "kW/l": 1e6, "W/m3": 1.0, "MPa/deg": 1e6 * 180 / math.pi, "Pa/rad": 1.0, "MPa*s/m": 1e6,
+    "m3/min": 1 / 60, "m3/s": 1.0, "ft3/min": 4.719474432e-4,
     "Pa*s/m": 1.0, "cm3/K": 1e-6, "m3/K": 1.0, "m/(s*K)": 1.0, "W/(m2*K)": 1.0, "J/(kg*K)": 1.0, "kg/kmol": 1.0,
     "kmol/kg": 1.0, "kJ/(kmol*K)": 1.0, "kJ/kmol": 1.0,
     "mm2": 1e-6, "J/mm2": 1e6, "J/m2": 1.0, "N*m/mm": 1e3, "N*m/m": 1.0, "deg/mm": 1e3 * math.pi / 180, "rad/m": 1.0,

@@ -15,6 +15,7 @@ from crankwork.kinematics.piston import as_slider_crank
 from crankwork.loads.chamber import Chamber, Charge, cycle_of, least_common
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.loads.measured import MeasuredPressure
+from crankwork.loads.valves import Valves
 from crankwork.locale import Refusal
 from crankwork.mechanism.driver import Law
 from crankwork.mechanism.mechanism import Mechanism
@@ -80,6 +81,8 @@ class Gas:
         720 or 360. [deg]
     points, pieces : mapping and tuple
         Named points and the laws between them.
+    valves : Valves or None
+        What points and pieces follow from, counted from the top dead centre.
     measured : MeasuredPressure or None
         Samples instead of points and pieces.
     angle_shift, resample : float and float or None
@@ -103,6 +106,7 @@ class Gas:
     cycle: float = 720.0
     points: Mapping[str, DiagramPoint] = field(default_factory=dict)
     pieces: tuple[Piece, ...] = ()
+    valves: Valves | None = None
     measured: MeasuredPressure | None = None
     angle_shift: float = 0.0
     resample: float | None = None

@@ -198,7 +198,22 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (1.0, "kg/J кг/Дж"),
         (_LB / (550 * 3600 * _LBF * _FT), "lb/(hp*h) lb/hph"),
     ],
-    "mass_rate": [(1 / 3600, "kg/h кг/ч"), (1.0, "kg/s кг/с"), (_LB / 3600, "lb/h"), (_LB / 60, "lb/min")],
+    "mass_rate": [
+        (1 / 3600, "kg/h кг/ч"),
+        (1.0, "kg/s кг/с"),
+        (1 / 60, "kg/min кг/мин"),
+        (_LB / 3600, "lb/h"),
+        (_LB / 60, "lb/min"),
+    ],
+    "volume_rate": [
+        (1 / 60, "m3/min m³/min м3/мин м³/мин"),
+        (1.0, "m3/s m³/s м3/с м³/с"),
+        (1 / 3600, "m3/h m³/h м3/ч м³/ч"),
+        (1e-3, "l/s L/s л/с"),
+        (1e-3 / 60, "l/min L/min л/мин"),
+        (_FT**3 / 60, "ft3/min ft³/min cfm"),
+        (_FT**3, "ft3/s ft³/s cfs"),
+    ],
     "power_density": [(1e6, "kW/l кВт/л"), (1.0, "W/m3 W/m³ Вт/м3 Вт/м³")],
     "per_temperature": [(1.0, "1/K 1/К")],
     "volume_per_temperature": [(1e-6, "cm3/K cm³/K см3/К см³/К"), (1.0, "m3/K m³/K м3/К м³/К")],
@@ -231,7 +246,7 @@ _IMPERIAL = {
     "kPa": "psi", "bar": "psi", "kN": "lbf", "N*m": "lbf*ft", "J": "ft*lbf", "kJ": "Btu", "kW": "hp(I)",
     "W": "ft*lbf/s", "N/m": "lbf/in", "N/mm": "lbf/in", "N*s/m": "lbf*s/in", "N*m*s/rad": "lbf*ft*s/rad",
     "kg/m3": "lb/ft3", "MJ/kg": "Btu/lb", "kJ/kg": "Btu/lb", "g/(kW*h)": "lb/(hp*h)", "kg/h": "lb/h",
-    "MPa/deg": "psi/deg", "degC": "degF",
+    "m3/min": "ft3/min", "MPa/deg": "psi/deg", "degC": "degF",
 }  # fmt: skip
 # what tables, figures and notes are written in just now, as the precision of `decimal` is
 _SYSTEM: ContextVar[System] = ContextVar("system", default="metric")

@@ -26,6 +26,7 @@ from crankwork.formula.expression import (
     Operation,
     Symbol,
     evaluate,
+    function_name,
     record,
     symbol,
     text,
@@ -98,7 +99,7 @@ def test_a_formula_with_numbers_prints_those_numbers_and_no_symbol(formula: Form
     values = {name: f"{1.001 + k / 1000:.3f}" for k, name in enumerate(_printed_arguments(formula))}
     shown = text(record(formula.shown), values).replace("\u00a0rad)", ")")
     assert all(number in shown for number in values.values())
-    functions = {one.__name__ for one in _functions_of(record(formula.shown))}
+    functions = {function_name(one) for one in _functions_of(record(formula.shown))}
     assert set(re.findall(r"[^\W\d_²³⁴]\w*", shown)) <= functions
 
 
@@ -107,7 +108,7 @@ def test_a_formula_printed_with_numbers_evaluates_to_its_value(formula: Formula)
     values = _random_arguments(formula)
     shown = text(record(formula.function), {name: repr(float(value)) for name, value in values.items()})
     shown = shown.replace("\u00a0rad)", ")")
-    read_back = _value_of_text(shown, {one.__name__: one for one in _functions_of(record(formula.function))})
+    read_back = _value_of_text(shown, {function_name(one): one for one in _functions_of(record(formula.function))})
     assert read_back == pytest.approx(formula.function(**values), rel=1e-13)
 
 

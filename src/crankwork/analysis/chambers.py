@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy as np
 from crankwork.analysis.linkage_memory import speed_of
 from crankwork.analysis.solved import SolvedLinkage
 from crankwork.dynamics.reduction import reduced_torque
-from crankwork.formula.known import Known, breaks_of, given, total
+from crankwork.formula.known import Known, absent, breaks_of, given, total
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
@@ -18,7 +19,8 @@ from crankwork.kinematics.memory import given_mechanism
 from crankwork.kinematics.motion import Motion
 from crankwork.loads import gas
 from crankwork.loads.chamber import Chamber, own_cycle
-from crankwork.loads.filling import Filling, filled, rate_by_angle
+from crankwork.loads.filling import Filling, filled, rate_by_angle, stated_valves
+from crankwork.loads.valves import inlet_flow, isothermal_efficiency
 from crankwork.machine import Machine
 
 if TYPE_CHECKING:
@@ -42,20 +44,56 @@ def solve_linkage(machine: Machine, motion: Motion) -> SolvedLinkage:
 def gas_summary(solved: SolvedLinkage) -> dict[str, Known]:
     """Return the single values of the gas in each chamber, and work and power of all of it."""
     chambers, found = solved.machine.chambers, dict(solved.filling.singles)
-    w, law = speed_of(solved.machine), solved.machine.mechanism.driver.law
-    for name, chamber in chambers.items():
-        work = found[f"indicated_work.{name}"]
-        if law is not None:
-            power = work / given("period", law.period, "driver.period")
-        else:
-            cycle = given(f"cycle_angle.{name}", math.radians(chamber.cycle), f"chambers.{name}.period")
-            again = own_cycle(chamber, solved.machine.mechanism.period) / chamber.cycle
-            cycle = cycle if again == 1 else again * cycle.named(f"cycle_angle.{name}.stated")
-            power = gas.indicated_power(work, w, cycle)
+    for name in chambers:
+        power = _per_time(solved, name)(found[f"indicated_work.{name}"])
         found[f"indicated_power.{name}"] = power.named(f"indicated_power.{name}")
     if len(chambers) > 1:
         found["indicated_power"] = total("indicated_power", [found[f"indicated_power.{name}"] for name in chambers])
-    return found
+    return found | _delivery(solved, found)
+
+
+def _per_time(solved: SolvedLinkage, name: str) -> Callable[[Known], Known]:
+    """Return what makes a work of a cycle of a chamber a power, or a volume a flow."""
+    chamber, law = solved.machine.chambers[name], solved.machine.mechanism.driver.law
+    if law is not None:
+        period = given("period", law.period, "driver.period")
+        return lambda one: one / period
+    w = speed_of(solved.machine)
+    cycle = given(f"cycle_angle.{name}", math.radians(chamber.cycle), f"chambers.{name}.period")
+    again = own_cycle(chamber, solved.machine.mechanism.period) / chamber.cycle
+    whole = cycle if again == 1 else again * cycle.named(f"cycle_angle.{name}.stated")
+    is_work = gas.indicated_power
+    return lambda one: (inlet_flow if one.key.startswith("induced") else is_work)(one, w, whole)
+
+
+def _delivery(solved: SolvedLinkage, found: Mapping[str, Known]) -> dict[str, Known]:
+    """Return what passes the valves of each chamber; of several what the first stage draws in, and all take up."""
+    chambers, none = solved.machine.chambers, absent("clearance_volume")
+    result = dict[str, Known]()
+    valved = {name: one.valves for name, one in chambers.items() if one.valves is not None}
+    for name in valved:
+        stated = stated_valves(f"chambers.{name}", chambers[name])
+        if stated is not None:
+            clearance, swept = found.get(f"clearance_volume.{name}", none), found[f"swept_volume.{name}"]
+            power = found[f"indicated_power.{name}"]
+            result |= stated.delivery(clearance, swept, power, _per_time(solved, name))
+    if len(valved) > 1:
+        lowest = min(one.suction for one in valved.values())
+        first = [name for name, one in valved.items() if one.suction == lowest]
+        for key in ("inlet_flow", "gas_mass_flow", "free_air_delivery"):
+            result |= _together(key, first, result)
+        if len(valved) == len(chambers):
+            result |= _together("isothermal_power", list(valved), result)
+        if "isothermal_power" in result and found["indicated_power"].value:
+            efficiency = isothermal_efficiency(result["isothermal_power"], found["indicated_power"])
+            result["isothermal_efficiency"] = efficiency
+    return result
+
+
+def _together(key: str, names: Sequence[str], found: Mapping[str, Known]) -> dict[str, Known]:
+    """Return the sum of what several chambers have of a kind, nothing if one of them has it not."""
+    parts = [found[f"{key}.{name}"] for name in names if f"{key}.{name}" in found]
+    return {key: total(key, parts)} if len(parts) == len(names) else {}
 
 
 class Indicator(NamedTuple):
@@ -98,6 +136,20 @@ def gas_check(solved: SolvedLinkage, motion: Motion) -> dict[str, float]:
         cycle = own_cycle(one, machine.mechanism.period)
         done = filling.singles[f"indicated_work.{name}"].value - _against(filling, name, one, cycle)
         work += done * machine.cycle / cycle
+    by_pressures = _work_of_valves(solved)
     largest, least = over.largest_and_least[""]
     moved = max(largest.value, -least.value) * math.radians(machine.cycle) or 1.0
-    return {"work": abs(over.integral("") - work) / moved}
+    return {"work": abs(over.integral("") - work) / moved, **by_pressures}
+
+
+def _work_of_valves(solved: SolvedLinkage) -> dict[str, float]:
+    """Return how far the work of chambers with valves is from that which follows from pressures alone."""
+    apart, singles = list[float](), solved.filling.singles
+    for name, one in solved.machine.chambers.items():
+        stated = stated_valves(f"chambers.{name}", one)
+        if stated is not None:
+            sizes = [singles[key].value if key in singles else 0.0
+                     for key in (f"clearance_volume.{name}", f"swept_volume.{name}")]  # fmt: skip
+            work = stated.work(*sizes)
+            apart.append(abs(singles[f"indicated_work.{name}"].value - one.factor * work) / abs(work))
+    return {"valves": max(apart)} if apart else {}

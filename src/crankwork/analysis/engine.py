@@ -28,6 +28,7 @@ from crankwork.kinematics.slider_crank import (
     top_dead_centre_angle_before,
 )
 from crankwork.loads import gas as gas_formulas
+from crankwork.loads.valves import StatedValves, inlet_flow
 from crankwork.machine import Machine
 from crankwork.method import Method
 from crankwork.working_cycle.calculated_cycle import Calculated
@@ -150,7 +151,15 @@ def _forces(solved: SolvedCylinder, over: OverCycle) -> dict[str, Known]:
     if solved.space is not None:
         work = found["indicated_work"] = work_of_gas(solved, solved.space)
         found["indicated_mean_pressure"] = gas_formulas.indicated_mean_pressure(work, memory["swept_volume"])
-        found["indicated_power"] = gas_formulas.indicated_power(work, memory["speed"], cycle)
+        power = found["indicated_power"] = gas_formulas.indicated_power(work, memory["speed"], cycle)
+        valves = solved.machine.gas.valves if solved.machine.gas is not None else None
+        if valves is not None:
+            found |= StatedValves(valves, "gas.valves").delivery(
+                memory["clearance_volume"],
+                memory["swept_volume"],
+                power,
+                lambda volume: inlet_flow(volume, memory["speed"], cycle),
+            )
     return found
 
 
@@ -192,6 +201,10 @@ def _checks(solved: SolvedCylinder, summary: Mapping[str, float], samples: Sampl
     if solved.space is not None and not solved.machine.angular_acceleration:
         work = summary["mean_torque"] * math.radians(solved.machine.cycle)
         result["work"] = abs(work - summary["indicated_work"]) / moved_work(solved, summary)
+    valves = solved.machine.gas.valves if solved.machine.gas is not None else None
+    if valves is not None and solved.space is not None:
+        work = StatedValves(valves, "gas.valves").work(solved.space.clearance, solved.space.swept)
+        result["valves"] = abs(summary["indicated_work"] - solved.space.factor * work) / abs(work)
     calculated = solved.space.calculated if solved.space is not None else None
     if calculated is not None and "first_law_residual" in calculated.values:
         residual, heat = calculated.values["first_law_residual"], calculated.values["fuel_heat"]

@@ -36,7 +36,7 @@ from crankwork.analysis.transient import let_go
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.routes import ROUTES, by_groups
 from crankwork.errors import CrankworkError
-from crankwork.formula.known import Found, Known, given
+from crankwork.formula.known import Found, Known, absent, given
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
@@ -51,6 +51,7 @@ from crankwork.mechanism.driver import Law, LinkMotor
 from crankwork.mechanism.dyads import RRR
 from crankwork.mechanism.mechanism import Crank, Driver
 from crankwork.mechanism.structure import mobility
+from crankwork.shaft.motor_choice import needed_power
 
 _DENSE_STEP = 1.0
 _STANDS = 1e-12
@@ -105,6 +106,7 @@ def analyse_linkage(
         summary |= turn.summary
         between |= turn.between
         notices += turn.notices
+    summary |= _power_of_valves(machine, memory | summary)
     driver = machine.mechanism.driver
     if found is None and "shaking_force" in memory and isinstance(driver, Crank) and driver.law is None:
         summary |= {key: one.named(key) for key, one in balance_of(driver, memory | summary, machine.mechanism.period)}
@@ -127,6 +129,15 @@ def linkage_columns(machine: Machine) -> Results:
     """Return what is remembered over the crank angle of a linkage, without what is found over its whole cycle."""
     moved = _moved(machine, None)
     return Results(moved.solved, moved.table, {}, {}, {}, (), {}, memory=moved.memory)
+
+
+def _power_of_valves(machine: Machine, found: Mapping[str, Known]) -> dict[str, Known]:
+    """Return the power that a compressor or pump without a motor of its own needs."""
+    has_valves = any(one.valves is not None for one in machine.chambers.values())
+    if not has_valves or "motor_power" in found or "mean_torque" not in found or found["mean_torque"].value <= 0:
+        return {}
+    of = absent("power_reserve", 1.0), found["mean_torque"], speed_of(machine), efficiency_of(machine.drive)
+    return {"motor_power": needed_power(*of)}
 
 
 def linkage_value(machine: Machine, key: str) -> Results:

@@ -23,6 +23,7 @@ from crankwork.loads import gas as gas_formulas
 from crankwork.loads.filling import NO_GAS, Filling
 from crankwork.loads.indicator import IndicatorDiagram, solve_diagram
 from crankwork.loads.treated import Around, measured_diagram
+from crankwork.loads.valves import StatedValves
 from crankwork.machine import Cylinder, Gas, Machine
 from crankwork.method import Method
 
@@ -180,6 +181,8 @@ def _with_space(solved: SolvedCylinder, notices: list[Notice]) -> SolvedCylinder
         diagram = calculated.diagram
         notices += [Notice(*one) for one in calculated.notices]
     else:
+        if gas.valves is not None:
+            StatedValves(gas.valves, "gas.valves").check(clearance, swept)
         diagram = _given_diagram(gas, volume_at, (top, bottom), notices)
     rod_area = float(gas_formulas.piston_area(method.pi, cylinder.piston_rod_diameter))
     work, of_rod = gas.factor * diagram.work(volume_at), (rod_area, gas.back_pressure)
@@ -198,6 +201,13 @@ def _given_diagram(
         )
         notices += [Notice(*one) for one in told]
         return diagram
+    if gas.valves is not None:
+        top, bottom = centres
+        ends = (0.0, (bottom - top) % 360)
+        found = solve_diagram(
+            gas.points, gas.pieces, gas.cycle, lambda degrees: volume_at(degrees + top), dead_centres=ends
+        )
+        return StatedValves(gas.valves, "gas.valves").remembered(found).later(top)
     diagram = solve_diagram(gas.points, gas.pieces, gas.cycle, volume_at, dead_centres=centres, path=gas.path)
     notices += [Notice("jump", {"point": name, "angle": angle, "step": step}) for name, angle, step in diagram.jumps]
     return diagram

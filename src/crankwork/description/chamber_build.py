@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from crankwork.description.gas_build import ReadMeasured, build_diagram, check_parts
+from crankwork.description.gas_build import ReadMeasured, build_diagram, build_valves, check_parts, with_valves
 from crankwork.description.kinds import Reader
 from crankwork.description.schema import Values, means_nothing
 from crankwork.loads.chamber import Chamber, Charge, DeadVolume, Face, PressureOfHeat
@@ -13,7 +13,7 @@ from crankwork.locale import Refusal
 from crankwork.mechanism.driver import DrivingSlider
 from crankwork.mechanism.linkage import Linkage
 
-_OWN_PRESSURE = ("pressure", "points", "pieces", "measured", "cycle")
+_OWN_PRESSURE = ("pressure", "points", "pieces", "measured", "valves", "cycle")
 _AMOUNTS = ("mean_pressure", "pressure", "mass")
 
 
@@ -34,9 +34,12 @@ def build_chambers(
         path = f"chambers.{name}"
         faces = tuple(_faces(path, one, sliders, reader))
         _check_pressure(path, one, sealed.get(holder.get(name, "")), reader)
-        diagram = build_diagram(one, path, reader, read_measured)
+        diagram, valves = build_diagram(one, path, reader, read_measured), build_valves(one, path, reader)
         if not faces or any(problem.key.startswith(path) for problem in reader.problems):
             continue
+        if valves is not None:
+            volumes = (one.si("clearance_volume"), one["compression_ratio"])
+            diagram = with_valves(diagram, valves, has_clearance=any(volumes))
         is_absolute = one["pressures"] == "absolute" or name in holder or "cycle" in one
         counted = one.but(pressures="absolute") if is_absolute else one
         chambers[name] = Chamber(
@@ -51,6 +54,7 @@ def build_chambers(
             factor=one["pressure_factor"],
             released=_released(one, faces, values["crank"], path, reader),
             temperature=one.si("temperature"),
+            valves=valves,
             **diagram._asdict(),
         )
     return chambers, {} if reader.problems else {name: _charge(one) for name, one in sealed.items()}

@@ -67,7 +67,7 @@ def _with_diagram(gas: Gas, values: Values, path: str, table: Values, reader: Re
     """Return the gas with another diagram; pressures count from where those of the table of the gas do."""
     check_parts(values, path, reader)
     diagram = build_diagram(values.but(pressures=table["pressures"]), path, reader, read)
-    return replace(gas, **diagram._asdict(), path=path)
+    return replace(gas, **diagram._asdict(), valves=None, path=path)
 
 
 def _misfires(table: Values, own: dict[str, Values | None], count: int, reader: Reader) -> set[int]:
@@ -118,6 +118,6 @@ def _motored(values: Values, gas: Gas, reader: Reader, read_measured: ReadMeasur
             reader.complain("gas.motored", Refusal("motored_word"))
         pressure = gas.ambient if gas.is_absolute else 0.0
         points = {"o": DiagramPoint(0.0, pressure), "o'": DiagramPoint(gas.cycle, pressure)}
-        level = replace(gas, points=points, pieces=(Piece("constant", ("o", "o'")),), measured=None)
+        level = replace(gas, points=points, pieces=(Piece("constant", ("o", "o'")),), measured=None, valves=None)
         return replace(level, path="gas.motored")
     return _with_diagram(gas, motored, "gas.motored", table, reader, read_measured)

@@ -12,9 +12,11 @@ from crankwork.description.measured_build import treatment_of
 from crankwork.description.schema import Values, nearest_name
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.loads.measured import MeasuredPressure, Told
+from crankwork.loads.valves import Valves
 from crankwork.locale import Refusal
 from crankwork.machine import Cylinder, Gas
 
+_OF_GAS = ("expansion_exponent", "temperature")
 # reads the table of a file with samples, and complains under the path of what it belongs to
 ReadMeasured = Callable[[Values, Reader, str], MeasuredPressure | None]
 
@@ -30,9 +32,14 @@ def build_gas(
     diagram = build_diagram(values, "gas", reader, read_measured)
     if "cycle" not in values:
         return None
+    valves = build_valves(values, "gas", reader)
+    if valves is not None:
+        volumes = (cylinder.clearance_volume, cylinder.compression_ratio) if cylinder is not None else ()
+        diagram = with_valves(diagram, valves, has_clearance=any(volumes))
     return Gas(
         cycle=float(values["cycle"].split()[0]),
         **diagram._asdict(),
+        valves=valves,
         is_absolute=values["pressures"] == "absolute",
         ambient=values.si("ambient") or 0.0,
         names_ambient="ambient" in values,
@@ -57,7 +64,7 @@ def _check_gas(values: Values, cylinder: Cylinder | None, reader: Reader) -> Non
 
 def has_diagram(values: Values) -> bool:
     """Return whether a table has a diagram, or a part of one."""
-    return not {"points", "pieces", "measured"}.isdisjoint(values)
+    return not {"points", "pieces", "measured", "valves"}.isdisjoint(values)
 
 
 def _tables(values: Values) -> Iterator[Values]:
@@ -79,9 +86,41 @@ def _check_rod(values: Values, cylinder: Cylinder | None, reader: Reader) -> Non
 
 def check_parts(values: Values, path: str, reader: Reader) -> None:
     """Complain of points without laws, and of laws without points."""
-    for key in ("points", "pieces") if "measured" not in values else ():
-        if key not in values and not reader.doubts(f"{path}.{key}", f"{path}.measured"):
+    for key in ("points", "pieces") if {"measured", "valves"}.isdisjoint(values) else ():
+        if key not in values and not reader.doubts(f"{path}.{key}", f"{path}.measured", f"{path}.valves"):
             reader.complain(f"{path}.{key}", Refusal(f"gas_{key}", path=path))
+
+
+def build_valves(values: Values, path: str, reader: Reader) -> Valves | None:
+    """Return the valves of a cylinder or chamber, None without; complain of what they cannot do."""
+    if "valves" not in values or not {"suction", "discharge"} <= set(values["valves"]):
+        return None
+    stated, path = values["valves"], f"{path}.valves"
+    found = Valves(
+        suction=stated.si("suction"),
+        discharge=stated.si("discharge"),
+        compression_exponent=stated["compression_exponent"],
+        expansion_exponent=stated["expansion_exponent"],
+        temperature=stated.si("temperature"),
+        discharge_temperature=stated.si("discharge_temperature"),
+        gas_constant=stated.si("gas_constant"),
+        free_pressure=stated.si("free_pressure"),
+        free_temperature=stated.si("free_temperature"),
+        delivered=stated.si("delivered"),
+    )
+    if not found.discharge > found.suction:
+        reader.complain(f"{path}.discharge", Refusal("valves_turned"))
+    elif found.temperature and found.discharge_temperature:
+        most = found.temperature * found.discharge / found.suction
+        if not found.temperature <= found.discharge_temperature < most:
+            low = found.temperature
+            reader.complain(f"{path}.discharge_temperature", Refusal("valves_temperature", low=low, high=most))
+    is_liquid = {"compression_exponent", "discharge_temperature"}.isdisjoint(stated)
+    for key in _OF_GAS if is_liquid and not reader.doubts(f"{path}.compression_exponent") else ():
+        if key in stated:
+            advice = "compression_exponent = 1.3"
+            reader.complain(f"{path}.{key}", Refusal("only_beside", key="compression_exponent", advice=advice))
+    return found
 
 
 class Diagram(NamedTuple):
@@ -92,6 +131,12 @@ class Diagram(NamedTuple):
     measured: MeasuredPressure | None
     angle_shift: float
     resample: float | None
+
+
+def with_valves(diagram: Diagram, valves: Valves, *, has_clearance: bool) -> Diagram:
+    """Return a diagram with the points and laws of valves."""
+    points, pieces = valves.diagram(has_clearance=has_clearance)
+    return diagram._replace(points=points, pieces=pieces)
 
 
 def build_diagram(values: Values, path: str, reader: Reader, read_measured: ReadMeasured) -> Diagram:

@@ -92,6 +92,22 @@ MEASURED = Table("measured", {
     "resample": Key(Quantity(("angle",), math.radians(0.01), math.radians(30))),
 })  # fmt: skip
 
+_OPENING = Quantity(("pressure",), 1.0, 1e10)
+_EXPONENT = Number(0.5, 3.0)
+_KELVIN = Quantity(("temperature",), 1.0, 1e4)
+VALVES = Table("valves", {
+    "suction": Key(_OPENING, required=True),
+    "discharge": Key(_OPENING, required=True),
+    "compression_exponent": Key(_EXPONENT, instead_of=("discharge_temperature",)),
+    "expansion_exponent": Key(_EXPONENT),
+    "temperature": Key(_KELVIN),
+    "discharge_temperature": Key(_KELVIN, instead_of=("compression_exponent",), only={"temperature": ()}),
+    "gas_constant": Key(Quantity(("specific_heat",), 1.0, 1e5), only={"temperature": ()}),
+    "free_pressure": Key(_OPENING, only={"temperature": (), "free_temperature": ()}),
+    "free_temperature": Key(_KELVIN, only={"temperature": (), "free_pressure": ()}),
+    "delivered": Key(Quantity(("volume_rate",), 0.0, 1e6, above=True)),
+})  # fmt: skip
+
 # what the pressure of a cylinder or chamber is made of
 PRESSURES = Key(Choice(("gauge", "absolute")), default="gauge")
 DIAGRAM = {
@@ -105,6 +121,7 @@ _GAS = Table("gas", {
     "back_pressure": Key(_PRESSURE),
     "pressures": PRESSURES,
     **DIAGRAM,
+    "valves": Key(VALVES, instead_of=tuple(DIAGRAM), only={"pressures": ("absolute",), "cycle": ("360 deg",)}),
     "cylinders": Key(Named(Table("gas", DIAGRAM), most=28)),
     "motored": Key(NameOr(Table("gas", DIAGRAM))),
 })  # fmt: skip

@@ -20,7 +20,7 @@ from crankwork.machine import Gas, Machine
 from crankwork.units import from_si
 from crankwork.working_cycle.pressures import MisfirePressure
 
-_DIAGRAM = ("points", "pieces", "measured")
+_DIAGRAM = ("points", "pieces", "measured", "valves")
 _COUNTED = ("pressures", "ambient")
 _OF_FUEL = ("fuel_mass", "heating_value", "burning_efficiency", "cycle_heat")
 # of a flywheel that is to be found, what may be known of its sizes

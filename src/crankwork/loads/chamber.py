@@ -9,6 +9,7 @@ from typing import Protocol
 
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, VolumeAt
 from crankwork.loads.measured import MeasuredPressure
+from crankwork.loads.valves import Valves
 from crankwork.mechanism.dyads import Branch
 
 _TURN = 360.0
@@ -38,8 +39,8 @@ class Face:
 class Chamber:
     """A space whose walls move, and the gas in it. [m3], [Pa], [deg], [K]
 
-    Its pressure is constant, a diagram of points and pieces, measured, that of a release of heat, or that of a charge
-    which is sealed in it.
+    Its pressure is constant, a diagram of points and pieces, that of valves, measured, that of a release of heat, or
+    that of a charge which is sealed in it.
     """
 
     faces: tuple[Face, ...]
@@ -52,6 +53,7 @@ class Chamber:
     pressure: float | None = None
     points: Mapping[str, DiagramPoint] = field(default_factory=dict)
     pieces: tuple[Piece, ...] = ()
+    valves: Valves | None = None  # What points and pieces follow from; they count from the least volume
     measured: MeasuredPressure | None = None
     delay: float = 0.0  # Crank angle by which its diagram comes later [deg]
     factor: float = 1.0  # Of the gauge pressure

@@ -23,6 +23,7 @@ from crankwork.loads.indicator import DeadCentres, DiagramError, IndicatorDiagra
 from crankwork.loads.measured import Told
 from crankwork.loads.pressure import at_angle, remembered_pressure
 from crankwork.loads.treated import Around, measured_diagram
+from crankwork.loads.valves import StatedValves
 from crankwork.locale import Refusal
 from crankwork.mechanism.driver import Law
 from crankwork.mechanism.mechanism import Mechanism
@@ -256,8 +257,9 @@ def _of_its_own(
         return pressure, Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}"), told
     if cycle > chamber.cycle:
         told.append(("chamber_again", {"name": name, "cycle": chamber.cycle, "turns": round(space.period / _TURN)}))
-    # where its diagram begins: that of a release of heat at the dead centre nearest to where it is stated
-    top, bottom = _ends_of_stroke(space, chamber.delay) if chamber.released is not None else (0.0, 0.0)
+    # where its diagram begins: that of heat or of valves at the dead centre nearest to where it is stated
+    counts = chamber.released is not None or chamber.valves is not None
+    top, bottom = _ends_of_stroke(space, chamber.delay) if counts else (0.0, 0.0)
     begins = chamber.delay + top
     # where the volume is what it was in an earlier cycle, the diagram is that of then
     phases = [one % space.period for one in np.arange(0.0, whole, chamber.cycle).tolist()]
@@ -296,8 +298,20 @@ def _ends_of_stroke(space: _Space, delay: float) -> tuple[float, float]:
 def _solved(chamber: Chamber, space: _Space, start: float, path: str) -> IndicatorDiagram:
     """Return the diagram of a chamber over the cycle that begins at a crank angle of its volume."""
     centres = DeadCentres(tuple(sorted((one - start) % space.period for one in space.dead_centres)), space.period)
-    volume_at = _volume_from(space, start)
-    return solve_diagram(chamber.points, chamber.pieces, chamber.cycle, volume_at, dead_centres=centres, path=path)
+    volume_at, valves = _volume_from(space, start), stated_valves(path, chamber)
+    if valves is not None:
+        if len(space.dead_centres) != 2 or space.period != chamber.cycle:
+            raise DiagramError(valves.path, Refusal("valves_strokes", count=len(space.dead_centres)))
+        valves.check(space.clearance.value, space.swept.value)
+    found = solve_diagram(chamber.points, chamber.pieces, chamber.cycle, volume_at, dead_centres=centres, path=path)
+    return found if valves is None else valves.remembered(found)
+
+
+def stated_valves(path: str, chamber: Chamber) -> StatedValves | None:
+    """Return the valves of a chamber as they are stated, if it has any."""
+    if chamber.valves is None:
+        return None
+    return StatedValves(chamber.valves, f"{path}.valves", f".{path.removeprefix('chambers.')}")
 
 
 def _rate_from(space: _Space, start: float) -> VolumeAt:

@@ -399,7 +399,9 @@ class _Solver:
         low, high = start, float(self._centres_after(start)[0])
 
         def pressure(degrees: Array) -> Array:
-            return np.asarray(polytropic_pressure(*state[:2], self.volume_at(degrees), state[2]))
+            # beyond all bounds where nothing is left of the volume
+            with np.errstate(divide="ignore"):
+                return np.asarray(polytropic_pressure(*state[:2], self.volume_at(degrees), state[2]))
 
         ends = pressure(np.array([low, high])) - wanted
         if ends[0] * ends[1] > 0:

@@ -16,6 +16,7 @@ from crankwork.note.words import in_display_unit
 from crankwork.quantities import QUANTITIES, base_key
 
 _VOLUME, _CHARGE = "kolchin_demidov_2008, ch. 5", "urieli_berchowitz_1984"
+_DELIVERED = "eastop_mcconkey_1993, ch. 12"
 _MINUS = "\N{MINUS SIGN}"
 _SINGLE = (
     "swept_volume", "clearance_volume", "compression_ratio", "gas_pressure_max", "indicated_work",
@@ -89,6 +90,9 @@ def chambers(material: Material) -> Iterator[Block]:
     rows = [(one.name, *_values(one.name, material)) for one in stated_chambers(machine)]
     titles = [words.titled(key, QUANTITIES[base_key(key)].unit) for key in _SINGLE]
     yield Table(words.caption("gas_work"), ((words.column("chamber"),), *titles), rows, align="l" + "r" * len(_SINGLE))
+    if material.lines("delivery"):
+        yield words.paragraph("delivery", source=Citation(_DELIVERED))
+        yield from equations(material.lines("delivery"), words)
 
 
 def _values(name: str, material: Material) -> Iterator[str]:

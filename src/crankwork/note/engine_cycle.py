@@ -10,7 +10,7 @@ import numpy as np
 from crankwork.analysis.polytropes import Polytropes, polytropes
 from crankwork.formula.lines import FormulaLine, Line, ValueLine
 from crankwork.locale import say
-from crankwork.note.document import Block, Cell, Math, Reference, Runs, Table
+from crankwork.note.document import Block, Cell, Citation, Math, Reference, Runs, Table
 from crankwork.note.engine_cycle_data import cycle_data_rows
 from crankwork.note.engine_material import Material
 from crankwork.note.engine_tables import column_table, folded, value_table
@@ -68,6 +68,7 @@ _SHARES = (
     ("unburnt", "heat_unburnt"), ("rest", "heat_rest"),
 )  # fmt: skip
 _MEASURED_STEP = 10.0
+_DELIVERED = "eastop_mcconkey_1993, ch. 12"
 
 
 def cycle(material: Material) -> Iterator[Block]:
@@ -134,6 +135,7 @@ def indicator(material: Material) -> Iterator[Block]:
     yield from material.presented([_points(material)], ("indicator", "pressure"))
     kinds = ("indicated_work", "indicated_mean_pressure", "indicated_power")
     yield from material.intro("work", material.equations("power", *kinds))
+    yield from material.intro("delivery", material.equations("delivery"), source=Citation(_DELIVERED))
 
 
 def _measured(material: Material) -> Iterator[Block]:

@@ -9,7 +9,7 @@ from crankwork.formula.known import Delayed, Use
 from crankwork.formula.known import Given as GivenNode
 from crankwork.formula.lines import Line, Moment, ValueLine
 from crankwork.machine import Engine
-from crankwork.note.groups import Group
+from crankwork.note.groups import DELIVERY, Group
 
 _DEGREES, _TURN = 30.0, 360.0
 
@@ -115,6 +115,7 @@ def engine_lines(results: Results, degrees: float = _DEGREES, force_degrees: flo
         Group("force_extremes", _own(loaded, results, _FORCE_EXTREMES)),
         Group("power", _own(loaded, results, _POWER if results.solved.space is not None else ())),
     ]
+    groups.append(Group("delivery", _own(loaded, results, DELIVERY if "induced_volume" in results.memory else ())))
     if machine.engine is not None:
         groups += _of_engine(results, machine.engine, loaded)
     return tuple(group for group in groups if group.lines)

@@ -11,7 +11,7 @@ import numpy as np
 from crankwork.analysis import Results
 from crankwork.formula.known import Found, Given, Known, Use, in_order
 from crankwork.formula.lines import Line, ValueLine
-from crankwork.note.groups import Group
+from crankwork.note.groups import DELIVERY, Group
 
 _DEGREES = 30.0
 
@@ -70,6 +70,7 @@ def linkage_lines(results: Results, degrees: float | None = None) -> tuple[Group
         Group("charges", told.lines(_CHARGES)),
         told.group("chambers", _CHAMBERS),
         Group("gas_work", told.lines(_GAS_WORK)),
+        Group("delivery", told.lines(DELIVERY)),
         Group("inertia_loads", told.of(_inertia(results)), told.degrees),
         told.group("joint_forces", _JOINTS),
         told.group("shaking", _SHAKING),

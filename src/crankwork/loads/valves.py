@@ -1,0 +1,258 @@
+"""Valves that open by themselves: the diagram of a compressor or pump between two pressures, and what it delivers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import Known, absent, given
+from crankwork.loads.indicator import DiagramError, DiagramPoint, IndicatorDiagram, Piece
+from crankwork.locale import Refusal
+
+_TEXT = "eastop_mcconkey_1993, ch. 12"
+
+
+@formula("expanded_volume", _TEXT)
+def expanded_volume(V_c: Value, p_dis: Value, p_suc: Value, n_2: Value) -> Value:
+    """Volume to which the gas left in the clearance expands before the suction valve opens."""
+    return V_c * np.power(p_dis / p_suc, 1 / n_2)
+
+
+@formula("induced_volume", _TEXT)
+def induced_volume(V_d: Value, V_c: Value, V_exp: Value) -> Value:
+    """Volume drawn in during a cycle, at the state of the suction."""
+    return V_d + V_c - V_exp
+
+
+@formula("clearance_volumetric_efficiency", _TEXT)
+def drawn_share(V_in: Value, V_d: Value) -> Value:
+    """Volume drawn in over swept volume."""
+    return V_in / V_d
+
+
+@formula("inlet_flow", _TEXT)
+def inlet_flow(V_in: Value, w: Value, phi_c: Value) -> Value:
+    """Volume drawn in per unit of time."""
+    return V_in * w / phi_c
+
+
+@formula("free_air_delivery", _TEXT)
+def free_air_delivery(Q_in: Value, p_suc: Value, T_suc: Value, p_free: Value, T_free: Value) -> Value:
+    """Flow at the state of free air."""
+    return Q_in * p_suc / p_free * (T_free / T_suc)
+
+
+@formula("gas_mass_flow", _TEXT)
+def mass_flow(p_suc: Value, Q_in: Value, R_gas: Value, T_suc: Value) -> Value:
+    """Mass drawn in per unit of time."""
+    return p_suc * Q_in / (R_gas * T_suc)
+
+
+@formula("discharge_temperature", _TEXT)
+def discharge_temperature(T_suc: Value, p_dis: Value, p_suc: Value, n_1: Value) -> Value:
+    """Temperature at the end of compression."""
+    return T_suc * np.power(p_dis / p_suc, (n_1 - 1) / n_1)
+
+
+@formula("polytropic_exponent", _TEXT)
+def exponent_of_temperatures(p_dis: Value, p_suc: Value, T_dis: Value, T_suc: Value) -> Value:
+    """Exponent of the polytrope between two pressures and temperatures."""
+    return np.log(p_dis / p_suc) / (np.log(p_dis / p_suc) - np.log(T_dis / T_suc))
+
+
+@formula("isothermal_power", _TEXT)
+def isothermal_power(p_suc: Value, Q_in: Value, p_dis: Value) -> Value:
+    """Least power that compresses what is drawn in: at the temperature that it has there."""
+    return p_suc * Q_in * np.log(p_dis / p_suc)
+
+
+@formula("isothermal_efficiency", _TEXT)
+def isothermal_efficiency(P_iso: Value, P_ind: Value) -> Value:
+    """Isothermal power over the indicated power that the gas takes up."""
+    return -P_iso / P_ind
+
+
+@formula("discharge_coefficient", "subramanya_2005, ch. 16")
+def discharge_coefficient(Q_del: Value, Q_in: Value) -> Value:
+    """Measured flow over that of the valves and the stroke."""
+    return Q_del / Q_in
+
+
+@formula("pump_slip", "subramanya_2005, ch. 16")
+def pump_slip(C_dis: Value) -> Value:
+    """Share of the flow that is lost."""
+    return 1 - C_dis
+
+
+@dataclass(frozen=True)
+class Valves:
+    """What opens them, and what passes. [Pa], [K], [J/(kg K)], [m3/s]
+
+    A gas has an exponent of compression or a temperature behind it; what has neither is a liquid.
+    """
+
+    suction: float
+    discharge: float
+    compression_exponent: float | None = None
+    expansion_exponent: float | None = None  # As that of the compression if not given
+    temperature: float | None = None  # Of what is drawn in
+    discharge_temperature: float | None = None
+    gas_constant: float | None = None
+    free_pressure: float | None = None
+    free_temperature: float | None = None
+    delivered: float | None = None  # As measured, at the state of the suction
+
+    @property
+    def exponents(self) -> tuple[float, float] | None:
+        """Exponents of compression and expansion, of a gas."""
+        one = self.compression_exponent
+        if self.discharge_temperature is not None and self.temperature is not None:
+            one = float(
+                exponent_of_temperatures(self.discharge, self.suction, self.discharge_temperature, self.temperature)
+            )
+        return None if one is None else (one, self.expansion_exponent or one)
+
+    def diagram(self, *, has_clearance: bool) -> tuple[dict[str, DiagramPoint], tuple[Piece, ...]]:
+        """Return points and laws of the cycle from the least volume: expansion, suction, compression, discharge."""
+        exponents, low, high = self.exponents, self.suction, self.discharge
+        points = {
+            "d": DiagramPoint(stroke=0.0, pressure=high),
+            "e": DiagramPoint(pressure=low),
+            "a": DiagramPoint(stroke=1.0),
+            "c": DiagramPoint(pressure=high),
+            "f": DiagramPoint(stroke=0.0),
+        }
+        pieces = (
+            Piece("polytropic", ("d", "e"), exponents and exponents[1]),
+            Piece("constant", ("e", "a")),
+            Piece("polytropic", ("a", "c"), exponents and exponents[0]),
+            Piece("constant", ("c", "f")),
+        )
+        if exponents is not None and has_clearance:
+            return points, pieces
+        # nothing is left that could expand: the pressure falls at once where the piston turns back
+        points = {**points, "d": DiagramPoint(stroke=0.0, pressure=low), "f": DiagramPoint(stroke=0.0, pressure=low)}
+        del points["e"]
+        drawn = Piece("constant", ("d", "a"))
+        if exponents is not None:
+            return points, (drawn, *pieces[2:])
+        return {**points, "c": DiagramPoint(stroke=1.0, pressure=high)}, (drawn, pieces[3])
+
+
+@dataclass(frozen=True)
+class StatedValves:
+    """Valves as a description states them: at a path, for what ends in `own`, `.head` or nothing of one cylinder."""
+
+    valves: Valves
+    path: str
+    own: str = ""
+
+    def _given(self, key: str, name: str) -> Known:
+        value = getattr(self.valves, name)
+        return absent(key) if value is None else given(f"{key}{self.own}", value, f"{self.path}.{name}")
+
+    @property
+    def pressures(self) -> tuple[Known, Known]:
+        """Pressures of suction and discharge. [Pa]"""
+        return self._given("suction_pressure", "suction"), self._given("discharge_pressure", "discharge")
+
+    @property
+    def temperature(self) -> Known:
+        """Temperature of what is drawn in. [K]"""
+        return self._given("suction_temperature", "temperature")
+
+    @property
+    def exponents(self) -> tuple[Known, Known] | None:
+        """Exponents of compression and expansion, of a gas."""
+        if self.valves.exponents is None:
+            return None
+        low, high = self.pressures
+        if self.valves.discharge_temperature is None:
+            one = self._given("compression_exponent", "compression_exponent")
+        else:
+            after = self._given("discharge_temperature", "discharge_temperature")
+            one = exponent_of_temperatures(high, low, after, self.temperature)
+            one = one.named(f"polytropic_exponent{self.own}")
+        other = self._given("expansion_exponent", "expansion_exponent")
+        return one, one if other.is_absent else other
+
+    def check(self, clearance: float, swept: float) -> None:
+        """Refuse a clearance out of which or into which the gas would only be squeezed. [m3]"""
+        exponents = self.valves.exponents
+        if exponents is None or not clearance:
+            return
+        most = self.valves.suction * min((1 + swept / clearance) ** one for one in exponents)
+        if self.valves.discharge >= most:
+            raise DiagramError(f"{self.path}.discharge", Refusal("valves_closed", most=most / 1e6))
+
+    def remembered(self, diagram: IndicatorDiagram) -> IndicatorDiagram:
+        """Return the diagram whose laws remember pressures and exponents as they are stated."""
+        exponents, (low, high) = self.exponents, self.pressures
+        compression, expansion = exponents or (None, None)
+        laws: dict[str, dict[str, tuple[Known | None, ...]]] = {
+            "polytropic": {"d": (high, expansion), "a": (low, compression)},
+            "constant": {"d": (low,), "e": (low,), "c": (high,)},
+        }
+        of = [[known for known in laws[one.law][one.origin] if known is not None] for one in diagram.segments]
+        segments = tuple(replace(one, of=tuple(some)) for one, some in zip(diagram.segments, of, strict=True))
+        return replace(diagram, segments=segments, jumps=())
+
+    def delivery(
+        self, clearance: Known, swept: Known, power: Known, per_time: Callable[[Known], Known]
+    ) -> dict[str, Known]:
+        """Return what passes the valves, by key; `per_time`: from a volume of a cycle to a flow."""
+        found = {one.key: one for one in self._delivery(clearance, swept, power, per_time)}
+        return {key: one for key, one in found.items() if not one.is_absent}
+
+    def _delivery(
+        self, clearance: Known, swept: Known, power: Known, per_time: Callable[[Known], Known]
+    ) -> Iterator[Known]:
+        own, exponents, (low, high) = self.own, self.exponents, self.pressures
+        drawn = swept.named(f"induced_volume{own}")
+        if exponents is not None and not clearance.is_absent:
+            left = expanded_volume(clearance, high, low, exponents[1]).named(f"expanded_volume{own}")
+            drawn = induced_volume(swept, clearance, left).named(drawn.key)
+            yield left
+        flow: Known = per_time(drawn).named(f"inlet_flow{own}")
+        yield from (drawn, drawn_share(drawn, swept).named(f"clearance_volumetric_efficiency{own}"), flow)
+        if self.valves.delivered is not None:
+            share = discharge_coefficient(self._given("delivered_flow", "delivered"), flow)
+            share = share.named(f"discharge_coefficient{own}")
+            yield from (share, pump_slip(share).named(f"pump_slip{own}"))
+        if exponents is None:
+            return
+        if self.valves.discharge_temperature is not None:
+            yield exponents[0]
+        before, constant = self.temperature, self._given("specific_gas_constant", "gas_constant")
+        if not before.is_absent:
+            if self.valves.discharge_temperature is None:
+                after = discharge_temperature(before, high, low, exponents[0])
+                yield after.named(f"discharge_temperature{own}")
+            if not constant.is_absent:
+                yield mass_flow(low, flow, constant, before).named(f"gas_mass_flow{own}")
+            free = self._given("free_air_pressure", "free_pressure")
+            if not free.is_absent:
+                there = self._given("free_air_temperature", "free_temperature")
+                yield free_air_delivery(flow, low, before, free, there).named(f"free_air_delivery{own}")
+        least = isothermal_power(low, flow, high).named(f"isothermal_power{own}")
+        yield least
+        if power.value:
+            yield isothermal_efficiency(least, power).named(f"isothermal_efficiency{own}")
+
+    def work(self, clearance: float, swept: float) -> float:
+        """Return the work of the gas in a cycle by pressures alone, the second way to it. [J]"""
+        low, high, exponents = self.valves.suction, self.valves.discharge, self.valves.exponents
+        if exponents is None:
+            return (low - high) * swept
+
+        def compressed(volume: float, exponent: float) -> float:
+            # n/(n-1) p V (r^((n-1)/n) - 1), in a form that keeps its digits as n goes to 1
+            growth, share = math.log(high / low), (exponent - 1) / exponent
+            return low * volume * (math.expm1(share * growth) / share if share else growth)
+
+        left = clearance * (high / low) ** (1 / exponents[1])
+        return compressed(left, exponents[1]) - compressed(swept + clearance, exponents[0])
