@@ -101,3 +101,39 @@ def test_valves_of_a_crank_gear_written_out_are_those_of_a_chamber(tmp_path):
     alone, written = crankwork.analyse(crankwork.load(path)), crankwork.analyse(crankwork.read_machine(expanded(path)))
     for key in ("clearance_volumetric_efficiency", "inlet_flow", "indicated_power", "isothermal_efficiency"):
         assert written[f"{key}.cylinder"] == pytest.approx(alone[key], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("valves", "told"),
+    [
+        ('suction_pipe = { length = "5 m", diameter = "50 mm" }', "suction_pipe: says nothing without density; add"),
+        ('density = "1000 kg/m3"\ncompression_exponent = 1.3', "compression_exponent"),
+        ('density = "1000 kg/m3"\nsuction_pipe = { length = "5 m" }', "suction_pipe.diameter"),
+    ],
+)
+def test_pipes_carry_a_liquid(valves, told):
+    text = """
+        [fixed_points]
+        O = ["0 mm", "0 mm"]
+        [crank]
+        pivot = "O"
+        pin = "A"
+        radius = "100 mm"
+        speed = "60 rpm"
+        [guides]
+        bore = { through = "O" }
+        slot = { link = "plunger", angle = "90 deg" }
+        [sliders]
+        plunger = { guide = "bore" }
+        block = { pin = "A", guide = "slot" }
+        [chambers.water]
+        slider = "plunger"
+        bore = "50 mm"
+        pressures = "absolute"
+        [chambers.water.valves]
+        suction = "0.1 MPa"
+        discharge = "0.2 MPa"
+    """
+    with pytest.raises(CrankworkError) as error:
+        crankwork.read_machine(text + valves)
+    assert told in str(error.value)

@@ -276,3 +276,89 @@ def test_a_crank_gear_has_the_valves_of_a_chamber() -> None:
     assert found["gas_mass_flow"] == pytest.approx(1.54145895718 / 60, rel=1e-11)
     assert found["isothermal_efficiency"] == pytest.approx(0.806428056306, rel=1e-11)
     assert not found.unmet
+
+
+PUMP = """
+[fixed_points]
+O = ["0 mm", "0 mm"]
+[crank]
+pivot = "O"
+pin = "C"
+radius = "{radius} mm"
+speed = "{speed} rpm"
+[guides]
+bore = {{ through = "O" }}
+slot = {{ link = "plunger", angle = "90 deg" }}
+[sliders]
+plunger = {{ guide = "bore" }}
+block = {{ pin = "C", guide = "slot" }}
+[chambers.water]
+slider = "plunger"
+bore = "{bore} mm"
+sense = -1
+pressures = "absolute"
+ambient = "0 MPa"
+[chambers.water.valves]
+suction = "{low} Pa"
+discharge = "{high} Pa"
+density = "1000 kg/m3"
+{more}
+"""
+# pressure of a metre of water
+METRE = 9810.0
+
+
+def pump(sizes: tuple[float, float, float], heads: tuple[float, float], more: str) -> Results:
+    """Return the results of a plunger moved as a cosine: its bore and crank radius [mm], speed [rpm], heads [m]."""
+    (bore, radius, speed), (low, high) = sizes, [METRE * one for one in heads]
+    text = PUMP.format(bore=bore, radius=radius, speed=speed, low=low, high=high, more=more)
+    return crankwork.analyse(crankwork.read_machine(text))
+
+
+@pytest.mark.parametrize(
+    ("sizes", "heads", "pipe", "least", "tolerance"),
+    [
+        # p. 420: separation in the discharge pipe; the notebook cuts a head of 47.5 m to 47
+        ((200.0, 400.0, 24.17), (7.5, 50.0), 'discharge_pipe = { length = "45 m", diameter = "100 mm" }', 3.0, 0.03),
+        # p. 421, with all digits of the speed that is printed as 27
+        (
+            (150.0, 150.0, 26.9982331852),
+            (7.5, 50.0),
+            'suction_pipe = { length = "5 m", diameter = "50 mm" }',
+            2.0,
+            1e-8,
+        ),
+        # p. 421
+        ((200.0, 200.0, 30.0), (10 - 3.476, 50.0), 'suction_pipe = { length = "5 m", diameter = "100 mm" }', 2.5, 5e-4),
+        # p. 422: the diameter of the pipe; a head of 0.70 m before the ratio of the areas
+        ((250.0, 200.0, 25.0), (7.0, 50.0), 'suction_pipe = { length = "5 m", diameter = "98.6 mm" }', 2.5, 0.02),
+    ],
+    ids=["16.40", "16.41", "16.42", "16.45"],
+)
+def test_separation_in_a_pipe(
+    sizes: tuple[float, float, float], heads: tuple[float, float], pipe: str, least: float, tolerance: float
+) -> None:
+    """K. Subramanya: the pressure is least where the plunger turns back."""
+    found = pump(sizes, heads, pipe)
+    assert found["diagram_pressure_min.water"] / METRE == pytest.approx(least, abs=tolerance)
+    # liquid that is sped up is slowed down again
+    swept = math.pi / 4 * sizes[0] ** 2 * 2 * sizes[1] * 1e-9
+    assert found["indicated_work.water"] == pytest.approx((heads[0] - heads[1]) * METRE * swept, rel=1e-11)
+
+
+@pytest.mark.parametrize(("vapour", "told"), [(1.9, False), (2.1, True)])
+def test_separation_is_told(vapour: float, told: bool) -> None:
+    pipe = f'suction_pipe = {{ length = "5 m", diameter = "50 mm" }}\nvapour_pressure = "{vapour * METRE} Pa"'
+    found = pump((150.0, 150.0, 26.9982331852), (7.5, 50.0), pipe)
+    assert [one.code for one in found.notices] == ["separation"] * told
+
+
+def test_friction_takes_two_thirds_of_its_greatest_head() -> None:
+    """K. Subramanya, chapter 16: the work of friction over a stroke, where the plunger moves as a cosine."""
+    one = '{ length = "5 m", diameter = "50 mm", friction = 0.03 }'
+    found = pump((150.0, 150.0, 30.0), (7.5, 50.0), f"suction_pipe = {one}\ndischarge_pipe = {one}")
+    greatest = 0.03 * 5 / 0.05 * 1000 / 2 * ((150 / 50) ** 2 * math.pi * 0.15) ** 2
+    swept = math.pi / 4 * 0.15**2 * 0.3
+    lost = 42.5 * METRE + 2 * (2 / 3) * greatest
+    assert found["indicated_work.water"] == pytest.approx(-lost * swept, rel=1e-11)
+    assert not found.unmet

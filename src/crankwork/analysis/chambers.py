@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from crankwork.analysis.linkage_memory import speed_of
+from crankwork.analysis.linkage_memory import speed_of, turning_of
 from crankwork.analysis.solved import SolvedLinkage
 from crankwork.dynamics.reduction import reduced_torque
 from crankwork.formula.known import Known, absent, breaks_of, given, total
@@ -37,7 +37,8 @@ def solve_linkage(machine: Machine, motion: Motion) -> SolvedLinkage:
     speed = machine.speed * method.pi / math.pi
     law = machine.mechanism.driver.law
     period = machine.mechanism.period
-    filling = filled(machine.chambers, machine.charges, motion, method.pi, law, period)
+    turning = turning_of(machine, motion)
+    filling = filled(machine.chambers, machine.charges, motion, method.pi, law, period, turning)
     return SolvedLinkage(machine, method, speed, filling)
 
 
@@ -147,7 +148,8 @@ def _work_of_valves(solved: SolvedLinkage) -> dict[str, float]:
     apart, singles = list[float](), solved.filling.singles
     for name, one in solved.machine.chambers.items():
         stated = stated_valves(f"chambers.{name}", one)
-        if stated is not None:
+        # pipes take what no pressures of valves tell
+        if stated is not None and not stated.valves.has_pipes:
             sizes = [singles[key].value if key in singles else 0.0
                      for key in (f"clearance_volume.{name}", f"swept_volume.{name}")]  # fmt: skip
             work = stated.work(*sizes)

@@ -45,14 +45,19 @@ DRIVEN = {False: "driver_force", True: "driver_torque"}
 def remembered_running(solved: SolvedLinkage, motion: Motion) -> Running:
     """Return a linkage at work, with its loads, remembered."""
     machine = solved.machine
-    if motion.driver is not None:
-        _, w, eps = motion.driver
-    else:
-        w = speed_of(machine)
-        eps = _stated("angular_acceleration", machine.angular_acceleration, "crank.angular_acceleration")
+    w, eps = turning_of(machine, motion)
     mechanism = given_mechanism(machine.mechanism, machine.linkage)
     loads = applied_loads(mechanism, motion, machine.loads, w).also(solved.filling.loads(mechanism, motion))
     return Running(mechanism, motion, w, loads, eps)
+
+
+def turning_of(machine: Machine, motion: Motion) -> tuple[Known, Known]:
+    """Return speed and acceleration of the driver's coordinate."""
+    if motion.driver is not None:
+        _, rate, change = motion.driver
+        return rate, change
+    eps = _stated("angular_acceleration", machine.angular_acceleration, "crank.angular_acceleration")
+    return speed_of(machine), eps
 
 
 def linkage_memory(solved: SolvedLinkage, running: Running) -> dict[str, Known]:

@@ -12,7 +12,7 @@ from crankwork.description.measured_build import treatment_of
 from crankwork.description.schema import Values, nearest_name
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.loads.measured import MeasuredPressure, Told
-from crankwork.loads.valves import Valves
+from crankwork.loads.valves import Pipe, Valves
 from crankwork.locale import Refusal
 from crankwork.machine import Cylinder, Gas
 
@@ -107,6 +107,10 @@ def build_valves(values: Values, path: str, reader: Reader) -> Valves | None:
         free_pressure=stated.si("free_pressure"),
         free_temperature=stated.si("free_temperature"),
         delivered=stated.si("delivered"),
+        density=stated.si("density"),
+        suction_pipe=_pipe(stated, "suction_pipe"),
+        discharge_pipe=_pipe(stated, "discharge_pipe"),
+        vapour_pressure=stated.si("vapour_pressure"),
     )
     if not found.discharge > found.suction:
         reader.complain(f"{path}.discharge", Refusal("valves_turned"))
@@ -121,6 +125,14 @@ def build_valves(values: Values, path: str, reader: Reader) -> Valves | None:
             advice = "compression_exponent = 1.3"
             reader.complain(f"{path}.{key}", Refusal("only_beside", key="compression_exponent", advice=advice))
     return found
+
+
+def _pipe(stated: Values, name: str) -> Pipe | None:
+    """Return a pipe of a pump, None without one or after complaints about it."""
+    if name not in stated or not {"length", "diameter"} <= set(stated[name]):
+        return None
+    one = stated[name]
+    return Pipe(one.si("length"), one.si("diameter"), one["friction"])
 
 
 class Diagram(NamedTuple):

@@ -108,6 +108,21 @@ VALVES = Table("valves", {
     "delivered": Key(Quantity(("volume_rate",), 0.0, 1e6, above=True)),
 })  # fmt: skip
 
+_LIQUID = {"density": ()}
+_PIPE = Table("pipe", {
+    "length": Key(Quantity(("length",), 1e-3, 1e5), required=True),
+    "diameter": Key(_LENGTH, required=True),
+    "friction": Key(Number(0.0, 1.0), default=0.0),
+})  # fmt: skip
+# those of a chamber may stand at the end of pipes
+PIPED_VALVES = VALVES._replace(keys={
+    **VALVES.keys,
+    "density": Key(Quantity(("density",), 1.0, 1e5), instead_of=("compression_exponent", "discharge_temperature")),
+    "suction_pipe": Key(_PIPE, only=_LIQUID),
+    "discharge_pipe": Key(_PIPE, only=_LIQUID),
+    "vapour_pressure": Key(_OPENING, only=_LIQUID),
+})  # fmt: skip
+
 # what the pressure of a cylinder or chamber is made of
 PRESSURES = Key(Choice(("gauge", "absolute")), default="gauge")
 DIAGRAM = {

@@ -6,7 +6,17 @@ import math
 from typing import get_args
 
 from crankwork.description.engine_keys import FLYWHEEL, HEAT_RELEASE
-from crankwork.description.keys import AMBIENT, DIAGRAM, METHOD, NO_ACCELERATION, PRESSURES, SHEET, TABLE, TITLE, VALVES
+from crankwork.description.keys import (
+    AMBIENT,
+    DIAGRAM,
+    METHOD,
+    NO_ACCELERATION,
+    PIPED_VALVES,
+    PRESSURES,
+    SHEET,
+    TABLE,
+    TITLE,
+)
 from crankwork.description.kinds import Choice, Flag, Number, Quantity, Text
 from crankwork.description.schema import Key, ListOf, Named, NameOr, Nested, NumberOr, Table
 from crankwork.mechanism.driver import LawKind
@@ -204,7 +214,7 @@ _CHAMBER = Table("chamber", {
     "pressure_factor": Key(Number(0.0, 10.0), default=1.0),
     "pressures": PRESSURES,
     **DIAGRAM,
-    "valves": Key(VALVES, instead_of=(*DIAGRAM, "pressure", "cycle"),
+    "valves": Key(PIPED_VALVES, instead_of=(*DIAGRAM, "pressure", "cycle"),
                   only={"pressures": ("absolute",), "period": ("360 deg",)}),
     "cycle": Key(HEAT_RELEASE, instead_of=("points", "pieces", "measured", "pressure")),
     "delay": Key(_TURN),

@@ -23,7 +23,7 @@ from crankwork.loads.indicator import DeadCentres, DiagramError, IndicatorDiagra
 from crankwork.loads.measured import Told
 from crankwork.loads.pressure import at_angle, remembered_pressure
 from crankwork.loads.treated import Around, measured_diagram
-from crankwork.loads.valves import StatedValves
+from crankwork.loads.valves import Flow, StatedValves
 from crankwork.locale import Refusal
 from crankwork.mechanism.driver import Law
 from crankwork.mechanism.mechanism import Mechanism
@@ -75,6 +75,7 @@ class _Wall(NamedTuple):
     area: Known
     position: Known
     position_1: Known
+    position_2: Known
 
 
 class _Space(NamedTuple):
@@ -94,18 +95,20 @@ class _Space(NamedTuple):
         return Program({"": self.volume})(CrankGrid.from_degrees(degrees))[""]
 
 
-def filled(
+def filled(  # noqa: PLR0913 - what the gas is, and how it is moved
     chambers: Mapping[str, Chamber],
     charges: Mapping[str, Charge],
     motion: Motion,
     pi: float,
     law: Law | None = None,
     period: float = _TURN,
+    turning: tuple[Known, Known] | None = None,
 ) -> Filling:
     """Return the gas of chambers on the sliding pieces of a remembered motion.
 
     `law`: that of the driver, where it is not a crank that turns fully at the angle of the tables; `period`: crank
-    angle after which the motion repeats [deg].
+    angle after which the motion repeats [deg]; `turning`: speed and acceleration of the driver's coordinate, for what
+    flows through pipes.
     """
     if not chambers:
         return NO_GAS
@@ -121,6 +124,13 @@ def filled(
         if name not in pressures:
             pressures[name], works[name], notices = _of_its_own(name, chamber, spaces[name], whole, law)
             told += notices
+            if turning is not None and chamber.valves is not None and chamber.valves.has_pipes:
+                flow = Flow(*_rates(spaces[name]), *turning, pi)
+                piped = _behind_pipes(name, chamber, spaces[name], pressures[name], flow)
+                pressures[name], notices = piped.pressure, piped.notices
+                works |= _works({name: pressures[name]}, spaces, period)
+                own += piped.least
+                told += notices
     columns, forces = list[Known](), list[GasForce]()
     for name, space in spaces.items():
         ambient, acting = chambers[name].ambient, pressures[name].named(f"gas_pressure.{name}")
@@ -141,6 +151,39 @@ def filled(
     columns += [one.force for one in forces]
     once = {repr(one): one for one in told}
     return Filling(_by_key(columns), _by_key(own), tuple(forces), tuple(once.values()))
+
+
+class _Piped(NamedTuple):
+    """The pressure behind the pipes of a chamber, its least value and the angle of that, and what should be known."""
+
+    pressure: Known
+    least: tuple[Known, ...]
+    notices: list[Told]
+
+
+def _behind_pipes(name: str, chamber: Chamber, space: _Space, before: Known, flow: Flow) -> _Piped:
+    """Return the pressure in a chamber whose liquid comes and goes through pipes."""
+    path = f"chambers.{name}"
+    valves = stated_valves(path, chamber)
+    begins = chamber.delay + _ends_of_stroke(space, chamber.delay)[0]
+    if valves is None:
+        return _Piped(before, (), [])
+    pressure = valves.through_pipes(before, _solved(chamber, space, begins, path).later(begins), flow)
+    found = OverCycle({pressure.key: pressure}, CrankGrid.from_degrees, space.period).extremes(pressure.key)
+    least, at = (found[f"diagram_pressure_{word}.{name}"] for word in ("min", "min_angle"))
+    boiling, notices = valves.valves.vapour_pressure, list[Told]()
+    if boiling is not None and least.value < boiling:
+        pressures = {"least": least.value / 1e6, "vapour": boiling / 1e6}
+        notices.append(("separation", {"name": name, **pressures, "angle": math.degrees(at.value)}))
+    return _Piped(pressure, (least, at), notices)
+
+
+def _rates(space: _Space) -> tuple[Known, Known]:
+    """Return the derivatives of a volume by the driver's coordinate."""
+    first = [gas.face_volume_1(one.sense, one.area, one.position_1) for one in space.walls]
+    second = [gas.face_volume_2(one.sense, one.area, one.position_2) for one in space.walls]
+    owner = space.volume.key.partition(".")[2]
+    return total(f"cylinder_volume_1.{owner}", first), total(f"cylinder_volume_2.{owner}", second)
 
 
 def _by_key(knowns: list[Known]) -> dict[str, Known]:
@@ -182,7 +225,9 @@ def _walls(name: str, chamber: Chamber, motion: Motion, pi: float) -> Iterator[_
         path = f"chambers.{name}.faces[{number}]"
         sense = absent("face_sense", 1.0) if face.sense == 1 else given(f"face_sense.{owner}", -1.0, f"{path}.sense")
         slide: Any = motion.sliders[face.slider]
-        yield _Wall(face.slider, sense, _area(face, owner, path, pi), slide.position, slide.position_1)
+        yield _Wall(
+            face.slider, sense, _area(face, owner, path, pi), slide.position, slide.position_1, slide.position_2
+        )
 
 
 def _area(face: Face, owner: str, path: str, pi: float) -> Known:

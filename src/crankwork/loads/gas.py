@@ -91,6 +91,12 @@ def face_volume_1(sigma: Value, A: Value, s_1: Value) -> Value:
     return sigma * A * s_1
 
 
+@formula("cylinder_volume_2", "kolchin_demidov_2008, ch. 5")
+def face_volume_2(sigma: Value, A: Value, s_2: Value) -> Value:
+    """Part of one sliding piece in the second derivative of the volume of a chamber by the crank angle."""
+    return sigma * A * s_2
+
+
 @formula("gas_force", "kolchin_demidov_2008, ch. 7")
 def face_force(sigma: Value, p: Value, A: Value) -> Value:
     """Force of the gas on a sliding piece, positive along its guide."""

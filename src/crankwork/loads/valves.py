@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import Known, absent, given
+from crankwork.formula.known import Known, Pieces, absent, given
+from crankwork.loads.gas import piston_area
 from crankwork.loads.indicator import DiagramError, DiagramPoint, IndicatorDiagram, Piece
 from crankwork.locale import Refusal
 
@@ -88,9 +90,34 @@ def pump_slip(C_dis: Value) -> Value:
     return 1 - C_dis
 
 
+@formula("acceleration_pressure", "subramanya_2005, ch. 16")
+def acceleration_pressure(  # noqa: PLR0913 - one argument per symbol
+    rho_liq: Value, l_pipe: Value, A_pipe: Value, V_rate_2: Value, w: Value, V_rate: Value, eps: Value
+) -> Value:
+    """Pressure that speeds up the liquid in a pipe as the volume of its chamber asks for."""
+    return rho_liq * l_pipe / A_pipe * (V_rate_2 * w**2 + V_rate * eps)
+
+
+@formula("friction_pressure", "subramanya_2005, ch. 16")
+def friction_pressure(  # noqa: PLR0913 - one argument per symbol
+    f_pipe: Value, l_pipe: Value, d_pipe: Value, rho_liq: Value, V_rate: Value, w: Value, A_pipe: Value
+) -> Value:
+    """Pressure that the friction of a pipe takes, by Darcy and Weisbach."""
+    return f_pipe * l_pipe / d_pipe * (rho_liq / 2) * (V_rate * w / A_pipe) ** 2
+
+
+@dataclass(frozen=True)
+class Pipe:
+    """A pipe full of liquid between a vessel and the valve of a chamber; friction after Darcy. [m], [-]"""
+
+    length: float
+    diameter: float
+    friction: float = 0.0
+
+
 @dataclass(frozen=True)
 class Valves:
-    """What opens them, and what passes. [Pa], [K], [J/(kg K)], [m3/s]
+    """What opens them, and what passes. [Pa], [K], [J/(kg K)], [m3/s], [kg/m3]
 
     A gas has an exponent of compression or a temperature behind it; what has neither is a liquid.
     """
@@ -105,6 +132,15 @@ class Valves:
     free_pressure: float | None = None
     free_temperature: float | None = None
     delivered: float | None = None  # As measured, at the state of the suction
+    density: float | None = None  # Of a liquid
+    suction_pipe: Pipe | None = None
+    discharge_pipe: Pipe | None = None
+    vapour_pressure: float | None = None
+
+    @property
+    def has_pipes(self) -> bool:
+        """Whether the liquid in pipes changes the pressure."""
+        return self.suction_pipe is not None or self.discharge_pipe is not None
 
     @property
     def exponents(self) -> tuple[float, float] | None:
@@ -141,6 +177,16 @@ class Valves:
         if exponents is not None:
             return points, (drawn, *pieces[2:])
         return {**points, "c": DiagramPoint(stroke=1.0, pressure=high)}, (drawn, pieces[3])
+
+
+class Flow(NamedTuple):
+    """How a volume changes: its derivatives by the driver's coordinate, speed and acceleration of that, and pi."""
+
+    rate: Known
+    rate_2: Known
+    speed: Known
+    change: Known
+    pi: float
 
 
 @dataclass(frozen=True)
@@ -200,6 +246,32 @@ class StatedValves:
         of = [[known for known in laws[one.law][one.origin] if known is not None] for one in diagram.segments]
         segments = tuple(replace(one, of=tuple(some)) for one, some in zip(diagram.segments, of, strict=True))
         return replace(diagram, segments=segments, jumps=())
+
+    def through_pipes(self, pressure: Known, diagram: IndicatorDiagram, flow: Flow) -> Known:
+        """Return the pressure in the chamber, of that before its pipes over the strokes of a diagram."""
+        laws = tuple(self._taken(one.origin == "d", flow) for one in diagram.segments)
+        taken = Pieces([one.end for one in diagram.segments], laws, diagram.breaks.tolist())
+        return (pressure - Known(taken, f"pipe_pressure{self.own}")).named(pressure.key)
+
+    def _taken(self, is_suction: bool, flow: Flow) -> Known:  # noqa: FBT001 - which of two strokes
+        """Return what a pipe takes of the pressure before it, nothing without a pipe."""
+        name = "suction_pipe" if is_suction else "discharge_pipe"
+        pipe = getattr(self.valves, name)
+        if pipe is None:
+            return given("", 0.0)
+        own, path = f"{self.own}.{name.partition('_')[0]}", f"{self.path}.{name}"
+        density = self._given("liquid_density", "density")
+        length = given(f"pipe_length{own}", pipe.length, f"{path}.length")
+        diameter = given(f"pipe_diameter{own}", pipe.diameter, f"{path}.diameter")
+        area = piston_area(flow.pi, diameter).named(f"pipe_area{own}")
+        taken: Known = acceleration_pressure(density, length, area, flow.rate_2, flow.speed, flow.rate, flow.change)
+        taken = taken.named(f"acceleration_pressure{own}")
+        if not pipe.friction:
+            return taken
+        factor = given(f"pipe_friction{own}", pipe.friction, f"{path}.friction")
+        lost: Known = friction_pressure(factor, length, diameter, density, flow.rate, flow.speed, area)
+        lost = lost.named(f"friction_pressure{own}")
+        return taken + lost if is_suction else taken - lost
 
     def delivery(
         self, clearance: Known, swept: Known, power: Known, per_time: Callable[[Known], Known]
