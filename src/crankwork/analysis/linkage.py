@@ -263,7 +263,8 @@ def _followed(memory: Mapping[str, Known], *, has_friction: bool) -> dict[str, K
     """Return the columns that single values are taken from; those with friction where it locks nowhere."""
     kinds = (
         "slider_displacement", "link_angle", "joint_force", "tooth_force", "axial_force", "slider_velocity",
-        "gas_pressure", "gas_force", *_OF_DRIVER, "shaking_force", *(FOLLOWED_FRICTION if has_friction else ()),
+        "gas_pressure", "gas_force", "rod_load", *_OF_DRIVER, "shaking_force",
+        *(FOLLOWED_FRICTION if has_friction else ()),
     )  # fmt: skip
     return {key: one for key, one in memory.items() if key in DYNAMICS or key.partition(".")[0] in kinds}
 
@@ -289,7 +290,12 @@ def _summary(
         if is_place and (kind == "slider_displacement" or travel.value < math.pi):
             result[f"{_TRAVEL[kind]}.{name}"] = travel
         if not is_place or rocks(pivoted, key, travel.value):
-            both = is_place or key in DYNAMICS or kind in ("gas_force", "tooth_force") or key in (*_OF_DRIVER, *SIGNED)
+            both = (
+                is_place
+                or key in DYNAMICS
+                or kind in ("gas_force", "rod_load", "tooth_force")
+                or key in (*_OF_DRIVER, *SIGNED)
+            )
             words = ("max", "min") if both else ("max",)
             for word in words:
                 extreme = f"{kind}_{word}{dot}{name}"
@@ -404,7 +410,7 @@ def _groups(columns: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
                   "transmission_angle", "pressure_angle", "instant_centre_x", "instant_centre_y"),
         "balance": ("shaking_force_x", "shaking_force_y", "shaking_force", "shaking_moment"),
         "speed": ("crank_speed", "kinetic_energy_change"),
-        "chambers": ("cylinder_volume", "diagram_pressure", "gas_pressure", "gas_force"),
+        "chambers": ("cylinder_volume", "diagram_pressure", "gas_pressure", "gas_force", "rod_load"),
         "friction": FRICTION,
         "joint_forces": ("joint_force_x", "joint_force_y", "joint_force", "tooth_force", "separating_force",
                          "axial_force", "normal_force",

@@ -133,24 +133,32 @@ def filled(  # noqa: PLR0913 - what the gas is, and how it is moved
                 told += notices
     columns, forces = list[Known](), list[GasForce]()
     for name, space in spaces.items():
-        ambient, acting = chambers[name].ambient, pressures[name].named(f"gas_pressure.{name}")
+        ambient, above = chambers[name].ambient, pressures[name].named(f"gas_pressure.{name}")
         if ambient:
             around = given(f"ambient_pressure.{name}", ambient, f"chambers.{name}.ambient")
-            acting = gas.gauge_pressure(pressures[name], around).named(acting.key)
+            above = gas.gauge_pressure(pressures[name], around).named(above.key)
             told += [("ambient", {"pressure": ambient / 1e6})] * (not chambers[name].names_ambient)
         if chambers[name].factor != 1:
             factor = given(f"pressure_factor.{name}", chambers[name].factor, f"chambers.{name}.pressure_factor")
-            acting = (acting * factor).named(acting.key)
-        columns += [space.volume, pressures[name], acting]
+            above = (above * factor).named(above.key)
+        columns += [space.volume, pressures[name], above]
         for wall in space.walls:
             key = wall.area.key.replace("piston_area", "gas_force", 1)
-            force = gas.face_force(wall.sense, acting, wall.area).named(key)
+            force = gas.face_force(wall.sense, above, wall.area).named(key)
             forces.append(GasForce(name, wall.slider, force))
         mean = gas.indicated_mean_pressure(works[name], space.swept).named(f"indicated_mean_pressure.{name}")
         own += [*_sizes(space), works[name], mean]
-    columns += [one.force for one in forces]
+    columns += [*(one.force for one in forces), *_rod_loads(forces)]
     once = {repr(one): one for one in told}
     return Filling(_by_key(columns), _by_key(own), tuple(forces), tuple(once.values()))
+
+
+def _rod_loads(forces: Sequence[GasForce]) -> Iterator[Known]:
+    """Yield what all gas does to each sliding piece between chambers."""
+    for slider in dict.fromkeys(one.slider for one in forces):
+        acting = [one.force for one in forces if one.slider == slider]
+        if len(acting) > 1:
+            yield total(f"rod_load.{slider}", acting)
 
 
 class _Piped(NamedTuple):

@@ -81,7 +81,7 @@ def chambers(material: Material) -> Iterator[Block]:
     yield from equations(material.lines("charges"), words)
     yield from worked_at(material, "chambers")
     yield from equations(material.lines("chambers"), words)
-    keys = named(columns, "cylinder_volume", "gas_pressure", "gas_force")
+    keys = named(columns, "cylinder_volume", "gas_pressure", "gas_force", "rod_load")
     shown = quantity_columns(keys, columns, words)
     yield from position_tables("gas", material.positions, shown, words, first=material.first, label="gas")
     yield from material.figures("chambers", "indicator")

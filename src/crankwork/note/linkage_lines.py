@@ -25,7 +25,7 @@ _MOTION = (
     "coriolis_acceleration",
 )  # fmt: skip
 _CHARGES = ("swept_volume", "clearance_volume", "compression_ratio", "gas_mass")
-_CHAMBERS = ("cylinder_volume", "diagram_pressure", "gas_pressure", "gas_force")
+_CHAMBERS = ("cylinder_volume", "diagram_pressure", "gas_pressure", "gas_force", "rod_load")
 _GAS_WORK = ("indicated_work", "indicated_mean_pressure", "indicated_power")
 _INERTIA = ("link_inertia_force", "link_inertia_torque")
 _JOINTS = (

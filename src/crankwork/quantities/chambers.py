@@ -12,6 +12,7 @@ ROWS = (
     Quantity("gas_mass", "g", "Mass enclosed: from intake closing to exhaust opening, or for good."),
     Quantity("dead_volume", "cm3", "Volume of a part of the gas that no face changes."),
     Quantity("reduced_volume", "cm3/K", "Volume of a part of the gas over its absolute temperature, or their sum."),
+    Quantity("rod_load", "N", "Force of all gas on a sliding piece between chambers, positive along its guide."),
     Quantity("suction_pressure", "MPa", "Absolute pressure at which the suction valve opens."),
     Quantity("discharge_pressure", "MPa", "Absolute pressure at which the discharge valve opens."),
     Quantity("suction_temperature", "K", "Absolute temperature of what is drawn in."),

@@ -14,7 +14,7 @@ from crankwork.report.linkage_curves import curves
 from crankwork.report.linkage_look import PLAIN, Style, axis_title, displayed_values, figure_look, quantity_of
 
 _STYLES = (SOLID, DASHED, DASH_DOT, DOTTED)
-_KINDS = ("cylinder_volume", "gas_pressure", "gas_force")
+_KINDS = ("cylinder_volume", "gas_pressure", "gas_force", "rod_load")
 _PER_PANEL = 4
 
 
