@@ -7,6 +7,7 @@ so neither `9**9**9 mm` nor `1 mm + 1 m` means anything, and a comma is never dr
 from __future__ import annotations
 
 import contextlib
+import difflib
 import math
 import re
 import unicodedata
@@ -340,7 +341,7 @@ def parse(text: str, dimensions: tuple[str, ...], *, decimal_comma: bool = False
     if name is None:
         raise ValueError(Refusal("unit_missing", text=_short(text), example=example))
     if unit is None:
-        raise ValueError(Refusal("unit_unknown", unit=_short(name), wanted=wanted, known=known))
+        raise ValueError(_unknown_unit(name, number, dimensions, wanted=wanted, known=known))
     if not fits:
         measured = _dimension(unit.dimension)
         raise ValueError(Refusal("unit_other", unit=_short(name), measured=measured, wanted=wanted, known=known))
@@ -348,6 +349,15 @@ def parse(text: str, dimensions: tuple[str, ...], *, decimal_comma: bool = False
     if not math.isfinite(value):
         raise ValueError(Refusal("too_large", text=_short(text), example=example))
     return Parsed(value / KGF, "mass", "kg", "weight") if is_weight else Parsed(value, unit.dimension, spelling, told)
+
+
+def _unknown_unit(name: str, number: str, dimensions: tuple[str, ...], **told: object) -> Refusal:
+    every = [one for dimension in dimensions for _, names in _SPELLINGS[dimension] for one in names.split()]
+    # of one or two letters anything is near
+    near = difflib.get_close_matches(name, every, n=1) if len(name) > 2 else []
+    if near:
+        return Refusal("unit_unknown_near", unit=_short(name), nearest=f"{number} {near[0]}", **told)
+    return Refusal("unit_unknown", unit=_short(name), **told)
 
 
 def size_of(found: Parsed, deviation: str) -> float:

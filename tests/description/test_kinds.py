@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import pytest
 
 from crankwork import units
-from crankwork.description.kinds import Measure, Quantity, Reader
+from crankwork.description.kinds import Measure, Number, Quantity, Reader
+from crankwork.description.machine_file import FILES
+from crankwork.description.schema import NumberOr, Table
 
 LIMITS = [(1e-6, 30000.0), (1 / 3, 200 / 7), (1e-4, 123456.7)]
 
@@ -18,3 +22,44 @@ def test_the_limits_that_a_refusal_tells_may_be_written(dimension: str, low: flo
     told = dict(kind._out_of_range(f"1e9 {unit}", dimension).values)
     for limit in (told["low"], told["high"]):
         assert isinstance(kind.read(limit.strip('"'), "key", Reader()), Measure), limit
+
+
+def kinds_of(kind: object, seen: set[int]) -> Iterator[Quantity | Number]:
+    """Give the kinds of all numbers that machine files hold."""
+    if id(kind) in seen:
+        return
+    seen.add(id(kind))
+    if isinstance(kind, Quantity | Number):
+        yield kind
+    elif isinstance(kind, Table):
+        for key in kind.keys.values():
+            yield from kinds_of(key.kind, seen)
+    elif isinstance(kind, NumberOr):
+        yield from (kind.quantity, kind.number)
+    else:
+        for below in (getattr(kind, name, None) for name in ("entry", "other")):
+            if below is not None:
+                yield from kinds_of(below, seen)
+
+
+KINDS = list(dict.fromkeys(kind for one in FILES for kind in kinds_of(one, set())))
+
+
+WRONG = (-5, 0, 1e9, 10**20, True, [], "-5", "-5,5 {unit}", "5,5", "abc", "5 bananas", "1e400 {unit}")
+
+
+@pytest.mark.parametrize("wrong", WRONG, ids=repr)
+def test_what_a_refusal_says_to_write_may_be_written(wrong) -> None:
+    assert len(KINDS) > 60
+    for kind in KINDS:
+        is_text = isinstance(kind, Quantity)
+        unit = units.EXAMPLES[kind.dimensions[0]].split()[1] if is_text else ""
+        value = wrong.format(unit=unit) if isinstance(wrong, str) else wrong
+        kind.read(value, "key", reader := Reader())
+        for told in (problem.message for problem in reader.problems):
+            said = [told.values[name] for name in ("example", "point", "low", "high") if name in told.values]
+            # a limit that is told as exceeded may not be written itself
+            said = said[1:] if told.name.endswith("_above") else said
+            for fix in said:
+                kind.read(fix.strip('"') if is_text else float(fix), "key", again := Reader())
+                assert again.problems == [], (kind, value, told)

@@ -121,7 +121,7 @@ def test_a_joint_off_the_line_of_its_slider():
         (changed(SIX_BAR, "links.loose", {"joins": ["C", "X"], "length": 0.1}), "links.loose", "hangs only on C"),
         (changed(SIX_BAR, "links.rod.joins", ["A", "A"]), "links.rod.joins", "names a joint twice: A, A"),
         (changed(SIX_BAR, "links.rod.length", 0), "links.rod.length", "must be greater than zero"),
-        (changed(SIX_BAR, "links.rod.length", None), "links.rod.length", "is missing; give it, or the positions"),
+        (changed(SIX_BAR, "links.rod.length", None), "links.rod.length", "is missing; write length = "),
         (changed(SIX_BAR, "branch", {"C": 2}), "branch.C", "2 does not exist; a branch is 1 or -1"),
         (changed(SIX_BAR, "branch", {"A": 1}), "branch.A", "A has no branch; there is one for: C, D"),
         (changed(SIX_BAR, "links.stay", {"joins": ["B", "D"], "length": 0.2}), "sliders.ram", "mobility 0"),

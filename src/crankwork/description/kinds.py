@@ -115,21 +115,20 @@ class Quantity(NamedTuple):
 
     def read(self, value: object, key: str, reader: Reader) -> Measure | None:
         """Return SI value and dimension."""
-        example = units.EXAMPLES[self.dimensions[0]]
         if isinstance(value, bool) or not isinstance(value, str | int | float):
-            reader.complain(key, Refusal("quantity_as_text", example=example))
+            reader.complain(key, Refusal("quantity_as_text", example=self._example()))
             return None
         if not isinstance(value, str):
-            text = shown(value)
-            known = example.split()[1]
-            written = f'"{text} {known}"' if _is_moderate(value) else f'"{example}"'
-            reader.complain(key, Refusal("no_unit", value=text, example=written))
+            unit = units.EXAMPLES[self.dimensions[0]].split()[1]
+            fits = _is_moderate(value) and self._holds(units.to_si(float(value), unit))
+            written = f"{shown(value)} {unit}" if fits else self._example()
+            reader.complain(key, Refusal("no_unit", value=shown(value), example=f'"{written}"'))
             return None
         value, deviation = apart(value)
         try:
             found = units.parse(value, self.dimensions, decimal_comma=reader.decimal_comma, metric_hp=reader.metric_hp)
         except ValueError as error:
-            reader.complain(key, error.args[0])
+            reader.complain(key, self._advised(error.args[0], value, reader))
             return None
         if not self._holds(found.value):
             reader.complain(key, self._out_of_range(value.strip(), found.dimension))
@@ -148,6 +147,23 @@ class Quantity(NamedTuple):
     def _out_of_range(self, value: str, dimension: str) -> Refusal:
         low, high = (f'"{one}"' for one in self._range(dimension))
         return Refusal(f"quantity_range{'_above' * self.above}", value=value, low=low, high=high)
+
+    def _advised(self, told: Refusal, value: str, reader: Reader) -> Refusal:
+        """Return why a text is no quantity, with advice that is in range, so that it is not refused next."""
+        if told.name != "decimal_comma":
+            return Refusal(told.name, **{**told.values, "example": self._example()})
+        try:
+            meant = units.parse(value, self.dimensions, decimal_comma=True, metric_hp=reader.metric_hp)
+        except ValueError as error:
+            return self._advised(error.args[0], value, reader)
+        return told if self._holds(meant.value) else self._out_of_range(value.strip(), meant.dimension)
+
+    def _example(self) -> str:
+        """Return a value in range, for advice: the usual one of its dimension, or the nearest limit."""
+        usual = units.EXAMPLES[self.dimensions[0]]
+        value = units.parse(usual, self.dimensions).value
+        least, largest = self._range(self.dimensions[0])
+        return usual if self._holds(value) else largest if value > self.high else least
 
     def _range(self, dimension: str) -> tuple[str, str]:
         """Return the least and the largest value with a unit."""
@@ -215,7 +231,7 @@ class Number(NamedTuple):
     def example(self) -> str:
         """Return a number in range, for advice."""
         lowest = self.low + 1 if self.above and self.low >= 1 else self.low
-        return f"{min(self.high, max(lowest, 0.25)):g}"
+        return f"{min(self.high, max(lowest, 1 if self.whole else 0.25)):g}"
 
     def schema(self, _: Language, /) -> dict[str, Any]:
         """Return the schema of a number in range."""
