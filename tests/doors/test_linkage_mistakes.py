@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from crankwork.analysis import analyse
-from crankwork.description.machine_file import read
+from crankwork.description.machine_file import read, template
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 DYAD = 'rocker  = { joins = ["C", "B"]'
@@ -235,3 +235,25 @@ def test_a_slot_all_but_along_its_guide_has_no_second_position(crankwork, machin
     answer = crankwork("check", machine_file(change, name="scotch-yoke"))
     assert answer.code == 2
     assert "yoke" in answer.err
+
+
+@pytest.mark.parametrize(
+    ("name", "stated", "better", "longer"),
+    [
+        ("watt-six-bar", "B = -1", "B = 1", "lengthen one of them"),
+        ("crank-shaper", "lever = -1", "lever = 1", "lengthen it"),
+    ],
+)
+def test_another_branch_is_proposed_before_a_longer_link(crankwork, machine_file, name, stated, better, longer) -> None:
+    text = template(name).replace("[table]", f"[branch]\n{stated}\n[table]")
+    answer = crankwork("check", machine_file(text=text))
+    assert answer.code > 0
+    told = answer.out + answer.err
+    assert f"write {better} below [branch]" in told.partition(longer)[0]
+    assert longer in told
+    assert crankwork("check", machine_file(text=text.replace(stated, better))).code == 0
+
+
+def test_a_branch_that_would_not_help_is_not_proposed(crankwork, machine_file) -> None:
+    told = crankwork("check", machine_file(("112.5 mm", "75 mm"), name="four-bar"))
+    assert "[branch]" not in told.out + told.err

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import replace
+from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
@@ -17,10 +20,12 @@ from crankwork.kinematics.circuits import Extent
 from crankwork.kinematics.coordinates import link_angle
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import Motion, linkage_motion
-from crankwork.kinematics.placement import place
+from crankwork.kinematics.placement import assembled, place
 from crankwork.kinematics.travel import Travel, has_steady_crank, near_changes, travel
+from crankwork.locale import Refusal
 from crankwork.machine import Machine
 from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.mechanism import Crank, Mechanism, turns_of
 
 # how near to a dead position motions and forces are drawn and checked: a part of the range, at most some degrees
@@ -34,6 +39,8 @@ _ITSELF = 1e-7
 _GROWS = 10.0
 _NEARLY_SINGULAR = 1e-3
 _TURN = 360.0
+# dyads whose branches are all tried: twice as many ways for each
+_MOST_SIGNED = 4
 
 
 class Reached(NamedTuple):
@@ -55,13 +62,19 @@ def reachable(machine: Machine, step: float) -> Reached:
     try:
         moved = linkage_motion(mechanism, whole)
     except GeometryError as error:
+        told = _branch_first(mechanism, whole, error.args[0])
         # a law either passes what its linkage reaches, or has to be changed
         if not has_steady_crank(mechanism):
-            raise
-        found = travel(mechanism, machine.way)
+            raise GeometryError(told) from None
+        try:
+            found = travel(mechanism, machine.way)
+        except GeometryError:
+            if told is error.args[0]:
+                raise
+            raise GeometryError(told) from None
         if found.is_whole:
             raise
-        notices = [Notice("partial", {"message": error.args[0], "from": found.start, "to": found.end})]
+        notices = [Notice("partial", {"message": told, "from": found.start, "to": found.end})]
         if any(isinstance(group, Chain) for group in mechanism.dyads):
             notices.append(Notice("circuit_of_chain", {}))
         moved = linkage_motion(mechanism, _inside(found, step))
@@ -69,6 +82,32 @@ def reachable(machine: Machine, step: float) -> Reached:
     margins = [np.min(one.value) / one.scale for one in place(mechanism, whole).closures]
     is_near = has_steady_crank(mechanism) and min(margins, default=1.0) < _NEARLY_SINGULAR
     return Reached(moved, None, tuple(_told(mechanism, travel(mechanism, machine.way) if is_near else None)))
+
+
+def _branch_first(mechanism: Mechanism, grid: CrankGrid, told: str) -> str:
+    """Return why a linkage does not move as is asked, the fewest other branches with which it does before all else."""
+    # the branch of the last dyad moves nothing that has to close
+    before = enumerate(mechanism.dyads[:-1])
+    other = {index: replace(one, branch=-one.branch) for index, one in before if isinstance(one, RRR | RRP | RPR)}
+    if mechanism.passages or len(other) > _MOST_SIGNED or any(isinstance(one, Chain) for one in mechanism.dyads):
+        return told
+    for some in (some for count in range(1, len(other) + 1) for some in combinations(other, count)):
+        dyads = tuple(other[index] if index in some else one for index, one in enumerate(mechanism.dyads))
+        with suppress(GeometryError):
+            assembled(replace(mechanism, dyads=dyads), grid)
+            written = ", ".join(f"{_branch_key(other[index])} = {other[index].branch}" for index in some)
+            return Refusal("branch_first", written=written, mistake=told)
+    return told
+
+
+def _branch_key(group: RRR | RRP | RPR) -> str:
+    match group:
+        case RRR():
+            return group.point
+        case RRP():
+            return group.slider
+        case RPR():
+            return group.link
 
 
 def _inside(found: Travel, step: float) -> CrankGrid:

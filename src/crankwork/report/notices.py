@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from crankwork.formula.expression import symbol
-from crankwork.locale import has_text, say, told
+from crankwork.locale import decimal, has_text, say, told
 from crankwork.notation import argument_unit
 from crankwork.quantities import QUANTITIES, Language
 from crankwork.report.language import FILE_KEYS, label, number, unit_name
@@ -23,6 +23,8 @@ def notice_text(code: str, values: Mapping[str, float | str], language: Language
             shown[key] = label(str(value), language)
         elif key == "argument":
             shown[key] = symbol(str(value), language)
+        elif key == "angles":
+            shown[key] = decimal(str(value), language).replace("-", "−")
         elif isinstance(value, str):
             shown[key] = told(value, language)
         else:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from crankwork.analysis import Results
 from crankwork.analysis.rounding import summary_without_rounding
-from crankwork.locale import say
+from crankwork.locale import Refusal, say
 from crankwork.quantities import SUBJECTS, Language, subject
 from crankwork.report.comparison import comparison_data, comparison_text
 from crankwork.report.language import (
@@ -156,6 +156,9 @@ def warning_text(results: Results, language: Language = "en") -> str:
     if partial is None:
         return ""
     notice = notice_text(partial.code, partial.values, language).partition(": ")[0]
+    match partial.values["message"]:
+        case Refusal(name="branch_first", values=values):
+            return say("check.partial_branch", language, notice=notice, written=values["written"])
     return say("check.partial", language, notice=notice)
 
 
