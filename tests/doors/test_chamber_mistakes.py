@@ -195,7 +195,7 @@ MISTAKES = {
         '"30 cm3", temperature = "560 K"',
         '"30 cm3"',
         "charges.helium.dead_volumes[2].temperature",
-        "the charge keeps a temperature here",
+        "the temperature that the charge keeps here",
     ),
     "no gas": (STIRLING, 'gas_constant = "2077 J/(kg*K)"\n', "", "charges.helium.gas_constant", "of air"),
     "no amount": (STIRLING, MEAN, "", "charges.helium", 'write mean_pressure = "1 MPa", or pressure and angle'),

@@ -55,11 +55,11 @@ ratio = "0.25 mm"
     ("language", "lines"),
     [
         ("en", ["1: titel: unknown key; did you mean title?",
-                '3: crank.radius: "50" has no unit; write it like "30 mm"', "nothing was computed"]),
+                '3: crank.radius: "50" has no unit; write it like "50 mm"', "nothing was computed"]),
         ("ru", ["1: titel: неизвестный ключ; возможно, title?",
-                '3: crank.radius: "50": нет единицы; запишите как "30 mm"', "ничего не вычислено"]),
+                '3: crank.radius: "50": нет единицы; запишите как "50 mm"', "ничего не вычислено"]),
         ("vi", ["1: titel: khoá không có; có phải title?",
-                '3: crank.radius: "50": thiếu đơn vị; hãy ghi như "30 mm"', "chưa tính gì"]),
+                '3: crank.radius: "50": thiếu đơn vị; hãy ghi như "50 mm"', "chưa tính gì"]),
     ],
 )  # fmt: skip
 def test_every_mistake_of_a_file_is_told_in_the_language(crankwork, language, lines):

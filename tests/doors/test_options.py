@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from crankwork.description.machine_file import template
+from crankwork.description.machine_file import template, template_title
 
 WRONG = {
     "set without value": (("--set", "rod.ratio"), "--set rod.ratio: write --set KEY=VALUE, like --set rod.ratio=0.25"),
@@ -200,10 +200,13 @@ def test_a_title_with_emoji_and_any_script_is_printed_as_it_is(crankwork, machin
 
 
 def test_new_prints_the_names_or_the_template(crankwork) -> None:
-    assert crankwork("new").out.split() == [
+    lines = crankwork("new").out.splitlines()
+    assert [line.split()[0] for line in lines] == [
         "compressor", "crank-shaper", "engine", "four-bar", "press", "scotch-yoke", "slider-crank",
         "stephenson-six-bar", "toggle-press", "turning-moment", "watt-six-bar", "whitworth", "whole-engine",
     ]  # fmt: skip
+    assert all(template_title(name, "en") == title for name, title in (line.split(maxsplit=1) for line in lines))
+    assert "двигатель" in crankwork("new", "--lang", "ru").out
     assert crankwork("new", "engine").out == template("engine")
 
 

@@ -393,4 +393,4 @@ class Results(Mapping[str, Array | float]):
 
 
 def _printable(key: str) -> str:
-    return ascii(key[:60])[1:-1]
+    return "".join(one if one.isprintable() else ascii(one)[1:-1] for one in key[:60])

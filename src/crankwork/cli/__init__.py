@@ -145,10 +145,12 @@ def commands() -> None:
 def new(name: str | None, output: str | None, language: Language, *, overwrite: bool) -> None:
     """Write a template, or list those there are."""
     from crankwork import files
-    from crankwork.description.machine_file import template, template_names
+    from crankwork.description.machine_file import template, template_names, template_title
 
     if name is None:
-        click.echo("\n".join(template_names()))
+        titles = {one: template_title(one, language) for one in template_names()}
+        width = max(map(len, titles))
+        click.echo("\n".join(f"{one:<{width}}  {title}" for one, title in titles.items()))
         return
     text = template(name, language)
     if output is None:

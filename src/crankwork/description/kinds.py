@@ -119,9 +119,7 @@ class Quantity(NamedTuple):
             reader.complain(key, Refusal("quantity_as_text", example=self._example()))
             return None
         if not isinstance(value, str):
-            unit = units.EXAMPLES[self.dimensions[0]].split()[1]
-            fits = _is_moderate(value) and self._holds(units.to_si(float(value), unit))
-            written = f"{shown(value)} {unit}" if fits else self._example()
+            written = self._written(value if _is_moderate(value) else math.inf, shown(value))
             reader.complain(key, Refusal("no_unit", value=shown(value), example=f'"{written}"'))
             return None
         value, deviation = apart(value)
@@ -151,12 +149,20 @@ class Quantity(NamedTuple):
     def _advised(self, told: Refusal, value: str, reader: Reader) -> Refusal:
         """Return why a text is no quantity, with advice that is in range, so that it is not refused next."""
         if told.name != "decimal_comma":
-            return Refusal(told.name, **{**told.values, "example": self._example()})
+            number = _float(value) if told.name == "unit_missing" else math.inf
+            written = self._written(number, value.strip()) if isinstance(number, float) else self._example()
+            return Refusal(told.name, **{**told.values, "example": written})
         try:
             meant = units.parse(value, self.dimensions, decimal_comma=True, metric_hp=reader.metric_hp)
         except ValueError as error:
             return self._advised(error.args[0], value, reader)
         return told if self._holds(meant.value) else self._out_of_range(value.strip(), meant.dimension)
+
+    def _written(self, number: float, text: str) -> str:
+        """Return a number without a unit as it may be written: with the usual one, or another in range."""
+        unit = units.EXAMPLES[self.dimensions[0]].split()[1]
+        fits = math.isfinite(number) and self._holds(units.to_si(float(number), unit))
+        return f"{text} {unit}" if fits else self._example()
 
     def _example(self) -> str:
         """Return a value in range, for advice: the usual one of its dimension, or the nearest limit."""

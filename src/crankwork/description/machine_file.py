@@ -372,3 +372,8 @@ def template(name: str, language: Language = "en") -> str:
 
     written = read_resource(*TEMPLATES.split("/"), f"{name}.toml")
     return _WORDS.sub(said, _COMMENT.sub(comment, written))
+
+
+def template_title(name: str, language: Language = "en") -> str:
+    """Return what the machine of a template is called in a language."""
+    return str(tomllib.loads(template(name, language))["title"])
