@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import signal
@@ -9,7 +10,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import pytest
 
@@ -32,6 +33,12 @@ class Answer(NamedTuple):
     def mistakes(self) -> list[str]:
         """The lines that name a mistake."""
         return [line for line in self.err.splitlines() if line != "nothing was computed"]
+
+    @property
+    def results(self) -> dict[str, Any]:
+        """What `--json` printed, all but of which file."""
+        assert self.code == 0, self.err
+        return {key: value for key, value in json.loads(self.out).items() if key != "machine_file_sha256"}
 
 
 Command = Callable[..., Answer]

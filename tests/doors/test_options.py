@@ -132,7 +132,9 @@ def test_a_result_that_the_method_does_not_give_is_told_with_the_method(crankwor
 
 def test_a_setting_replaces_what_says_the_same(crankwork, machine_file) -> None:
     name = machine_file()
-    plain, changed = (_summary(crankwork("run", name, "--json", *one)) for one in ((), ("--set", "rod.ratio=0.34")))
+    plain, changed = (
+        crankwork("run", name, "--json", *one).results["summary"] for one in ((), ("--set", "rod.ratio=0.34"))
+    )
     assert changed["rod_ratio"] == {"value": 0.34, "unit": ""}
     assert changed["rod_length"]["value"] == pytest.approx(45 / 0.34)
     assert plain["rod_ratio"]["value"] == pytest.approx(45 / 160)
@@ -152,7 +154,9 @@ def test_a_setting_replaces_what_says_the_same(crankwork, machine_file) -> None:
     ],
 )
 def test_a_setting_is_read_as_in_the_file(crankwork, machine_file, setting, key, value) -> None:
-    assert _summary(crankwork("run", machine_file(), "--json", "--set", setting))[key]["value"] == pytest.approx(value)
+    assert crankwork("run", machine_file(), "--json", "--set", setting).results["summary"][key][
+        "value"
+    ] == pytest.approx(value)
 
 
 def test_a_setting_of_a_list_is_named_for_its_entries(crankwork, machine_file) -> None:
@@ -164,14 +168,14 @@ def test_a_setting_of_a_list_is_named_for_its_entries(crankwork, machine_file) -
 
 def test_a_setting_reaches_into_lists(crankwork, machine_file) -> None:
     name, setting = machine_file(), "gas.pieces[3].exponent=1.3"
-    plain, changed = (_summary(crankwork("run", name, "--json", *one)) for one in ((), ("--set", setting)))
+    plain, changed = (crankwork("run", name, "--json", *one).results["summary"] for one in ((), ("--set", setting)))
     # a compression of a smaller exponent takes less work
     assert changed["indicated_work"]["value"] > plain["indicated_work"]["value"]
 
 
 def test_the_last_of_two_settings_counts(crankwork, machine_file) -> None:
     settings = ("--set", "crank.speed=1 rpm", "--set", "crank.speed=1500 rpm")
-    assert _summary(crankwork("run", machine_file(), "--json", *settings))["rotational_speed"]["value"] == 1500
+    assert crankwork("run", machine_file(), "--json", *settings).results["summary"]["rotational_speed"]["value"] == 1500
 
 
 @pytest.mark.parametrize("step", ["15", "15 deg", "15deg", "15°", "15.0", "1.5e1"])
@@ -208,11 +212,6 @@ def test_new_prints_the_names_or_the_template(crankwork) -> None:
     assert all(template_title(name, "en") == title for name, title in (line.split(maxsplit=1) for line in lines))
     assert "двигатель" in crankwork("new", "--lang", "ru").out
     assert crankwork("new", "engine").out == template("engine")
-
-
-def _summary(answer):
-    assert answer.code == 0, answer.err
-    return json.loads(answer.out)["summary"]
 
 
 def test_circuits_are_listed(crankwork, machine_file) -> None:
