@@ -304,7 +304,7 @@ def test_what_is_unusual_is_said_and_used(changes, code):
         ({"rotational_speed": 90000.0}, "take all"),
         ({"intake_speed": 255.0}, "no fresh charge"),
         ({"heating": -300.0}, "charge of -7 K; correct heating"),
-        ({"kind": "diesel", "pressure_ratio": 6.0}, "Lower the pressure_ratio"),
+        ({"kind": "diesel", "pressure_ratio": 6.0}, "lower the pressure_ratio"),
     ],
 )
 def test_data_without_a_cycle_are_refused(changes, words):
