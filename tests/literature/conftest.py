@@ -7,6 +7,8 @@ Published cases of mechanisms that no machine file expresses, with the reason:
   a swing and a time ratio.
 * rubbing speeds of pins, and the point of least speed on a rod (Khurmi and Gupta, ex. 7.2): the velocity of any stated
   point is there, but pins of linkages have no size.
+* readings of engines on a brake (Gupta, Fundamental of internal combustion engines, ex. 16.4, a Morse test, and
+  the brake of ex. 16.5): forces of a brake and flows of fuel describe a test, not a machine.
 * the Ross yoke by the displacement formula of its program (Urieli, D-90), which takes the end of the yoke on a
   straight line where it goes on an arc: a linkage moves as it is made.
 """
