@@ -9,6 +9,7 @@ import pytest
 
 import crankwork
 from crankwork.analysis.rounding import summary_without_rounding, without_rounding
+from crankwork.formula.known import breaks_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SPEED = 10.0
@@ -68,3 +69,28 @@ def test_nothing_of_machines_of_like_sizes_is_taken_for_rounding():
         printed = without_rounding(results.columns, results.machine.speed)
         assert all(printed[key] is one for key, one in results.columns.items())
         assert summary_without_rounding(results) == results.summary
+
+
+# crank, coupler and third link make a triangle that turns about the pivot as one body
+TRIANGLE = """
+[fixed_points]
+O = ["0 mm", "0 mm"]
+[crank]
+pivot = "O"
+pin = "A"
+radius = "56 mm"
+speed = "139 rpm"
+points = { A2 = ["-8 mm", "-31 mm"] }
+[links]
+coupler = { joins = ["A", "B"], length = "105 mm", mass = "18 kg", centre = ["52 mm", "0 mm"] }
+third = { joins = ["A2", "B"], length = "37 mm", mass = "2.3 kg", centre = ["-3 mm", "35 mm"] }
+[efficiency]
+chain = [0.95, 0.9]
+"""
+
+
+def test_a_triangle_that_turns_as_one_body_needs_no_torque_that_changes_sign():
+    results = crankwork.analyse(crankwork.read_machine(TRIANGLE))
+    # rounding of J' all the way round, and none of it a change from driving to braking
+    assert 0 < results.summary["dynamic_torque_max"] < 1e-9
+    assert len(breaks_of([results.memory["driving_torque"]], 360.0)) == 2

@@ -79,3 +79,12 @@ def test_a_size_of_little_beside_another_has_its_extremes_where_they_are() -> No
     found = over(size_of_small=small, size_of_large=joint_force(ANGLE.cos, given("", 3.0)))
     largest, least = found.largest_and_least["size.small"]
     assert (largest.at % 180, least.at % 180) == pytest.approx((33.0, 123.0), abs=1e-5)
+
+
+@pytest.mark.parametrize("beside", [1e-5, 1e-7])
+def test_the_mean_of_a_size_with_steep_peaks_is_found_at_once(beside: float) -> None:
+    a, below = 1 + beside, beside * (2 + beside)
+    once = 1.0 / (a - ANGLE.shifted(-77.7).cos)
+    found = over(size=joint_force(once * once * once, given("", 0.0)))
+    # of 1 / (a - cos phi)^3, which is to others as 1e21 to 1; its squares at that are as their rounding leaves them
+    assert found.mean("size", "mean").value == pytest.approx((2 * a * a + 1) / 2 / below**2.5, rel=1e-8)

@@ -46,8 +46,12 @@ _NEAR_TOP = 0.05
 _ROUGH = 0.05
 # of the largest column of its quantity: a column below is followed as far as rounding lets it
 _SMALL = 1e-3
+# a column that differs by this part of its size from here to as good as here is nothing but rounding [deg]
+_ERRATIC, _HERE = 1e-3, 1e-10
 # what a root may miss between the nodes, where squares of rounding are what vanishes
 _LITTLE = 0.1
+# what evaluating a polynomial may miss by, of the sum of its coefficients
+_EVALUATED = 16 * float(np.finfo(float).eps)
 _STEPS = 60
 # Newton's next step would be the square of this
 _SETTLED = 1e-9
@@ -102,8 +106,10 @@ class OverCycle:
         high = np.append(low[1:], self.breaks[-1])
         coefficients = self._fit(low, high)
         size = np.max(np.abs(coefficients).sum(axis=2), axis=1)
+        own = size
         size = size[[self._row[size_of.get(key, key)] for key in self._row]]
         self._scale = np.maximum(np.maximum(size, self._of_rounding(size)), 1e-300)
+        self._is_erratic = np.zeros(len(self._row), dtype=bool)
         rounding = np.zeros(coefficients.shape[:2], dtype=bool)
         done = []
         for cut in range(_CUTS):
@@ -113,13 +119,15 @@ class OverCycle:
             low, high, coefficients = low[is_coarse], high[is_coarse], coefficients[:, is_coarse]
             if not low.size:
                 break
+            if cut == _PATIENT:
+                self._is_erratic = self._differs_here(low, high, own)
             between = np.linspace(low, high, _PARTS + 1)
             low, high = between[:-1].ravel(), between[1:].ravel()
             coefficients = self._fit(low, high)
             # what is no nearer in any part is rounding, and no polynomial follows it
             better = self._left_out(coefficients).reshape(-1, _PARTS, low.size // _PARTS).min(axis=1)
             hopeless = rounding[:, is_coarse] | ((better > _NO_BETTER * left[:, is_coarse]) & (cut >= _PATIENT))
-            rounding = np.concatenate([hopeless] * _PARTS, axis=1)
+            rounding = np.concatenate([hopeless | self._is_erratic[:, None]] * _PARTS, axis=1)
         done.append((low, high, coefficients))
         self._low, self._high = (np.concatenate([one[at] for one in done]) for at in (0, 1))
         order = np.argsort(self._low)
@@ -136,11 +144,21 @@ class OverCycle:
 
     def _fit(self, low: Array, high: Array) -> Array:
         """Return Legendre coefficients, shape (columns, intervals, degrees)."""
-        degrees = (low + high)[:, None] / 2 + (high - low)[:, None] / 2 * _NODES
-        values = self._program.rows(self._angles_at(degrees.ravel()), self._row)
-        values[self._is_root] **= 2
-        values = values.reshape(-1, _NODES.size)
+        values = self._at_nodes(low, high).reshape(-1, _NODES.size)
         return np.asarray((values @ _FROM_VALUES.T).reshape(len(self._row), low.size, _NODES.size))
+
+    def _at_nodes(self, low: Array, high: Array, aside: float = 0.0) -> Array:
+        """Return what follows each column at the nodes of intervals, or beside them [deg], a row for each column."""
+        degrees = (low + high)[:, None] / 2 + (high - low)[:, None] / 2 * _NODES
+        values = self._program.rows(self._angles_at(degrees.ravel() + aside), self._row)
+        values[self._is_root] **= 2
+        return values
+
+    def _differs_here(self, low: Array, high: Array, size: Array) -> NDArray[np.bool_]:
+        """Return which columns differ from themselves at crank angles that are as good as the same."""
+        values = self._at_nodes(low, high)
+        apart = np.max(np.abs(self._at_nodes(low, high, _HERE) - values), axis=1)
+        return np.asarray(apart > _ERRATIC * np.maximum(size, np.max(np.abs(values), axis=1)))
 
     def _of_rounding(self, size: Array) -> Array:
         """Return for each column what of it is not rounding beside the largest one of its quantity."""
@@ -164,6 +182,8 @@ class OverCycle:
         """The integral of the root of the polynomials of each column, on parts of them where it has a corner."""
         widths, result = np.radians(self._high - self._low), np.zeros(len(self._row))
         limit = _CONVERGED * np.sqrt(self._scale)
+        # what rounding leaves a polynomial unsure by
+        unsure = _EVALUATED * np.abs(self._coefficients).sum(axis=2)
         row, of = np.nonzero(self._is_root[:, None] & np.ones(widths.size, dtype=bool))
         low, high = np.full(row.size, -1.0), np.ones(row.size)
         squares = self._coefficients[row, of] @ np.concatenate([_AT_NODES, _AT_LOOK]).T
@@ -172,7 +192,9 @@ class OverCycle:
             fitted = roots[:, : _NODES.size] @ _FROM_VALUES.T
             # a corner beyond the outermost node shows between the nodes only
             missed = np.max(np.abs(roots[:, _NODES.size :] - fitted @ _AT_LOOK.T), axis=1, initial=0.0)
-            is_coarse = (np.abs(fitted[:, -2]) + np.abs(fitted[:, -1]) + _LITTLE * missed > limit[row]) & (cut < _CUTS)
+            least, little = roots.min(axis=1, initial=np.inf), unsure[row, of]
+            enough = np.maximum(limit[row], little / np.maximum(least + np.sqrt(little), 1e-300))
+            is_coarse = (np.abs(fitted[:, -2]) + np.abs(fitted[:, -1]) + _LITTLE * missed > enough) & (cut < _CUTS)
             np.add.at(result, row, np.where(is_coarse, 0.0, widths[of] * (high - low) / 2 * fitted[:, 0]))
             row, of = np.tile(row[is_coarse], _PARTS), np.tile(of[is_coarse], _PARTS)
             between = np.linspace(low[is_coarse], high[is_coarse], _PARTS + 1)
@@ -210,8 +232,10 @@ class OverCycle:
         return np.asarray(self._program.rows(self._angles_at(degrees), (key,))[0])
 
     def crossings(self, key: str, level: float = 0.0) -> Array:
-        """Return the crank angles where a column passes a level, ascending. [deg]"""
+        """Return the crank angles where a column passes a level, ascending; where rounding does, none. [deg]"""
         row = self._row[key]
+        if self._is_erratic[row]:
+            return np.empty(0)
         coefficients = self.polynomials(key).copy()
         coefficients[:, 0] -= level
         looked = coefficients @ _AT_LOOK.T
