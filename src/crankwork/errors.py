@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 
 from crankwork.locale import Refusal
+from crankwork.resources import installable
 
 
 class CrankworkError(Exception):
@@ -37,7 +38,7 @@ class MissingExtraError(CrankworkError):
 
     def __init__(self, capability: Refusal, *extras: str) -> None:
         name = "extra_missing" if len(extras) == 1 else "extras_missing"
-        super().__init__(Refusal(name, capability=capability, extras=",".join(extras)))
+        super().__init__(Refusal(name, capability=capability, what=installable(",".join(extras))))
 
 
 def missing_extras(modules: Mapping[str, str]) -> tuple[str, ...]:

@@ -11,7 +11,7 @@ import jsonschema
 import pytest
 
 from crankwork.description.engine_keys import CYCLE
-from crankwork.description.kinds import Measure, Reader
+from crankwork.description.kinds import Measure, Quantity, Reader
 from crankwork.description.machine_file import FILES, json_schema, read_machine, template
 from crankwork.description.schema import By, Table, Values
 from crankwork.errors import InputError
@@ -45,6 +45,26 @@ def test_a_default_is_what_a_file_could_state(kind, default):
     reader = Reader()
     assert kind.read(default, "key", reader) is not None
     assert reader.problems == []
+
+
+def quantities(kind):
+    """Yield the quantities with a unit that a kind of entry may hold."""
+    if isinstance(kind, Quantity):
+        yield kind
+    for name in ("kind", "entry", "other", "quantity"):
+        if (below := getattr(kind, name, None)) is not None and not isinstance(below, str):
+            yield from quantities(below)
+
+
+def test_every_quantity_has_a_floor_and_a_ceiling_that_a_division_bears():
+    every = {
+        f"{table.name}.{name}": one
+        for file in FILES for table in tables(file) for name, entry in table.keys.items()
+        for one in quantities(entry.kind)
+    }  # fmt: skip
+    assert len(every) > 100
+    assert {key for key, one in every.items() if not -1e15 <= one.low < one.high <= 1e15} == set()
+    assert {key for key, one in every.items() if 0 < abs(one.low) < 1e-18} == set()
 
 
 def test_what_must_stand_beside_a_key_is_a_key():

@@ -78,3 +78,15 @@ def test_work_that_is_nothing_in_the_end_is_no_failure(crankwork, machine_file) 
     assert answer.code == 0, answer.err
     assert "work by p–V = work by torque" in answer.out
     assert "not met" not in answer.out
+
+
+LIMITS = {
+    "an offset of nothing by a textbook": ("cylinder.offset=1e-6 um", "method.kinematics=textbook"),
+    "intake near nought": ("gas.pieces[3].exponent=3", "cylinder.compression_ratio=100"),
+}
+
+
+@pytest.mark.parametrize("settings", LIMITS.values(), ids=LIMITS)
+def test_numbers_at_their_limits_bring_no_warning_of_python(settings):
+    results = analyse(read(EXAMPLE, overrides=settings))
+    assert all(math.isfinite(one) for one in results.summary.values())

@@ -10,7 +10,8 @@ import pytest
 from crankwork.cli import commands
 from crankwork.description.machine_file import template
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
+CHECKOUT = Path(__file__).parents[2]
+EXAMPLES = CHECKOUT / "examples"
 ORDER = "firing_order = [1, 3, 4, 2]"
 # the file, what a user writes in it, and how what is wrong begins in Russian and in Vietnamese
 MISTAKES = {
@@ -160,7 +161,7 @@ def test_what_is_not_installed_is_told_in_the_language(crankwork, monkeypatch):
     monkeypatch.setattr("crankwork.errors.find_spec", lambda _: None)
     Path("my.toml").write_text(template("four-bar"), "utf-8")
     for language, said in (
-        ("ru", "эта записка: нужны дополнительные части; установите их: pip install 'crankwork[report,figures]'"),
+        ("ru", f"эта записка: нужны дополнительные части; установите их: pip install -e '{CHECKOUT}[report,figures]'"),
         ("vi", "bản thuyết minh này cần các phần bổ sung"),
     ):
         assert said in crankwork("report", "my.toml", "-o", "note.pdf", "--lang", language).err

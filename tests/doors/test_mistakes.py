@@ -57,6 +57,7 @@ MISTAKES = {
     "angle beyond the cycle": ('["372 deg"]', '["10 deg", "721 deg"]', "table.special_angles[2]", "at most"),
     "one angle": ('["372 deg"]', '"372 deg"', "table.special_angles", 'must be a list in square brackets, like ["'),
     "control characters": ('"Four-stroke engine"', '"a\\u001b[31mb"', "title", "control character; write plain text"),
+    "letters that turn others": ('"Four-stroke engine"', '"a\\u202eb"', "title", "control character; write plain"),
     "line break": ('"Four-stroke engine"', '"a\\nb"', "title", "line break"),
     "long title": ('"Four-stroke engine"', '"' + "x" * 1000 + '"', "title", "too long, 1000 characters; write at most"),
     "unknown point": ('["d", "a"]', '["d", "aa"]', "gas.pieces[2].points[2]", 'no point "aa" in [gas.points]; did you'),

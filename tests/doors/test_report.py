@@ -17,7 +17,8 @@ import pytest
 from crankwork import files
 from crankwork.description.machine_file import template
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
+CHECKOUT = Path(__file__).parents[2]
+EXAMPLES = CHECKOUT / "examples"
 PRESS = str(EXAMPLES / "press.toml")
 HOSTILE = "# $x$ *a* <b> & \\e"
 NAMES = """
@@ -185,7 +186,7 @@ def test_a_missing_part_is_named_with_how_to_install_it(
     monkeypatch.setitem(sys.modules, missing, None)
     answer = crankwork("report", PRESS, "-o", name, *(() if extra == "figures" else ("--no-figures",)))
     check_mistakes(answer)
-    assert f"install it with: pip install 'crankwork[{extra}]'" in answer.err
+    assert f"install it with: pip install -e '{CHECKOUT}[{extra}]'" in answer.err
     assert not list(Path().iterdir())
 
 
@@ -194,7 +195,7 @@ def test_all_missing_parts_are_named_at_once(crankwork, check_mistakes, monkeypa
         monkeypatch.setitem(sys.modules, missing, None)
     answer = crankwork("report", PRESS, "-o", "a.docx", "--sheets")
     check_mistakes(answer)
-    wanted = "install them with: pip install 'crankwork[report,figures]'\n"
+    wanted = f"install them with: pip install -e '{CHECKOUT}[report,figures]'\n"
     assert answer.err == f"this note needs optional parts; {wanted}"
 
 

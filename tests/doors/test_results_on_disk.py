@@ -13,12 +13,15 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from crankwork import files
 from crankwork.errors import CrankworkError
+from crankwork.resources import installable
 
+CHECKOUT = Path(__file__).parents[2]
 RESULTS = {"tables/kinematics.csv": b"1", "tables/forces.csv": b"2", "machine.svg": b"3"}
 
 
@@ -194,12 +197,12 @@ def test_files_and_folders_are_as_open_as_the_mask_lets_them_be(mask) -> None:
     [
         (
             ["xlsxwriter"],
-            "writing tables.xlsx needs an optional part; install it with: pip install 'crankwork[tables]'",
+            "writing tables.xlsx needs an optional part; install it with: pip install -e 'HERE[tables]'",
         ),
-        (["matplotlib"], "writing figures needs an optional part; install it with: pip install 'crankwork[figures]'"),
+        (["matplotlib"], "writing figures needs an optional part; install it with: pip install -e 'HERE[figures]'"),
         (
             ["xlsxwriter", "matplotlib"],
-            "writing tables.xlsx and figures needs optional parts; install them with: pip install 'crankwork[BOTH]'",
+            "writing tables.xlsx and figures needs optional parts; install them with: pip install -e 'HERE[BOTH]'",
         ),
     ],
 )
@@ -209,10 +212,30 @@ def test_a_base_installation_writes_what_it_can(crankwork, machine_file, monkeyp
     for name in missing:
         monkeypatch.setitem(sys.modules, name, None)
     answer = crankwork("run", file, "-o", "out")
-    assert (answer.code, answer.err) == (0, f"note: {sentence.replace('BOTH', 'tables,figures')}\n")
+    assert (answer.code, answer.err) == (
+        0,
+        f"note: {sentence.replace('HERE', str(CHECKOUT)).replace('BOTH', 'tables,figures')}\n",
+    )
     without = {"xlsxwriter": "tables.xlsx", "matplotlib": "figures/"}
     left_out = tuple(without[name] for name in missing)
     assert set(_contents("out")) == {name for name in _contents("whole") if not name.startswith(left_out)}
+
+
+INSTALLED = {
+    "from an index": (None, "'crankwork[data]'"),
+    "from a folder": ('{"url": "file:///home/me/a b", "dir_info": {}}', "'crankwork[data] @ file:///home/me/a b'"),
+    "from a repository": (
+        '{"url": "https://x.org/c.git", "vcs_info": {"vcs": "git", "commit_id": "ab12"}}',
+        "'crankwork[data] @ git+https://x.org/c.git@ab12'",
+    ),
+}
+
+
+@pytest.mark.parametrize(("origin", "expected"), INSTALLED.values(), ids=INSTALLED)
+def test_what_is_missing_is_installed_from_where_the_rest_came_from(monkeypatch, tmp_path, origin, expected) -> None:
+    monkeypatch.setattr("crankwork.resources.__file__", str(tmp_path / "lib" / "crankwork" / "resources.py"))
+    monkeypatch.setattr("importlib.metadata.distribution", lambda _: SimpleNamespace(read_text=lambda _: origin))
+    assert installable("data") == expected
 
 
 def test_a_folder_in_the_place_of_a_result_stops_before_anything_is_replaced() -> None:
@@ -297,6 +320,18 @@ def test_a_disk_that_really_is_full_keeps_what_it_had(crankwork, machine_file, c
     assert answer.code == 2
     assert "no space left on device" in answer.err
     assert _contents(small_disk) == {"mine.txt": b"mine"}
+
+
+def test_a_disk_that_is_full_of_the_rows_of_a_workbook_is_told(crankwork, machine_file, check_mistakes, monkeypatch):
+    def full(*_: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("crankwork.report.tables._MANY", 100)
+    monkeypatch.setattr("xlsxwriter.worksheet.Worksheet._write_single_row", full)
+    answer = crankwork("run", machine_file(), "-o", "out", "--no-figures")
+    check_mistakes(answer)
+    assert "cannot be written (no space left on device); choose another place or free some space" in answer.err
+    assert not Path("out").exists()
 
 
 KILLED = """

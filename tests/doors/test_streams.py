@@ -55,7 +55,8 @@ def test_closed_streams_are_no_traceback(shell, line) -> None:
 
 def test_a_locale_without_unicode_prints_all_the_same(shell) -> None:
     expected = shell("crankwork run my.toml --lang vi").stdout
-    for variables in ({"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}, {"PYTHONIOENCODING": "ascii"}):
+    for variables in ({"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}, {"PYTHONIOENCODING": "ascii"},
+                      {"PYTHONIOENCODING": "koi8-r"}):  # fmt: skip
         result = shell("crankwork run my.toml --lang vi", **variables)
         assert (result.stdout, result.stderr) == (expected, "")
 

@@ -87,8 +87,10 @@ def test_what_was_taken_for_what_is_told() -> None:
     assert weighed["piston_force"] == pytest.approx(plain["piston_force"], rel=1e-12)
 
 
-def test_workbooks_of_the_same_results_are_the_same_bytes() -> None:
+@pytest.mark.parametrize("many", [100, 500_000])
+def test_workbooks_of_the_same_results_are_the_same_bytes(monkeypatch, many) -> None:
     pytest.importorskip("xlsxwriter")
     from crankwork.report.tables import workbook
 
+    monkeypatch.setattr("crankwork.report.tables._MANY", many)
     assert workbook(engine("metric")) == workbook(engine("metric"))

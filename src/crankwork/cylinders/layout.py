@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+MOST_CYLINDERS = 28
+
 
 @dataclass(frozen=True)
 class Place:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from crankwork.cylinders.firing import LayoutError
+from crankwork.cylinders.layout import MOST_CYLINDERS
 from crankwork.locale import Refusal
 
 _TURN = 360.0
@@ -97,10 +98,8 @@ def radial_order(cylinders: int, strokes: int) -> tuple[int, ...]:
     """
     step = strokes // 2
     if step == 2 and cylinders % 2 == 0 and cylinders:
-        raise LayoutError(
-            "engine.cylinders",
-            Refusal("radial_even", count=cylinders, fewer=cylinders - 1, more=cylinders + 1),
-        )
+        more = min(cylinders + 1, MOST_CYLINDERS - 1)
+        raise LayoutError("engine.cylinders", Refusal("radial_even", count=cylinders, fewer=more - 2, more=more))
     return tuple(at * step % cylinders + 1 for at in range(cylinders))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from crankwork.cylinders.layout import MOST_CYLINDERS
 from crankwork.description.kinds import Choice, Flag, Number, Quantity, Text
 from crankwork.description.schema import By, Key, ListOf, NameOr, Table
 
@@ -35,22 +36,22 @@ _ARTICULATED = Table("articulated", {
 _V, _W, _BANKS = {"layout": ("V",)}, {"layout": ("W",)}, {"layout": ("V", "boxer", "W")}
 ENGINE = Table("engine", {
     "layout": Key(Choice(("inline", "V", "boxer", "W", "radial")), required=True),
-    "cylinders": Key(Number(1, 28, whole=True), required=True),
+    "cylinders": Key(Number(1, MOST_CYLINDERS, whole=True), required=True),
     "strokes": Key(Choice((4, 2)), default=4),
-    "firing_order": Key(ListOf(Number(1, 28, whole=True), fewest=1, most=28)),
+    "firing_order": Key(ListOf(Number(1, MOST_CYLINDERS, whole=True), fewest=1, most=MOST_CYLINDERS)),
     "bank_angle": Key(_ANGLE, required=True, only=_V),
     "bank_angles": Key(ListOf(_ANGLE, fewest=2, most=8), required=True, only=_W),
-    "throws": Key(ListOf(_ANGLE, fewest=1, most=28), only={"layout": ("inline", "V", "boxer", "W")}),
+    "throws": Key(ListOf(_ANGLE, fewest=1, most=MOST_CYLINDERS), only={"layout": ("inline", "V", "boxer", "W")}),
     "pin_offset": Key(_ANGLE, default="0 deg", only=_V),
     "numbering": Key(Choice(("banks", "pairs")), only=_BANKS),
     "spacing": Key(_LENGTH),
     "bank_stagger": Key(_SPACING, only=_BANKS),
     "uneven": Key(Flag(), default=False),
     "own_throws": Key(Flag(), default=False, only=_V),
-    "offsets": Key(ListOf(Quantity(("length",), -100.0, 100.0), fewest=1, most=28)),
+    "offsets": Key(ListOf(Quantity(("length",), -100.0, 100.0), fewest=1, most=MOST_CYLINDERS)),
     "articulated": Key(_ARTICULATED, only={"layout": ("V", "radial")}),
-    "misfire": Key(ListOf(Number(1, 28, whole=True), fewest=1, most=28)),
-    "pressure_factors": Key(ListOf(Number(0.0, 10.0), fewest=1, most=28)),
+    "misfire": Key(ListOf(Number(1, MOST_CYLINDERS, whole=True), fewest=1, most=MOST_CYLINDERS)),
+    "pressure_factors": Key(ListOf(Number(0.0, 10.0), fewest=1, most=MOST_CYLINDERS)),
 })  # fmt: skip
 
 BEARINGS = Table("bearings", {

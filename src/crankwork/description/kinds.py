@@ -301,9 +301,18 @@ class Flag(NamedTuple):
         return {"type": "boolean"}
 
 
+# what turns the letters after it round
+_TURNING = ("LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI", "PDI")
+
+
 def is_one_line(text: str) -> bool:
     """Return whether a text has no line break, no control character and nothing that XML forbids."""
-    return not any(unicodedata.category(one) in ("Cc", "Zl", "Zp", "Cs") or one in "\ufffe\uffff" for one in text)
+    return not any(
+        unicodedata.category(one) in ("Cc", "Zl", "Zp", "Cs")
+        or unicodedata.bidirectional(one) in _TURNING
+        or one in "\ufffe\uffff"
+        for one in text
+    )
 
 
 def _is_moderate(value: float) -> bool:

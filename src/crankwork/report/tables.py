@@ -3,22 +3,29 @@
 from __future__ import annotations
 
 import io
+import math
+import tempfile
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from datetime import datetime
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from crankwork.analysis import Array, Results
 from crankwork.analysis.rounding import without_rounding
-from crankwork.errors import MissingExtraError
+from crankwork.errors import CrankworkError, MissingExtraError
 from crankwork.locale import Refusal, say
 from crankwork.quantities import Language
 from crankwork.report.comparison import comparison_columns
 from crankwork.report.language import displayed_column, in_own_units, key_unit, label, row_name, unit_name
 from crankwork.report.summary import provenance
 
+if TYPE_CHECKING:
+    import xlsxwriter
+
+# cells of a workbook that memory has no room for
+_MANY = 500_000
 _CREATED = datetime(2000, 1, 1)  # noqa: DTZ001 - a workbook knows no time zones
 
 
@@ -93,31 +100,48 @@ def workbook(results: Results, *, language: Language = "en", per_area: bool = Fa
     """Return all tables and the summary as an XLSX workbook."""
     try:
         import xlsxwriter  # noqa: PLC0415 - an optional part
+        from xlsxwriter.exceptions import FileCreateError  # noqa: PLC0415
     except ImportError:
         raise MissingExtraError(Refusal("extra_writing", names="XLSX"), "tables") from None
-    stream = io.BytesIO()
-    with xlsxwriter.Workbook(stream, {"in_memory": True, "strings_to_formulas": False}) as book:
-        # the same tables are the same bytes
-        told = {"title": results.machine.title[:255], "comments": provenance(results)}
-        book.set_properties({"created": _CREATED, **told})
-        heading = book.add_format({"bold": True, "text_wrap": True, "valign": "top", "bottom": 1})
-        decimals = book.add_format({"num_format": "0.0000"})
-        taken: set[str] = set()
-        for name, table in sheets(results, per_area=per_area).items():
-            sheet = book.add_worksheet(_sheet_name(say(f"tables.{name}", language), taken))
-            sheet.freeze_panes(1, 1)
-            first = 1 if table.names else 0
-            sheet.set_column(0, first + len(table.columns) - 1, 16, decimals)
-            if table.names:
-                sheet.write_string(0, 0, say("report.row", language), heading)
-                sheet.write_column(1, 0, [row_name(one, language) for one in table.names])
-            for number, (key, values) in enumerate(table.columns.items(), start=first):
-                unit = unit_name(table.units[key], language)
-                sheet.write_string(
-                    0, number, f"{label(key, language)}, {unit}" if unit else label(key, language), heading
-                )
-                sheet.write_column(1, number, [one if np.isfinite(one) else None for one in values.tolist()])
+    stream, tables = io.BytesIO(), sheets(results, per_area=per_area)
+    cells = sum(len(column) for table in tables.values() for column in table.columns.values())
+    # rows that are written wait in files, which takes longer where they are few
+    kept = {"in_memory": True} if cells < _MANY else {"constant_memory": True}
+    try:
+        with xlsxwriter.Workbook(stream, {**kept, "strings_to_formulas": False}) as book:
+            # the same tables are the same bytes
+            told = {"title": results.machine.title[:255], "comments": provenance(results)}
+            book.set_properties({"created": _CREATED, **told})
+            _fill(book, tables, language)
+    except (OSError, FileCreateError) as error:
+        full = error if isinstance(error, OSError) else error.args[0]
+        reason = str(getattr(full, "strerror", None) or full).lower()
+        raise CrankworkError(Refusal("place_unwritable", path=tempfile.gettempdir(), reason=reason)) from None
     return stream.getvalue()
+
+
+def _fill(book: xlsxwriter.Workbook, tables: Mapping[str, Sheet], language: Language) -> None:
+    """Write tables into a workbook, row by row."""
+    heading = book.add_format({"bold": True, "text_wrap": True, "valign": "top", "bottom": 1})
+    decimals = book.add_format({"num_format": "0.0000"})
+    taken: set[str] = set()
+    for name, table in tables.items():
+        sheet = book.add_worksheet(_sheet_name(say(f"tables.{name}", language), taken))
+        sheet.freeze_panes(1, 1)
+        first = 1 if table.names else 0
+        sheet.set_column(0, first + len(table.columns) - 1, 16, decimals)
+        if table.names:
+            sheet.write_string(0, 0, say("report.row", language), heading)
+        for number, key in enumerate(table.columns, start=first):
+            unit, title = unit_name(table.units[key], language), label(key, language)
+            sheet.write_string(0, number, f"{title}, {unit}" if unit else title, heading)
+        columns = [values.tolist() for values in table.columns.values()]
+        for row, values in enumerate(zip(*columns, strict=True), start=1):
+            if table.names:
+                sheet.write_string(row, 0, row_name(table.names[row - 1], language))
+            for number, value in enumerate(values, start=first):
+                if math.isfinite(value):
+                    sheet.write_number(row, number, value)
 
 
 def _sheet_name(title: str, taken: set[str]) -> str:
