@@ -520,3 +520,41 @@ def test_a_flywheel_from_rest(mass: str, torque: str, acceleration: float, energ
     columns = results.listings["transient"].columns
     assert results["final_speed"] == pytest.approx(10 * acceleration, rel=1e-12)
     assert columns["kinetic_energy"][-1] == pytest.approx(energy, rel=1e-12)
+
+
+BLANKING = """
+[load]
+rate = "60 1/min"
+[[load.strokes]]
+shear_strength = "280 MPa"
+hole_diameter = "25.4 mm"
+thickness = "1.5 mm"
+penetration = 0.6
+over = "10 deg"
+{blank}
+[[load.strokes]]
+shear_strength = "280 MPa"
+hole_diameter = "12.7 mm"
+thickness = "1.5 mm"
+penetration = 0.6
+over = "10 deg"
+{pierce}
+[flywheel]
+speeds = ["62 rpm", "58 rpm"]
+"""
+
+
+@pytest.mark.parametrize(("slope", "together", "blank"), [("", 50271.7656427, 33514.5104285),
+                                                          ('punch_slope = "1 mm"', 23812.9416202, None)])  # fmt: skip
+def test_force_of_a_press(slope: str, together: float, blank: float | None) -> None:
+    """P. C. Sharma: A textbook of production engineering. S. Chand, New Delhi. Example 2.6, page 135: a washer.
+
+    From the same repository, A_Textbook_of_Production_Engineering_by_P._C._Sharma/Chapter2_2.ipynb: blanked and pierced
+    together 50.27 kN, staggered 33.5 kN, with shear on the punch 23.8 kN; the work is the same.
+    """
+    results = found(BLANKING.format(blank=slope, pierce=slope))
+    assert results["shearing_force.1"] + results["shearing_force.2"] == pytest.approx(together, rel=1e-11)
+    if blank is not None:
+        assert results["shearing_force.1"] == pytest.approx(blank, rel=1e-11)
+    assert results["work_per_cycle"] == pytest.approx(45.2445890785, rel=1e-11)
+    assert not results.unmet

@@ -36,7 +36,7 @@ COLUMNS = (
     "turning_moment", "load_torque", "excess_torque", "kinetic_energy_change", "crank_speed", "angular_acceleration",
 )  # fmt: skip
 _COLUMN_OF = {"torque": "turning_moment", "load": "load_torque"}
-_STRETCHES = ("sheared_area", "stroke_work", "stroke_angle")
+_STRETCHES = ("sheared_area", "flat_shearing_force", "shearing_force", "stroke_work", "stroke_angle")
 _ROUNDED = 1e-9
 _NOTHING = 1e-13
 # of figures: how far beside a jump a curve is drawn [deg], and of how many points
@@ -152,6 +152,7 @@ def _of_course(machine: Machine, turning: Turning, w: Known) -> _Turned:
     columns = {key: one.named(key) for key, one in columns.items()}
     stretches = (one for one in in_order([*made.values(), *means.values()]) if one.key.partition(".")[0] in _STRETCHES)
     between = {one.key: one for one in stretches if one.key not in _STRETCHES} | wheel.between
+    summary |= {key: one for key, one in between.items() if key.startswith("shearing_force.")}
     return _Turned(columns, summary, between, checks, notices, listings)
 
 

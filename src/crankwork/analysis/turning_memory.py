@@ -12,8 +12,10 @@ from crankwork.shaft.torque_diagram import (
     TorqueDiagram,
     Turning,
     angle_in_plate,
+    force_of_slope,
     peak_torque_of_work,
     sheared_area_of_hole,
+    shearing_force,
     torque_between_points,
     torque_of_harmonic,
     torque_of_work,
@@ -144,7 +146,8 @@ class _Torque:
         plain = given(f"stroke_work.{number}", self._diagram.strokes[number - 1].work, f"{path}.work")
         scale = work_scale(machine, self._table)
         work, shear = stated.get(f"{path}.work"), stated.get(f"{path}.shear_energy")
-        if shear is not None:
+        strength = stated.get(f"{path}.shear_strength")
+        if shear is not None or strength is not None:
             thickness = given("plate_thickness", stated[f"{path}.thickness"].value, f"{path}.thickness")
             hole, strip = stated.get(f"{path}.hole_diameter"), stated.get(f"{path}.cut_width")
             if hole is not None:
@@ -153,11 +156,27 @@ class _Torque:
             else:
                 width = given("cut_width", strip.value if strip else 0.0, f"{path}.cut_width")
                 area = width * thickness
-            energy = given("shear_energy", shear.value, f"{path}.shear_energy")
-            return origins.checked(energy * area.named(f"sheared_area.{number}"), plain)
+            area = area.named(f"sheared_area.{number}")
+            if strength is not None:
+                return origins.checked(self._by_strength(number, area, thickness), plain)
+            energy = given("shear_energy", shear.value if shear else 0.0, f"{path}.shear_energy")
+            return origins.checked(energy * area, plain)
         if scale is not None and work is not None and UNITS[work.unit].dimension == "area":
             return origins.checked(scale * given("drawn_area", work.value, f"{path}.work"), plain)
         return plain
+
+    def _by_strength(self, number: int, area: Known, thickness: Known) -> Known:
+        """Return the work of a stretch that shears an area by its strength, until the plate is through."""
+        stated, path = self._machine.stated, f"{self._table}.strokes[{number}]"
+        strength = given("shear_strength", stated[f"{path}.shear_strength"].value, f"{path}.shear_strength")
+        depth = given("penetration", stated[f"{path}.penetration"].value, f"{path}.penetration") * thickness
+        depth, force = depth.named("sheared_depth"), shearing_force(strength, area)
+        slope = stated.get(f"{path}.punch_slope")
+        if slope is None:
+            return force.named(f"shearing_force.{number}") * depth  # type: ignore[no-any-return]
+        longer = given("punch_slope", slope.value, f"{path}.punch_slope")
+        force = force_of_slope(force.named(f"flat_shearing_force.{number}"), depth, longer)
+        return force.named(f"shearing_force.{number}") * (depth + longer)  # type: ignore[no-any-return]
 
     def _over(self, stroke: Stroke, number: int) -> Known:
         """Return the angle of a stretch: stated, of a time, of a part of the period, or of a punch in a plate."""

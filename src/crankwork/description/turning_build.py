@@ -240,15 +240,21 @@ def _harmonics(values: Values, table: str, period: float, reader: Reader) -> tup
 
 def _stroke(values: Values | None, path: str, period: float, scale: float, shaft: _Shaft) -> Stroke:
     """Return work in a stretch; complain of a stretch longer than the period."""
-    if values is None or not {"work", "shear_energy"} & set(values):
+    if values is None or not {"work", "shear_energy", "shear_strength"} & set(values):
         return Stroke(0.0, 0.0, 0.0)
     work, reader = 0.0, shaft.reader
     if "work" in values:
         work = _work(values["work"], f"{path}.work", scale, reader)
     elif "thickness" in values and {"hole_diameter", "cut_width"} & set(values):
-        work = values["shear_energy"].value * _sheared_area(values, shaft.method.pi)
+        area = _sheared_area(values, shaft.method.pi)
+        if "shear_energy" in values:
+            work = values["shear_energy"].value * area
+        elif "penetration" in values:
+            work = values["shear_strength"].value * area * values["penetration"] * values.si("thickness")
     else:
-        reader.complain(f"{path}.shear_energy", Refusal("shear_of_what"))
+        reader.complain(
+            f"{path}.{'shear_energy' if 'shear_energy' in values else 'shear_strength'}", Refusal("shear_of_what")
+        )
     over = _over(values, period, shaft)
     if over > period * (1 + _CLOSED):
         told = Refusal("stretch_long", over=math.degrees(over), period=math.degrees(period))

@@ -25,13 +25,16 @@ _HARMONIC = Table("harmonic", {
     "cos": Key(_TORQUE, default="0 N*m"),
 })  # fmt: skip
 
-_SHEARING = ("shear_energy", "thickness", "hole_diameter", "cut_width")
+_BY_STRENGTH = {"shear_strength": ()}
 _STROKE = Table("press_stroke", {
-    "work": Key(_ENERGY, required=True, instead_of=("shear_energy",)),
-    "shear_energy": Key(Quantity(("energy_per_area",), 0.0, 1e12, above=True), instead_of=("work",)),
+    "work": Key(_ENERGY, required=True, instead_of=("shear_energy", "shear_strength")),
+    "shear_energy": Key(Quantity(("energy_per_area",), 0.0, 1e12, above=True), instead_of=("work", "shear_strength")),
+    "shear_strength": Key(Quantity(("pressure",), 1.0, 1e11), instead_of=("work", "shear_energy")),
+    "penetration": Key(Number(0.0, 1.0, above=True), required=True, only=_BY_STRENGTH),
+    "punch_slope": Key(_LENGTH.kind, only=_BY_STRENGTH),
     "thickness": Key(_LENGTH.kind),
-    "hole_diameter": Key(_LENGTH.kind, instead_of=("cut_width",), only={"shear_energy": ()}),
-    "cut_width": Key(_LENGTH.kind, instead_of=("hole_diameter",), only={"shear_energy": ()}),
+    "hole_diameter": Key(_LENGTH.kind, instead_of=("cut_width",), only={"thickness": ()}),
+    "cut_width": Key(_LENGTH.kind, instead_of=("hole_diameter",), only={"thickness": ()}),
     "from": Key(_ANGLE, default="0 deg"),
     "over": Key(NumberOr(_STRETCH, Number(0.0, 1.0, above=True)), instead_of=("punch_stroke",)),
     "punch_stroke": Key(_LENGTH.kind, instead_of=("over",), only={"thickness": ()}),

@@ -45,7 +45,7 @@ _WHEEL = ("wittenbauer_slope", "whole_inertia", "flywheel_inertia")
 _TORQUES = ("static_torque", "dynamic_torque", "balancing_torque", "driving_torque")
 
 
-_STRETCHES = ("sheared_area", "stroke_work", "stroke_angle")
+_STRETCHES = ("sheared_area", "flat_shearing_force", "shearing_force", "stroke_work", "stroke_angle")
 _POWER_OF_SHAFT = ("speed", "mean_torque", "shaft_power", "efficiency", "motor_power", "work_per_cycle")
 _EXCESS = ("excess_work", "energy_fluctuation")
 _WHEEL_OF_SHAFT = ("speed_fluctuation", "whole_inertia", "flywheel_inertia", *WHEEL_SIZES, "recovery_torque")

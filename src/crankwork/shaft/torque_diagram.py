@@ -46,6 +46,18 @@ def sheared_area_of_hole(pi: Value, d_h: Value, s_h: Value) -> Value:
     return pi * d_h * s_h
 
 
+@formula("shearing_force", "khurmi_gupta_2005, ch. 16")
+def shearing_force(tau_cut: Value, A_sheared: Value) -> Value:
+    """Greatest force that shears an area at once."""
+    return tau_cut * A_sheared
+
+
+@formula("shearing_force", "suchy_2006, ch. 6")
+def force_of_slope(F_sheared: Value, h_in: Value, h_slope: Value) -> Value:
+    """Force of a punch or die whose edge slopes, so that the same work is done over a longer way."""
+    return F_sheared * h_in / (h_in + h_slope)
+
+
 @formula("stroke_angle", "khurmi_gupta_2005, ch. 16")
 def angle_in_plate(s_h: Value, phi_c: Value, h_p: Value) -> Value:
     """Angle that a punch is in the plate, if it goes down and up at one speed."""
