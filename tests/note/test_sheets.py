@@ -28,11 +28,11 @@ from crankwork.note.sheets.engine_motion import tolle_corners
 from crankwork.note.sheets.engine_whole import whole_engine_extra
 from crankwork.note.sheets.linkage_polygons import Numbered, vector_plans
 from crankwork.note.sheets.placing import Named, names_beside
-from crankwork.note.sheets.scene import Box, Circle, Hatch, Polyline, Text, extent, hatch_lines, text_width
 from crankwork.note.sheets.sheet import SIZES
 from crankwork.note.sheets.words import Words
 from crankwork.quantities import LANGUAGES
 from crankwork.report.figure_data import drawn_from
+from crankwork.show.scene import Box, Circle, Hatch, Polyline, Text, extent, hatch_lines, text_width
 from crankwork.units import from_si
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -26,12 +26,12 @@ from crankwork.note.sheets import (
     Paper,
     TitleBlock,
     drawn_sheets,
-    sheet_dxf,
-    sheet_pdf,
-    sheet_svg,
 )
-from crankwork.note.sheets.scene import CAP_HEIGHT, INDEX, Arc, Circle, Polyline, Text, runs, text_width
 from crankwork.quantities import LANGUAGES
+from crankwork.show.dxf import dxf
+from crankwork.show.pdf import pdf
+from crankwork.show.scene import CAP_HEIGHT, INDEX, Arc, Circle, Polyline, Text, runs, text_width
+from crankwork.show.svg import svg
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SVG = "{http://www.w3.org/2000/svg}"
@@ -66,7 +66,7 @@ def texts(language):
 @pytest.mark.parametrize(("size", "width", "height"), [("A1", 841, 594), ("A0", 1189, 841)])
 def test_svg_is_in_millimetres(language, size, width, height):
     for sheet in sheets(language, size):
-        root = ET.fromstring(sheet_svg(sheet))  # noqa: S314 - our own
+        root = ET.fromstring(svg(sheet.drawing))  # noqa: S314 - our own
         assert (root.get("width"), root.get("height")) == (f"{width}mm", f"{height}mm")
         assert root.get("viewBox") == f"0 0 {width} {height}"
         assert root.findtext(f"{SVG}title") == sheet.title
@@ -74,7 +74,7 @@ def test_svg_is_in_millimetres(language, size, width, height):
 
 def test_a_curve_in_svg_is_the_curve_of_the_sheet():
     sheet = sheets("ru")[0]
-    root = ET.fromstring(sheet_svg(sheet))  # noqa: S314 - our own
+    root = ET.fromstring(svg(sheet.drawing))  # noqa: S314 - our own
     (path,) = (one for one in root.iter(f"{SVG}path") if one.get("class") == "piston_velocity")
     points = np.array([one.split() for one in path.get("d")[1:].split("L")], dtype=float)
     expected = sheet.graph("piston_velocity").curve("piston_velocity")
@@ -83,7 +83,7 @@ def test_a_curve_in_svg_is_the_curve_of_the_sheet():
 
 def test_every_text_is_in_the_svg_once():
     sheet = sheets("vi")[1]
-    root = ET.fromstring(sheet_svg(sheet))  # noqa: S314 - our own
+    root = ET.fromstring(svg(sheet.drawing))  # noqa: S314 - our own
     written = sorted("".join(one.itertext()) for one in root.iter(f"{SVG}text"))
     assert written == sorted(
         "".join(run.text for run in runs(one.text)) for one in sheet.items if isinstance(one, Text)
@@ -94,7 +94,7 @@ def test_every_text_is_in_the_svg_once():
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_pdf_has_one_page_of_exactly_the_size(language, tmp_path):
     for size, width, height in (("A1", 841, 594), ("A0", 1189, 841)):
-        data = sheet_pdf(sheets(language, size)[1])
+        data = pdf(sheets(language, size)[1].drawing)
         (box,) = re.findall(rb"/MediaBox ?\[0 0 ([\d.]+) ([\d.]+)\]", data)
         assert [float(one) for one in box] == pytest.approx([width / 25.4 * 72, height / 25.4 * 72], abs=0.01)
         if shutil.which("pdfinfo"):
@@ -108,14 +108,14 @@ def test_pdf_has_one_page_of_exactly_the_size(language, tmp_path):
 
 def test_files_are_the_same_bytes_every_time():
     sheet = sheets("en")[3]
-    for write in (sheet_svg, sheet_pdf, sheet_dxf):
-        assert (write(sheet) == write(sheet)) is True
+    for write in (svg, pdf, dxf):
+        assert (write(sheet.drawing) == write(sheet.drawing)) is True
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_dxf_says_the_same_when_read_again(language):
     for sheet in sheets(language)[:3]:
-        document = ezdxf.read(io.StringIO(sheet_dxf(sheet).decode()))
+        document = ezdxf.read(io.StringIO(dxf(sheet.drawing).decode()))
         assert document.audit().errors == []
         assert (document.dxfversion, document.header["$INSUNITS"], document.header["$MEASUREMENT"]) == ("AC1024", 4, 1)
         space = document.modelspace()
@@ -134,7 +134,7 @@ def test_a_force_measured_in_dxf_is_the_force():
     """The largest radial force, from the coordinates of the file and the scale written in it."""
     sheet = sheets("en")[1]
     graph = sheet.graph("crankpin_forces")
-    document = ezdxf.read(io.StringIO(sheet_dxf(sheet).decode()))
+    document = ezdxf.read(io.StringIO(dxf(sheet.drawing).decode()))
     expected = graph.curve("radial_force")
     again = [np.array(one.get_points("xy")) for one in document.modelspace().query("LWPOLYLINE")]
     (found,) = (one for one in again if one.shape == expected.shape and np.allclose(one, expected, atol=1e-9))
@@ -148,7 +148,7 @@ def test_a_force_measured_in_dxf_is_the_force():
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_dxf_has_every_text_at_its_height(language):
     sheet = sheets(language)[1]
-    space = ezdxf.read(io.StringIO(sheet_dxf(sheet).decode())).modelspace()
+    space = ezdxf.read(io.StringIO(dxf(sheet.drawing).decode())).modelspace()
     plain = [(one.dxf.text, one.dxf.height) for one in space.query("TEXT")]
     coded = [(one.plain_text().replace("^", ""), one.dxf.char_height) for one in space.query("MTEXT")]
     expected = [one for one in sheet.items if isinstance(one, Text)]
@@ -162,7 +162,7 @@ def test_dxf_has_every_text_at_its_height(language):
 
 
 def test_dashes_of_dxf_run_through_the_corners_in_millimetres():
-    document = ezdxf.read(io.StringIO(sheet_dxf(sheets("en")[1]).decode()))
+    document = ezdxf.read(io.StringIO(dxf(sheets("en")[1].drawing).decode()))
     dashed = document.layers.get("DASHED")
     assert dashed.dxf.linetype == "DASHED"
     pattern = [tag.value for tag in document.linetypes.get("DASHED").pattern_tags.tags if tag.code == 49]
@@ -211,17 +211,17 @@ def test_texts_are_no_wider_than_the_room_left_for_them(language):
 def test_text_from_outside_cannot_break_a_file():
     nasty = TitleBlock(designation="<\x00&\"'>\\P{;}^I %%c", name="#set page(width: 1mm)", organisation="日本")
     (sheet,) = drawn_sheets(results("press"), "en", paper=Paper(block=nasty))
-    ET.fromstring(sheet_svg(sheet))  # noqa: S314 - our own
-    (width,) = re.findall(rb"/MediaBox ?\[0 0 ([\d.]+)", sheet_pdf(sheet))
+    ET.fromstring(svg(sheet.drawing))  # noqa: S314 - our own
+    (width,) = re.findall(rb"/MediaBox ?\[0 0 ([\d.]+)", pdf(sheet.drawing))
     assert float(width) == pytest.approx(841 / 25.4 * 72, abs=0.01)
-    document = ezdxf.read(io.StringIO(sheet_dxf(sheet).decode()))
+    document = ezdxf.read(io.StringIO(dxf(sheet.drawing).decode()))
     assert document.audit().errors == []
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_readers_of_dxf_break_no_text_and_find_all_on_the_paper(language):
     for sheet in sheets(language):
-        space = ezdxf.read(io.StringIO(sheet_dxf(sheet).decode())).modelspace()
+        space = ezdxf.read(io.StringIO(dxf(sheet.drawing).decode())).modelspace()
         covered = bbox.extents(space)
         assert min(covered.extmin.x, covered.extmin.y) >= -1e-6, sheet.name
         assert covered.extmax.x <= 841 + 1e-6, sheet.name
@@ -231,11 +231,11 @@ def test_readers_of_dxf_break_no_text_and_find_all_on_the_paper(language):
                 assert bbox.extents([one]).size.y < 2.5 * one.dxf.char_height, one.text
 
 
-@pytest.mark.parametrize(("write", "module", "format"), [(sheet_pdf, "typst", "PDF"), (sheet_dxf, "ezdxf", "DXF")])
+@pytest.mark.parametrize(("write", "module", "format"), [(pdf, "typst", "PDF"), (dxf, "ezdxf", "DXF")])
 def test_a_missing_part_is_named(write, module, format, monkeypatch):  # noqa: A002 - what it is
     monkeypatch.setitem(sys.modules, module, None)
     with pytest.raises(MissingExtraError, match=f"writing {format} needs an optional part"):
-        write(sheets("en")[1])
+        write(sheets("en")[1].drawing)
 
 
 def test_sheets_of_the_templates_are_written():
@@ -243,5 +243,5 @@ def test_sheets_of_the_templates_are_written():
         found = analyse(read_machine(template(name)))
         made = drawn_sheets(found)
         for one in made:
-            assert sheet_svg(one).startswith(b"<svg")
-            assert sheet_dxf(one).rstrip().endswith(b"EOF")
+            assert svg(one.drawing).startswith(b"<svg")
+            assert dxf(one.drawing).rstrip().endswith(b"EOF")

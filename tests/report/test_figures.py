@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 import warnings
 from dataclasses import replace
 from pathlib import Path
@@ -13,12 +12,12 @@ import pytest
 
 from crankwork.analysis import Results, analyse
 from crankwork.description.machine_file import read, read_machine
-from crankwork.errors import CrankworkError, MissingExtraError
-from crankwork.quantities import LANGUAGES, QUANTITIES
+from crankwork.errors import CrankworkError
+from crankwork.quantities import LANGUAGES
 from crankwork.report.figure_data import drawn_from, figure_title
 from crankwork.report.figures import figures
+from crankwork.show.scene import printable
 
-pytest.importorskip("matplotlib")
 ROOT = Path(__file__).parents[2]
 TEMPLATES = ROOT / "src" / "crankwork" / "description" / "templates"
 FILES = [*sorted((ROOT / "examples").glob("*.toml")), *sorted(TEMPLATES.glob("*.toml"))]
@@ -99,26 +98,8 @@ def test_no_letter_is_missing(language, method):
     assert list(drawn) == ALL
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_the_font_has_every_letter_of_the_table_of_quantities(language):
-    from matplotlib.font_manager import findfont, get_font
-
-    font = get_font(findfont("DejaVu Serif"))
-    letters = {letter for row in QUANTITIES.values() for letter in row.label(language) + row.symbol(language)}
-    assert [letter for letter in letters if not font.get_char_index(ord(letter))] == []
-
-
 def test_figures_are_the_same_every_time(engine):
     assert figures(engine, language="vi") == figures(engine, language="vi")
-
-
-def test_figures_do_not_depend_on_the_settings_of_matplotlib_nor_change_them(engine):
-    import matplotlib as mpl
-
-    with mpl.rc_context({"font.size": 20, "svg.fonttype": "none"}):
-        other = figures(engine)
-        assert mpl.rcParams["font.size"] == 20
-    assert other == figures(engine)
 
 
 def test_every_language_has_its_own_labels(engine):
@@ -158,13 +139,7 @@ def test_both_sides_of_a_jump_of_pressure_are_drawn():
     assert near.tolist() == pytest.approx([2.42322e6, 4.5083e6], rel=1e-4)
 
 
-def test_point_names_that_the_font_lacks_become_boxes():
-    from crankwork.report.figure_labels import _printable
-
-    assert [_printable(name) for name in ("c1", "точка", "点", "a" * 40)] == ["c1", "точка", "□", f"{'a' * 15}…"]
-
-
-def test_without_matplotlib_the_fix_is_named(engine, monkeypatch):
-    monkeypatch.setitem(sys.modules, "matplotlib", None)
-    with pytest.raises(MissingExtraError, match=r"crankwork\[figures\]"):
-        figures(engine)
+def test_point_names_that_cannot_be_printed_become_boxes():
+    assert [printable(name, 16) for name in ("c1", "точка", "a\u202eb", "a" * 40)] == [
+        "c1", "точка", "a□b", f"{'a' * 15}…"
+    ]  # fmt: skip

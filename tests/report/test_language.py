@@ -4,8 +4,9 @@ import math
 
 import pytest
 
+from crankwork.locale.numbers import number
 from crankwork.quantities import QUANTITIES
-from crankwork.report.language import displayed, number
+from crankwork.report.language import displayed
 from crankwork.units import to_si
 
 

@@ -265,7 +265,7 @@ def run(  # noqa: PLR0913 - one argument per option of the command
         contents = with_progress(steps, 4 - no_figures)
         files.write_folder(output, contents, overwrite=overwrite)
         click.echo(f"\n{say('report.written', language)} {output}", err=as_json)
-        if (missing := left_out(with_figures=not no_figures)) is not None:
+        if (missing := left_out()) is not None:
             _tell(say("check.note", language, notice=_told(missing.args[0])))
     doubt(file, results, language)
 
@@ -308,7 +308,7 @@ def report(  # noqa: PLR0913 - one argument per option of the command
     from crankwork.note.contents import check_format, written_note
 
     # before anything else is loaded
-    check_format(output, with_figures=not no_figures, with_sheets=sheets)
+    check_format(output, with_sheets=sheets)
     from crankwork import files
     from crankwork.note.contents import note_of, sheets_of
     from crankwork.note.options import NoteOptions

@@ -15,6 +15,9 @@ from crankwork.note.web import web
 from crankwork.note.word import word
 from crankwork.report.language import in_own_units
 from crankwork.report.summary import provenance
+from crankwork.show.dxf import dxf
+from crankwork.show.pdf import pdf as page
+from crankwork.show.svg import svg
 from crankwork.units import shown_in
 
 if TYPE_CHECKING:
@@ -50,9 +53,9 @@ def sheets_of(results: Results, options: NoteOptions | None = None) -> dict[str,
     results = as_engine(results)
     extra = sheets.whole_engine_extra(results)
     drawn = sheets.drawn_sheets(results, options.language, paper=paper, per_area=options.per_area, extra=extra)
-    formats = {"pdf": sheets.sheet_pdf, "svg": sheets.sheet_svg, "dxf": sheets.sheet_dxf}
+    formats = {"pdf": page, "svg": svg, "dxf": dxf}
     return {
-        f"-sheet-{number}.{ending}": written(one)
+        f"-sheet-{number}.{ending}": written(one.drawing)
         for number, one in enumerate(drawn, start=1)
         for ending, written in formats.items()
     }
@@ -62,13 +65,11 @@ WRITERS = {".pdf": pdf, ".docx": word, ".html": web}
 _MODULES: dict[str, dict[str, str]] = {".pdf": {"typst": "report"}, ".docx": {"docx": "report"}, ".html": {}}
 
 
-def check_format(name: str, *, with_figures: bool = False, with_sheets: bool = False) -> None:
+def check_format(name: str, *, with_sheets: bool = False) -> None:
     """Raise unless a note of this format can be written, before anything is computed."""
     if PurePath(name).suffix.lower() not in WRITERS:
         raise CrankworkError(Refusal("note_ending", name=name, known=", ".join(WRITERS)))
     modules = _MODULES[PurePath(name).suffix.lower()]
-    if with_figures:
-        modules = modules | {"matplotlib": "figures"}
     if with_sheets:
         modules = modules | {"typst": "report", "ezdxf": "report"}
     if extras := missing_extras(modules):

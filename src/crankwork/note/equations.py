@@ -16,6 +16,7 @@ from typing import NamedTuple
 from crankwork.formula.expression import Formula, record, text
 from crankwork.formula.lines import DelayedLine, FormulaLine, Line, SumLine, ValueLine, without_noise
 from crankwork.locale import say, texts
+from crankwork.locale.numbers import number
 from crankwork.note.definitions import definition_box, definition_text
 from crankwork.note.digits import enough_digits, is_exact_pi
 from crankwork.note.document import Equation
@@ -37,7 +38,6 @@ from crankwork.note.math import formula_box
 from crankwork.note.printed_units import display_unit, printed_unit
 from crankwork.note.symbols import number_box, symbol_box
 from crankwork.quantities import QUANTITIES, Language, base_key, chambers, linkage
-from crankwork.report.language import number
 from crankwork.report.language import symbol as key_symbol
 from crankwork.units import UNITS, coherent_unit, from_si, to_si
 

@@ -26,13 +26,14 @@ from crankwork.formula.known import (
 )
 from crankwork.formula.lines import FormulaLine, Line, ValueLine, without_noise
 from crankwork.locale import capital, has_text, say, texts
+from crankwork.locale.numbers import number
 from crankwork.notation import ARGUMENTS, argument_unit
 from crankwork.note.definitions import definition_text, integral_text
 from crankwork.note.equations import OF_LINKS, line_parts, shown_values, value_symbol, value_text
 from crankwork.note.legends import words_of
 from crankwork.note.numbering import Numbering
 from crankwork.quantities import QUANTITIES, Language, base_key, cycle
-from crankwork.report.language import in_own_units, label, number, told_as
+from crankwork.report.language import in_own_units, label, told_as
 from crankwork.sources import cite
 from crankwork.units import UNITS, from_si, to_si
 

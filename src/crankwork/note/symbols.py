@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from crankwork.locale.numbers import number
 from crankwork.note.layout import (
     DOT,
     EQUALS,
@@ -21,7 +22,6 @@ from crankwork.note.layout import (
     row,
 )
 from crankwork.quantities import Language
-from crankwork.report.language import number
 
 _FUNCTION = re.compile(r"(?P<name>sin|cos|tan|tg|ctg|arcsin|arccos|arctan|arctg|ln|lg|exp) ?(?P<rest>\S.*)")
 _SUM = re.compile(r" ?([+−=]) ?")

@@ -9,10 +9,11 @@ from string import Formatter
 import numpy as np
 
 from crankwork.locale import Language, capital, decimal, say, texts
+from crankwork.locale.numbers import number
 from crankwork.note.captions import note_text
 from crankwork.note.document import Math, Paragraph, Run, Runs
 from crankwork.note.printed_units import printed_unit
-from crankwork.report.language import displayed, displayed_column, number
+from crankwork.report.language import displayed, displayed_column
 from crankwork.units import from_si, shown_unit
 
 _TIGHT = ("°", "%")

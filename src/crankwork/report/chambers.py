@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-import numpy as np
-
 from crankwork.analysis import Array, Results
 from crankwork.analysis.chambers import indicators
 from crankwork.locale import say
-from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED, SOLID, legend_above, plain, single_axes, svg
-from crankwork.report.linkage_curves import curves
-from crankwork.report.linkage_look import PLAIN, Style, axis_title, displayed_values, figure_look, quantity_of
+from crankwork.report.linkage_curves import STYLES, curves
+from crankwork.report.linkage_look import PLAIN, Style, axis_title, displayed_values, quantity_of
+from crankwork.show.chart import Graph, Row, limits, round_ticks, sheet, sign
+from crankwork.show.paper import plain
 
-_STYLES = (SOLID, DASHED, DASH_DOT, DOTTED)
 _KINDS = ("cylinder_volume", "gas_pressure", "gas_force", "rod_load")
 _PER_PANEL = 4
 
@@ -35,19 +33,21 @@ def indicator(results: Results, style: Style = PLAIN) -> bytes:
     """Return pressure over volume of every chamber."""
     found = indicators(results)
     volume, pressure = quantity_of("cylinder_volume"), quantity_of("diagram_pressure")
-    with figure_look():
-        figure, axes = single_axes(style.language, len(found) if len(found) > 1 else 0, height=3.6)
-        for number, (name, one) in enumerate(found.items()):
-            x, y = displayed_values(volume, one.volume), displayed_values(pressure, one.pressure)
-            axes.plot(x, y, color="black", linestyle=_STYLES[number % 4], label=plain(name))
-        low = min(0.0, *(float(np.min(one.pressure)) for one in found.values()))
-        axes.set_xlim(left=0)
-        axes.set_ylim(bottom=None if low < 0 else 0)
-        axes.set_xlabel(axis_title(volume, style.language))
-        axes.set_ylabel(axis_title(pressure, style.language).replace(" $", "\n$", 1))
-        if len(found) > 1:
-            legend_above(axes)
-        return svg(figure, say("figures.indicator", style.language), style.method)
+    drawn = {
+        name: (displayed_values(volume, one.volume), displayed_values(pressure, one.pressure))
+        for name, one in found.items()
+    }
+    rows = [Row(plain(name), STYLES[number % 4]) for number, name in enumerate(drawn)] if len(drawn) > 1 else []
+    paper, box = sheet(259.0, rows)
+    x, y = (limits(*some, margin=0.05) for some in zip(*drawn.values(), strict=True))
+    graph = Graph(paper, box, x, y, style.language)
+    graph.frame(round_ticks(*x), round_ticks(*y, 10))
+    for number, (name, (across, up)) in enumerate(drawn.items()):
+        graph.curve(name, across, up, STYLES[number % 4])
+    graph.x_title(axis_title(volume, style.language))
+    graph.y_title(axis_title(pressure, style.language))
+    sign(paper, style.method)
+    return paper.svg(say("figures.indicator", style.language), style.language)
 
 
 def _panels(keys: Sequence[str]) -> list[Sequence[str]]:

@@ -8,16 +8,15 @@ from typing import Any
 from crankwork.analysis import Array, Results
 from crankwork.analysis.compare import Comparison
 from crankwork.locale import Language, say
+from crankwork.locale.numbers import number, unit_name
 from crankwork.report.language import (
     displayed,
     in_own_units,
     key_unit,
     label,
     method_name,
-    number,
     rounded,
     told_as,
-    unit_name,
 )
 
 _NONE = "–"

@@ -9,12 +9,13 @@ import numpy as np
 from crankwork.analysis import Array, Results
 from crankwork.analysis.compare import Comparison, beside, difference
 from crankwork.locale import Language, say
+from crankwork.locale.numbers import unit_name
 from crankwork.quantities import QUANTITIES
 from crankwork.report.comparison import shown_names
-from crankwork.report.engine_figure_axes import LEGEND_ROW, Box, Graph, Row, limits, over_cycle, round_ticks, sheet
-from crankwork.report.engine_figure_paper import Paper
-from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED, SOLID, Style
-from crankwork.report.language import displayed, in_own_units, key_unit, symbol, unit_name
+from crankwork.report.language import displayed, in_own_units, key_unit, symbol
+from crankwork.show.chart import LEGEND_ROW, Box, Graph, Row, limits, over_cycle, round_ticks, sheet
+from crankwork.show.paper import Paper
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Style
 
 _STEP, _MOST = 1.0, 2000
 # a cycle of more has no lines at multiples of 90 degrees
@@ -71,7 +72,7 @@ def comparison_figure(results: Results, language: Language, *, per_area: bool = 
             graph = _graph(paper, Box(box.left, place, box.width, tall), at, curves, results, language, numbers=is_last)
             for name, style, colour in _looks(compared.names):
                 if name in curves:
-                    _draw(graph, name, at, curves[name], style, colour)
+                    graph.curve(name, at, curves[name], style, colour=colour)
             graph.y_title(f"{mark}, {unit}" if unit else mark)
             if is_last:
                 graph.x_title(_x_title(results, language))
@@ -116,17 +117,9 @@ def _graph(  # noqa: PLR0913 - place, curves and how they are told
     numbers: bool,
 ) -> Graph:
     """Return a graph that holds all numbers of some curves, with its frame drawn."""
-    known = [one[np.isfinite(one)] for one in curves.values()]
-    y = limits(*(one if one.size else np.zeros(1) for one in known))
+    y = limits(*curves.values())
     if results.period or results.machine.cycle > _LONG:
         graph = Graph(paper, box, (0.0, float(at[-1])), y, language)
         graph.frame(round_ticks(0.0, float(at[-1])), round_ticks(*y, 4), labels=(numbers, True))
         return graph
     return over_cycle(paper, box, y, float(at[-1]), language, numbers=numbers)
-
-
-def _draw(graph: Graph, name: str, at: Array, values: Array, style: Style, colour: str) -> None:
-    """Draw a curve, with gaps where it has no value."""
-    ends = np.flatnonzero(np.diff(np.concatenate([[False], np.isfinite(values), [False]])))
-    for start, end in ends.reshape(-1, 2):
-        graph.curve(name, at[start:end], values[start:end], style, colour=colour)

@@ -11,13 +11,14 @@ from crankwork.analysis.moving import Course, course, drawn_mechanism, moving
 from crankwork.analysis.skeleton import skeleton
 from crankwork.errors import CrankworkError
 from crankwork.locale import capital, say
+from crankwork.locale.numbers import number, unit_name
 from crankwork.machine import Machine
 from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import Language
 from crankwork.report import drawing_parts as parts
 from crankwork.report.drawing_parts import Box, Stage
-from crankwork.report.language import displayed, key_unit, label, number, symbol, unit_name
+from crankwork.report.language import displayed, key_unit, label, symbol
 from crankwork.report.linkage_drawing import linkage_drawing
 from crankwork.report.linkage_engine import crank_gear, engine_drawing
 

@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike
 
 from crankwork.analysis import Array
 from crankwork.analysis.moving import Track
+from crankwork.locale.numbers import number as number_text
+from crankwork.locale.numbers import unit_name
 from crankwork.mechanism.dyads import RRP, Point
 from crankwork.quantities import Language
-from crankwork.report.language import number as number_text
-from crankwork.report.language import unit_name
 
 HATCH = 8.0
 GROUND_REACH = ((-34.0, 0.0), (38.0, 36.0))

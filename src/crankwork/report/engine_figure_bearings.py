@@ -11,7 +11,10 @@ from crankwork.analysis import Array
 from crankwork.analysis.engine_diagrams import CrankpinLoad, PolarDiagram, crankpin_of_one
 from crankwork.analysis.results import Listing
 from crankwork.locale import say
-from crankwork.report.engine_figure_axes import (
+from crankwork.report.engine_figure_data import EngineDrawn
+from crankwork.report.engine_figure_labels import label_marks, spread
+from crankwork.report.language import row_name
+from crankwork.show.chart import (
     BOTTOM,
     CIRCLE,
     RIGHT,
@@ -26,14 +29,11 @@ from crankwork.report.engine_figure_axes import (
     sheet,
     small_text,
 )
-from crankwork.report.engine_figure_data import EngineDrawn
-from crankwork.report.engine_figure_labels import label_marks, spread
-from crankwork.report.engine_figure_paper import Paper
-from crankwork.report.figure_look import DASHED, SOLID
-from crankwork.report.language import row_name
+from crankwork.show.paper import Paper
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID
 
 _HEIGHT, _MARGIN = 340.0, 1.12
-_LINES = (SOLID, DASHED, (0, (7, 2, 1.5, 2)), (0, (1.2, 1.6)))
+_LINES = (SOLID, DASHED, DASH_DOT, DOTTED)
 
 
 class _OverCycle(NamedTuple):
@@ -168,7 +168,7 @@ def crankpin_load(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
         )
         for at, pin in enumerate(sizes)
     ]
-    style = (0, (10, 3)) if len(sizes) > 1 else DASHED
+    style = (10.0, 3.0) if len(sizes) > 1 else DASHED
     which = row_name(f"crankpin.{first}", engine.language) if len(sizes) > 1 else ""
     mean = f"{engine.named('mean_crankpin_load')}{', ' if which else ''}{which}"
     rows.append(Row(f"{mean}, {engine.value('mean_crankpin_load', found.mean)}", style, 0.8))

@@ -9,7 +9,9 @@ import numpy as np
 from crankwork.analysis import Array
 from crankwork.analysis.diagrams import BrixPoints, brix_points, tangent_ends, tolle_parabola, tolle_points
 from crankwork.locale import say
-from crankwork.report.engine_figure_axes import (
+from crankwork.report.engine_figure_data import EngineDrawn
+from crankwork.report.engine_figure_labels import label_marks, spread
+from crankwork.show.chart import (
     RIGHT,
     WIDTH,
     Box,
@@ -19,10 +21,8 @@ from crankwork.report.engine_figure_axes import (
     round_ticks,
     sheet,
 )
-from crankwork.report.engine_figure_data import EngineDrawn
-from crankwork.report.engine_figure_labels import label_marks, spread
-from crankwork.report.engine_figure_paper import GREY, Paper
-from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED
+from crankwork.show.paper import GREY, Paper
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID
 
 _SIDES = ("AC", "BD", "CD", "EF", "CF", "FD")
 _STEP = 30.0
@@ -133,7 +133,7 @@ def tolle(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     graph.curves["tangents"] = tangents[:, [0, 2]], tangents[:, [1, 3]]
     for one, other in map(tuple, _SIDES):
         pair = np.array([corners[one], corners[other]])
-        graph.curve(one + other, pair[:, 0], pair[:, 1], DASHED if one + other == "CD" else "-", width=0.7)
+        graph.curve(one + other, pair[:, 0], pair[:, 1], DASHED if one + other == "CD" else SOLID, width=0.7)
     graph.curves["parabola"] = parabola
     if is_apart:
         graph.curve("parabola", *parabola, DOTTED, width=1.0)

@@ -11,7 +11,9 @@ import numpy as np
 from crankwork.analysis import Array
 from crankwork.locale import say
 from crankwork.quantities import QUANTITIES
-from crankwork.report.engine_figure_axes import (
+from crankwork.report.engine_figure_data import EngineDrawn
+from crankwork.report.engine_figure_labels import label_marks, spread
+from crankwork.show.chart import (
     BOTTOM,
     LEFT,
     RIGHT,
@@ -24,10 +26,8 @@ from crankwork.report.engine_figure_axes import (
     over_cycle,
     sheet,
 )
-from crankwork.report.engine_figure_data import EngineDrawn
-from crankwork.report.engine_figure_labels import label_marks, spread
-from crankwork.report.engine_figure_paper import Paper, has_letter
-from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED, SOLID, Style
+from crankwork.show.paper import Paper
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Style
 
 _STYLES = (SOLID, DASHED, DASH_DOT, DOTTED)
 _HEIGHT, _PANEL, _PANEL_GAP = 216.0, 126.0, 38.0
@@ -99,7 +99,7 @@ def named_points(engine: EngineDrawn) -> list[tuple[str, float, float]]:
 
 def _short(name: str) -> str:
     """Return the name of a point as it is printed: with a subscript if it has one, shortened if it is long."""
-    known = "".join(one if one.isprintable() and one != "$" and has_letter(one) else "□" for one in name)
+    known = "".join(one if one.isprintable() and one != "$" else "□" for one in name)
     known = known if len(known) <= _LONGEST else f"{known[: _LONGEST - 1]}…"
     return f"${known}$" if "_" in known else known
 

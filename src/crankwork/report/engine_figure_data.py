@@ -10,11 +10,12 @@ import numpy as np
 from crankwork.analysis import Array
 from crankwork.analysis.engine_diagrams import EngineDiagrams
 from crankwork.locale import say
+from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language
-from crankwork.report.engine_figure_axes import sign
-from crankwork.report.engine_figure_paper import Paper
 from crankwork.report.figure_data import Drawn, figure_title
-from crankwork.report.language import displayed, key_unit, method_name, number, unit_name
+from crankwork.report.language import displayed, key_unit, method_name
+from crankwork.show.chart import sign
+from crankwork.show.paper import Paper
 
 
 @dataclass(frozen=True)

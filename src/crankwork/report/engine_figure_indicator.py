@@ -8,12 +8,12 @@ import numpy as np
 
 from crankwork.analysis import Array
 from crankwork.locale import say
-from crankwork.report.engine_figure_axes import Graph, Row, limits, round_ticks, sheet, small_text
 from crankwork.report.engine_figure_cylinder import mark_points, named_points
 from crankwork.report.engine_figure_data import EngineDrawn
 from crankwork.report.engine_figure_labels import spread
-from crankwork.report.engine_figure_paper import Paper
-from crankwork.report.figure_look import DASH_DOT, DASHED
+from crankwork.show.chart import Graph, Row, limits, round_ticks, sheet, small_text
+from crankwork.show.paper import Paper
+from crankwork.show.scene import DASH_DOT, DASHED
 
 _HEIGHT, _ABOVE = 245.0, 24.0
 

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.report.engine_figure_axes import Box
-from crankwork.report.engine_figure_paper import GREY, Paper, text_width
+from crankwork.show.chart import Box
+from crankwork.show.paper import GREY, Paper, text_width
 
 _SPACING = 3.0
 _ANGLES = np.radians(np.arange(16) * 22.5)

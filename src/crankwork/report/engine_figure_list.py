@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 
 from crankwork.locale import say
-from crankwork.report.engine_figure_axes import Graph
 from crankwork.report.engine_figure_bearings import (
     big_end_polar,
     crankpin_load,
@@ -32,10 +31,11 @@ from crankwork.report.engine_figure_orders import (
     phase_stars,
     torque_harmonics,
 )
-from crankwork.report.engine_figure_paper import Paper
 from crankwork.report.engine_figure_torque import accumulated_torque, crank_speed, excess_work, total_torque
 from crankwork.report.engine_figure_wear import crankpin_wear, main_wear
 from crankwork.report.figure_data import Drawn
+from crankwork.show.chart import Graph
+from crankwork.show.paper import Paper
 
 Draw = Callable[[EngineDrawn], tuple[Paper, Mapping[str, Graph]]]
 # what draws it, and the column it needs

@@ -10,7 +10,8 @@ import numpy as np
 from crankwork.analysis import Array
 from crankwork.analysis.engine_diagrams import Locus
 from crankwork.locale import say
-from crankwork.report.engine_figure_axes import (
+from crankwork.report.engine_figure_data import EngineDrawn
+from crankwork.show.chart import (
     BOTTOM,
     LEFT,
     RIGHT,
@@ -21,9 +22,8 @@ from crankwork.report.engine_figure_axes import (
     round_ticks,
     small_text,
 )
-from crankwork.report.engine_figure_data import EngineDrawn
-from crankwork.report.engine_figure_paper import BLACK, Paper, text_width
-from crankwork.report.figure_look import DASHED
+from crankwork.show.paper import BLACK, Paper, text_width
+from crankwork.show.scene import DASHED, SOLID
 
 
 class _Bars(NamedTuple):
@@ -162,7 +162,7 @@ def balance_ellipses(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     start = (WIDTH - columns * side - (columns - 1) * gap) / 2 + 16
     paper = Paper(WIDTH, TOP + head + lines * side + (lines - 1) * 52 + BOTTOM)
     for at, text in enumerate(rows):
-        paper.line([LEFT, LEFT + 20], [TOP + 2 + 13.4 * at] * 2, style=DASHED if at == 0 else "-", width=1.2)
+        paper.line([LEFT, LEFT + 20], [TOP + 2 + 13.4 * at] * 2, style=DASHED if at == 0 else SOLID, width=1.2)
         paper.text(LEFT + 27, TOP + 5 + 13.4 * at, text, size=8.5)
     graphs: dict[str, Graph] = {}
     for at, (order, (before, after)) in enumerate(loci.items()):
@@ -181,7 +181,7 @@ def _locus(engine: EngineDrawn, paper: Paper, box: Box, before: Locus, after: Lo
     graph.frame(ticks, ticks)
     middle = graph.point(0.0, 0.0)
     paper.segments(np.array([(middle[0], box.top, middle[0], box.top + box.height)]), width=0.8)
-    drawn = [("before", before, DASHED if is_balanced else "-")] + ([("after", after, "-")] if is_balanced else [])
+    drawn = [("before", before, DASHED if is_balanced else SOLID)] + ([("after", after, SOLID)] if is_balanced else [])
     for name, locus, style in drawn:
         across, up = engine.shown("free_force", locus.across), engine.shown("free_force", locus.up)
         graph.curve(name, across, up, style)

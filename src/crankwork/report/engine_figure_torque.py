@@ -8,7 +8,9 @@ import numpy as np
 
 from crankwork.analysis import Array
 from crankwork.locale import say
-from crankwork.report.engine_figure_axes import (
+from crankwork.report.engine_figure_data import EngineDrawn
+from crankwork.report.language import row_name
+from crankwork.show.chart import (
     BOTTOM,
     LEFT,
     RIGHT,
@@ -22,10 +24,8 @@ from crankwork.report.engine_figure_axes import (
     sheet,
     small_text,
 )
-from crankwork.report.engine_figure_data import EngineDrawn
-from crankwork.report.engine_figure_paper import GREY, Paper
-from crankwork.report.figure_look import DASH_DOT, DASHED, DOTTED
-from crankwork.report.language import row_name
+from crankwork.show.paper import GREY, Paper
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED
 
 _MANY = 8
 _PANEL_GAP = 15.0

@@ -9,11 +9,11 @@ import numpy as np
 from crankwork.analysis import Array
 from crankwork.analysis.engine_diagrams import WearRing, wear_rings
 from crankwork.locale import say
-from crankwork.report.engine_figure_axes import TOP, WIDTH, Box, Graph, small_text
 from crankwork.report.engine_figure_data import EngineDrawn
-from crankwork.report.engine_figure_paper import GREY, Paper
-from crankwork.report.figure_look import DASH_DOT
 from crankwork.report.language import row_name
+from crankwork.show.chart import TOP, WIDTH, Box, Graph, small_text
+from crankwork.show.paper import GREY, Paper
+from crankwork.show.scene import DASH_DOT
 
 # The largest sum takes this share of the radius of the journal.
 _DEEPEST = 0.45

@@ -7,7 +7,6 @@ from crankwork.quantities import Language
 from crankwork.report.comparison_figure import comparison_figure
 from crankwork.report.engine_figure_list import engine_figures
 from crankwork.report.figure_data import drawn_from
-from crankwork.report.figure_look import drawing_library
 from crankwork.report.language import in_own_units
 from crankwork.report.linkage_figures import linkage_figures
 from crankwork.report.turning_figures import turning_figures
@@ -21,13 +20,9 @@ def figures(results: Results, *, language: Language = "en", per_area: bool = Fal
 
     Raises
     ------
-    MissingExtraError
-        If matplotlib is not installed.
     CrankworkError
         If forces per area are asked for where no bore is known.
     """
-    # whose fonts all figures use
-    drawing_library()
     shown = linkage_figures if results.machine.turning is None else turning_figures
     found = shown(results, language=language)
     if "piston_displacement" in results.columns:

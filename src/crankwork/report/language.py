@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Concatenate, ParamSpec, TypeVar
 
 import numpy as np
 
-from crankwork.locale import decimal, has_text, say, texts
+from crankwork.locale import has_text, say
 from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.units import from_si, shown_in
 
@@ -18,11 +18,10 @@ if TYPE_CHECKING:
 
 P = ParamSpec("P")
 R = TypeVar("R")
-_RAISED = str.maketrans("0123456789-−", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻")
-# what is found in several ways
 # kinds of rows whose number is an order, and what is free of each
 _BY_ORDER = ("reciprocating", "knuckle_pins", "balance_shafts", "residual")
 _OF_ORDERS = ("free_force", "free_moment")
+# what is found in several ways
 _BY_WAY = ("excess_work", "flywheel_inertia", "whole_inertia")
 # key of the machine file: the quantity or word that it means, where that has another name
 FILE_KEYS = {
@@ -31,25 +30,6 @@ FILE_KEYS = {
     "pressure_ratio": "pressure_rise_ratio",
     "mechanical_loss": "mechanical_loss_pressure",
 }
-
-
-def unit_name(unit: str, language: Language) -> str:
-    """Return a unit as that language prints it."""
-    return texts("units", language).get(unit, unit)
-
-
-def number(value: float, language: Language, *, digits: int = 6) -> str:
-    """Return a number with up to `digits` significant digits, the language's decimal mark and a true minus sign."""
-    text = f"{value + 0.0:.{digits}g}"
-    if "e" not in text and abs(value) >= 10**digits:
-        text = f"{value:.0f}"
-    if text in ("-0", "0"):
-        return "0"
-    mantissa, power, exponent = text.partition("e")
-    if power:
-        text = f"{mantissa[:-1]}10" if mantissa in ("1", "-1") else f"{mantissa}·10"
-        text += str(int(exponent)).translate(_RAISED)
-    return decimal(text, language).replace("-", "−")
 
 
 def _is_angle(key: str) -> bool:

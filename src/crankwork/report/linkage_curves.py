@@ -3,44 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
 from crankwork.analysis import Array
 from crankwork.errors import CrankworkError
+from crankwork.locale.numbers import unit_name
 from crankwork.quantities import Quantity
-from crankwork.report.figure_look import (
-    BOTTOM,
-    DASH_DOT,
-    DASHED,
-    DOTTED,
-    SOLID,
-    Curve,
-    add_axes,
-    draw_curves,
-    math_symbol,
-    new_figure,
-    svg,
-    through_zero,
-)  # fmt: skip
-from crankwork.report.language import unit_name
 from crankwork.report.linkage_look import (
     PLAIN,
     Style,
     axis_title,
     displayed_values,
-    figure_look,
-    over_drive_angle,
-    over_time,
+    drive_graph,
+    math_symbol,
     quantity_of,
 )
+from crankwork.show.chart import BOTTOM, LEFT, RIGHT, TOP, WIDTH, Box, Row, legend, legend_height, limits, sign
+from crankwork.show.paper import Paper, plain
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-_STYLES = (SOLID, DASHED, DASH_DOT, DOTTED)
-_PANEL, _GAP, _LEGEND_ROW = 1.75, 0.2, 0.185
-# what a page of a note holds with its caption [in]
-_TALLEST = 8.4
+STYLES = (SOLID, DASHED, DASH_DOT, DOTTED)
+_ALONE, _PANEL, _GAP = 216.0, 126.0, 16.0
+# what a page of a note holds with its caption [pt]
+_TALLEST = 600.0
 # characters of a name that still fit beside a panel
 _LONG = 20
 
@@ -60,20 +44,24 @@ def curves(
     sets = [_panel((one,) if isinstance(one, str) else tuple(one), columns) for one in panels]
     if not sets:
         raise CrankworkError("curves need at least one key")
-    legends = [_LEGEND_ROW * len(one) + 0.06 if _has_legend(one, style) else 0.0 for one in sets]
-    room = (_TALLEST - BOTTOM - sum(legends)) / len(sets) - _GAP
-    tall = 3.0 if len(sets) == 1 else min(_PANEL, room)
-    with figure_look():
-        figure = new_figure(BOTTOM + len(sets) * (tall + _GAP) + sum(legends))
-        foot = BOTTOM
-        for count, (quantities, legend) in enumerate(zip(reversed(sets), reversed(legends), strict=True)):
-            axes = add_axes(figure, style.language, foot, tall)
-            _draw(axes, degrees, [(row, columns[row.key]) for row in quantities], style)
-            if count:
-                axes.set_xlabel("")
-                axes.tick_params(labelbottom=False)
-            foot += tall + _GAP + legend
-        return svg(figure, title, style.method)
+    legends = [_rows(one, style) if _has_legend(one, style) else [] for one in sets]
+    above = [legend_height(rows) for rows in legends]
+    room = (_TALLEST - BOTTOM - sum(above)) / len(sets) - _GAP
+    tall = _ALONE if len(sets) == 1 else min(_PANEL, room)
+    paper = Paper(WIDTH, TOP + sum(above) + len(sets) * (tall + _GAP) - _GAP + BOTTOM)
+    at = degrees * style.period / 360.0 if style.period else degrees
+    top = TOP
+    for quantities, rows, height in zip(sets, legends, above, strict=True):
+        legend(paper, rows, top - 4)
+        box = Box(LEFT, top + height, WIDTH - LEFT - RIGHT, tall)
+        values = [displayed_values(row, columns[row.key]) for row in quantities]
+        graph = drive_graph(paper, box, at, limits(*values), style, is_last=quantities is sets[-1])
+        for number, (row, one) in enumerate(zip(quantities, values, strict=True)):
+            graph.curve(row.key, at, one, STYLES[number % 4])
+        graph.y_title(_title(quantities, style))
+        top += height + tall + _GAP
+    sign(paper, style.method)
+    return paper.svg(title, style.language)
 
 
 def _panel(keys: tuple[str, ...], columns: Mapping[str, Array]) -> list[Quantity]:
@@ -93,23 +81,18 @@ def _has_legend(quantities: Sequence[Quantity], style: Style) -> bool:
     return len(quantities) > 1 or len(quantities[0].label(style.language)) > _LONG
 
 
-def _draw(axes: Axes, degrees: Array, values: Sequence[tuple[Quantity, Array]], style: Style) -> None:
-    at = degrees * style.period / 360.0 if style.period else degrees
-    lines = [
-        Curve(row.symbol(style.language), row.label(style.language), displayed_values(row, column), _STYLES[i % 4])
-        for i, (row, column) in enumerate(values)
+def _rows(quantities: Sequence[Quantity], style: Style) -> list[Row]:
+    return [
+        Row(f"{math_symbol(row.symbol(style.language))} – {plain(row.label(style.language))}", STYLES[number % 4])
+        for number, row in enumerate(quantities)
     ]
-    first = values[0][0]
-    unit = unit_name(first.unit, style.language)
-    has_legend = _has_legend([row for row, _ in values], style)
-    draw_curves(axes, at, lines, one_row=not has_legend)
-    if style.period:
-        over_time(axes, float(at[-1]), style.language)
-    else:
-        over_drive_angle(axes, (float(at[0]), float(at[-1])), style.language)
-    through_zero(axes, *(one.values for one in lines))
-    if not has_legend:
-        axes.set_ylabel(axis_title(first, style.language).replace(" $", "\n$", 1))
-    else:
-        names = ", ".join(dict.fromkeys(math_symbol(one.symbol) for one in lines)) if len(lines) < 5 else ""
-        axes.set_ylabel(f"{names}, {unit}" if names and unit else names or unit)
+
+
+def _title(quantities: Sequence[Quantity], style: Style) -> str:
+    """Return what stands beside the vertical axis: the name, or where a legend has the names the symbols."""
+    if not _has_legend(quantities, style):
+        return axis_title(quantities[0], style.language)
+    unit = unit_name(quantities[0].unit, style.language)
+    signs = dict.fromkeys(math_symbol(row.symbol(style.language)) for row in quantities)
+    names = ", ".join(signs) if len(quantities) < 5 else ""
+    return f"{names}, {unit}" if names and unit else names or unit

@@ -1,25 +1,26 @@
-"""What figures of linkages share: the look, a quantity for any key, and scales as drawings on paper state them."""
+"""What figures of linkages share: a quantity for any key, the axis of what drives, and scales."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from contextlib import contextmanager
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
+
+import numpy as np
 
 from crankwork.analysis import Array
 from crankwork.errors import CrankworkError
 from crankwork.locale import say
+from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language, Quantity
-from crankwork.report.figure_look import LOOK, drawing_library, math_symbol, over_crank_angle, plain
-from crankwork.report.language import number, symbol, unit_name
+from crankwork.report.language import symbol
+from crankwork.show.chart import Box, Graph, round_ticks
+from crankwork.show.paper import MM, Paper, plain
 from crankwork.units import from_si
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-POINTS_PER_MM = 72 / 25.4
+POINTS_PER_MM = 1 / MM
 _DIGITS = 4
+# what would mark something in a text of a figure, where a name is the user's own
+_SIGNS = frozenset(r"$\#{}%^_~&")
 
 
 class Style(NamedTuple):
@@ -34,6 +35,18 @@ class Style(NamedTuple):
 PLAIN = Style()
 
 
+def math_symbol(sign: str) -> str:
+    r"""Return a symbol `base_index` as figures set it, and one with a name that would mark something as plain text.
+
+    Examples
+    --------
+    >>> print(math_symbol("v_п.ср"), math_symbol("F_$x^$"))
+    $v_п.ср$ F \$x^\$
+    """
+    base, _, index = sign.partition("_")
+    return f"${sign}$" if _SIGNS.isdisjoint(index) else plain(f"{base} {index}")
+
+
 def position_text(degrees: float, style: Style) -> str:
     """Return a crank angle with its unit, or the time where a law drives. [deg]"""
     if style.period:
@@ -46,16 +59,6 @@ def position_text(degrees: float, style: Style) -> str:
 def position_sign(style: Style, mark: str = "") -> str:
     """Return the symbol of the crank angle, or of the time where a law drives."""
     return f"${symbol('time' if style.period else 'crank_angle', style.language)}{mark}$"
-
-
-@contextmanager
-def figure_look() -> Iterator[None]:
-    """Draw in the one look of all figures, whatever the settings of matplotlib are, and leave those alone."""
-    mpl = drawing_library()
-    with mpl.rc_context():
-        mpl.rcdefaults()
-        mpl.rcParams.update(LOOK)
-        yield
 
 
 def quantity_of(key: str) -> Quantity:
@@ -78,27 +81,38 @@ def axis_title(row: Quantity, language: Language) -> str:
     return f"{plain(row.label(language))} {math_symbol(row.symbol(language))}" + (f", {unit}" if unit else "")
 
 
-_TICKS = (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 60.0, 90.0)
+_TICKS = (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 60.0, 90.0, 180.0, 360.0, 720.0, 1800.0, 3600.0)
 _MOST_TICKS = 12
 
 
-def over_drive_angle(axes: Axes, ends: tuple[float, float], language: Language) -> None:
-    """Make the horizontal axis the angle of the crank of a linkage between the ends of its motion. [deg]"""
-    start, end = ends
-    over_crank_angle(axes, end, language)
-    if start:
-        step = next((one for one in _TICKS if (end - start) / one <= _MOST_TICKS), _TICKS[-1])
-        axes.set_xlim(start, end)
-        axes.set_xticks([step * one for one in range(math.ceil(start / step), math.floor(end / step) + 1)])
-    # a linkage has a crank, no crankshaft
-    sign = math_symbol(QUANTITIES["crank_angle"].symbol(language))
-    axes.set_xlabel(f"{say('drawing.angle_of_crank', language)} {sign}, °")
+def angle_ticks(start: float, end: float) -> Array:
+    """Return angles to mark between two, at most a dozen parts. [deg]"""
+    most = 10.0 ** math.ceil(math.log10((end - start) / _MOST_TICKS))
+    step = next((one for one in _TICKS if (end - start) / one <= _MOST_TICKS), most)
+    counts = range(math.ceil(start / step - 1e-9), math.floor(end / step + 1e-9) + 1)
+    return np.array([one * step for one in counts])
 
 
-def over_time(axes: Axes, end: float, language: Language) -> None:
-    """Make the horizontal axis the time from 0 to `end`. [s]"""
-    axes.set_xlim(0, end)
-    axes.set_xlabel(axis_title(QUANTITIES["time"], language))
+def drive_graph(
+    paper: Paper, box: Box, at: Array, y: tuple[float, float], style: Style, *, is_last: bool = True
+) -> Graph:
+    """Return a graph over the angle of the crank between the ends of its motion, or over the time, frame drawn.
+
+    `at`: the angles [deg], or times where a law drives [s].
+    """
+    start, end = float(at[0]), float(at[-1])
+    graph = Graph(paper, box, (start, end), y, style.language)
+    graph.frame(
+        round_ticks(start, end) if style.period else angle_ticks(start, end),
+        round_ticks(*y, max(4, round(box.height / 24))),
+        labels=(is_last, True),
+    )
+    if is_last:
+        # a linkage has a crank, no crankshaft
+        sign = math_symbol(QUANTITIES["crank_angle"].symbol(style.language))
+        angle = f"{say('drawing.angle_of_crank', style.language)} {sign}, °"
+        graph.x_title(axis_title(QUANTITIES["time"], style.language) if style.period else angle)
+    return graph
 
 
 def round_scale(least: float) -> float:
@@ -117,8 +131,8 @@ def round_scale(least: float) -> float:
     return 10.0 ** (power + 1)
 
 
-def scale_text(symbol: str, value: float, unit: str, language: Language) -> str:
+def scale_text(sign: str, value: float, unit: str, language: Language) -> str:
     """Return a scale as drawings state it, `mu_v = 0.02 (m/s)/mm`."""
     name = unit_name(unit, language)
     name = f"({name})" if "/" in name else name
-    return f"{math_symbol(symbol)} = {number(value, language)} {name}/{unit_name('mm', language)}"
+    return f"{math_symbol(sign)} = {number(value, language)} {name}/{unit_name('mm', language)}"

@@ -2,37 +2,38 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from crankwork.analysis.moving import Moving
 from crankwork.analysis.plans import Kind, Plan, Vector, accelerations, velocities
 from crankwork.locale import say
+from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.quantities import Language
 from crankwork.report.figure_data import figure_title
-from crankwork.report.figure_labels import Line, label_points
-from crankwork.report.figure_look import DASH_DOT, DASHED, WIDTH, math_symbol, new_figure, svg
-from crankwork.report.language import number, symbol, unit_name
+from crankwork.report.language import symbol
 from crankwork.report.linkage_look import (
     PLAIN,
     POINTS_PER_MM,
     Style,
-    figure_look,
+    math_symbol,
     position_sign,
     position_text,
     round_scale,
     scale_text,
 )
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+from crankwork.show.chart import WIDTH, Box, Graph, sign
+from crankwork.show.labels import Line, label_points
+from crankwork.show.paper import Paper
+from crankwork.show.scene import DASH_DOT, DASHED, SOLID
+from crankwork.show.scene import Style as Dashes
 
 _SIDE, _TALL, _MARGIN, _LIST, _ROW = 290.0, 330.0, 26.0, 150.0, 13.5
 _UNDER = 3
-_LOOKS: dict[Kind, tuple[float, str | tuple[float, tuple[float, ...]]]] = {
-    "absolute": (1.6, "-"), "relative": (0.9, "-"), "tangential": (0.9, "-"), "sliding": (0.9, "-"),
+_LOOKS: dict[Kind, tuple[float, Dashes]] = {
+    "absolute": (1.6, SOLID), "relative": (0.9, SOLID), "tangential": (0.9, SOLID), "sliding": (0.9, SOLID),
     "normal": (0.9, DASHED), "coriolis": (0.9, DASH_DOT),
 }  # fmt: skip
 _MARKS: dict[Kind, str] = {
@@ -82,23 +83,19 @@ def _figure(plan: Plan, kind: _Kind, degrees: float, style: Style) -> bytes:
     unit = POINTS_PER_MM / scale
     rows = _rows(seen, plan, kind, language)
     tall = max(float(height) * unit + 2 * _MARGIN, _ROW * len(rows) + 30) + 34
-    with figure_look():
-        figure = new_figure(tall / 72, WIDTH)
-        axes = figure.add_axes((0, 0, 1, 1))
-        axes.set_axis_off()
-        middle = (places.min(axis=0) + places.max(axis=0)) / 2 * unit
-        left, bottom = middle[0] - _SIDE / 2, middle[1] - (tall + 34) / 2
-        axes.set_xlim(left, left + WIDTH * 72)
-        axes.set_ylim(bottom, bottom + tall)
-        _vectors(axes, seen, unit)
-        _nodes(axes, plan, kind.pole, seen, unit)
-        for count, row in enumerate(rows):
-            axes.text(left + WIDTH * 72 - _LIST, bottom + tall - 20 - _ROW * count, row, size=8.5, va="center")
-        axes.text(left + 14, bottom + 20, scale_text(f"μ_{kind.sign}", scale, kind.unit, language), size=9)
-        shown = f"{position_sign(style)} = {position_text(float(degrees), style)}"
-        axes.text(left + WIDTH * 72 - 14, bottom + 20, shown, size=9, ha="right")
-        title = f"{figure_title(kind.title, language)}, {position_text(float(degrees), style)}"
-        return svg(figure, title, style.method, _remark(plan, kind, language))
+    paper = Paper(WIDTH, tall)
+    middle = (places.min(axis=0) + places.max(axis=0)) / 2 * unit
+    left, bottom = middle[0] - _SIDE / 2, middle[1] - (tall + 34) / 2
+    graph = Graph(paper, Box(0.0, 0.0, WIDTH, tall), (left, left + WIDTH), (bottom, bottom + tall), language)
+    _vectors(graph, seen, unit)
+    _nodes(graph, plan, kind.pole, seen, unit)
+    for count, row in enumerate(rows):
+        paper.text(WIDTH - _LIST, 23 + _ROW * count, row, size=8.5)
+    paper.text(14, tall - 20, scale_text(f"μ_{kind.sign}", scale, kind.unit, language))
+    shown = f"{position_sign(style)} = {position_text(float(degrees), style)}"
+    paper.text(WIDTH - 14, tall - 20, shown, anchor="end")
+    sign(paper, style.method, _remark(plan, kind, language))
+    return paper.svg(f"{figure_title(kind.title, language)}, {position_text(float(degrees), style)}", language)
 
 
 def _remark(plan: Plan, kind: _Kind, language: Language) -> str:
@@ -113,22 +110,24 @@ def _remark(plan: Plan, kind: _Kind, language: Language) -> str:
     return "; ".join(remarks)
 
 
-def _vectors(axes: Axes, vectors: list[Vector], unit: float) -> None:
+def _vectors(graph: Graph, vectors: list[Vector], unit: float) -> None:
     for one in vectors:
         width, line = _LOOKS[one.kind]
-        head = "-|>,head_length=0.45,head_width=0.16" if one.length * unit > 6 else "-"
-        look = {"arrowstyle": head, "linewidth": width, "linestyle": line, "color": "black", "shrinkA": 0, "shrinkB": 0}
-        axes.annotate("", tuple(one.end * unit), tuple(one.start * unit), arrowprops={**look, "mutation_scale": 14.0})
+        start, end = (graph.point(*(place * unit)) for place in (one.start, one.end))
+        if one.length * unit > 6:
+            graph.paper.arrow(start, end, width=width, style=line)
+        else:
+            graph.paper.line([start[0], end[0]], [start[1], end[1]], width=width, style=line)
 
 
-def _nodes(axes: Axes, plan: Plan, pole: str, vectors: list[Vector], unit: float) -> None:
+def _nodes(graph: Graph, plan: Plan, pole: str, vectors: list[Vector], unit: float) -> None:
     """Name the pole and the ends of the vectors."""
     taken = {node_name(name) for name in plan.nodes}
     points = [(next(one for one in (pole, "o", f"{pole}₀") if one not in taken), 0.0, 0.0)]
     points += [(node_name(name), float(at[0] * unit), float(at[1] * unit)) for name, at in plan.nodes.items()
                if np.hypot(*at) * unit > 1.0]  # fmt: skip
     lines: list[Line] = [tuple(np.array([one.start, one.end]).T * unit) for one in vectors]
-    label_points(axes, points, *lines)
+    label_points(graph, points, *lines)
 
 
 def node_name(letter: str) -> str:

@@ -14,9 +14,10 @@ from crankwork.analysis import Results
 from crankwork.analysis.rounding import summary_without_rounding
 from crankwork.errors import GeometryError, UnknownKeyError
 from crankwork.locale import Refusal, say
+from crankwork.locale.numbers import number
 from crankwork.quantities import Language
 from crankwork.report.drawing import moving_drawing
-from crankwork.report.language import displayed, in_own_units, key_unit, label, number, symbol
+from crankwork.report.language import displayed, in_own_units, key_unit, label, symbol
 from crankwork.report.summary import results_method
 
 _LINES = 9

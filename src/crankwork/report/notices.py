@@ -6,9 +6,10 @@ from collections.abc import Mapping
 
 from crankwork.formula.expression import symbol
 from crankwork.locale import decimal, has_text, say, told
+from crankwork.locale.numbers import number, unit_name
 from crankwork.notation import argument_unit
 from crankwork.quantities import QUANTITIES, Language
-from crankwork.report.language import FILE_KEYS, label, number, unit_name
+from crankwork.report.language import FILE_KEYS, label
 
 
 def notice_text(code: str, values: Mapping[str, float | str], language: Language) -> str:

@@ -17,18 +17,13 @@ from crankwork.report.summary import summary_data
 from crankwork.report.tables import csv_of_sheet, sheets, workbook
 
 # What some files of the folder need that the base installation lacks: extra by module.
-_WORKBOOK, _FIGURES = {"xlsxwriter": "tables"}, {"matplotlib": "figures"}
+_WORKBOOK = {"xlsxwriter": "tables"}
 
 
-def left_out(*, with_figures: bool = True) -> MissingExtraError | None:
+def left_out() -> MissingExtraError | None:
     """Return what to install for the files that a results folder goes without, if there are any."""
-    wanted = {"tables.xlsx": _WORKBOOK} | ({"figures": _FIGURES} if with_figures else {})
-    missing = {name: extras for name, modules in wanted.items() if (extras := missing_extras(modules))}
-    if not missing:
-        return None
-    return MissingExtraError(
-        Refusal("extra_writing", names=list(missing)), *(extra for extras in missing.values() for extra in extras)
-    )
+    missing = missing_extras(_WORKBOOK)
+    return MissingExtraError(Refusal("extra_writing", names=["tables.xlsx"]), *missing) if missing else None
 
 
 def results_folder(
@@ -56,6 +51,6 @@ def results_folder(
     free = free_course(results)
     if free is not None:
         yield {"transient.svg": moving_drawing(results.machine, language=language, free=free).encode()}
-    if with_figures and not missing_extras(_FIGURES):
+    if with_figures:
         drawn = figures(results, language=language, per_area=per_area)
         yield {f"figures/{name}.svg": data for name, data in drawn.items()}

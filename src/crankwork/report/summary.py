@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from crankwork.analysis import Results
 from crankwork.analysis.rounding import summary_without_rounding
 from crankwork.locale import Refusal, say
+from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import SUBJECTS, Language, subject
 from crankwork.report.comparison import comparison_data, comparison_text
 from crankwork.report.language import (
@@ -16,11 +17,9 @@ from crankwork.report.language import (
     key_unit,
     label,
     method_name,
-    number,
     rounded,
     symbol,
     told_as,
-    unit_name,
 )
 from crankwork.report.notices import notice_text
 

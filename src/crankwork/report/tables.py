@@ -16,9 +16,10 @@ from crankwork.analysis import Array, Results
 from crankwork.analysis.rounding import without_rounding
 from crankwork.errors import CrankworkError, MissingExtraError
 from crankwork.locale import Refusal, say
+from crankwork.locale.numbers import unit_name
 from crankwork.quantities import Language
 from crankwork.report.comparison import comparison_columns
-from crankwork.report.language import displayed_column, in_own_units, key_unit, label, row_name, unit_name
+from crankwork.report.language import displayed_column, in_own_units, key_unit, label, row_name
 from crankwork.report.summary import provenance
 
 if TYPE_CHECKING:

@@ -7,10 +7,10 @@ from typing import Any
 
 from crankwork.analysis.ways import MOST_SIGNED, Way, Ways
 from crankwork.locale import say
+from crankwork.locale.numbers import number, unit_name
 from crankwork.machine import Machine
 from crankwork.mechanism.driver import LinkMotor
 from crankwork.quantities import Language
-from crankwork.report.language import number, unit_name
 
 
 def ways_text(machine: Machine, found: Ways, language: Language = "en") -> str:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from crankwork.locale import Language, capital, say, told
-from crankwork.report.language import displayed, key_unit, label, number, rounded, unit_name
+from crankwork.locale.numbers import number, unit_name
+from crankwork.report.language import displayed, key_unit, label, rounded
 from crankwork.study.roots import Stretch
 from crankwork.study.solve import Solution
 from crankwork.units import from_si, shown_in

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from crankwork.locale import Language, say
-from crankwork.report.language import displayed, key_unit, label, number, rounded, unit_name
+from crankwork.locale.numbers import number, unit_name
+from crankwork.report.language import displayed, key_unit, label, rounded
 from crankwork.study.spread import Spreads
 from crankwork.units import from_si, shown_in
 

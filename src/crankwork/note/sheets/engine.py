@@ -12,7 +12,6 @@ from crankwork.note.sheets import engine_gas as gas
 from crankwork.note.sheets.engine_motion import motion_graph, tolle
 from crankwork.note.sheets.engine_wear import wear
 from crankwork.note.sheets.graph import Graph
-from crankwork.note.sheets.scene import TEXT, Box, Item, Text, text_width
 from crankwork.note.sheets.sheet import Paper, Sheet
 from crankwork.note.sheets.words import Words
 from crankwork.quantities import Language
@@ -20,6 +19,7 @@ from crankwork.report.figure_data import Drawn, drawn_from
 from crankwork.report.language import displayed
 from crankwork.report.linkage_look import round_scale
 from crankwork.report.summary import results_method
+from crankwork.show.scene import TEXT, Box, Item, Text, text_width
 
 _DATA = (
     "bore", "stroke", "compression_ratio", "rod_ratio", "rotational_speed", "crank_radius", "rod_length", "offset",

@@ -14,11 +14,11 @@ from crankwork.locale import Language, say
 from crankwork.note.sheets.engine_gas import angle_side, value_side
 from crankwork.note.sheets.graph import Curve, Graph, Side, graph
 from crankwork.note.sheets.placing import Named, lines_of, names_beside
-from crankwork.note.sheets.scene import Box, Circle, Item, LineKind, Text, arrow, indexed
 from crankwork.note.sheets.words import Words
 from crankwork.report.figure_data import Drawn
 from crankwork.report.language import displayed, row_name
 from crankwork.report.linkage_look import round_scale
+from crankwork.show.scene import Box, Circle, Item, LineKind, Text, arrow, indexed
 
 MARKS = 30.0
 _LINES: dict[str, dict[str, LineKind]] = {

@@ -8,11 +8,11 @@ from crankwork.analysis import Array
 from crankwork.analysis.diagrams import brix_points
 from crankwork.note.sheets.graph import Axis, Curve, Graph, Side, graph, heading
 from crankwork.note.sheets.placing import Named, lines_of, names_beside
-from crankwork.note.sheets.scene import SMALL, Arc, Box, Circle, Item, Text, line, printable
 from crankwork.note.sheets.words import Words
 from crankwork.report.figure_data import Drawn
 from crankwork.report.language import displayed
 from crankwork.report.linkage_look import round_scale
+from crankwork.show.scene import SMALL, Arc, Box, Circle, Item, Text, line, printable
 
 RAYS = 30.0
 # beside the curve of an indicator diagram: labels of the axis, the arrow and its symbol

@@ -8,10 +8,10 @@ from crankwork.analysis import Array
 from crankwork.analysis.diagrams import tangent_ends, tolle_points
 from crankwork.note.sheets.engine_gas import angle_side, value_side
 from crankwork.note.sheets.graph import KINDS, Curve, Graph, Side, graph
-from crankwork.note.sheets.scene import SMALL, Box, Circle, Item, Text, line
 from crankwork.note.sheets.words import Words
 from crankwork.report.figure_data import Drawn
 from crankwork.report.language import displayed
+from crankwork.show.scene import SMALL, Box, Circle, Item, Text, line
 
 
 def motion_graph(drawn: Drawn, noun: str, box: Box, words: Words) -> Graph:

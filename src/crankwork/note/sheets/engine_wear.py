@@ -12,11 +12,11 @@ from crankwork.errors import CrankworkError
 from crankwork.locale import say
 from crankwork.note.sheets.engine_forces import crankpin_name
 from crankwork.note.sheets.graph import Axis, Graph, heading, titled
-from crankwork.note.sheets.scene import SMALL, TEXT, Box, Circle, Hatch, Item, Polyline, Text, line
 from crankwork.note.sheets.words import Words
 from crankwork.report.figure_data import Drawn
 from crankwork.report.language import displayed
 from crankwork.report.linkage_look import round_scale
+from crankwork.show.scene import SMALL, TEXT, Box, Circle, Hatch, Item, Polyline, Text, line
 
 _DEEPEST = 0.55
 _BETWEEN = 12

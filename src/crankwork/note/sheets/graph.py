@@ -9,7 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.note.sheets.scene import (
+from crankwork.note.sheets.words import Words
+from crankwork.report.linkage_look import round_scale
+from crankwork.show.scene import (
     SMALL,
     TEXT,
     TITLE,
@@ -22,8 +24,6 @@ from crankwork.note.sheets.scene import (
     line,
     text_width,
 )
-from crankwork.note.sheets.words import Words
-from crankwork.report.linkage_look import round_scale
 
 _LEFT, _BOTTOM, _TAIL = 14.5, 6.8, 9.0
 _TITLE_ROW, _ROW = 8.0, 6.0

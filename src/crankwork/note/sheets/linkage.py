@@ -18,12 +18,12 @@ from crankwork.note.sheets.graph import Graph
 from crankwork.note.sheets.linkage_dynamics import MOST, over_angle, wittenbauer
 from crankwork.note.sheets.linkage_polygons import Numbered, vector_plans
 from crankwork.note.sheets.linkage_positions import position_plans
-from crankwork.note.sheets.scene import SMALL, TEXT, Text, printable
 from crankwork.note.sheets.sheet import Paper, Sheet
 from crankwork.note.sheets.words import Words
 from crankwork.quantities import Language
 from crankwork.report.summary import results_method
 from crankwork.report.tables import any_nonzero
+from crankwork.show.scene import SMALL, TEXT, Text, printable
 
 _DENSE_STEP = 1.0
 _POSITIONS = tuple(range(0, 360, 30))

@@ -10,10 +10,10 @@ from crankwork.analysis import Array
 from crankwork.analysis.diagrams import Fluctuation, tangents
 from crankwork.note.sheets.graph import KINDS, Curve, Graph, Side, graph
 from crankwork.note.sheets.placing import Named, lines_of, names_beside
-from crankwork.note.sheets.scene import Box, Item, Polyline, Text, indexed, line, printable
 from crankwork.note.sheets.words import Words
 from crankwork.report.linkage_look import displayed_values, quantity_of
 from crankwork.report.tables import any_nonzero
+from crankwork.show.scene import Box, Item, Polyline, Text, indexed, line, printable
 
 MOST = len(KINDS)
 _MARK = 30.0

@@ -10,10 +10,10 @@ import numpy as np
 from crankwork.analysis.plans import Kind, Plan
 from crankwork.note.sheets.graph import Axis, Graph, heading
 from crankwork.note.sheets.placing import Named, lines_of, names_beside
-from crankwork.note.sheets.scene import SMALL, Box, Circle, Item, LineKind, Polyline, Text, arrow, printable
 from crankwork.note.sheets.words import Words
 from crankwork.report.linkage_look import round_scale
 from crankwork.report.linkage_plan_figures import node_name
+from crankwork.show.scene import SMALL, Box, Circle, Item, LineKind, Polyline, Text, arrow, printable
 
 _KINDS: dict[Kind, LineKind] = {
     "absolute": "medium", "relative": "thin", "tangential": "thin", "sliding": "thin", "normal": "dashed",

@@ -9,12 +9,12 @@ from crankwork.analysis.moving import Moving
 from crankwork.analysis.skeleton import Pose, Skeleton
 from crankwork.note.sheets.graph import Axis, Graph, heading
 from crankwork.note.sheets.placing import Named, lines_of, names_beside
-from crankwork.note.sheets.scene import SMALL, TEXT, Box, Circle, Item, LineKind, Polyline, line, printable
 from crankwork.note.sheets.words import Words
 from crankwork.report.drawing_parts import HATCH
 from crankwork.report.linkage_drawing import corners, slot_middle, walls
 from crankwork.report.linkage_look import round_scale
 from crankwork.report.linkage_scene import SLOT, Scene, scene
+from crankwork.show.scene import SMALL, TEXT, Box, Circle, Item, LineKind, Polyline, line, printable
 
 # millimetres of the sheet in a unit in which blocks and pivots are sized
 _UNIT = 0.3

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.note.sheets.scene import SMALL, Box, Circle, Item, Polyline, Text, line, text_width
+from crankwork.show.scene import SMALL, Box, Circle, Item, Polyline, Text, line, text_width
 
 _REACHES = np.array([2.6, 3.6, 5.0, 7.0, 9.5, 12.5, 16.0])
 _TURNS = np.radians([45, 135, 90, 0, 180, 315, 225, 270, 22, 67, 112, 157, 202, 247, 292, 337])

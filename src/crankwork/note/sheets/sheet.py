@@ -9,10 +9,10 @@ import numpy as np
 
 from crankwork.errors import CrankworkError
 from crankwork.note.sheets.graph import Graph
-from crankwork.note.sheets.scene import Box, Item, Polyline, rectangle
 from crankwork.note.sheets.title_block import BLOCK, TitleBlock, corner_cell, title_block
 from crankwork.note.sheets.words import Words
 from crankwork.quantities import Language
+from crankwork.show.scene import Box, Drawing, Item, Polyline, rectangle
 
 Size = Literal["A1", "A0"]
 SIZES: dict[Size, tuple[float, float]] = {"A1": (841.0, 594.0), "A0": (1189.0, 841.0)}
@@ -81,6 +81,12 @@ class Sheet(NamedTuple):
         if paper.block is not None:
             drawn += title_block(paper.block, self.title, paper.reserved, Words(self.language))
         return tuple(drawn)
+
+    @property
+    def drawing(self) -> Drawing:
+        """The sheet as what is written."""
+        box = self.paper.box
+        return Drawing(self.title, self.language, box.width, box.height, self.items)
 
     def graph(self, name: str) -> Graph:
         """Return a graph by its name."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from crankwork.note.sheets.scene import SMALL, TEXT, TITLE, Box, Item, Text, line, printable, rectangle, text_width
 from crankwork.note.sheets.words import Words
+from crankwork.show.scene import SMALL, TEXT, TITLE, Box, Item, Text, line, printable, rectangle, text_width
 
 BLOCK = Box(0.0, 0.0, 185.0, 55.0)
 _COLUMNS = (7.0, 17.0, 40.0, 55.0, 65.0)

@@ -6,9 +6,10 @@ import re
 from typing import NamedTuple
 
 from crankwork.locale import capital, say
-from crankwork.note.sheets.scene import indexed
+from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language
-from crankwork.report.language import key_unit, label, number, symbol, unit_name
+from crankwork.report.language import key_unit, label, symbol
+from crankwork.show.scene import indexed
 
 # what is called as something else is called already
 _SAME = {

@@ -8,11 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.analysis import Array
+from crankwork.kinematics.crank_grid import Array
+from crankwork.locale.numbers import number
 from crankwork.quantities import Language
-from crankwork.report.engine_figure_paper import BLACK, GREY, LIGHT, Paper, fitted_lines, text_width
-from crankwork.report.figure_look import DASH_DOT, SOLID, Style
-from crankwork.report.language import number
+from crankwork.show.paper import BLACK, GREY, LIGHT, Paper, fitted_lines, text_width
+from crankwork.show.scene import DASH_DOT, SOLID, Anchor, Style
 
 WIDTH = 460.8
 LEFT, RIGHT, BOTTOM, TOP = 70.6, 18.0, 45.0, 10.0
@@ -20,7 +20,7 @@ LEGEND_ROW = 13.4
 _TICK, _SMALL, _LEGEND = 8.5, 7.5, 8.5
 _FOOT_ROW = 9.0
 # The style of a row of a legend that explains an open circle.
-CIRCLE = "o"
+CIRCLE: Style = (0.0,)
 
 
 class Box(NamedTuple):
@@ -89,7 +89,13 @@ class Graph:
         """Draw a curve that can be found again by its name."""
         x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
         self.curves[name] = (x, y)
-        self.paper.line(self.across(x), self.down(y), style=style, width=width, colour=colour, name=name)
+        # gaps where there is no value
+        ends = np.flatnonzero(np.diff(np.concatenate([[False], np.isfinite(x + y), [False]])))
+        for start, end in ends.reshape(-1, 2):
+            part = slice(start, end)
+            self.paper.line(
+                self.across(x[part]), self.down(y[part]), style=style, width=width, colour=colour, name=name
+            )
 
     def frame(self, x_ticks: Array, y_ticks: Array, *, labels: tuple[bool, bool] = (True, True)) -> None:
         """Draw grid, ticks and numbers; the horizontal axis goes through zero where it is in reach."""
@@ -135,7 +141,7 @@ class Graph:
         at = min(max(at, self.box.left + half + 3), self.box.left + self.box.width - half)
         self.paper.text(at, level + (11.0 if below else -5.0), text, size=8.0, anchor="middle")
 
-    def boxed(self, x: float, y: float, text: str, anchor: str = "start", size: float = 8.5) -> None:
+    def boxed(self, x: float, y: float, text: str, anchor: Anchor = "start", size: float = 8.5) -> None:
         """Write a text on white, so that no line of the graph runs through it. [pt]"""
         width = text_width(text, size)
         left = {"start": x, "middle": x - width / 2, "end": x - width}[anchor] - 2
@@ -158,9 +164,14 @@ def _legend_lines(rows: Sequence[Row]) -> list[tuple[Row | None, str]]:
     return lines
 
 
-def _draw_legend(paper: Paper, lines: Sequence[tuple[Row | None, str]], top: float) -> None:
-    """Draw the lines of a legend at the left edge of the graph."""
-    for at, (row, text) in enumerate(lines):
+def legend_height(rows: Sequence[Row]) -> float:
+    """Return what a legend takes above its graph. [pt]"""
+    return LEGEND_ROW * len(_legend_lines(rows)) + 5.0 if rows else 0.0
+
+
+def legend(paper: Paper, rows: Sequence[Row], top: float) -> None:
+    """Draw a legend at the left edge of a graph, from `top` downward. [pt]"""
+    for at, (row, text) in enumerate(_legend_lines(rows)):
         left, level = LEFT + 8, top + LEGEND_ROW * at
         if row is not None and row.style == CIRCLE:
             paper.dot(left + 10, level + 6, 2.6, fill="#ffffff", width=1.0)
@@ -174,8 +185,8 @@ def limits(*values: Array, margin: float = 0.06) -> tuple[float, float]:
 
     `margin`: room beyond the largest and the least, as a share of the range.
     """
-    low = min(0.0, *(float(np.min(one)) for one in values))
-    high = max(0.0, *(float(np.max(one)) for one in values))
+    known = np.concatenate([[0.0], *(np.ravel(one)[np.isfinite(np.ravel(one))] for one in values)])
+    low, high = float(np.min(known)), float(np.max(known))
     room = margin * (high - low) or 1.0
     return (low - room if low < 0 else 0.0), (high + room if high > 0 or low == 0 else 0.0)
 
@@ -195,10 +206,9 @@ def over_cycle(
 
 def sheet(height: float, rows: Sequence[Row] = (), *, below: float = BOTTOM) -> tuple[Paper, Box]:
     """Return paper with a legend on it, and the place for a graph below the legend. [pt]"""
-    lines = _legend_lines(rows)
-    above = LEGEND_ROW * len(lines) + 5.0 if lines else 0.0
+    above = legend_height(rows)
     paper = Paper(WIDTH, TOP + above + height + below)
-    _draw_legend(paper, lines, TOP - 4)
+    legend(paper, rows, TOP - 4)
     return paper, Box(LEFT, TOP + above, WIDTH - LEFT - RIGHT, height)
 
 
@@ -213,6 +223,6 @@ def sign(paper: Paper, method: str, remark: str = "") -> None:
         paper.text(paper.width * 0.02, foot, remark, size=size, colour=GREY)
 
 
-def small_text(paper: Paper, x: float, y: float, text: str, anchor: str = "middle") -> None:
+def small_text(paper: Paper, x: float, y: float, text: str, anchor: Anchor = "middle") -> None:
     """Write a text in small letters. [pt]"""
     paper.text(x, y, text, size=_SMALL, anchor=anchor)

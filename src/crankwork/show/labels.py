@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from crankwork.analysis import Array
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+from crankwork.kinematics.crank_grid import Array
+from crankwork.show.chart import Graph
+from crankwork.show.paper import GREY, plain
+from crankwork.show.scene import printable
 
 _SIZE = 8.0
 _SPACING, _ALIKE = 2.5, 1.25
@@ -24,40 +23,44 @@ Line = tuple[Sequence[float] | Array, Sequence[float] | Array]
 Box = tuple[Array, Array]
 
 
-def label_points(axes: Axes, points: Sequence[tuple[str, float, float]], *lines: Line) -> None:
+def label_points(graph: Graph, points: Sequence[tuple[str, float, float]], *lines: Line) -> None:
     """Mark points and name them, with a thin line to names that had to go further away.
 
     Points that fall together share one mark.
     """
-    points = _merged(axes, points)
+    points = _merged(graph, points)
     if not points:
         return
-    axes.plot(*zip(*((x, y) for _, x, y in points), strict=True), "o", color="black", markersize=2.6, clip_on=False)
-    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
-    frame = _on_paper(axes, ([left, right], [bottom, top]))
-    axis = 0.0 if min(bottom, top) < 0 < max(bottom, top) else bottom
-    edges: list[Line] = [([left, left], [bottom, top]), ([left, right], [axis, axis])]
-    marks = _on_paper(axes, ([x for _, x, _ in points], [y for _, _, y in points]))
-    obstacles = np.vstack([marks, *(_spread(_on_paper(axes, line)) for line in (*lines, *edges))])
+    left, top, width, height = graph.box
+    for _, x, y in points:
+        graph.paper.dot(*graph.point(x, y), 1.3)
+    frame = np.array([[left, -(top + height)], [left + width, -top]])
+    low, high = sorted(graph.y)
+    axis = -float(graph.down(0.0)) if low < 0 < high else -(top + height)
+    edges = np.array([frame[0], [left, -top]]), np.array([[left, axis], [left + width, axis]])
+    marks = _on_paper(graph, ([x for _, x, _ in points], [y for _, _, y in points]))
+    obstacles = np.vstack([marks, *(_spread(one) for one in (*(_on_paper(graph, line) for line in lines), *edges))])
     # where lines crowd, their points are not counted twice, so that each name takes about as long as the first
     obstacles = np.unique(np.round(obstacles / _ALIKE), axis=0) * _ALIKE
     placed: list[Box] = []
-    for (name, x, y), mark in zip(points, marks, strict=True):
+    for (name, _, _), mark in zip(points, marks, strict=True):
         half = np.array([0.31 * _SIZE * len(name) + 0.8, 0.5 * _SIZE])
         others = marks[np.any(marks != mark, axis=1)]
-        shift = _best_shift(mark, half, placed, obstacles, others, np.sort(frame, axis=0))
+        shift = _best_shift(mark, half, placed, obstacles, others, frame)
         placed.append((mark + shift, half))
         obstacles = np.vstack([obstacles, _spread(np.array([mark, mark + shift]))])
         is_far = np.max(np.abs(shift) - half) > 6 or bool(_is_misleading(mark, shift[None], others)[0])
-        _write(axes, name, (x, y), shift, with_line=is_far)
+        _write(graph, name, mark, shift, half, with_line=is_far)
 
 
-def _write(axes: Axes, name: str, place: tuple[float, float], shift: Array, *, with_line: bool) -> None:
-    line = {"arrowstyle": "-", "linewidth": 0.4, "color": "0.4", "shrinkA": 0, "shrinkB": 1.5} if with_line else None
-    axes.annotate(
-        name, place, (float(shift[0]), float(shift[1])), textcoords="offset points", size=_SIZE,
-        ha="center", va="center", arrowprops=line, parse_math=False, annotation_clip=False,
-    )  # fmt: skip
+def _write(graph: Graph, name: str, mark: Array, shift: Array, half: Array, *, with_line: bool) -> None:
+    x, y = mark + shift
+    if with_line:
+        # to where the name begins
+        share = 1.0 - min(1.0, float(np.min(half / np.maximum(np.abs(shift), 1e-9))))
+        end = mark + share * shift
+        graph.paper.line([mark[0], end[0]], [-mark[1], -end[1]], width=0.4, colour=GREY)
+    graph.paper.text(float(x), float(-y) + 0.35 * _SIZE, plain(name), size=_SIZE, anchor="middle")
 
 
 def _is_misleading(mark: Array, shifts: Array, others: Array) -> NDArray[np.bool_]:
@@ -103,10 +106,10 @@ def _hidden(mark: Array, shifts: Array, half: Array, names: Box, near: Array) ->
     return np.asarray(cost + 40.0 * crossed.sum(axis=1))
 
 
-def _on_paper(axes: Axes, line: Line) -> Array:
-    """Return coordinates of the axes in points of the paper."""
-    figure = axes.figure
-    return np.asarray(axes.transData.transform(np.column_stack(line)) * 72 / figure.dpi)
+def _on_paper(graph: Graph, line: Line) -> Array:
+    """Return coordinates of a graph in points of the paper, upward."""
+    x, y = (np.asarray(one, dtype=float) for one in line)
+    return np.column_stack([graph.across(x), -graph.down(y)])
 
 
 def _spread(line: Array) -> Array:
@@ -116,12 +119,12 @@ def _spread(line: Array) -> Array:
     return np.column_stack([np.interp(even, length, line[:, 0]), np.interp(even, length, line[:, 1])])
 
 
-def _merged(axes: Axes, points: Sequence[tuple[str, float, float]]) -> list[tuple[str, float, float]]:
+def _merged(graph: Graph, points: Sequence[tuple[str, float, float]]) -> list[tuple[str, float, float]]:
     """Return the points with printable names, those within a point of the paper joined."""
     result: list[tuple[str, float, float]] = []
     places: list[Array] = []
     for name, x, y in points:
-        text, here = _printable(name), _on_paper(axes, ([x], [y]))[0]
+        text, here = printable(name, _LONGEST), _on_paper(graph, ([x], [y]))[0]
         same = [i for i, place in enumerate(places) if np.hypot(*(place - here)) < 1.0]
         if same:
             first, *place = result[same[0]]
@@ -130,12 +133,3 @@ def _merged(axes: Axes, points: Sequence[tuple[str, float, float]]) -> list[tupl
             result.append((text, x, y))
             places.append(here)
     return result
-
-
-def _printable(name: str) -> str:
-    """Return a name with a box for every character that the font lacks, shortened if it is long."""
-    from matplotlib.font_manager import findfont, get_font  # noqa: PLC0415 - an optional part
-
-    font = get_font(findfont("DejaVu Serif"))
-    name = name if len(name) <= _LONGEST else f"{name[: _LONGEST - 1]}…"
-    return "".join(one if one.isprintable() and font.get_char_index(ord(one)) else "□" for one in name)

@@ -1,4 +1,4 @@
-"""A sheet as SVG, in millimetres."""
+"""A drawing as SVG, in millimetres, its texts as text."""
 
 from __future__ import annotations
 
@@ -6,36 +6,37 @@ import html
 from collections.abc import Iterator
 from itertools import groupby
 
-from crankwork.analysis import Array
-from crankwork.note.sheets.scene import (
+from crankwork.kinematics.crank_grid import Array
+from crankwork.show.scene import (
     CAP_HEIGHT,
     INDEX,
-    PENS,
     Arc,
     Circle,
+    Drawing,
     Hatch,
     Item,
     LineKind,
+    Pen,
     Polyline,
     Text,
     arc_points,
     hatch_lines,
+    pen_of,
     runs,
 )
-from crankwork.note.sheets.sheet import Sheet
 
 FONTS = "Libertinus Serif, Times New Roman, Liberation Serif, DejaVu Serif, serif"
 
 
-def sheet_svg(sheet: Sheet) -> bytes:
-    """Return a sheet as SVG whose user unit is a millimetre of the paper."""
-    box = sheet.paper.box
-    writer = _Writer(box.height)
-    size = f'width="{box.width:g}mm" height="{box.height:g}mm" viewBox="0 0 {box.width:g} {box.height:g}"'
-    head = f'<svg xmlns="http://www.w3.org/2000/svg" {size} font-family="{FONTS}" lang="{sheet.language}">'
-    title = f"<title>{html.escape(sheet.title)}</title>"
-    ground = f'<rect width="{box.width:g}" height="{box.height:g}" fill="white"/>'
-    return "\n".join([head, title, ground, *writer.written(sheet.items), "</svg>", ""]).encode()
+def svg(drawing: Drawing) -> bytes:
+    """Return a drawing as SVG whose user unit is a millimetre of the paper."""
+    width, height = (_number(one) for one in (drawing.width, drawing.height))
+    size = f'width="{width}mm" height="{height}mm" viewBox="0 0 {width} {height}"'
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" {size} font-family="{FONTS}" lang="{drawing.language}">'
+    title = f"<title>{html.escape(drawing.title)}</title>"
+    ground = f'<rect width="{width}" height="{height}" fill="white"/>'
+    written = _Writer(drawing.height).written(drawing.items)
+    return "\n".join([head, title, ground, *written, "</svg>", ""]).encode()
 
 
 def _number(value: float) -> str:
@@ -85,13 +86,16 @@ class _Writer:
         turn = f' transform="rotate({_number(-item.angle)} {x} {y})"' if item.angle else ""
         size = item.height / CAP_HEIGHT
         anchor = f' text-anchor="{item.anchor}"' if item.anchor != "start" else ""
+        anchor += f' fill="{_shade(item.grey)}"' if item.grey else ""
         body, below = "", 0.0
         for run in runs(item.text):
             wanted = {-1: 0.3 * item.height, 0: 0.0, 1: -0.5 * item.height}[run.shift]
             text = html.escape(run.text)
-            if run.shift or below:
-                small = f' font-size="{_number(INDEX * size)}"' if run.shift else ""
-                text = f'<tspan dy="{_number(wanted - below)}"{small}>{text}</tspan>'
+            if run.shift or below or run.is_slanted:
+                look = f' dy="{_number(wanted - below)}"' if wanted != below else ""
+                look += f' font-size="{_number(INDEX * size)}"' if run.shift else ""
+                look += ' font-style="italic"' if run.is_slanted else ""
+                text = f"<tspan{look}>{text}</tspan>"
             body, below = body + text, wanted
         return f'<text x="{x}" y="{y}" font-size="{_number(size)}"{anchor}{turn} xml:space="preserve">{body}</text>'
 
@@ -110,13 +114,18 @@ def _joined(item: Item) -> tuple[object, bool]:
     return id(item), False
 
 
-def _stroke(kind: LineKind) -> str:
-    pen = PENS[kind]
-    shade = round(255 * pen.grey)
-    dashes = f' stroke-dasharray="{" ".join(f"{one:g}" for one in pen.dashes)}"' if pen.dashes else ""
-    return f'stroke="#{shade:02x}{shade:02x}{shade:02x}" stroke-width="{pen.width:g}" stroke-linejoin="round"{dashes}'
+def _stroke(kind: LineKind | Pen) -> str:
+    pen = pen_of(kind)
+    if not pen.width:
+        return 'stroke="none"'
+    dashes = f' stroke-dasharray="{" ".join(_number(one) for one in pen.dashes)}"' if pen.dashes else ""
+    colour = pen.colour or _shade(pen.grey)
+    return f'stroke="{colour}" stroke-width="{_number(pen.width)}" stroke-linejoin="round"{dashes}'
 
 
 def _fill(fill: float | None) -> str:
-    shade = round(255 * fill) if fill is not None else 0
-    return "none" if fill is None else f"#{shade:02x}{shade:02x}{shade:02x}"
+    return "none" if fill is None else _shade(fill)
+
+
+def _shade(grey: float) -> str:
+    return "#" + 3 * f"{round(255 * grey):02x}"

@@ -1,4 +1,4 @@
-"""A sheet as DXF (AutoCAD R2010) in millimetres, a layer for each kind of line."""
+"""A drawing as DXF (AutoCAD R2010) in millimetres, a layer for each kind of line."""
 
 from __future__ import annotations
 
@@ -9,20 +9,22 @@ import numpy as np
 
 from crankwork.errors import MissingExtraError
 from crankwork.locale import Refusal
-from crankwork.note.sheets.scene import (
+from crankwork.show.scene import (
     PENS,
     Arc,
     Circle,
+    Drawing,
     Hatch,
     Item,
     LineKind,
+    Pen,
     Polyline,
     Text,
     hatch_lines,
+    pen_of,
     runs,
     text_width,
 )
-from crankwork.note.sheets.sheet import Sheet
 
 _STYLE, _FONT = "SHEET", "times.ttf"
 # in hundredths of a millimetre, only those that the format knows
@@ -36,8 +38,8 @@ _THROUGH_CORNERS = 128
 _SPARE = 1.5
 
 
-def sheet_dxf(sheet: Sheet) -> bytes:
-    """Return a sheet as DXF in model space, a drawing unit for a millimetre."""
+def dxf(drawing: Drawing) -> bytes:
+    """Return a drawing as DXF in model space, a drawing unit for a millimetre."""
     try:
         import ezdxf  # noqa: PLC0415 - an optional part
     except ImportError:
@@ -48,29 +50,28 @@ def sheet_dxf(sheet: Sheet) -> bytes:
     try:
         # otherwise every file has its own time and number
         library.options.write_fixed_meta_data_for_testing = True
-        return _written(library.new("R2010", setup=False, units=_MILLIMETRES), sheet)
+        return _written(library.new("R2010", setup=False, units=_MILLIMETRES), drawing)
     finally:
         library.options.write_fixed_meta_data_for_testing = was_fixed
 
 
-def _written(document: Any, sheet: Sheet) -> bytes:  # noqa: ANN401 - a document of ezdxf
-    _prepare(document, sheet)
+def _written(document: Any, drawing: Drawing) -> bytes:  # noqa: ANN401 - a document of ezdxf
+    _prepare(document, drawing)
     space = document.modelspace()
-    for item in sheet.items:
+    for item in drawing.items:
         _add(space, item)
-    box = sheet.paper.box
-    document.set_modelspace_vport(box.height, center=(box.width / 2, box.height / 2))
-    document.header["$EXTMIN"], document.header["$EXTMAX"] = (0, 0, 0), (box.width, box.height, 0)
+    width, height = drawing.width, drawing.height
+    document.set_modelspace_vport(height, center=(width / 2, height / 2))
+    document.header["$EXTMIN"], document.header["$EXTMAX"] = (0, 0, 0), (width, height, 0)
     stream = io.StringIO()
     document.write(stream)
     return stream.getvalue().encode("utf-8")
 
 
-def _prepare(document: Any, sheet: Sheet) -> None:  # noqa: ANN401 - a document of ezdxf
+def _prepare(document: Any, drawing: Drawing) -> None:  # noqa: ANN401 - a document of ezdxf
     """Set units and limits, and add line types, layers and the style of texts."""
-    box = sheet.paper.box
     document.header["$MEASUREMENT"], document.header["$LTSCALE"] = 1, 1.0
-    document.header["$LIMMIN"], document.header["$LIMMAX"] = (0, 0), (box.width, box.height)
+    document.header["$LIMMIN"], document.header["$LIMMAX"] = (0, 0), (drawing.width, drawing.height)
     document.styles.add(_STYLE, font=_FONT)
     for kind, pen in PENS.items():
         color = _BLACK if not pen.grey else _GREY if kind == "net" else _PALE
@@ -85,8 +86,12 @@ def _prepare(document: Any, sheet: Sheet) -> None:  # noqa: ANN401 - a document 
     document.layers.add("HATCH", color=_BLACK, lineweight=25)
 
 
-def _layer(kind: LineKind) -> str:
-    return kind.upper()
+def _layer(kind: LineKind | Pen) -> str:
+    """Return the layer of a kind of line, and of a pen that of the kind that looks most like it."""
+    if not isinstance(kind, Pen):
+        return kind.upper()
+    alike = min(PENS.items(), key=lambda one: (len(one[1].dashes) != len(kind.dashes), abs(one[1].width - kind.width)))
+    return alike[0].upper()
 
 
 def _add(space: Any, item: Item) -> None:  # noqa: ANN401 - a layout of ezdxf
@@ -113,7 +118,7 @@ def _add_polyline(space: Any, item: Polyline) -> None:  # noqa: ANN401 - a layou
     if item.fill is not None and item.fill < 1:
         filled = space.add_hatch(color=_shade(item.fill), dxfattribs={"layer": "HATCH"})
         filled.paths.add_polyline_path(points, is_closed=True)
-    attributes = {"layer": _layer(item.kind), "flags": _THROUGH_CORNERS if PENS[item.kind].dashes else 0}
+    attributes = {"layer": _layer(item.kind), "flags": _THROUGH_CORNERS if pen_of(item.kind).dashes else 0}
     space.add_lwpolyline(points, close=item.closed, dxfattribs=attributes)
 
 

@@ -1,11 +1,11 @@
-"""A sheet as PDF, on a page of exactly its size."""
+"""A drawing as PDF, on a page of exactly its size."""
 
 from __future__ import annotations
 
 from crankwork.errors import MissingExtraError
 from crankwork.locale import Refusal
-from crankwork.note.sheets.sheet import Sheet
-from crankwork.note.sheets.svg import sheet_svg
+from crankwork.show.scene import Drawing
+from crankwork.show.svg import svg
 
 _PAGE = """#let data = sys.inputs
 #set document(title: data.title, date: none)
@@ -15,19 +15,18 @@ _PAGE = """#let data = sys.inputs
 """
 
 
-def sheet_pdf(sheet: Sheet) -> bytes:
-    """Return a sheet as PDF, in true millimetres, the same bytes every time."""
+def pdf(drawing: Drawing) -> bytes:
+    """Return a drawing as PDF, in true millimetres, the same bytes every time."""
     try:
         import typst  # noqa: PLC0415 - an optional part
     except ImportError:
         raise MissingExtraError(Refusal("extra_writing", names="PDF"), "report") from None
-    box = sheet.paper.box
     inputs = {
-        "title": sheet.title,
-        "language": sheet.language,
-        "width": f"{box.width:g}",
-        "height": f"{box.height:g}",
-        "drawing": sheet_svg(sheet).decode(),
+        "title": drawing.title,
+        "language": drawing.language,
+        "width": f"{drawing.width:g}",
+        "height": f"{drawing.height:g}",
+        "drawing": svg(drawing).decode(),
     }
     compiled = typst.compile(_PAGE.encode(), format="pdf", sys_inputs=inputs, ignore_system_fonts=True)
     return bytes(compiled)

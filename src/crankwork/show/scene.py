@@ -1,4 +1,4 @@
-"""What a sheet is drawn with: lines, circles, arcs, texts and hatches. All lengths in millimetres, y upward."""
+"""What is drawn: lines, circles, arcs, texts and hatches on a paper. All lengths in millimetres, y upward."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.analysis import Array
+from crankwork.kinematics.crank_grid import Array
+from crankwork.locale import Language
 
 LineKind = Literal["thick", "medium", "thin", "dashed", "dash_dot", "dotted", "axis", "net", "grid", "grid_bold"]
 Anchor = Literal["start", "middle", "end"]
@@ -18,11 +19,15 @@ TITLE, TEXT, SMALL = 5.0, 3.5, 2.5
 
 
 class Pen(NamedTuple):
-    """How a kind of line is drawn: width, lengths of dashes and gaps, shade from black 0 to white 1. [mm], [mm], [-]"""
+    """How a line is drawn: width, lengths of dashes and gaps, shade from black 0 to white 1, or a colour `#rrggbb`.
+
+    Lengths in mm.
+    """
 
     width: float
     dashes: tuple[float, ...] = ()
     grey: float = 0.0
+    colour: str = ""
 
 
 PENS: dict[LineKind, Pen] = {
@@ -37,6 +42,19 @@ PENS: dict[LineKind, Pen] = {
     "grid": Pen(0.05, (), 0.75),
     "grid_bold": Pen(0.13, (), 0.7),
 }
+
+
+# dashes and gaps of the lines of a chart, in widths of the line
+Style = tuple[float, ...]
+SOLID: Style = ()
+DASHED: Style = (5.0, 2.0)
+DASH_DOT: Style = (7.0, 2.0, 1.5, 2.0)
+DOTTED: Style = (1.2, 1.6)
+
+
+def pen_of(kind: LineKind | Pen) -> Pen:
+    """Return how a line is drawn that has a kind or a pen of its own."""
+    return kind if isinstance(kind, Pen) else PENS[kind]
 
 
 class Box(NamedTuple):
@@ -69,7 +87,7 @@ class Polyline(NamedTuple):
     """
 
     points: Array
-    kind: LineKind = "thin"
+    kind: LineKind | Pen = "thin"
     closed: bool = False
     fill: float | None = None
     name: str = ""
@@ -80,7 +98,7 @@ class Circle(NamedTuple):
 
     centre: tuple[float, float]
     radius: float
-    kind: LineKind = "thin"
+    kind: LineKind | Pen = "thin"
     fill: float | None = None
 
 
@@ -95,13 +113,17 @@ class Arc(NamedTuple):
 
 
 class Text(NamedTuple):
-    """A line of text upon its baseline, capitals `height` tall, turned by an angle [deg]; `M_{i}` sets an index."""
+    """A line of text upon its baseline, capitals `height` tall, turned by an angle [deg].
+
+    `M_{i}` sets an index, `10^{3}` an exponent, `/{M}` slanted letters; `grey` as of a `Pen`.
+    """
 
     place: tuple[float, float]
     text: str
     height: float = TEXT
     anchor: Anchor = "start"
     angle: float = 0.0
+    grey: float = 0.0
 
 
 class Hatch(NamedTuple):
@@ -112,6 +134,16 @@ class Hatch(NamedTuple):
 
 
 Item = Polyline | Circle | Arc | Text | Hatch
+
+
+class Drawing(NamedTuple):
+    """A scene on its paper, which is white."""
+
+    title: str
+    language: Language
+    width: float
+    height: float
+    items: tuple[Item, ...]
 
 
 def line(start: ArrayLike, end: ArrayLike, kind: LineKind = "thin") -> Polyline:
@@ -139,26 +171,28 @@ def arrow(start: ArrayLike, end: ArrayLike, kind: LineKind = "thin", *, head: fl
 
 
 class Run(NamedTuple):
-    """A part of a text: what it says, and whether it is an index (-1), an exponent (1) or neither."""
+    """A part of a text: what it says, whether it is an index (-1), an exponent (1) or neither, and slanted."""
 
     text: str
     shift: int
+    is_slanted: bool = False
 
 
-_MARKED = re.compile(r"([_^])\{([^{}]*)\}")
+_MARKED = re.compile(r"([_^/])\{([^{}]*)\}")
+_SHIFTS = {"_": -1, "^": 1, "/": 0}
 
 
 def runs(text: str) -> list[Run]:
-    """Return the parts of a text, indices and exponents apart.
+    """Return the parts of a text, indices, exponents and slanted letters apart.
 
     Examples
     --------
-    >>> [tuple(one) for one in runs("M_{кр} = 5")]
-    [('M', 0), ('кр', -1), (' = 5', 0)]
+    >>> [tuple(one) for one in runs("/{M}_{кр} = 5")]
+    [('M', 0, True), ('кр', -1, False), (' = 5', 0, False)]
     """
     found, last = [], 0
     for one in _MARKED.finditer(text):
-        found += [Run(text[last : one.start()], 0), Run(one[2], -1 if one[1] == "_" else 1)]
+        found += [Run(text[last : one.start()], 0), Run(one[2], _SHIFTS[one[1]], one[1] == "/")]
         last = one.end()
     found.append(Run(text[last:], 0))
     return [one for one in found if one.text]

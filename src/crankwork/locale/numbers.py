@@ -1,0 +1,26 @@
+"""How a language prints numbers and units."""
+
+from __future__ import annotations
+
+from crankwork.locale import Language, decimal, texts
+
+_RAISED = str.maketrans("0123456789-−", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻")
+
+
+def unit_name(unit: str, language: Language) -> str:
+    """Return a unit as that language prints it."""
+    return texts("units", language).get(unit, unit)
+
+
+def number(value: float, language: Language, *, digits: int = 6) -> str:
+    """Return a number with up to `digits` significant digits, the language's decimal mark and a true minus sign."""
+    text = f"{value + 0.0:.{digits}g}"
+    if "e" not in text and abs(value) >= 10**digits:
+        text = f"{value:.0f}"
+    if text in ("-0", "0"):
+        return "0"
+    mantissa, power, exponent = text.partition("e")
+    if power:
+        text = f"{mantissa[:-1]}10" if mantissa in ("1", "-1") else f"{mantissa}·10"
+        text += str(int(exponent)).translate(_RAISED)
+    return decimal(text, language).replace("-", "−")

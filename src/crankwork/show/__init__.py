@@ -1,0 +1,1 @@
+"""One drawing: scenes in millimetres, charts on them, and writers for each format."""

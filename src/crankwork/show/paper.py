@@ -1,0 +1,193 @@
+"""A hand that draws charts on a paper in points, counted downward from its upper left corner, and leaves a scene."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+
+import numpy as np
+
+from crankwork.kinematics.crank_grid import Array
+from crankwork.locale import Language
+from crankwork.show import scene
+from crankwork.show.scene import CAP_HEIGHT, SOLID, Circle, Drawing, Item, Pen, Polyline, Style, Text
+from crankwork.show.svg import svg
+
+BLACK, GREY, LIGHT = "#000000", "#737373", "#e0e0e0"
+MM = 25.4 / 72
+_SYMBOL = re.compile(r"(?<!\\)\$((?:[^$\\]|\\.)*)\$")
+# what stands upright in a symbol
+_UPRIGHT = ("sin", "cos", "tan", "tg")
+
+
+def plain(text: str) -> str:
+    r"""Return a text with names of the user's own, which no mark of a symbol is read in.
+
+    Examples
+    --------
+    >>> print(plain("force at the joint, $x^$"))
+    force at the joint, \$x^\$
+    """
+    return text.replace("$", r"\$")
+
+
+def marked(text: str) -> str:
+    r"""Return a text in which symbols `base_index` stand between dollar signs, with the marks of a scene.
+
+    Examples
+    --------
+    >>> marked("$v_п.ср$ – mean speed"), marked("$sin φ$"), marked("$a_B^n$")
+    ('/{v}_{п.ср} – mean speed', 'sin φ', '/{a}_{B}^{n}')
+    """
+    return _SYMBOL.sub(lambda found: _symbol(found[1]), text).replace(r"\$", "$")
+
+
+def _symbol(symbol: str) -> str:
+    symbol, _, power = symbol.partition("^")
+    base, _, index = symbol.partition("_")
+    slanted = not base.startswith(_UPRIGHT) and "/" not in base
+    parts = re.findall(r"[^\W\d_ΣΔ]+|[\W\d_ΣΔ]+", base) if slanted else [base]
+    shown = "".join(f"/{{{one}}}" if slanted and one[0].isalpha() and one[0] not in "ΣΔ" else one for one in parts)
+    return shown + (f"_{{{index}}}" if index else "") + (f"^{{{power}}}" if power else "")
+
+
+def text_width(text: str, size: float) -> float:
+    """Return about how wide a text is, rather too much. [pt]"""
+    return scene.text_width(marked(text), size * CAP_HEIGHT)
+
+
+def fitted_lines(text: str, size: float, width: float) -> tuple[str, ...]:
+    """Return a text on as many lines as it needs."""
+    lines: list[str] = []
+    for word in text.split(" "):
+        joined = f"{lines[-1]} {word}" if lines else word
+        if lines and text_width(joined, size) <= width:
+            lines[-1] = joined
+        else:
+            lines.append(word)
+    return tuple(lines)
+
+
+def _grey(colour: str) -> float:
+    return int(colour[1:3], 16) / 255
+
+
+class Paper:
+    """A paper that collects what is drawn; coordinates to the right and downward from its upper left corner. [pt]"""
+
+    def __init__(self, width: float, height: float) -> None:
+        self.width, self.height = width, height
+        self.texts: list[tuple[str, float, float, float, float]] = []
+        self._items: list[Item] = []
+
+    def line(
+        self,
+        x: Sequence[float] | Array,
+        y: Sequence[float] | Array,
+        *,
+        style: Style = SOLID,
+        width: float = 0.8,
+        colour: str = BLACK,
+        name: str = "",
+    ) -> None:
+        """Draw a line through points.
+
+        `name`: by which the line is found again in the file.
+        """
+        dashes = tuple(one * width * MM for one in style)
+        self._items.append(Polyline(_places(x, y), Pen(width * MM, dashes, colour=colour), name=name))
+
+    def area(
+        self, x: Sequence[float] | Array, y: Sequence[float] | Array, *, fill: str = "#ffffff", width: float = 0.0
+    ) -> None:
+        """Fill an area, with a black outline if it has a width."""
+        self._items.append(Polyline(_places(x, y), Pen(width * MM), closed=True, fill=_grey(fill)))
+
+    def segments(self, ends: Array, *, width: float = 0.5, colour: str = BLACK) -> None:
+        """Draw many straight lines at once, such as hatching.
+
+        `ends`: x and y of the start, x and y of the end of each [pt], shape (n, 4).
+        """
+        pen = Pen(width * MM, colour=colour)
+        self._items += [Polyline(_places((a, c), (b, d)), pen) for a, b, c, d in np.asarray(ends).tolist()]
+
+    def dot(self, x: float, y: float, radius: float = 1.5, *, fill: str = BLACK, width: float = 0.0) -> None:
+        """Draw a dot, or a circle."""
+        self._items.append(Circle((x * MM, -y * MM), radius * MM, Pen(width * MM), _grey(fill)))
+
+    def arrow(
+        self,
+        start: Sequence[float],
+        end: Sequence[float],
+        *,
+        width: float = 1.0,
+        colour: str = BLACK,
+        style: Style = SOLID,
+    ) -> None:
+        """Draw an arrow with a filled head; one too short for a head is a line."""
+        (x, y), (u, v) = start, end
+        length = math.hypot(u - x, v - y)
+        head = min(4.0 + 1.6 * width, 0.7 * length)
+        if length < 1e-6:
+            return
+        a, b = (u - x) / length, (v - y) / length
+        foot = u - a * head, v - b * head
+        self.line([x, foot[0]], [y, foot[1]], style=style, width=width, colour=colour)
+        half = 0.32 * head
+        corners = [u, foot[0] - b * half, foot[0] + b * half], [v, foot[1] + a * half, foot[1] - a * half]
+        self.area(*corners, fill=colour)
+
+    def text(
+        self, x: float, y: float, text: str, *, size: float = 9.0, anchor: scene.Anchor = "start", colour: str = BLACK
+    ) -> None:
+        """Write a text.
+
+        `x` and `y`: where its base line begins, ends or has its middle [pt]; `anchor`: start, middle or end: which
+        point of the text stands at x, y.
+        """
+        width = text_width(text, size)
+        left = x - {"start": 0.0, "middle": width / 2, "end": width}[anchor]
+        self.texts.append((text, left, y - 0.75 * size, left + width, y + 0.25 * size))
+        self._write((x, y), text, size, anchor, grey=_grey(colour))
+
+    def upward_text(self, x: float, y: float, text: str, *, size: float = 9.0) -> None:
+        """Write a text that runs upward."""
+        half = text_width(text, size) / 2
+        self.texts.append((text, x - 0.75 * size, y - half, x + 0.25 * size, y + half))
+        self._write((x, y), text, size, "middle", angle=90.0)
+
+    def _write(
+        self,
+        place: tuple[float, float],
+        text: str,
+        size: float,
+        anchor: scene.Anchor,
+        *,
+        angle: float = 0.0,
+        grey: float = 0.0,
+    ) -> None:
+        at = place[0] * MM, -place[1] * MM
+        self._items.append(Text(at, marked(text), size * MM * CAP_HEIGHT, anchor, angle, grey))
+
+    def drawing(self, title: str, language: Language = "en") -> Drawing:
+        """Return what was drawn, on a paper whose origin is its lower left corner."""
+        height = self.height * MM
+        return Drawing(title, language, self.width * MM, height, tuple(_raised(one, height) for one in self._items))
+
+    def svg(self, title: str, language: Language = "en") -> bytes:
+        """Return the paper as SVG."""
+        return svg(self.drawing(title, language))
+
+
+def _places(x: Sequence[float] | Array, y: Sequence[float] | Array) -> Array:
+    return np.column_stack([np.asarray(x, dtype=float), -np.asarray(y, dtype=float)]) * MM
+
+
+def _raised(item: Item, by: float) -> Item:
+    match item:
+        case Text():
+            return item._replace(place=(item.place[0], item.place[1] + by))
+        case Circle() | scene.Arc():
+            return item._replace(centre=(item.centre[0], item.centre[1] + by))
+    return item._replace(points=item.points + np.array([0.0, by]))
