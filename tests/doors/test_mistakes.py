@@ -146,7 +146,7 @@ def test_a_decimal_comma_is_read_where_the_file_says_so(crankwork, machine_file)
 
 
 SYNTAX = {
-    "unit without quotes": ("[crank]\nradius = 75 mm", 2, 'needs quotes: radius = 75 mm; write it like key = "75 mm"'),
+    "unit without quotes": ("[crank]\nradius = 75 mm", 2, 'needs quotes: radius = 75 mm; write radius = "75 mm"'),
     "key twice": ('title = "a"\ntitle = "b"', 2, 'stands twice: title = "b"; keep one'),
     "table twice": ("[crank]\n[rod]\n[crank]", 3, "stands twice: [crank]; keep one"),
     "no value": ("[crank]\nradius =", 2, "is not valid TOML: radius =; write key ="),

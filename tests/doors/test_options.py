@@ -97,6 +97,13 @@ def test_forces_per_area_need_the_bore(crankwork, machine_file, check_mistakes, 
 @pytest.mark.parametrize(
     ("arguments", "answered"),
     [
+        (("new", "fourbar"), 'there is no template "fourbar"; did you mean four-bar?'),
+        (("reprot", "my.toml"), '"reprot": there is no such command; did you mean report?'),
+        (("my.toml",), "my.toml: a command comes first; write crankwork check my.toml, or"),
+        (
+            ("--lang", "ru", "run", "my.toml"),
+            "--lang: параметр команды; запишите его после неё, например crankwork run",
+        ),
         (("new", "steam"), 'there is no template "steam"; there are: compressor, crank-shaper, engine, four-bar, '),
         (("new", "../../engine"), "there is no template"),
         (("new", "a\x1b[31m"), '"a\\x1b[31m"'),

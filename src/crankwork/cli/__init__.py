@@ -105,10 +105,8 @@ def _told(message: str) -> str:
 def _usage_sentence(error: click.ClickException) -> str:
     """Return one line on how the command line is written."""
     match error:
-        case click.NoSuchOption():
-            if error.possibilities:
-                return Refusal("option_unknown_near", option=error.option_name, nearest=error.possibilities[0])
-            return Refusal("option_unknown", option=error.option_name)
+        case click.NoSuchOption() | click.exceptions.NoSuchCommand():
+            return _unknown(error)
         case click.BadOptionUsage():
             name = "option_no_value" if "does not take" in error.message else "option_value"
             return Refusal(name, option=error.option_name)
@@ -122,13 +120,26 @@ def _usage_sentence(error: click.ClickException) -> str:
             found = re.search(r"'(.*)' is not one of", error.message)
             given, choices = found[1] if found else Refusal("this"), tuple(error.param.type.choices)
             return Refusal("option_choice", option=error.param.opts[0], given=given, choices=choices)
-        case click.exceptions.NoSuchCommand():
-            known = ", ".join(commands.commands)
-            return Refusal("no_command", command=error.command_name[:40], known=known)
         case _ if found := re.search(r"extra arguments? \((.*)\)$", error.message):
             return Refusal("argument_extra", argument=found[1])
         case _:
             return f"{error.format_message().rstrip('.')}; see crankwork --help"
+
+
+def _unknown(error: click.NoSuchOption | click.exceptions.NoSuchCommand) -> str:
+    """Return a sentence on an option or a command that there is not."""
+    if isinstance(error, click.NoSuchOption):
+        option = error.option_name
+        if error.possibilities:
+            return Refusal("option_unknown_near", option=option, nearest=error.possibilities[0])
+        every = {name for command in commands.commands.values() for one in command.params for name in one.opts}
+        return Refusal("option_early" if option in every else "option_unknown", option=option)
+    command = error.command_name[:40]
+    if command.endswith(".toml"):
+        return Refusal("command_first", file=command)
+    if error.possibilities:
+        return Refusal("no_command_near", command=command, nearest=error.possibilities[0])
+    return Refusal("no_command", command=command, known=", ".join(commands.commands))
 
 
 @click.group(cls=SpokenGroup, context_settings={"help_option_names": ["-h", "--help"]})

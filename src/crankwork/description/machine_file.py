@@ -23,7 +23,7 @@ from crankwork.description.kinds import Reader, is_one_line
 from crankwork.description.linkage_keys import DRIVEN_FILE, LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.locate import locate
 from crankwork.description.measured_build import read_measured
-from crankwork.description.schema import ListOf, Named, NameOr, Nested, Table, Values
+from crankwork.description.schema import ListOf, Named, NameOr, Nested, Table, Values, nearest_name
 from crankwork.description.turning_keys import PRESS_FILE, TURNING_FILE
 from crankwork.errors import CrankworkError, InputError, Problem, UnknownKeyError
 from crankwork.loads.indicator import DiagramError
@@ -216,8 +216,10 @@ def _syntax_message(source: str, name: str, text: str) -> Refusal:
         return Refusal("letters_need_quotes", place=place, line=line, written=written)
     if comma is not None:
         return Refusal("number_comma", place=place, line=line, point=f"{comma[2]}.{comma[3]}")
-    if re.match(r"[\w.\-]+\s*=\s*[+-]?[\d.,]+\s*[^\W\d_]", line):
-        return Refusal("needs_quotes", place=place, line=line)
+    bare = re.match(r"([\w.\-]+)\s*=\s*([+-]?[\d.,]+\s*[^\W\d_][^#\"]*)", line)
+    if bare is not None:
+        written = f'{bare[1]} = "{bare[2].strip().replace(",", ".")}"'
+        return Refusal("needs_quotes", place=place, line=line, written=written)
     return Refusal("not_toml", place=place, line=line or Refusal("ends_early"))
 
 
@@ -360,8 +362,10 @@ def template(name: str, language: Language = "en") -> str:
         If there is none of that name.
     """
     if name not in template_names():
-        known = ", ".join(template_names())
-        raise CrankworkError(Refusal("no_template", name=_printable(name[:40]), known=known))
+        shown, known = _printable(name[:40]), ", ".join(template_names())
+        if near := nearest_name(name, template_names()):
+            raise CrankworkError(Refusal("no_template_near", name=shown, nearest=near))
+        raise CrankworkError(Refusal("no_template", name=shown, known=known))
 
     def said(found: re.Match[str]) -> str:
         key = found[1] if "." in found[1] else f"templates.{found[1]}"
