@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -203,3 +204,12 @@ def test_an_engine_of_which_only_the_motion_is_known_says_so(crankwork):
     answer = crankwork("check", "engine.toml")
     assert answer.code == 0
     assert "motion only" in answer.out
+
+
+@pytest.mark.parametrize("ratio", ["4", "1.5", "1.0000001", "1"])
+def test_the_ratio_that_is_advised_may_be_written(crankwork, machine_file, ratio) -> None:
+    file = machine_file(name="slider-crank")
+    told = crankwork("check", file, "--set", f"rod.ratio={ratio}").err
+    advised = re.search(r"write (0\.\d+)", told)
+    assert advised, told
+    assert crankwork("check", file, "--set", f"rod.ratio={advised[1]}").code == 0

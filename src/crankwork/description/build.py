@@ -124,8 +124,10 @@ def _lengths(crank: Values, rod: Values, cylinder: Values, reader: Reader) -> tu
     ratio = rod["ratio"]
     inverse = rod["ratio_definition"] == "l/r"
     if ratio is not None and not inverse and ratio >= 1:
-        key = "ratio_inverse" if ratio > 1 else "ratio_of_one"
-        reader.complain("rod.ratio", Refusal(key, ratio=f"{ratio:g}", inverse=f"{1 / ratio:.6g}"))
+        meant = f"{1 / ratio:.6g}"
+        # next to 1 its inverse would be refused as well
+        key = "ratio_inverse" if float(meant) < 1 else "ratio_of_one"
+        reader.complain("rod.ratio", Refusal(key, ratio=f"{ratio:g}", inverse=meant))
         return None
     if "radius" in crank:
         radius = crank["radius"].value

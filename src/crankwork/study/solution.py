@@ -68,7 +68,7 @@ class _Shown:
     def range(self) -> str:
         """Return where it was looked for."""
         at, is_even, is_stated = self._solution.places
-        ends = {"start": self.number(float(at[0])), "end": self.number(float(at[-1])), "unit": self.unit}
+        ends = {"start": self.number(float(at[0])), "end": f"{self.number(float(at[-1]))} {self.unit}".rstrip()}
         counted = {"field": self._solution.sought.key, "steps": len(at) - 1, **ends}
         if is_even:
             said = say("study.range_even", self._language, **counted, step=self.number(float(at[1] - at[0]), digits=4))
