@@ -47,7 +47,7 @@ def _say_no_more(*_: object) -> None:
 
 @pytest.mark.parametrize("part", range(RUNS))
 def test_hostile_files_are_refused_with_place_and_fix_or_computed(part) -> None:
-    found = {number: outcome(hostile_file(2, number)) for number in range(part, 400, RUNS)}
+    found = {number: outcome(hostile_file(4, number)) for number in range(part, 400, RUNS)}
     assert {number: one for number, one in found.items() if one.kind in FAULTS} == {}
     assert {one.kind for one in found.values()} >= {"accepted", "refused"}
 
