@@ -196,6 +196,46 @@ def test_cycles_are_told_apart_however_they_stand(read, text, keys):
     assert "there is no cycle 4; recorded are 3" in refusal(read, text, f"{unit}cycle = 4")
 
 
+TURN = np.arange(360.0)
+BY_TURNS = {
+    "0 to 360 twice": (np.tile(TURN, 2), 0),
+    "with the last sample": (np.tile(np.arange(361.0), 2), 0),
+    "-180 to 180 twice": (np.tile(TURN - 180, 2), -180),
+    "from before to after": (np.arange(-360.0, 360.0), -360),
+    "after, and then before": (np.concatenate([TURN, TURN - 360]), 0),
+}
+
+
+@pytest.mark.parametrize(("angles", "start"), BY_TURNS.values(), ids=BY_TURNS)
+def test_angles_that_begin_anew_within_a_cycle_run_on(read, angles, start):
+    turn = np.concatenate([[0], np.cumsum(np.diff(angles) < 0)])
+    is_by_turns = turn[-1] > 0 and angles.min() != -360
+    true = angles + 360 * turn if is_by_turns else angles
+    results = read(table(angles, true_pressure(true)))
+    assert is_right(results)
+    assert results.value("gas_pressure", 372) == pytest.approx(41e5, rel=1e-4)
+    assert ("measured_turns" in told(results)) == is_by_turns
+    if is_by_turns:
+        assert told(results)["measured_turns"] == {"file": "p.txt", "name": "gas.measured"}
+        shifted = read(table(angles, true_pressure(true - 360)), 'pressure_unit = "bar"\nshift = "360 deg"')
+        assert shifted.value("gas_pressure", 372) == pytest.approx(41e5, rel=1e-4)
+
+
+def test_cycles_of_turns_are_counted_and_asked_about(read):
+    text = table(np.tile(TURN, 6), np.concatenate([BAR * one for one in SHARES]))
+    assert "3 cycles were recorded" in refusal(read, text)
+    assert peak(read(text, 'pressure_unit = "bar"\ncycle = 3')) == pytest.approx(45.1, rel=2e-3)
+    two_strokes = MACHINE.replace("720 deg", "360 deg")
+    doubled = table(np.tile(np.arange(720.0), 2), np.tile(true_pressure(360 + TURN), 4))
+    assert "4 cycles were recorded" in refusal(read, doubled, 'pressure_unit = "bar"', two_strokes)
+
+
+def test_turns_that_are_alike_are_asked_about(read):
+    message = refusal(read, table(np.tile(TURN, 2), np.tile(true_pressure(360 + TURN), 2) * np.repeat([1, 0.8], 360)))
+    assert "line 361: the angle begins anew with a turn, and the pressures of both turns are alike" in message
+    assert 'write a cycle of "360 deg" if each turn is one' in message
+
+
 def test_what_is_done_to_samples_is_explained(read):
     explained = read(STACKED["running on"][0], MEAN).explain("gas_pressure", at=33.0)
     assert "gas.measured.cycle" in str(explained)
@@ -305,6 +345,49 @@ peg = { angle = "0 deg", pressure = "4 bar" }
     assert results.columns_at(np.array([0.0, 90.0, 180.0]), ("gas_pressure.gas",))["gas_pressure.gas"] == pytest.approx(
         expected
     )
+
+
+LINKAGE = """
+[fixed_points]
+O = ["0 mm", "0 mm"]
+[crank]
+pivot = "O"
+pin = "A"
+radius = "45 mm"
+speed = "3000 rpm"
+start = "90 deg"
+direction = "clockwise"
+[guides]
+bed = { through = "O", angle = "90 deg" }
+[links]
+rod = { joins = ["A", "B"], length = "160 mm" }
+[sliders]
+piston = { guide = "bed", pin = "B" }
+[chambers.gas]
+slider = "piston"
+bore = "85 mm"
+sense = -1
+compression_ratio = 9.0
+period = "720 deg"
+pressures = "absolute"
+[chambers.gas.measured]
+file = "p.txt"
+"""
+
+
+def test_a_chamber_of_a_linkage_says_of_its_dead_centre_what_an_engine_says(read):
+    angles = np.arange(0.0, 720.0, 0.5)
+    keys = f'{MEAN}\nloss_angle = "0.6 deg"\n'
+    text = table(angles, motored(np.mod(angles + 2.6, 720)))
+    engine, chamber = (told(read(text, keys, machine)) for machine in (ABSOLUTE, LINKAGE))
+    assert chamber["dead_centre_motored"].pop("name") == "chambers.gas.measured"
+    assert engine["dead_centre_motored"].pop("name") == "gas.measured"
+    assert chamber["dead_centre_motored"] == pytest.approx(engine["dead_centre_motored"], rel=1e-6)
+    assert chamber["dead_centre_motored"]["shift"] == pytest.approx(2.0, abs=0.05)
+    fired = table(angles, motored(np.mod(angles + 4, 720)) * (1 + 1.5 / (1 + np.exp(-(angles - 366) / 6))))
+    engine, chamber = (told(read(fired, MEAN, machine)) for machine in (ABSOLUTE, LINKAGE))
+    assert chamber["dead_centre_compression"]["shift"] == engine["dead_centre_compression"]["shift"]
+    assert "peak_far" in told(read(table(ANGLES, true_pressure(ANGLES + 187)), MEAN, LINKAGE))
 
 
 def test_smoothing_says_what_it_changed(read):

@@ -312,12 +312,15 @@ def _of_its_own(
         told.append(("chamber_again", {"name": name, "cycle": chamber.cycle, "turns": round(space.period / _TURN)}))
     # where its diagram begins: that of heat or of valves at the dead centre nearest to where it is stated
     counts = chamber.released is not None or chamber.valves is not None
-    top, bottom = _ends_of_stroke(space, chamber.delay) if counts else (0.0, 0.0)
-    begins = chamber.delay + top
+    start, bottom = _ends_of_stroke(space, chamber.delay) if counts else (0.0, 0.0)
+    begins = chamber.delay + start
     # where the volume is what it was in an earlier cycle, the diagram is that of then
     phases = [one % space.period for one in np.arange(0.0, whole, chamber.cycle).tolist()]
     if chamber.measured is not None:
-        around = Around(_volume_from(space, begins))
+        # where it is least once in a turn it is that of an engine, and the samples say where
+        is_plain = law is None and len(space.dead_centres) == 2 and chamber.cycle in (_TURN, 2 * _TURN)
+        top = _ends_of_stroke(space, chamber.delay)[0] if is_plain and space.period == _TURN else None
+        around = Around(_volume_from(space, begins), top)
         samples, said = measured_diagram(
             chamber.measured, chamber.cycle, around, shift=chamber.angle_shift, step=chamber.resample, path=path
         )
@@ -329,7 +332,7 @@ def _of_its_own(
             found[phase], notices = chamber.released.diagram_in(
                 _volume_from(space, begins + phase),
                 _rate_from(space, begins + phase),
-                (0.0, (bottom - top) % space.period),
+                (0.0, (bottom - start) % space.period),
             )
             told += notices
     else:

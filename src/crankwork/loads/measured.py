@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.indicator import DiagramError, IndicatorDiagram, Segment
@@ -16,6 +17,10 @@ from crankwork.locale import Refusal
 _GAP_FACTOR = 4.0
 _SAME_ANGLE = 1e-6
 _WRAP = 0.05
+# how programs count the angles of a cycle otherwise [deg]
+_OFTEN = {720.0: (360.0,), 360.0: (720.0,)}
+# of the range of pressures, what those of cycles are nearer to each other than
+_ALIKE = 0.5
 # samples of one cycle
 _FEWEST, _MOST = 8, 50_000
 # least part of a cycle that is one where the rest is stated [deg]
@@ -70,13 +75,14 @@ class Recorded(NamedTuple):
     """The cycles of a recording at the same crank angles, those of the file, shape (n,) and (cycles, n). [deg], [Pa]
 
     `rows` are the lines of the samples of the only cycle, none for others; `wrap` is the pressure one cycle after the
-    first sample less that of the first.
+    first sample less that of the first; `told` is how the file was read.
     """
 
     degrees: Array
     cycles: Array
     rows: Sequence[int]
     wrap: float
+    told: tuple[Told, ...] = ()
 
 
 def recorded_cycles(measured: MeasuredPressure, cycle: float, *, step: float | None = None, path: str) -> Recorded:
@@ -100,7 +106,7 @@ def recorded_cycles(measured: MeasuredPressure, cycle: float, *, step: float | N
     found = [one for column in running.pressure.T for one in _of_column(degrees, column, (cycle, count), offsets)]
     # what is resampled stands on no line
     rows = running.rows[: len(offsets)] if len(found) == 1 and step is None else ()
-    return Recorded(offsets + start, np.array(found), rows, _wrap_step(running, cycle))
+    return Recorded(offsets + start, np.array(found), rows, _wrap_step(running, cycle), running.told)
 
 
 def _of_column(degrees: Array, pressure: Array, cycles: tuple[float, int], offsets: Array) -> Iterator[Array]:
@@ -131,10 +137,14 @@ def _running_on(measured: MeasuredPressure, cycle: float, key: str) -> MeasuredP
     steps = np.diff(degrees)
     typical = float(np.median(steps))
     # a recording of a part of every cycle goes back by most of this part
-    back = (0.5 * np.ptp(degrees), np.inf) if rest is not None else (cycle - 3 * typical, cycle + typical / 2)
-    anew = (-steps > back[0]) & (-steps < back[1])
+    by, anew = (cycle, -steps > 0.5 * np.ptp(degrees)) if rest is not None else _anew(steps, cycle)
+    told = measured.told
     turns = np.concatenate([[0], np.cumsum(anew)])
-    degrees = degrees + cycle * turns
+    if by < cycle and anew.any():
+        if _are_alike(degrees, pressure, turns):
+            raise DiagramError(key, Refusal("samples_turns", line=int(rows[np.argmax(turns > 0)])))
+        told = (*told, ("measured_turns", {"file": measured.file, "name": key}))
+    degrees = degrees + by * turns
     # a sample at the end of a cycle that is taken again at the beginning of the next
     keep = np.append(~(anew & (np.diff(degrees) < _SAME_ANGLE)), True)
     degrees, pressure, rows, turns = degrees[keep], pressure[keep], rows[keep], turns[keep]
@@ -150,7 +160,24 @@ def _running_on(measured: MeasuredPressure, cycle: float, key: str) -> MeasuredP
         rows = np.concatenate([rows, np.array(last, dtype=rows.dtype)])
         order = np.argsort(degrees, kind="stable")
         degrees, pressure, rows = degrees[order], pressure[order], rows[order]
-    return replace(measured, degrees=degrees, pressure=pressure, rows=rows.tolist())
+    return replace(measured, degrees=degrees, pressure=pressure, rows=rows.tolist(), told=told)
+
+
+def _anew(steps: Array, cycle: float) -> tuple[float, NDArray[np.bool_]]:
+    """Return by how much angles begin anew, and after which steps: with every cycle, its turns, or two cycles. [deg]"""
+    typical = float(np.median(steps))
+    for by in (cycle, *_OFTEN.get(cycle, ())):
+        anew = (-steps > by - 3 * typical) & (-steps < by + typical / 2)
+        if anew.any():
+            return by, anew
+    return cycle, np.zeros(len(steps), dtype=bool)
+
+
+def _are_alike(degrees: Array, pressure: Array, turns: NDArray[np.intp]) -> bool:
+    """Return whether the first two turns are as alike as cycles of one turn are, and the strokes of four are not."""
+    (at, one), (there, other) = ((degrees[turns == number], pressure[turns == number, 0]) for number in (0, 1))
+    apart = np.abs(np.interp(at, there, other) - one)
+    return float(apart.max()) < _ALIKE * float(np.ptp(pressure[:, 0]))
 
 
 def _with_rest(degrees: Array, steps: tuple[float, float]) -> Array:

@@ -47,7 +47,7 @@ def measured_diagram(
     """
     treatment, key = measured.treatment, f"{path}.measured"
     recorded = recorded_cycles(measured, cycle, step=step, path=path)
-    told = [*measured.told, *_spikes(measured)]
+    told = [*recorded.told, *_spikes(measured)]
     degrees = recorded.degrees + shift
     volume = around.volume_at(np.mod(degrees, cycle))
     cycles = recorded.cycles
