@@ -362,3 +362,15 @@ def test_friction_takes_two_thirds_of_its_greatest_head() -> None:
     lost = 42.5 * METRE + 2 * (2 / 3) * greatest
     assert found["indicated_work.water"] == pytest.approx(-lost * swept, rel=1e-11)
     assert not found.unmet
+
+
+def test_a_pump_that_speeds_up() -> None:
+    """Half-way the plunger keeps its speed by itself, and the head is that of the radius times what the shaft gains."""
+    pipe = 'suction_pipe = { length = "5 m", diameter = "50 mm" }'
+    text = PUMP.format(bore=150.0, radius=150.0, speed=20.0, low=7.5 * METRE, high=50 * METRE, more=pipe)
+    found = crankwork.analyse(
+        crankwork.read_machine(text.replace("[guides]", 'angular_acceleration = "2 rad/s2"\n[guides]'))
+    )
+    head = 5 / 9.81 * (150 / 50) ** 2 * 0.15 * 2
+    assert found.value("diagram_pressure.water", 90.0) / METRE == pytest.approx(7.5 - head, rel=1e-12)
+    assert not found.unmet
