@@ -342,6 +342,10 @@ def _locked(folder: Path) -> Iterator[None]:
 
 
 def _unwritable(path: Path, error: Exception) -> CrankworkError:
+    if isinstance(error, PermissionError):
+        # of two names the second is that of what stands there
+        path = Path(error.filename2 or error.filename or path)
+        return CrankworkError(Refusal("place_held", path=path, reason=_reason(error)))
     return CrankworkError(Refusal("place_unwritable", path=path, reason=_reason(error)))
 
 

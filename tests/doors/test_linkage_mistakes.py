@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import json
 import re
 import resource
 import time
@@ -257,3 +258,16 @@ def test_another_branch_is_proposed_before_a_longer_link(crankwork, machine_file
 def test_a_branch_that_would_not_help_is_not_proposed(crankwork, machine_file) -> None:
     told = crankwork("check", machine_file(("112.5 mm", "75 mm"), name="four-bar"))
     assert "[branch]" not in told.out + told.err
+
+
+def test_a_link_between_two_fixed_points_is_told_as_one_too_many(crankwork, machine_file) -> None:
+    bar = '[links]\nbar = {{ joins = ["O", "C"], length = "{} mm" }}'
+    plain = json.loads(crankwork("run", machine_file(name="four-bar"), "--json").out)["summary"]
+    answer = crankwork("run", machine_file(("[links]", bar.format(200)), name="four-bar"), "--json")
+    # what bar and ground pass on to each other nobody knows
+    known = {key: one for key, one in plain.items() if not key.startswith("joint_force")}
+    assert (answer.code, json.loads(answer.out)["summary"] == known) == (0, True)
+    assert "bar is one link too many" in crankwork("run", "my.toml").out
+    answer = crankwork("check", machine_file(("[links]", bar.format(150)), name="four-bar"))
+    assert answer.code == 2
+    assert "its joints are 200 to 200 mm apart, and it is 150 mm long; leave it out" in answer.err

@@ -71,6 +71,8 @@ MISTAKES = {
                                "cylinder.piston_rod_diameter", "give gas.back_pressure ="),
     "exponent missing": ("exponent = 1.36", "", "gas.pieces[3].exponent", "write exponent = 1.35"),
     "going backwards": ('["c1", "c", "z"]', '["c1", "z", "c"]', "gas.pieces[4].points", "rising crank angles"),
+    "beyond the next dead centre": ('"180 deg", pressure = "0.090 MPa"', '"540 deg", pressure = "0.090 MPa"',
+                                    "gas.pieces[3]", "goes backwards, from 540 to 345 deg; order its points"),
     "not from zero": ('["r", "d"]', '["d", "a"]', "gas.pieces[1]", "12 deg, but the pieces before it end at 0"),
     "not to the end": ('["e", "r2"]', '["e", "e"]', "gas.pieces", "the cycle is closed at 720 deg"),
     "not closed": ('"570 deg", pressure = "0.115 MPa"', '"570 deg", pressure = "3 MPa"', "gas.pieces", "not close"),

@@ -303,6 +303,33 @@ def test_a_disk_that_really_is_full_keeps_what_it_had(crankwork, machine_file, c
     assert _contents(small_disk) == {"mine.txt": b"mine"}
 
 
+def test_a_workbook_that_a_program_has_open_is_told_as_that(crankwork, machine_file, check_mistakes, monkeypatch):
+    assert crankwork("run", machine_file(), "-o", "out", "--no-figures").code == 0
+    before, replace = _contents("out"), Path.replace
+
+    def held(self: Path, target: Path) -> Path:
+        if target.name == "tables.xlsx":
+            raise PermissionError(errno.EACCES, "Permission denied", str(self), None, str(target))
+        return replace(self, target)
+
+    monkeypatch.setattr(Path, "replace", held)
+    answer = crankwork("run", "my.toml", "-o", "out", "--no-figures", "--overwrite")
+    check_mistakes(answer)
+    assert answer.err == (
+        "out/tables.xlsx: cannot be written (permission denied); close the program that has it open, "
+        "or choose another place\n"
+    )
+    assert _contents("out")["tables.xlsx"] == before["tables.xlsx"]
+
+
+def test_results_are_written_where_the_system_has_no_locks(monkeypatch) -> None:
+    monkeypatch.setattr(files, "fcntl", None)
+    for _ in range(2):
+        files.write_folder("out", RESULTS, overwrite=True)
+    assert _contents("out") == RESULTS
+    assert not list(Path().glob(".crankwork-*"))
+
+
 def test_a_disk_that_is_full_of_the_rows_of_a_workbook_is_told(crankwork, machine_file, check_mistakes, monkeypatch):
     def full(*_: object) -> None:
         raise OSError(errno.ENOSPC, "No space left on device")

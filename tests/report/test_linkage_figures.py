@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import math
 import re
+import time
 import warnings
 from xml.etree import ElementTree as ET
 
@@ -409,3 +411,18 @@ def test_the_foot_of_a_position_plan_stands_over_the_method():
     (method,) = (one for one in texts if "".join(one.itertext()) == "exact")
     assert len(feet) == 2
     assert max(feet) < float(method.get("y")) - float(method.get("font-size"))
+
+
+def test_time_grows_with_the_points_that_are_named_and_not_with_their_square():
+    def seconds(count):
+        points = {f"Q{k}": [0.1 * math.cos(k), 0.1 * math.sin(2 * k)] for k in range(count)}
+        known = {**SHAPER, "links": {**SHAPER["links"], "link": {**SHAPER["links"]["link"], "points": points}}}
+        mechanism = mechanism_from(known)[0]
+        found = moving(mechanism, np.arange(0.0, 361.0, 30.0))
+        started = time.process_time()
+        velocity_plan(mechanism, found, 1, 10.0)
+        return time.process_time() - started
+
+    seconds(5)
+    # eight times the points
+    assert seconds(120) < 24 * seconds(15)
