@@ -28,6 +28,7 @@ from crankwork.report.figures import figures
 from crankwork.show.chart import round_ticks
 from crankwork.show.chart import sign as sign_paper
 from crankwork.show.paper import MM, Paper, fitted_lines, text_width
+from crankwork.show.svg import svg
 
 ROOT = Path(__file__).parents[2]
 LAYOUTS = {
@@ -369,7 +370,7 @@ def test_tolle_shows_the_acceleration_of_the_results(results, drawn):
 def test_a_curve_stands_on_the_paper_where_its_scale_says(drawn):
     paper, graphs = figure_list(drawn)["total_torque"](drawn)
     graph = graphs["total_torque"]
-    found = re.search(rb'class="mean" d="M([^"]*)"', paper.svg("x"))
+    found = re.search(rb'class="mean" d="M([^"]*)"', svg(paper.drawing("x")))
     assert found is not None
     start = [float(one) / MM for one in found[1].split(b"L")[0].split()]
     level = graph.curves["mean"][1][0]
@@ -412,4 +413,4 @@ def test_text_is_as_wide_as_its_letters_and_breaks_between_words():
 
 
 def test_words_of_titles_are_escaped():
-    assert b"<title>a &lt; b &amp; c</title>" in Paper(10, 10).svg("a < b & c")
+    assert b"<title>a &lt; b &amp; c</title>" in svg(Paper(10, 10).drawing("a < b & c"))

@@ -44,6 +44,8 @@ from crankwork.report.linkage_look import Style, axis_title, math_symbol
 from crankwork.report.linkage_plan_figures import acceleration_plan, velocity_plan
 from crankwork.report.linkage_positions import position_plans
 from crankwork.show.paper import plain
+from crankwork.show.scene import Drawing
+from crankwork.show.svg import svg
 
 SVG = "{http://www.w3.org/2000/svg}"
 FRAMES = 24
@@ -286,13 +288,13 @@ def test_every_linkage_has_its_plans(linkage):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         for data in _figures(linkage, Style("ru")):
-            assert ET.fromstring(data).tag == f"{SVG}svg"  # noqa: S314 - our own bytes
+            assert ET.fromstring(svg(data)).tag == f"{SVG}svg"  # noqa: S314 - our own bytes
 
 
 def test_plans_are_the_same_every_time_and_differ_by_language():
     linkage = LINKAGES["shaper"]
-    made = [list(_figures(linkage, Style(language))) for language in LANGUAGES]
-    assert made[1] == list(_figures(linkage, Style("ru")))
+    made = [[svg(one) for one in _figures(linkage, Style(language))] for language in LANGUAGES]
+    assert made[1] == [svg(one) for one in _figures(linkage, Style("ru"))]
     for one, two, three in zip(*made, strict=True):
         assert len({one, two, three}) == 3
     for name in ("position_plans", "velocity_plan", "acceleration_plan", "wittenbauer", "speed"):
@@ -310,8 +312,8 @@ def test_tangents_leave_the_curve_on_one_side_and_give_the_flywheel():
 
 
 def test_energy_and_speed_figures_differ_by_language():
-    made = [wittenbauer(INERTIA, ENERGY, WANTED, DEGREES, Style(language)) for language in LANGUAGES]
-    made += [speed_curve(DEGREES, 20 + 0.5 * GRID.sin, Style(language)) for language in LANGUAGES]
+    made = [svg(wittenbauer(INERTIA, ENERGY, WANTED, DEGREES, Style(language))) for language in LANGUAGES]
+    made += [svg(speed_curve(DEGREES, 20 + 0.5 * GRID.sin, Style(language))) for language in LANGUAGES]
     assert len(set(made)) == 6
     assert all(ET.fromstring(one).tag == f"{SVG}svg" for one in made)  # noqa: S314 - our own bytes
 
@@ -319,7 +321,7 @@ def test_energy_and_speed_figures_differ_by_language():
 def test_curves_take_any_keys():
     columns = {"joint_force.A": 900 * INERTIA, "joint_force.crank_pin": 800 * INERTIA, "crank_torque": ENERGY}
     panels = ["crank_torque", ("joint_force.A", "joint_force.crank_pin")]
-    made = {curves(DEGREES, columns, panels, "t", Style(language)) for language in LANGUAGES}
+    made = {svg(curves(DEGREES, columns, panels, "t", Style(language))) for language in LANGUAGES}
     assert len(made) == 3
     for wrong in (["nothing"], [("crank_torque", "joint_force.A")], []):
         with pytest.raises(CrankworkError):
@@ -328,11 +330,12 @@ def test_curves_take_any_keys():
         curves(DEGREES, {"not_a_row.A": INERTIA}, ["not_a_row.A"], "t")
 
 
-def _texts(data: bytes) -> list[ET.Element]:
+def _texts(drawing: Drawing | bytes) -> list[ET.Element]:
+    data = drawing if isinstance(drawing, bytes) else svg(drawing)
     return list(ET.fromstring(data).iter(f"{SVG}text"))  # noqa: S314 - our own bytes
 
 
-def _said(data: bytes) -> list[str]:
+def _said(data: Drawing | bytes) -> list[str]:
     return ["".join(one.itertext()) for one in _texts(data)]
 
 
@@ -358,7 +361,7 @@ def test_position_plans_name_the_angle_as_the_language_does():
 
 def test_a_gap_in_a_curve_is_left_open():
     torque = np.where(np.abs(DEGREES - 90) < 1, np.nan, ENERGY)
-    tree = ET.fromstring(curves(DEGREES, {"crank_torque": torque}, ["crank_torque"], "t"))  # noqa: S314 - our own bytes
+    tree = ET.fromstring(svg(curves(DEGREES, {"crank_torque": torque}, ["crank_torque"], "t")))  # noqa: S314 - our own bytes
     parts = [one.get("d") for one in tree.iter(f"{SVG}path") if one.get("class") == "crank_torque"]
     assert len(parts) == 2
     assert not any("nan" in one for one in parts)

@@ -17,6 +17,7 @@ from crankwork.cli.asked import (
     analysed,
     compared,
     doubt,
+    formats_of,
     laid_over,
     machine_of,
     place_of,
@@ -28,6 +29,8 @@ from crankwork.progress import bar, with_progress
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from crankwork.show.theme import Theme
 
 _LANGUAGE = click.Choice(LANGUAGES)
 
@@ -235,6 +238,8 @@ def check(  # noqa: PLR0913 - one argument per option of the command
 @_PER_AREA
 @_JSON
 @_NO_FIGURES
+@click.option("--format", "formats", default="svg", metavar="FORMATS")
+@click.option("--theme", type=click.Choice(["print", "colour", "dark"]), default="print")
 @click.option("--excel-csv", is_flag=True)
 @_OVERWRITE
 def run(  # noqa: PLR0913 - one argument per option of the command
@@ -246,6 +251,8 @@ def run(  # noqa: PLR0913 - one argument per option of the command
     units: str | None,
     settings: tuple[str, ...],
     compare: str | None,
+    formats: str,
+    theme: Theme,
     *,
     per_area: bool,
     as_json: bool,
@@ -262,6 +269,7 @@ def run(  # noqa: PLR0913 - one argument per option of the command
         if not output:
             raise CrankworkError(Refusal("folder_unnamed"))
         files.check_folder(output, overwrite=overwrite)
+    wanted = () if no_figures or output is None else formats_of(formats)
     results = compared(machine, file, compare, per_area=per_area)
     if as_json:
         click.echo(json.dumps(summary.summary_data(results, per_area=per_area), ensure_ascii=False, indent=1))
@@ -271,7 +279,7 @@ def run(  # noqa: PLR0913 - one argument per option of the command
         from crankwork.report.results_folder import left_out, results_folder
 
         steps = results_folder(
-            results, language=language, per_area=per_area, for_excel=excel_csv, with_figures=not no_figures
+            results, language=language, per_area=per_area, for_excel=excel_csv, formats=wanted, theme=theme
         )
         contents = with_progress(steps, 4 - no_figures)
         files.write_folder(output, contents, overwrite=overwrite)

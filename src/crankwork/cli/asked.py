@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from crankwork.errors import CrankworkError, DoubtfulError
+from crankwork.errors import CrankworkError, DoubtfulError, MissingExtraError, missing_extras
 from crankwork.locale import Language, Refusal
 from crankwork.progress import bar
 
@@ -89,4 +89,21 @@ def compared(machine: Machine, file: str, asked: str | None, *, per_area: bool) 
     found = compare(results, {other: analysed(one) for other, one in machines.items()}, name)
     if per_area and found.compared is not None and not found.compared.is_of_methods:
         raise CrankworkError(Refusal("compare_per_area"))
+    return found
+
+
+def formats_of(text: str) -> tuple[str, ...]:
+    """Return the formats of figures that an option names, `svg,pdf`."""
+    # figures are drawn by few commands
+    from crankwork.show.formats import FORMATS, MODULES
+
+    found = tuple(dict.fromkeys(one.strip().lower() for one in text.split(",") if one.strip()))
+    wrong = [one for one in found if one not in FORMATS]
+    if wrong or not found:
+        raise CrankworkError(
+            Refusal("figure_formats", name=", ".join(wrong)[:60] or "--format", known=", ".join(FORMATS))
+        )
+    modules = {module: extra for one in found for module, extra in MODULES[one].items()}
+    if extras := missing_extras(modules):
+        raise MissingExtraError(Refusal("extra_writing", names=[one.upper() for one in found]), *extras)
     return found

@@ -11,6 +11,7 @@ from crankwork.report.linkage_curves import STYLES, curves
 from crankwork.report.linkage_look import PLAIN, Style, axis_title, displayed_values, quantity_of
 from crankwork.show.chart import Graph, Row, limits, round_ticks, sheet, sign
 from crankwork.show.paper import plain
+from crankwork.show.scene import Drawing
 
 _KINDS = ("cylinder_volume", "gas_pressure", "gas_force", "rod_load")
 _PER_PANEL = 4
@@ -18,7 +19,7 @@ _PER_PANEL = 4
 
 def chamber_figures(
     results: Results, degrees: Array, known: Mapping[str, Array], style: Style = PLAIN
-) -> dict[str, bytes]:
+) -> dict[str, Drawing]:
     """Return the figures of the gas by name; none without chambers."""
     panels = [keys for kind in _KINDS for keys in _panels([one for one in known if one.partition(".")[0] == kind])]
     if not panels:
@@ -29,7 +30,7 @@ def chamber_figures(
     }
 
 
-def indicator(results: Results, style: Style = PLAIN) -> bytes:
+def indicator(results: Results, style: Style = PLAIN) -> Drawing:
     """Return pressure over volume of every chamber."""
     found = indicators(results)
     volume, pressure = quantity_of("cylinder_volume"), quantity_of("diagram_pressure")
@@ -47,7 +48,7 @@ def indicator(results: Results, style: Style = PLAIN) -> bytes:
     graph.x_title(axis_title(volume, style.language))
     graph.y_title(axis_title(pressure, style.language))
     sign(paper, style.method)
-    return paper.svg(say("figures.indicator", style.language), style.language)
+    return paper.drawing(say("figures.indicator", style.language), style.language)
 
 
 def _panels(keys: Sequence[str]) -> list[Sequence[str]]:

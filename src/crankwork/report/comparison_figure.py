@@ -15,7 +15,7 @@ from crankwork.report.comparison import shown_names
 from crankwork.report.language import displayed, in_own_units, key_unit, symbol
 from crankwork.show.chart import LEGEND_ROW, Box, Graph, Row, limits, over_cycle, round_ticks, sheet
 from crankwork.show.paper import Paper
-from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Style
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing, Style
 
 _STEP, _MOST = 1.0, 2000
 # a cycle of more has no lines at multiples of 90 degrees
@@ -36,7 +36,7 @@ _DRAWN = (
 
 
 @in_own_units
-def comparison_figure(results: Results, language: Language, *, per_area: bool = False) -> bytes | None:
+def comparison_figure(results: Results, language: Language, *, per_area: bool = False) -> Drawing | None:
     """Return the figure of a comparison: quantities by each name, and below each its differences; none without any."""
     compared = results.compared
     keys = [] if compared is None else _drawn_keys(compared)
@@ -77,7 +77,7 @@ def comparison_figure(results: Results, language: Language, *, per_area: bool = 
             if is_last:
                 graph.x_title(_x_title(results, language))
         top += upper + lower + 1.5 * _GAP
-    return paper.svg(say("figures.comparison", language))
+    return paper.drawing(say("figures.comparison", language), language)
 
 
 def _drawn_keys(compared: Comparison) -> list[str]:

@@ -16,6 +16,7 @@ from crankwork.report.figure_data import Drawn, figure_title
 from crankwork.report.language import displayed, key_unit, method_name
 from crankwork.show.chart import sign
 from crankwork.show.paper import Paper
+from crankwork.show.scene import Drawing
 
 
 @dataclass(frozen=True)
@@ -79,10 +80,10 @@ class EngineDrawn:
         """Return a number as the language prints it."""
         return number(float(f"{value:.{digits}g}"), self.language, digits=max(digits, 9))
 
-    def finished(self, name: str, paper: Paper, remark: str = "", *, forces: bool = False) -> bytes:
-        """Return a figure as SVG, with the method that made it."""
+    def finished(self, name: str, paper: Paper, remark: str = "", *, forces: bool = False) -> Drawing:
+        """Return a figure, with the method that made it."""
         method = self.drawn.results.method
         if forces and self.drawn.per_area:
             remark = "; ".join(one for one in (remark, say("report.per_area", self.language)) if one)
         sign(paper, method_name(method.kinematics, method.order, method.rod, self.language), remark)
-        return paper.svg(figure_title(name, self.language))
+        return paper.drawing(figure_title(name, self.language), self.language)

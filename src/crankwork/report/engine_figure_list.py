@@ -36,6 +36,7 @@ from crankwork.report.engine_figure_wear import crankpin_wear, main_wear
 from crankwork.report.figure_data import Drawn
 from crankwork.show.chart import Graph
 from crankwork.show.paper import Paper
+from crankwork.show.scene import Drawing
 
 Draw = Callable[[EngineDrawn], tuple[Paper, Mapping[str, Graph]]]
 # what draws it, and the column it needs
@@ -62,7 +63,7 @@ _LOADS: dict[str, Draw] = {
 _OF_FORCES = ("piston_forces", "rod_forces", "crankpin_forces", "crankpin_polar", *_LOADS)
 
 
-def engine_figures(drawn: Drawn, only: str = "") -> Iterator[tuple[str, bytes]]:
+def engine_figures(drawn: Drawn, only: str = "") -> Iterator[tuple[str, Drawing]]:
     """Yield the figures of one cylinder, and of a machine that has an engine those of all its cylinders.
 
     `only`: the name of the one that is wanted.

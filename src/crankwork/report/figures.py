@@ -1,4 +1,4 @@
-"""Figures of results as SVG: each that they have what it needs for."""
+"""Figures of results: each that they have what it needs for."""
 
 from __future__ import annotations
 
@@ -10,19 +10,31 @@ from crankwork.report.figure_data import drawn_from
 from crankwork.report.language import in_own_units
 from crankwork.report.linkage_figures import linkage_figures
 from crankwork.report.turning_figures import turning_figures
+from crankwork.show.scene import Drawing
+from crankwork.show.svg import svg
+from crankwork.show.theme import Theme
 
 
-@in_own_units
-def figures(results: Results, *, language: Language = "en", per_area: bool = False, only: str = "") -> dict[str, bytes]:
+def figures(
+    results: Results, *, language: Language = "en", per_area: bool = False, theme: Theme = "print"
+) -> dict[str, bytes]:
     """Return the figures of a machine as SVG by name; those for which nothing is known are left out.
 
-    `only`: the name of the one that is wanted; others may be there, too.
+    `theme`: `print`, `colour` or `dark`.
 
     Raises
     ------
     CrankworkError
         If forces per area are asked for where no bore is known.
     """
+    return {name: svg(one, theme) for name, one in drawings(results, language=language, per_area=per_area).items()}
+
+
+@in_own_units
+def drawings(
+    results: Results, *, language: Language = "en", per_area: bool = False, only: str = ""
+) -> dict[str, Drawing]:
+    """Return the figures of a machine as drawings; `only`: the name of the one that is wanted, others may be there."""
     shown = linkage_figures if results.machine.turning is None else turning_figures
     found = shown(results, language=language)
     if "piston_displacement" in results.columns:

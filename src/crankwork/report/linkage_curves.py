@@ -19,7 +19,7 @@ from crankwork.report.linkage_look import (
 )
 from crankwork.show.chart import BOTTOM, LEFT, RIGHT, TOP, WIDTH, Box, Row, legend, legend_height, limits, sign
 from crankwork.show.paper import Paper, plain
-from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing
 
 STYLES = (SOLID, DASHED, DASH_DOT, DOTTED)
 _ALONE, _PANEL, _GAP = 216.0, 126.0, 16.0
@@ -35,7 +35,7 @@ def curves(
     panels: Sequence[str | Sequence[str]],
     title: str,
     style: Style = PLAIN,
-) -> bytes:
+) -> Drawing:
     """Return quantities over the crank angle, one panel below the other.
 
     `columns`: values in SI by key, `joint_force.A` for what belongs to a point or link; `panels`: keys of each panel;
@@ -61,7 +61,7 @@ def curves(
         graph.y_title(_title(quantities, style))
         top += height + tall + _GAP
     sign(paper, style.method)
-    return paper.svg(title, style.language)
+    return paper.drawing(title, style.language)
 
 
 def _panel(keys: tuple[str, ...], columns: Mapping[str, Array]) -> list[Quantity]:

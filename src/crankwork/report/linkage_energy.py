@@ -16,13 +16,13 @@ from crankwork.report.language import symbol
 from crankwork.report.linkage_look import PLAIN, Style, axis_title, displayed_values, drive_graph, quantity_of
 from crankwork.show.chart import Graph, Row, round_ticks, sheet, sign
 from crankwork.show.labels import Line, label_points
-from crankwork.show.scene import DASH_DOT, DASHED, DOTTED
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, Drawing
 from crankwork.units import shown_in
 
 _TALL, _WIDE = 331.0, 1.08
 
 
-def wittenbauer(inertia: Array, energy: Array, wanted: Fluctuation, degrees: Array, style: Style = PLAIN) -> bytes:
+def wittenbauer(inertia: Array, energy: Array, wanted: Fluctuation, degrees: Array, style: Style = PLAIN) -> Drawing:
     """Return the energy-mass diagram, its tangents and the piece kl that they cut from the energy axis.
 
     `inertia` and `energy`: reduced moment of inertia [kg m2] and change of the kinetic energy [J] over one cycle;
@@ -48,7 +48,7 @@ def wittenbauer(inertia: Array, energy: Array, wanted: Fluctuation, degrees: Arr
         flywheel = say("drawing.flywheel", language)
         shown = f"{number(found.flywheel, language, digits=4)} {unit_name('kg*m2', language)}"
         sign(paper, style.method, f"{flywheel}: $kl$/(tan $ψ_max$ − tan $ψ_min$) = {shown}")
-        return paper.svg(figure_title("wittenbauer", language), language)
+        return paper.drawing(figure_title("wittenbauer", language), language)
 
 
 def box_scale(x: tuple[float, float], y: tuple[float, float]) -> float:
@@ -90,7 +90,7 @@ def _angle(scale: float, slope: float, name: str, language: Language) -> str:
     return f"$ψ_{name}$ = {number(angle, language, digits=4)}°; {words} {number(slope, language, digits=4)} {unit}"
 
 
-def speed_curve(degrees: Array, speed: Array, style: Style = PLAIN) -> bytes:
+def speed_curve(degrees: Array, speed: Array, style: Style = PLAIN) -> Drawing:
     """Return the angular speed of the crank over one cycle, with its largest, mean and smallest value."""
     language, row = style.language, quantity_of("speed")
     low, high = float(np.min(speed)), float(np.max(speed))
@@ -110,4 +110,4 @@ def speed_curve(degrees: Array, speed: Array, style: Style = PLAIN) -> bytes:
         graph.level(float(displayed_values(row, np.asarray(value))), line, name)
     graph.y_title(axis_title(row, language))
     sign(paper, style.method)
-    return paper.svg(figure_title("speed", language), language)
+    return paper.drawing(figure_title("speed", language), language)

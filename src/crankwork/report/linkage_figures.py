@@ -26,21 +26,22 @@ from crankwork.report.linkage_positions import position_plans
 from crankwork.report.linkage_transient import transient_figures
 from crankwork.report.summary import results_method
 from crankwork.report.tables import any_nonzero
+from crankwork.show.scene import Drawing
 
 _DENSE_STEP = 2.0
 _MAIN = 30.0
 _PER_PANEL = 4
 
 
-def linkage_figures(results: Results, *, language: Language = "en") -> dict[str, bytes]:
-    """Return the figures of a linkage as SVG by name; those for which nothing is known are left out."""
+def linkage_figures(results: Results, *, language: Language = "en") -> dict[str, Drawing]:
+    """Return the figures of a linkage by name; those for which nothing is known are left out."""
     style = Style(language, (), results_method(results, language), results.period)
     if results.machine.linkage is None:
         return _dynamics(results.grid.degrees, results.columns, style)
     return _of_drawing(results, results.machine.linkage, style)
 
 
-def _of_drawing(results: Results, linkage: Linkage, style: Style) -> dict[str, bytes]:
+def _of_drawing(results: Results, linkage: Linkage, style: Style) -> dict[str, Drawing]:
     """Return the figures of a linkage that was drawn, between its dead positions."""
     machine, (found, _) = results.machine, structure(linkage)
     style = style._replace(links=found.links if found is not None else ())
@@ -65,7 +66,7 @@ def _of_drawing(results: Results, linkage: Linkage, style: Style) -> dict[str, b
 
 def _plans(
     machine: Machine, degrees: Array, at: int, rates: DriverRates, style: Style, *, is_whole: bool
-) -> dict[str, bytes]:
+) -> dict[str, Drawing]:
     """Return position plans of all that is reached, and the plans of velocity and acceleration at one crank angle.
 
     `at`: which of the crank angles.
@@ -80,13 +81,13 @@ def _plans(
     }
 
 
-def _driver(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[str, bytes]:
+def _driver(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[str, Drawing]:
     """Return coordinate and rates of the driver, its force or torque, its power."""
     panels = [key for key in known if key.startswith("driver_")]
     return {"driver": curves(degrees, known, panels, say("tables.driver", style.language), style)}
 
 
-def _sliders(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[str, bytes]:
+def _sliders(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[str, Drawing]:
     names = [key.partition(".")[2] for key in known if key.startswith("slider_displacement.")]
     kinds = ("slider_displacement", "slider_velocity", "slider_acceleration")
     panels = [[f"{kind}.{name}" for name in names[:_PER_PANEL]] for kind in kinds]
@@ -95,7 +96,7 @@ def _sliders(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[s
     return {"sliders": curves(degrees, known, panels, say("tables.links", style.language), style)}
 
 
-def _dynamics(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[str, bytes]:
+def _dynamics(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[str, Drawing]:
     """Return reduced inertia, torques and joint forces."""
     result = {}
     inertia = any_nonzero(("reduced_inertia", "reduced_inertia_1"), known)
@@ -112,7 +113,7 @@ def _dynamics(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[
     return result
 
 
-def _friction(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[str, bytes]:
+def _friction(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[str, Drawing]:
     """Return what the driver needs with and without friction, and the efficiency."""
     pairs = (("balancing_torque", "torque_with_friction"), ("driver_force", "driver_force_with_friction"),
              ("driver_torque", "driver_torque_with_friction"))  # fmt: skip
@@ -126,7 +127,7 @@ def _friction(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[
 
 def _evenness(
     machine: Machine, degrees: Array, known: Mapping[str, Array], speed: float, style: Style
-) -> dict[str, bytes]:
+) -> dict[str, Drawing]:
     """Return the energy-mass diagram and the speed with the flywheel found."""
     if "crank_speed" not in known:
         return {}

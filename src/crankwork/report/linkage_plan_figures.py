@@ -27,7 +27,7 @@ from crankwork.report.linkage_look import (
 from crankwork.show.chart import WIDTH, Box, Graph, sign
 from crankwork.show.labels import Line, label_points
 from crankwork.show.paper import Paper
-from crankwork.show.scene import DASH_DOT, DASHED, SOLID
+from crankwork.show.scene import DASH_DOT, DASHED, SOLID, Drawing
 from crankwork.show.scene import Style as Dashes
 
 _SIDE, _TALL, _MARGIN, _LIST, _ROW = 290.0, 330.0, 26.0, 150.0, 13.5
@@ -52,7 +52,7 @@ class _Kind(NamedTuple):
     pole: str
 
 
-def velocity_plan(mechanism: Mechanism, moving: Moving, index: int, speed: float, style: Style = PLAIN) -> bytes:
+def velocity_plan(mechanism: Mechanism, moving: Moving, index: int, speed: float, style: Style = PLAIN) -> Drawing:
     """Return the velocity plan of a linkage at one crank angle."""
     kind = _Kind("velocity_plan", "v", "m/s", symbol("speed", style.language), "rad/s", "p")
     return _figure(velocities(mechanism, moving, index, speed, style.links), kind, moving.degrees[index], style)
@@ -65,7 +65,7 @@ def acceleration_plan(
     speed: float,
     angular_acceleration: float = 0.0,
     style: Style = PLAIN,
-) -> bytes:
+) -> Drawing:
     """Return the acceleration plan of a linkage at one crank angle."""
     plan = accelerations(mechanism, moving, index, speed, angular_acceleration, style.links)
     pole = "q" if style.language == "en" else "π"
@@ -73,7 +73,7 @@ def acceleration_plan(
     return _figure(plan, kind, moving.degrees[index], style)
 
 
-def _figure(plan: Plan, kind: _Kind, degrees: float, style: Style) -> bytes:
+def _figure(plan: Plan, kind: _Kind, degrees: float, style: Style) -> Drawing:
     """Draw a plan, and beside it what its vectors and the turning of the links are."""
     language = style.language
     seen = [one for one in plan.vectors if one.length > 1e-9 * max(other.length for other in plan.vectors)]
@@ -95,7 +95,7 @@ def _figure(plan: Plan, kind: _Kind, degrees: float, style: Style) -> bytes:
     shown = f"{position_sign(style)} = {position_text(float(degrees), style)}"
     paper.text(WIDTH - 14, tall - 20, shown, anchor="end")
     sign(paper, style.method, _remark(plan, kind, language))
-    return paper.svg(f"{figure_title(kind.title, language)}, {position_text(float(degrees), style)}", language)
+    return paper.drawing(f"{figure_title(kind.title, language)}, {position_text(float(degrees), style)}", language)
 
 
 def _remark(plan: Plan, kind: _Kind, language: Language) -> str:

@@ -29,7 +29,7 @@ from crankwork.report.linkage_scene import SLOT, Scene, scene
 from crankwork.show.chart import WIDTH, Box, Graph, sign
 from crankwork.show.labels import Line, label_points
 from crankwork.show.paper import BLACK, Paper, plain
-from crankwork.show.scene import DASH_DOT, SOLID
+from crankwork.show.scene import DASH_DOT, SOLID, Drawing
 from crankwork.show.scene import Style as Dashes
 
 _STEP = 2.0
@@ -55,7 +55,7 @@ class _Sheet(NamedTuple):
 
 def position_plans(
     mechanism: Mechanism, ends: tuple[float, float] | None = None, main: int = 1, style: Style = PLAIN
-) -> bytes:
+) -> Drawing:
     """Return the position plans of a linkage over each other, numbered from 0.
 
     `ends`: crank angles between which a crank swings that does not turn fully [deg]; `main`: the plan that is drawn
@@ -87,7 +87,7 @@ def position_plans(
     shown = f"{position_sign(style, f'_{main}')} = {position_text(float(degrees[main]), style)}"
     hand.text(0.97 * hand.width, foot, shown, anchor="end")
     sign(hand, style.method)
-    return hand.svg(figure_title("position_plans", style.language), style.language)
+    return hand.drawing(figure_title("position_plans", style.language), style.language)
 
 
 def _sheet(drawn: Scene, plans: list[int], main: int, style: Style) -> _Sheet:

@@ -8,11 +8,12 @@ from crankwork.analysis.results import Results
 from crankwork.locale import say
 from crankwork.report.linkage_curves import curves
 from crankwork.report.linkage_look import Style
+from crankwork.show.scene import Drawing
 
 _PANELS = (("crank_angle",), ("crank_speed",), ("kinetic_energy", "potential_energy"), ("driving_torque",))
 
 
-def transient_figures(results: Results, style: Style) -> dict[str, bytes]:
+def transient_figures(results: Results, style: Style) -> dict[str, Drawing]:
     """Return crank angle, speed, energies and torque since a machine was let go; none where it was not."""
     if "transient" not in results.listings:
         return {}

@@ -6,50 +6,69 @@ import base64
 import contextlib
 import difflib
 import html
-from dataclasses import dataclass, field
-from pathlib import Path
+from dataclasses import dataclass, field, replace
+from pathlib import Path, PurePath
 
 from crankwork import files
 from crankwork.analysis import Results
 from crankwork.analysis.rounding import summary_without_rounding
-from crankwork.errors import GeometryError, UnknownKeyError
+from crankwork.errors import CrankworkError, GeometryError, UnknownKeyError
 from crankwork.locale import Refusal, say
 from crankwork.locale.numbers import number
 from crankwork.quantities import Language
 from crankwork.report.drawing import moving_drawing
 from crankwork.report.language import displayed, in_own_units, key_unit, label, symbol
 from crankwork.report.summary import results_method
+from crankwork.show.formats import FORMATS
+from crankwork.show.scene import Drawing
+from crankwork.show.svg import svg
+from crankwork.show.theme import THEMES, Theme
 
 _LINES = 9
 
 
 @dataclass(frozen=True)
 class Picture:
-    """A drawing that a notebook shows and a file takes."""
+    """A drawing that a notebook shows and a file takes, in the theme `print`, `colour` or `dark`."""
 
-    svg: str = field(repr=False)
+    drawing: Drawing = field(repr=False)
     name: str
+    theme: Theme = "print"
+
+    @property
+    def svg(self) -> str:
+        """The drawing as SVG."""
+        return svg(self.drawing, self.theme).decode()
 
     def _repr_svg_(self) -> str:
         return self.svg
 
+    def styled(self, theme: Theme) -> Picture:
+        """Return it in another theme."""
+        if theme not in THEMES:
+            raise CrankworkError(Refusal("theme_unknown", name=str(theme)[:40], known=", ".join(THEMES)))
+        return replace(self, theme=theme)
+
     def save(self, path: str | Path, *, overwrite: bool = False) -> None:
-        """Write it as SVG."""
+        """Write it in the format that the ending of the name asks for: SVG, PDF, PNG or DXF."""
+        ending = PurePath(path).suffix.lower().removeprefix(".")
+        if ending not in FORMATS:
+            raise CrankworkError(Refusal("figure_ending", name=str(path)[-60:], known=", ".join(FORMATS)))
         files.check_files(path, overwrite=overwrite)
-        files.write_files({path: self.svg.encode()}, overwrite=overwrite)
+        files.write_files({path: FORMATS[ending](self.drawing, self.theme)}, overwrite=overwrite)
 
 
 def picture(results: Results, name: str, language: Language) -> Picture:
     """Return a figure by name."""
     # a notebook that draws nothing does not load it
-    from crankwork.report.figures import figures  # noqa: PLC0415
+    from crankwork.report.figures import drawings  # noqa: PLC0415
 
-    found = figures(results, language=language, only=name)
+    found = drawings(results, language=language, only=name)
     if name not in found:
-        known = list(figures(results, language=language))
+        known = list(drawings(results, language=language))
         near = difflib.get_close_matches(name, known, n=3, cutoff=0.5) or known
         raise UnknownKeyError(Refusal("figure_unknown", name=name[:60], known=", ".join(near)))
-    return Picture(found[name].decode(), name)
+    return Picture(found[name], name)
 
 
 @in_own_units

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from crankwork.analysis import Results
 from crankwork.analysis.moving import free_course
@@ -12,9 +12,11 @@ from crankwork.errors import GeometryError, MissingExtraError, missing_extras
 from crankwork.locale import Refusal
 from crankwork.quantities import Language
 from crankwork.report.drawing import moving_drawing
-from crankwork.report.figures import figures
+from crankwork.report.figures import drawings
 from crankwork.report.summary import summary_data
 from crankwork.report.tables import csv_of_sheet, sheets, workbook
+from crankwork.show.formats import FORMATS
+from crankwork.show.theme import Theme
 
 # What some files of the folder need that the base installation lacks: extra by module.
 _WORKBOOK = {"xlsxwriter": "tables"}
@@ -32,9 +34,13 @@ def results_folder(
     language: Language = "en",
     per_area: bool = False,
     for_excel: bool = False,
-    with_figures: bool = True,
+    formats: Sequence[str] = ("svg",),
+    theme: Theme = "print",
 ) -> Iterator[dict[str, bytes]]:
-    """Yield the files of a results folder in steps, so that progress can be shown; `left_out` says what is not made."""
+    """Yield the files of a results folder in steps, so that progress can be shown; `left_out` says what is not made.
+
+    `formats`: of the figures, none for none.
+    """
     summary = summary_data(results, per_area=per_area)
     yield {
         "summary.json": f"{json.dumps(summary, ensure_ascii=False, indent=1)}\n".encode(),
@@ -51,6 +57,7 @@ def results_folder(
     free = free_course(results)
     if free is not None:
         yield {"transient.svg": moving_drawing(results.machine, language=language, free=free).encode()}
-    if with_figures:
-        drawn = figures(results, language=language, per_area=per_area)
-        yield {f"figures/{name}.svg": data for name, data in drawn.items()}
+    if formats:
+        drawn = drawings(results, language=language, per_area=per_area)
+        for one in formats:
+            yield {f"figures/{name}.{one}": FORMATS[one](drawing, theme) for name, drawing in drawn.items()}

@@ -108,17 +108,29 @@ def workbook(results: Results, *, language: Language = "en", per_area: bool = Fa
     cells = sum(len(column) for table in tables.values() for column in table.columns.values())
     # rows that are written wait in files, which takes longer where they are few
     kept = {"in_memory": True} if cells < _MANY else {"constant_memory": True}
-    try:
-        with xlsxwriter.Workbook(stream, {**kept, "strings_to_formulas": False}) as book:
-            # the same tables are the same bytes
-            told = {"title": results.machine.title[:255], "comments": provenance(results)}
-            book.set_properties({"created": _CREATED, **told})
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        book = xlsxwriter.Workbook(stream, {**kept, "strings_to_formulas": False, "tmpdir": folder})
+        # the same tables are the same bytes
+        told = {"title": results.machine.title[:255], "comments": provenance(results)}
+        book.set_properties({"created": _CREATED, **told})
+        try:
             _fill(book, tables, language)
-    except (OSError, FileCreateError) as error:
-        full = error if isinstance(error, OSError) else error.args[0]
-        reason = str(getattr(full, "strerror", None) or full).lower()
-        raise CrankworkError(Refusal("place_unwritable", path=tempfile.gettempdir(), reason=reason)) from None
+            book.close()
+        except (OSError, FileCreateError) as error:
+            raise _full(error) from None
+        finally:
+            # a workbook that could not be finished leaves the files of its rows open
+            for rows in (getattr(one, "row_data_fh", None) for one in book.worksheets()):
+                if rows is not None:
+                    rows.close()
     return stream.getvalue()
+
+
+def _full(error: Exception) -> CrankworkError:
+    """Return the refusal for a place that could not take the rows of a workbook."""
+    full = error if isinstance(error, OSError) else error.args[0]
+    reason = str(getattr(full, "strerror", None) or full).lower()
+    return CrankworkError(Refusal("place_unwritable", path=tempfile.gettempdir(), reason=reason))
 
 
 def _fill(book: xlsxwriter.Workbook, tables: Mapping[str, Sheet], language: Language) -> None:

@@ -19,7 +19,7 @@ from crankwork.report.summary import results_method
 from crankwork.show.chart import Box, Graph, Row, limits, round_ticks, sheet, sign
 from crankwork.show.labels import label_points
 from crankwork.show.paper import Paper, plain
-from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing
 from crankwork.units import from_si
 
 _UPPER, _LOWER, _GAP = 216.0, 144.0, 16.0
@@ -27,8 +27,8 @@ _MOST_TICKS = 12
 _MOST_NAMED = 24
 
 
-def turning_figures(results: Results, *, language: Language = "en") -> dict[str, bytes]:
-    """Return the figures of a shaft as SVG by name; those for which nothing is known are left out."""
+def turning_figures(results: Results, *, language: Language = "en") -> dict[str, Drawing]:
+    """Return the figures of a shaft by name; those for which nothing is known are left out."""
     style, drawn = Style(language, (), results_method(results, language)), _shown(turning_diagram(results))
     if drawn is None:
         loops = results.listings.get("energy_extremes")
@@ -53,7 +53,7 @@ def _shown(drawn: TurningDiagram | None) -> TurningDiagram | None:
     )
 
 
-def _diagram(results: Results, drawn: TurningDiagram, style: Style) -> bytes:
+def _diagram(results: Results, drawn: TurningDiagram, style: Style) -> Drawing:
     """Return the torque over its load with the works of the loops between them, and below it the energy."""
     language = style.language
     rows = _rows(results, language)
@@ -64,7 +64,7 @@ def _diagram(results: Results, drawn: TurningDiagram, style: Style) -> bytes:
     _energy(paper, lower, results, drawn, language)
     excess = results.summary["excess_work"]
     sign(paper, style.method, f"{math_symbol(QUANTITIES['excess_work'].symbol(language))} = {_work(excess, language)}")
-    return paper.svg(figure_title("turning_moment", language), language)
+    return paper.drawing(figure_title("turning_moment", language), language)
 
 
 _LINES = (("turning_moment", "torque", SOLID), ("load_torque", "load", DASHED))
@@ -140,7 +140,7 @@ def _frame(graph: Graph, *, is_last: bool) -> None:
     graph.frame(angle_ticks(*graph.x), round_ticks(*graph.y, rows), labels=(is_last, True))
 
 
-def _loops(energy: Array, style: Style) -> bytes:
+def _loops(energy: Array, style: Style) -> Drawing:
     """Return the energy after each loop about the mean, as a broken line over their numbers."""
     language, row = style.language, QUANTITIES["kinetic_energy_change"]
     count, values = np.arange(energy.size + 1.0), displayed_values(row, np.append(0.0, energy))
@@ -154,4 +154,4 @@ def _loops(energy: Array, style: Style) -> bytes:
     graph.x_title(axis_title(QUANTITIES["loop_number"], language))
     graph.y_title(axis_title(row, language))
     sign(paper, style.method)
-    return paper.svg(figure_title("loops", language), language)
+    return paper.drawing(figure_title("loops", language), language)

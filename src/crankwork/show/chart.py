@@ -176,7 +176,9 @@ def legend(paper: Paper, rows: Sequence[Row], top: float) -> None:
         if row is not None and row.style == CIRCLE:
             paper.dot(left + 10, level + 6, 2.6, fill="#ffffff", width=1.0)
         elif row is not None and row.width:
-            paper.line([left, left + 20], [level + 6] * 2, style=row.style, width=row.width, colour=row.colour)
+            paper.line(
+                [left, left + 20], [level + 6] * 2, style=row.style, width=row.width, colour=row.colour, name="legend"
+            )
         paper.text(left + 27, level + 9, text, size=_LEGEND)
 
 

@@ -25,6 +25,7 @@ from crankwork.show.scene import (
     runs,
     text_width,
 )
+from crankwork.show.theme import Theme
 
 _STYLE, _FONT = "SHEET", "times.ttf"
 # in hundredths of a millimetre, only those that the format knows
@@ -38,8 +39,8 @@ _THROUGH_CORNERS = 128
 _SPARE = 1.5
 
 
-def dxf(drawing: Drawing) -> bytes:
-    """Return a drawing as DXF in model space, a drawing unit for a millimetre."""
+def dxf(drawing: Drawing, _: Theme = "print") -> bytes:
+    """Return a drawing as DXF in model space, a drawing unit for a millimetre; layers have its colours."""
     try:
         import ezdxf  # noqa: PLC0415 - an optional part
     except ImportError:

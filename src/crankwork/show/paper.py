@@ -12,7 +12,6 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Language
 from crankwork.show import scene
 from crankwork.show.scene import CAP_HEIGHT, SOLID, Circle, Drawing, Item, Pen, Polyline, Style, Text
-from crankwork.show.svg import svg
 
 BLACK, GREY, LIGHT = "#000000", "#737373", "#e0e0e0"
 MM = 25.4 / 72
@@ -174,10 +173,6 @@ class Paper:
         """Return what was drawn, on a paper whose origin is its lower left corner."""
         height = self.height * MM
         return Drawing(title, language, self.width * MM, height, tuple(_raised(one, height) for one in self._items))
-
-    def svg(self, title: str, language: Language = "en") -> bytes:
-        """Return the paper as SVG."""
-        return svg(self.drawing(title, language))
 
 
 def _places(x: Sequence[float] | Array, y: Sequence[float] | Array) -> Array:
