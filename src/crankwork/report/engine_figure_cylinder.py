@@ -63,7 +63,7 @@ def kinematics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
             graph.curve(one.key, drawn.degrees[turn], one.values, one.style)
             if has_orders:
                 left = box.left + 8 + 70 * at
-                paper.line([left, left + 20], [box.top - 10] * 2, style=one.style, width=1.2)
+                paper.line([left, left + 20], [box.top - 10] * 2, style=one.style, width=1.2, name="legend")
                 paper.text(left + 27, box.top - 7, engine.symbol(one.key), size=8.5)
         graph.y_title(engine.title(f"piston_{noun}"), 42.0)
         graphs[noun] = graph

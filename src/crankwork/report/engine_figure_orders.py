@@ -162,7 +162,9 @@ def balance_ellipses(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     start = (WIDTH - columns * side - (columns - 1) * gap) / 2 + 16
     paper = Paper(WIDTH, TOP + head + lines * side + (lines - 1) * 52 + BOTTOM)
     for at, text in enumerate(rows):
-        paper.line([LEFT, LEFT + 20], [TOP + 2 + 13.4 * at] * 2, style=DASHED if at == 0 else SOLID, width=1.2)
+        paper.line(
+            [LEFT, LEFT + 20], [TOP + 2 + 13.4 * at] * 2, style=DASHED if at == 0 else SOLID, width=1.2, name="legend"
+        )
         paper.text(LEFT + 27, TOP + 5 + 13.4 * at, text, size=8.5)
     graphs: dict[str, Graph] = {}
     for at, (order, (before, after)) in enumerate(loci.items()):
