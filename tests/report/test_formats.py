@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
+import numpy as np
 import pytest
 
 import crankwork
@@ -14,7 +15,7 @@ from crankwork.errors import CrankworkError
 from crankwork.report.figures import drawings
 from crankwork.show.dxf import dxf
 from crankwork.show.pdf import pdf, png
-from crankwork.show.scene import Drawing, Polyline, Text
+from crankwork.show.scene import Drawing, Polyline, Text, thinned
 from crankwork.show.svg import svg
 from crankwork.show.theme import THEMES, look_of
 
@@ -109,3 +110,17 @@ def test_a_picture_is_restyled_and_saved_by_its_ending(tmp_path):
         picture.save(tmp_path / "torque.eps")
     with pytest.raises(CrankworkError, match="print, colour, dark"):
         picture.styled("neon")
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_thinned_line_leaves_no_point_further_away_than_nobody_sees(seed):
+    walk = np.cumsum(np.random.default_rng(seed).normal(size=(400, 2)) * (0.05, 0.01), axis=0)
+    # a loop that ends where it begins, and a line drawn twice
+    points = np.vstack([walk, walk[::-1]]) if seed % 2 else walk
+    kept = thinned(points)
+    assert len(kept) < len(points)
+    assert np.array_equal(kept[[0, -1]], points[[0, -1]])
+    start, way = kept[:-1], np.diff(kept, axis=0)
+    shares = np.clip(np.sum((points[:, None] - start) * way, axis=2) / np.maximum(np.sum(way**2, axis=1), 1e-30), 0, 1)
+    nearest = np.min(np.hypot(*np.moveaxis(points[:, None] - start - shares[..., None] * way, -1, 0)), axis=1)
+    assert np.max(nearest) <= 0.01 + 1e-12

@@ -255,6 +255,34 @@ def extent(item: Item) -> Box:
     return Box(float(low[0]), float(low[1]), float(high[0] - low[0]), float(high[1] - low[1]))
 
 
+# of a line, what nobody sees [mm]
+_UNSEEN = 0.01
+
+
+def thinned(points: Array, within: float = _UNSEEN) -> Array:
+    """Return the points of a line without those that lie as near as that to the line that is left. [mm]
+
+    By Douglas and Peucker.
+    """
+    kept = np.zeros(len(points), dtype=bool)
+    kept[[0, -1]] = True
+    open_parts = [(0, len(points) - 1)]
+    while open_parts:
+        first, last = open_parts.pop()
+        if last - first < 2:
+            continue
+        way, inner = points[last] - points[first], points[first + 1 : last] - points[first]
+        # nearest point between the ends, because a line may turn back
+        shares = np.clip(inner @ way / max(float(way @ way), 1e-30), 0.0, 1.0)
+        apart = np.hypot(inner[:, 0] - shares * way[0], inner[:, 1] - shares * way[1])
+        farthest = int(np.argmax(apart))
+        if apart[farthest] > within:
+            middle = first + 1 + farthest
+            kept[middle] = True
+            open_parts += [(first, middle), (middle, last)]
+    return points[kept]
+
+
 def arc_points(item: Arc) -> Array:
     """Return points along an arc, shape (n, 2). [mm]"""
     angles = np.radians(np.linspace(item.start, item.end, 1 + max(2, int(abs(item.end - item.start) / 3))))

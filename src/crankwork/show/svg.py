@@ -23,6 +23,7 @@ from crankwork.show.scene import (
     hatch_lines,
     pen_of,
     runs,
+    thinned,
 )
 from crankwork.show.theme import Look, Theme, look_of, themed
 
@@ -107,7 +108,7 @@ class _Writer:
         return _number(x), _number(self._height - y)
 
     def _steps(self, points: Array, *, closed: bool = False) -> str:
-        places = [" ".join(self._at(float(x), float(y))) for x, y in points]
+        places = [" ".join(self._at(x, y)) for x, y in thinned(points).tolist()]
         return "M" + "L".join(places) + ("z" if closed else "")
 
     def _stroke(self, kind: LineKind | Pen) -> str:
