@@ -250,8 +250,9 @@ def _move(staged: Path, folder: Path, contents: dict[str, bytes], *, overwrite: 
     with _locked(folder):
         if not overwrite:
             _check_empty(folder)
+        earlier = _earlier(folder)
         for name in contents:
-            _check_place(folder, name)
+            _check_place(folder, name, earlier.get(name, []))
         for name in contents:
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
         _replace(staged, folder, contents)
@@ -274,8 +275,8 @@ def _replace(staged: Path, folder: Path, contents: dict[str, bytes]) -> None:
     (folder / MARK).unlink()
 
 
-def _check_place(folder: Path, name: str) -> None:
-    """Raise unless a result may go where its name says."""
+def _check_place(folder: Path, name: str, hashes: list[str]) -> None:
+    """Raise unless a result may go where its name says; `hashes`: of what earlier runs wrote there."""
     path = folder / name
     if (link := _link(folder, name)) is not None:
         raise CrankworkError(Refusal("place_linked", path=link))
@@ -283,6 +284,8 @@ def _check_place(folder: Path, name: str) -> None:
         raise CrankworkError(Refusal("place_folder", path=path))
     if path.resolve() in _inputs:
         raise CrankworkError(Refusal("place_read", path=path))
+    if path.exists() and not path.is_symlink() and not _is_as_written(folder, name, hashes):
+        raise CrankworkError(Refusal("place_taken", path=path))
 
 
 def _link(folder: Path, name: str) -> Path | None:

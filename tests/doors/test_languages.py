@@ -75,7 +75,7 @@ def test_every_mistake_of_a_file_is_told_in_the_language(crankwork, language, li
 @pytest.mark.parametrize(
     ("command", "said"),
     [
-        (("run", "x.toml", "--lang=ru", "--foo"), "--foo: такого параметра нет; см. --help"),
+        (("run", "x.toml", "--lang=ru", "--zzz"), "--zzz: такого параметра нет; см. --help"),
         (("report", "--lang", "vi", "x.toml"), "-o: còn thiếu; hãy ghi -o TỆP-GHI, xem --help"),
         (("run", "x.toml", "--lang", "de"), "--lang: de is not possible; write en, ru or vi"),
         (("run", "--lang", "ru"), "ФАЙЛ: отсутствует; запишите после команды, см. --help"),
@@ -250,13 +250,13 @@ fluctuation = 0,25
     ("language", "unit", "link", "sentences"),
     [
         ("ru", "обр/мин", "шатун", [
-            (r"имена не латинскими буквами пишутся в кавычках; запишите (.*) = \.\.\.", "шатун"),
+            (r"не только латинские буквы, цифры, - и _, пишутся в кавычках; запишите (.*) = \.\.\.", "шатун"),
             (r"запятая разделяет элементы; запишите (.*)", "0,25"),
             (r"crank\.spead: неизвестный ключ; возможно, (.*)\?", "spead"),
             (r'crank\.speed: единица "обр/мин" неизвестна; возможно, (.*)\?', '"60 обр/мин"'),
             (r"crank\.radius: отсутствует; запишите (.*)", None)]),
         ("vi", "vg/phh", "thanh_truyền", [
-            (r"tên có chữ ngoài bảng Latin phải đặt trong dấu ngoặc kép; hãy ghi (.*) = \.\.\.", "thanh_truyền"),
+            (r"khác chữ Latin, chữ số, - và _ phải đặt trong dấu ngoặc kép; hãy ghi (.*) = \.\.\.", "thanh_truyền"),
             (r"dấu phẩy ngăn cách các phần tử; hãy ghi (.*)", "0,25"),
             (r"crank\.spead: khoá không có; có phải (.*)\?", "spead"),
             (r'crank\.speed: không có đơn vị "vg/phh"; có phải (.*)\?', '"60 vg/phh"'),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -168,3 +169,19 @@ def test_text_that_is_no_toml_is_refused_on_its_line(
     check_mistakes(answer)
     assert advice in answer.err
     assert answer.mistakes[0].startswith(f"my.toml:{line}: ")
+
+
+@pytest.mark.parametrize(
+    ("line", "written"),
+    [
+        ("radius = “50 mm”", 'radius = "50 mm"'),
+        ("radius = «50 mm»", 'radius = "50 mm"'),
+        ("[xi lanh]", '["xi lanh"]'),
+    ],
+)
+def test_quotation_marks_of_a_text_and_names_of_two_words_are_written_as_toml_has_them(crankwork, line, written):
+    Path("a.toml").write_text(f"{line}\n", encoding="utf-8")
+    told = crankwork("check", "a.toml").err.splitlines()[0]
+    assert told.startswith("a.toml:1: ")
+    assert told.endswith(written)
+    tomllib.loads(written)

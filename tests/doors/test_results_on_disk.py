@@ -109,8 +109,26 @@ def test_a_manifest_leads_to_no_file_outside_its_folder(tmp_path, name, data) ->
     digest = hashlib.sha256(data).hexdigest()
     named = str(tmp_path / "mine.txt") if name.startswith("/") else name
     Path("out", files.MANIFEST).write_text(json.dumps({"files": {named: [digest]}}), encoding="utf-8")
+    for one in RESULTS:
+        Path("out", one).unlink()
     files.write_folder("out", RESULTS, overwrite=True)
     assert Path("mine.txt").read_bytes() == data
+    assert _contents("out") == RESULTS
+
+
+@pytest.mark.parametrize("is_ours", [True, False])
+def test_a_file_of_the_user_with_the_name_of_a_result_is_not_replaced(is_ours) -> None:
+    """Put there by the user, or changed since it was written."""
+    name = next(iter(RESULTS))
+    if is_ours:
+        files.write_folder("out", RESULTS)
+    _put({name: b"mine"})
+    before = _contents("out")
+    with pytest.raises(CrankworkError, match=r"\.csv: was not written by crankwork, or was changed since;"):
+        files.write_folder("out", {**RESULTS, name: b"new"}, overwrite=True)
+    assert _contents("out") == before
+    Path("out", name).unlink()
+    files.write_folder("out", RESULTS, overwrite=True)
     assert _contents("out") == RESULTS
 
 

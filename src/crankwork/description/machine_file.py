@@ -199,6 +199,18 @@ def _deepest(source: str) -> int:
     return line
 
 
+def _is_toml(line: str) -> bool:
+    try:
+        tomllib.loads(line)
+    except ValueError:
+        return False
+    return True
+
+
+# marks of quotation that a word processor writes
+_CURLY = "“”„‟«»‘’‚‛"
+
+
 def _syntax_message(source: str, name: str, text: str) -> Refusal:
     """Return a sentence for a syntax error, with the line and a likely fix."""
     found = re.search(r"\(at line (\d+), column (\d+)\)", text)
@@ -208,6 +220,13 @@ def _syntax_message(source: str, name: str, text: str) -> Refusal:
     line = _printable(lines[number - 1].strip()[:60]) if number <= len(lines) else ""
     if any(word in text for word in ("overwrite", "twice", "already", "mutate", "Duplicate", "immutable")):
         return Refusal("stands_twice", place=place, line=line)
+    written = re.sub(f"[{_CURLY}]", '"', line)
+    if written != line and _is_toml(written):
+        return Refusal("curly_quotes", place=place, line=line, written=written)
+    spaced = re.match(r"(\[{1,2})([^\]\"']*\s[^\]\"']*)\]", line)
+    if spaced is not None:
+        written = f'{spaced[1]}"{spaced[2].strip()}"{"]" * len(spaced[1])}'
+        return Refusal("letters_need_quotes", place=place, line=line, written=written)
     comma = re.match(r"(.*?=\s*\[?(?:.*,\s)?)([+-]?\d+),(\d+)\s*(?:[\],#}]|$)", line)
     key = re.match(r"(\[{0,2})\s*([^=\[\]\"'#.]*[^\x00-\x7f][^=\[\]\"'#.]*)", line)
     if key is not None:

@@ -112,8 +112,10 @@ def by_subject(results: Results) -> dict[str, dict[str, float]]:
     found: dict[str, dict[str, float]] = {name: {} for name in SUBJECTS}
     for key, value in summary_without_rounding(results).items():
         name = subject(told_as(key, results))
-        # gas of a linkage has the names of that on a piston, and is that of a chamber
-        found["chambers" if name == "engine" and results.machine.lengths is None else name][key] = value
+        if name == "engine" and results.machine.lengths is None:
+            # gas of a linkage has the names of that on a piston, and is that of a chamber
+            name = "chambers" if results.machine.chambers else "shaft"
+        found[name][key] = value
     return {name: some for name, some in found.items() if some}
 
 
