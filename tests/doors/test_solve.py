@@ -56,7 +56,7 @@ WRONG = {
     "field in brackets": ((ENGINE[0], "--for", "gas.pieces[x].exponent"), "gas.pieces[x].exponent: is no key"),
     "entry of no list": ((ENGINE[0], "--for", "crank[1]"), "crank[1]: is no key"),
     "no field": ((ENGINE[0],), "--for: is missing; write --for KEY, see --help"),
-    "empty range": ((*ENGINE, "--from", "5 rpm", "--to", "5 rpm"), 'the range from "5.0 rpm" to "5.0 rpm" is empty'),
+    "empty range": ((*ENGINE, "--from", "5 rpm", "--to", "5 rpm"), "the range from 5 rpm to 5 rpm is empty"),
     "range turned round": (
         (*ENGINE, "--from", "500", "--to", "5 rpm"),
         "is empty; give --from a value below that of --to",

@@ -94,7 +94,8 @@ def places(sought: Sought, start: str | float | None, end: str | float | None, s
     is_stated = own is None
     low, high = (given if given is not None else found for given, found in zip((low, high), own or (0, 0), strict=True))
     if not low < high:
-        written = tuple(shown(sought.written(one)) for one in (low, high))
+        ends = ((start, low), (end, high))
+        written = [stated if isinstance(stated, str) else shown(sought.written(one)) for stated, one in ends]
         raise CrankworkError(Refusal("range_empty", start=written[0], end=written[1]))
     is_even = not 0 < low * _FAR <= high
     at = np.linspace(low, high, steps + 1) if is_even else np.geomspace(low, high, steps + 1)
