@@ -227,7 +227,7 @@ def test_the_ending_tells_the_format():
 @pytest.mark.parametrize(("name", "package"), [("note.pdf", "typst"), ("note.docx", "docx")])
 def test_without_its_package_a_format_says_what_to_install(monkeypatch, name, package):
     monkeypatch.setitem(__import__("sys").modules, package, None)
-    with pytest.raises(MissingExtraError, match=r"crankwork\[report\]"):
+    with pytest.raises(MissingExtraError, match=r"pip install .*\[report\]"):
         written_note(Note("t", "en", ()), name)
 
 
