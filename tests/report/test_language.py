@@ -6,7 +6,7 @@ import pytest
 
 from crankwork.locale.numbers import number
 from crankwork.quantities import QUANTITIES
-from crankwork.report.language import displayed
+from crankwork.report.language import displayed, label
 from crankwork.units import to_si
 
 
@@ -36,3 +36,9 @@ def test_the_unit_of_values_and_that_of_tables_are_told_apart(key):
 def test_lengths_are_shown_in_millimetres_and_held_in_metres():
     row = QUANTITIES["piston_displacement"]
     assert (row.unit, row.si_unit) == ("mm", "m")
+
+
+def test_a_half_order_of_a_cycle_of_two_turns_is_an_order():
+    assert label("free_force.0.5", "ru").endswith("порядок 0,5")
+    assert label("free_force.2", "en") == "free force, order 2"
+    assert label("free_moment.residual.2", "en") == "free moment, left over, order 2"

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Concatenate, ParamSpec, TypeVar
 
 import numpy as np
 
-from crankwork.locale import has_text, say
+from crankwork.locale import decimal, has_text, say
 from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.units import from_si, shown_in
 
@@ -91,7 +91,9 @@ def label(key: str, language: Language) -> str:
     """Return the name of a key: `largest piston velocity`, and with its own name `joint force, A`."""
     kind, dot, name = key.partition(".")
     if kind in _OF_ORDERS and dot:
-        what = say("report.order", language, order=name) if name.isdecimal() else row_name(name, language)
+        # half orders where a cycle has two turns
+        is_order = name.replace(".", "", 1).isdecimal()
+        what = say("report.order", language, order=decimal(name, language)) if is_order else row_name(name, language)
         return f"{say(f'drawing.{kind}', language)}, {what}"
     return _label(kind, language) + (f", {_part(kind, name, language)}" if dot else "")
 
