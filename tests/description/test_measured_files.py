@@ -473,3 +473,29 @@ def test_awkward_files_are_read_rightly(read, content, keys):
     results = read(content, keys)
     assert is_right(results)
     assert results.columns_at(np.array([372.0]), ("gas_pressure",))["gas_pressure"] == pytest.approx(41e5, rel=1e-6)
+
+
+def test_a_table_whose_commas_stand_in_numbers_and_between_them_is_refused(read):
+    rows = "\n".join(f"{round(one)},0,{one % 7:.3f}".replace(".", ",") for one in ANGLES)
+    said = refusal(read, f"CA,p\n{rows}\n")
+    assert "the comma stands in the numbers and between the columns; export with semicolons" in said
+
+
+@pytest.mark.parametrize(("unit", "size"), [("kp/cm2", 0.980665), ("mmHg", 133.322387415e-5), ("Torr", 1.01325 / 760)])
+def test_old_units_of_pressure_are_read(read, unit, size):
+    assert is_right(read(f"CA [deg]\tp [{unit}]\n" + table(ANGLES, BAR / size), ""))
+
+
+def test_a_unit_that_is_none_of_pressure_or_angle_is_named(read):
+    said = refusal(read, "CA [deg]\tp [V]\n" + table(ANGLES, BAR / 10), "")
+    assert 'column 2 ("p [V]") is in "V", which is not known here; convert its numbers, or write pressure_' in said
+    said = refusal(read, "CA [1/10 deg]\tp [bar]\n" + table(10 * ANGLES, BAR), "")
+    assert 'column 1 ("CA [1/10 deg]") is in "1/10 deg"' in said
+
+
+def test_a_line_of_units_may_have_derivatives_by_the_angle(read):
+    """As Diesel-RK writes it, with its preamble."""
+    head = " DIESEL-RK  results\n Engine: 4T  D=85\n --------\n  CA  V  P  T  dQ/dx\n  deg  cm3  bar  K  1/deg\n"
+    columns = ANGLES, 1e3 + ANGLES, BAR, 300 + ANGLES, 0 * ANGLES
+    results = read(head + table(*columns, separator="  "), "")
+    assert is_right(results)

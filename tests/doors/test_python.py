@@ -263,3 +263,14 @@ def test_a_users_script_passes_strict_mypy(tmp_path: Path) -> None:
     done = subprocess.run(words, capture_output=True, text=True, cwd=tmp_path, env=paths, timeout=300, check=False)
     assert done.returncode == 0, done.stdout
     assert re.search("no issues found", done.stdout)
+
+
+def test_a_description_tells_its_keys_as_a_mapping_does():
+    d = crankwork.Description(
+        '[crank]\nradius = "50 mm"\n[gas]\npieces = [{ law = "constant", points = ["a", "b"] }]\n'
+    )
+    assert list(d) == ["crank.radius", "gas.pieces[1].law", "gas.pieces[1].points"] == list(d.keys())
+    assert [d[key] for key in d] == ["50 mm", "constant", ["a", "b"]]
+    assert d.get("crank.radius") == "50 mm"
+    assert d.get("crank.offset", "nothing") in ("nothing", 0, 0.0, "0 mm")
+    assert all(key in d for key in d)

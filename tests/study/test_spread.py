@@ -139,3 +139,17 @@ def test_a_file_with_deviations_is_the_machine_of_its_values() -> None:
     spread = crankwork.analyse(slider_crank(crank__radius="50 ± 0.1 mm", rod__length="200 mm +- 1%"))
     assert dict(plain.summary) == dict(spread.summary)
     assert spread.machine.deviations == {"crank.radius": pytest.approx(1e-4), "rod.length": pytest.approx(2e-3)}
+
+
+@pytest.mark.parametrize(
+    ("stated", "size"),
+    [("2 kg ± 0.5 g", 0.0005), ("2000 g ± 0.1 kg", 0.1), ("2 ± 0.1 kg", 0.1), ("2 kg ± 1 lb", 0.45359237)],
+)
+def test_a_deviation_may_have_a_unit_of_its_own(stated, size):
+    machine = crankwork.read_machine(crankwork.template("engine").replace('"0.55 kg"', f'"{stated}"'))
+    assert machine.deviations["piston.mass"] == pytest.approx(size)
+
+
+def test_a_deviation_of_another_quantity_is_refused():
+    with pytest.raises(crankwork.InputError, match=r"piston\.mass: unit \"mm\" measures length; mass is wanted"):
+        crankwork.read_machine(crankwork.template("engine").replace('"0.55 kg"', '"0.55 kg ± 1 mm"'))

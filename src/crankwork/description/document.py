@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -68,6 +68,21 @@ class Description:
         if found is None:
             raise UnknownKeyError(Refusal("not_stated", key=key[:60]))
         return copy.deepcopy(found)
+
+    def __iter__(self) -> Iterator[str]:
+        """Yield the key of every value that the file states, as it stands there."""
+        return _keys(self._values)
+
+    def keys(self) -> tuple[str, ...]:
+        """Return the key of every value that the file states."""
+        return tuple(self)
+
+    def get(self, key: str, default: Any = None) -> Any:  # noqa: ANN401 - what the file states
+        """Return a value as the file states it, or its default as a file would, or else `default`."""
+        try:
+            return self[key]
+        except UnknownKeyError:
+            return default
 
     def __contains__(self, key: str) -> bool:
         """Return whether the file states a key."""
@@ -163,3 +178,15 @@ def _at(table: Any, step: str | int) -> Any:  # noqa: ANN401 - what a file has t
     if isinstance(step, int):
         return table[step - 1] if isinstance(table, list) and 0 < step <= len(table) else None
     return table.get(step) if isinstance(table, dict) else None
+
+
+def _keys(values: Any, path: str = "") -> Iterator[str]:  # noqa: ANN401 - what a file states
+    """Yield the dotted keys of all values below a table; tables of a list by their numbers, lists of values whole."""
+    if isinstance(values, Mapping):
+        for name, value in values.items():
+            yield from _keys(value, f"{path}.{name}".lstrip("."))
+    elif isinstance(values, list) and values and all(isinstance(one, Mapping) for one in values):
+        for number, value in enumerate(values, start=1):
+            yield from _keys(value, f"{path}[{number}]")
+    else:
+        yield path

@@ -32,18 +32,20 @@ def _in_range(limit: float, rounding: str) -> str:
 
 
 def apart(text: str) -> tuple[str, str | None]:
-    """Return a stated value and its standard deviation, which may be a share of it; nothing where none is stated.
+    """Return a stated value and its standard deviation, which may be a share of it or have a unit of its own.
 
     Examples
     --------
-    >>> apart("75 ± 0.1 mm"), apart("0.25 ± 2 %"), apart("75 mm +- 1%"), apart("75 mm")
-    (('75 mm', '0.1'), ('0.25', '2%'), ('75 mm', '1%'), ('75 mm', None))
+    >>> apart("75 ± 0.1 mm"), apart("0.25 ± 2 %"), apart("75 mm +- 1%"), apart("75 mm"), apart("2 kg ± 5 g")
+    (('75 mm', '0.1'), ('0.25', '2%'), ('75 mm', '1%'), ('75 mm', None), ('2 kg', '5 g'))
     """
     match = _DEVIATION.fullmatch(text) if len(text) < _LONG else None
     if match is None:
         return text, None
     value, first, size, last = (one.strip() for one in match.groups(""))
-    return f"{value} {first or ('' if last == '%' else last)}".strip(), f"{size}%" if last == "%" else size
+    if last == "%":
+        return f"{value} {first}".strip(), f"{size}%"
+    return f"{value} {first or last}".strip(), f"{size} {last}" if first and last else size
 
 
 class Measure(NamedTuple):
@@ -131,11 +133,22 @@ class Quantity(NamedTuple):
         if not self._holds(found.value):
             reader.complain(key, self._out_of_range(value.strip(), found.dimension))
             return None
-        if deviation is not None:
-            reader.deviations[key] = units.size_of(found, deviation)
+        if deviation is not None and not self._deviates(found, deviation, key, reader):
+            return None
         if found.told:
             reader.notices.append((found.told, {"path": key, "text": value.strip(), "value": found.value}))
         return Measure(found.value if abs(found.value) > _NOTHING else 0.0, found.dimension, found.unit)
+
+    def _deviates(self, found: units.Parsed, deviation: str, key: str, reader: Reader) -> bool:
+        """Remember a standard deviation, in the unit of the value or in its own."""
+        size, _, own = deviation.partition(" ")
+        try:
+            of = units.parse(deviation, (found.dimension,), decimal_comma=reader.decimal_comma) if own else found
+        except ValueError as error:
+            reader.complain(key, error.args[0])
+            return False
+        reader.deviations[key] = units.size_of(of, size)
+        return True
 
     def _holds(self, number: float) -> bool:
         # a limit in another unit may be off by rounding

@@ -29,6 +29,8 @@ _REFERENCES = {
     "gauge": re.compile(r"\b(?:gauge|barg|psig)\b|\(g\)|изб", re.IGNORECASE),
 }
 _RANGE = re.compile(r"(\d+)\s*\.\.\s*(\d+)")
+# what stands behind an angle and is more than a remark: a number or a quotient
+_SOME_UNIT = re.compile(r"\d|/")
 _MOST = 16_384
 _FEWEST = 8
 # degrees that are no cycle, and radians that are too many
@@ -60,8 +62,14 @@ def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> Me
         return None
     if not found.pressure_unit:
         key = "pressure_unit"
+        written = table.written[found.pressures[0]]
+        options = ", ".join(_options(values)[:3])
+        asked = Refusal("missing", advice=(f'{key} = "{_options(values)[0]}"',))
+        if written:
+            column = table.told(found.pressures[0])
+            asked = Refusal("measured_unit_unknown", unit=written[:20], column=column, name=key, options=options)
         if not reader.doubts(f"{path}.measured.{key}"):
-            reader.complain(f"{path}.measured.{key}", Refusal("missing", advice=(f'{key} = "{_options(values)[0]}"',)))
+            reader.complain(f"{path}.measured.{key}", asked)
         return None
     degrees = samples[:, 0] if found.angle_unit == "deg" else np.degrees(samples[:, 0])
     pressure = samples[:, 1:] * UNITS[found.pressure_unit].factor
@@ -159,6 +167,10 @@ def _unit(table: FileTable, values: Values, kind: str, at: int, told: list[Told]
         raise table.refused(
             "measured_foreign", line=table.heading, column=table.told(at), unit=own, key=f"{kind}_column"
         )
+    written = table.written[at]
+    if key not in values and not own and kind == "angle" and _SOME_UNIT.search(written):
+        told_of = {"unit": written[:20], "column": table.told(at), "name": key}
+        raise table.refused("measured_unit_unknown", **told_of, options="deg, rad")
     if key not in values:
         return own if own or kind == "pressure" else "deg"
     stated = str(values[key])

@@ -35,6 +35,8 @@ _NUMBER_LAST = re.compile(r"(?:^|[\s_,/=@])\d[\d.,]*$")
 # what stands behind a unit of crank angle, and behind one of pressure
 _OF_CRANK = re.compile(r"(?:^ca|^пкв|(?<=.)[\s.]*(?:ca|kw|пкв|п\.к\.в|atdc|abdc|btdc))\.?$", re.IGNORECASE)
 _OF_REFERENCE = re.compile(r"(?<=..)[\s(]*(?:absolute|abs|gauge|a|g|абс|изб)\.?\)?$", re.IGNORECASE)
+# units that are not in the table, of derivatives by the angle and of other quantities
+_QUOTIENT = re.compile(r"[\w°³²·*^%]{1,8}(?:/[\w°³²·*^]{1,8}){1,3}")
 _UNITLESS = ("", "-", "–", "1", "[-]", "[]", "(-)", "%")
 _SPOKEN = {
     **dict.fromkeys(("degree", "degrees", "cad", "grad", "градусы", "градусов", "гр"), "deg"),
@@ -166,6 +168,8 @@ def _table(text: str, name: str) -> FileTable:
         told = "measured_one_column" if single else "measured_heading"
         raise ValueError(Refusal(told, line=single or filled[0]))
     numbers = filled[start:]
+    if separator == "," and count > 2 and lines[numbers[0] - 2].count(",") + 1 == count / 2:
+        raise ValueError(Refusal("table_commas", line=numbers[0]))
     heading, names, written = _headings(lines[: numbers[0] - 1], separator, count)
     rows = [lines[number - 1] for number in numbers]
     units = tuple(unit_of(one) for one in written)
@@ -268,7 +272,8 @@ def _are_units(cells: Sequence[str]) -> bool:
     known = [bool(unit_of(one)) for one in cells]
     bracketed = [one.strip().startswith(("[", "(")) for one in cells]
     return any(known) and all(
-        one or inside or cell.strip() in _UNITLESS for one, inside, cell in zip(known, bracketed, cells, strict=True)
+        one or inside or cell.strip() in _UNITLESS or bool(_QUOTIENT.fullmatch(cell.strip()))
+        for one, inside, cell in zip(known, bracketed, cells, strict=True)
     )
 
 
@@ -280,7 +285,7 @@ def _apart(heading: str) -> tuple[str, str]:
     for mark in _DIVIDING.finditer(heading.strip()):
         name, unit = heading.strip()[: mark.start()], heading.strip()[mark.end() :]
         # 800 rpm is where something was measured, and not its unit
-        if name and unit_of(unit) and not _NUMBER_LAST.search(name):
+        if name and unit_of(unit) and not name.isdecimal() and not _NUMBER_LAST.search(name):
             return name, unit
     return heading.strip(), ""
 
