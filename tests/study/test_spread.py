@@ -153,3 +153,36 @@ def test_a_deviation_may_have_a_unit_of_its_own(stated, size):
 def test_a_deviation_of_another_quantity_is_refused():
     with pytest.raises(crankwork.InputError, match=r"piston\.mass: unit \"mm\" measures length; mass is wanted"):
         crankwork.read_machine(crankwork.template("engine").replace('"0.55 kg"', '"0.55 kg ± 1 mm"'))
+
+
+def test_an_angle_that_goes_through_zero_spreads_by_a_little():
+    """Of an offset e the acceleration is largest where sin phi is about -2 e / l / (...), on either side of zero."""
+    text = """
+        format = 2
+        crank = { radius = "50 mm", speed = "1000 rpm" }
+        rod.length = "200 mm"
+        cylinder = { bore = "80 mm", offset = "0 ± 2 mm" }
+    """
+    found = crankwork.spread(crankwork.Description(text))
+    offset = np.random.default_rng(5).normal(0.0, 0.002, 400)
+    phi = np.linspace(-0.1, 0.1, 20001)
+    s, c = 0.05 * np.sin(phi), 0.05 * np.cos(phi)
+
+    def at(e: float) -> float:
+        # second derivative of r cos + sqrt(l^2 - (r sin - e)^2), its largest downward value
+        y, root = s - e, np.sqrt(0.2**2 - (s - e) ** 2)
+        return float(phi[np.argmax(c + (c**2 - y * s) / root + (y * c) ** 2 / root**3)])
+
+    expected = float(np.std([at(one) for one in offset]))
+    assert found["piston_acceleration_max_angle"].deviation == pytest.approx(expected, rel=0.1)
+
+
+def test_equal_causes_have_equal_shares_where_draws_are_taken():
+    """The greatest of three equal peaks: each by itself does a third of it."""
+    at = ", ".join(f'"{one} deg"' for one in range(0, 361, 60))
+    torque = ", ".join(['"0 N*m"', '"1000 ± 10 N*m"'] * 3 + ['"0 N*m"'])
+    text = f'crank.speed = "30 rad/s"\ntorque = {{ period = "360 deg", at = [{at}], torque = [{torque}] }}\n'
+    found = crankwork.spread(crankwork.Description(text), samples=2000)
+    largest = found["turning_moment_max"]
+    assert largest.is_sampled
+    assert [one.share for one in largest.causes] == pytest.approx([1 / 3] * 3, abs=0.06)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
+from numpy.polynomial import hermite_e
 
 from crankwork.analysis import Results, analyse
 from crankwork.description.document import Description
@@ -23,6 +25,10 @@ _LOOKS = 24
 # share of a deviation by which what each number does alone may miss what all do together, root of the mean square
 _MISSED = 0.08
 _NOTHING = 1e-12
+# of polynomials by which a value follows one number alone
+_ORDERS = 4
+# keys of crank angles, which go round
+_ANGLES = ("_max_angle", "_min_angle")
 
 
 class Cause(NamedTuple):
@@ -130,10 +136,11 @@ def spread(
             raise CrankworkError(Refusal("spread_single", key=key[:60]))
     names, total = list(known), 4 * len(beside.given) + _LOOKS
     middle = np.array([known[key] for key in names])
+    near = _Near(names, middle, math.radians(stated.machine.cycle))
     first, second = np.empty((2, len(beside.given), len(names)))
     for row, (cause, (value, deviation)) in enumerate(beside.given.items()):
         low_2, low, high, high_2 = (
-            _values(beside.results({cause: value + step * deviation}), names) for step in (-2, -1, 1, 2)
+            near.values(beside.results({cause: value + step * deviation})) for step in (-2, -1, 1, 2)
         )
         # by the deviation, without the terms of third and fourth order
         first[row] = (8 * (high - low) - (high_2 - low_2)) / 12
@@ -143,18 +150,17 @@ def spread(
     variances = first**2 + second**2 / 2
     deviations = np.sqrt(variances.sum(axis=0))
     generator = np.random.default_rng(seed)
-    draws, drawn = _drawn(beside, names, _LOOKS, generator)
+    draws, drawn = _drawn(beside, near, _LOOKS, generator)
     model = draws @ first + draws**2 @ second / 2
     missed = np.sqrt(np.nanmean((drawn - middle - model) ** 2, axis=0))
     size = _NOTHING * np.maximum(np.abs(middle), np.max(np.abs(middle), initial=0.0) * _NOTHING)
     is_odd = ~(missed <= np.maximum(_MISSED * deviations, size))
     if is_odd.any():
-        more, found = _drawn(beside, names, samples - _LOOKS, generator, told)
+        more, found = _drawn(beside, near, samples - _LOOKS, generator, told)
         draws, drawn = np.concatenate([draws, more]), np.concatenate([drawn, found])
         centred = drawn[:, is_odd] - np.nanmean(drawn[:, is_odd], axis=0)
         deviations[is_odd] = np.sqrt(np.nanmean(centred**2, axis=0))
-        # what goes along with each number
-        variances[:, is_odd] = np.nanmean(draws[:, :, None] * centred[:, None, :], axis=0) ** 2
+        variances[:, is_odd] = _by_cause(draws, centred)
     with np.errstate(invalid="ignore", divide="ignore"):
         shares = variances / variances.sum(axis=0)
     spreads = {}
@@ -183,26 +189,47 @@ class _Beside:
         return analyse(self._description.machine([*self._overrides, *changes]))
 
 
-def _values(results: Results, names: Sequence[str]) -> Array:
-    return np.array([results.summary.get(key, np.nan) for key in names])
+def _by_cause(draws: Array, centred: Array) -> Array:
+    """Return the part of a variance that follows from each number alone, by orthogonal polynomials of its draws."""
+    found = np.zeros((draws.shape[1], centred.shape[1]))
+    noise = np.nanmean(centred**2, axis=0) / len(draws)
+    for order in range(1, _ORDERS + 1):
+        basis = hermite_e.hermeval(draws, [0.0] * order + [1.0]) / math.sqrt(math.factorial(order))
+        found += np.maximum(np.nanmean(basis[:, :, None] * centred[:, None, :], axis=0) ** 2 - noise, 0.0)
+    return found
+
+
+class _Near(NamedTuple):
+    """Single values by their keys, crank angles as near as they can be to the stated ones. [SI]"""
+
+    names: Sequence[str]
+    middle: Array
+    cycle: float
+
+    def values(self, results: Results) -> Array:
+        """Return the values of some results; NaN for those that there are not."""
+        found = np.array([results.summary.get(key, np.nan) for key in self.names])
+        is_angle = np.array([key.partition(".")[0].endswith(_ANGLES) for key in self.names])
+        apart = found - self.middle
+        return np.where(is_angle, found - self.cycle * np.round(apart / self.cycle), found)
 
 
 def _drawn(
     beside: _Beside,
-    names: Sequence[str],
+    near: _Near,
     count: int,
     generator: np.random.Generator,
     told: Callable[[float], None] | None = None,
 ) -> tuple[Array, Array]:
     """Return draws of all uncertain numbers, in deviations, and the single values they give; NaN without a machine."""
     draws = generator.standard_normal((count, len(beside.given)))
-    found = np.full((count, len(names)), np.nan)
+    found = np.full((count, len(near.names)), np.nan)
     for row, draw in enumerate(draws):
         values = {
             key: value + step * size for (key, (value, size)), step in zip(beside.given.items(), draw, strict=True)
         }
         try:
-            found[row] = _values(beside.results(values), names)
+            found[row] = near.values(beside.results(values))
         except CrankworkError:
             continue
         if told is not None:
