@@ -499,3 +499,20 @@ def test_a_line_of_units_may_have_derivatives_by_the_angle(read):
     columns = ANGLES, 1e3 + ANGLES, BAR, 300 + ANGLES, 0 * ANGLES
     results = read(head + table(*columns, separator="  "), "")
     assert is_right(results)
+
+
+def test_commas_that_may_part_thousands_are_asked_about(read):
+    rows = "\n".join(f"{angle:.0f};{round(1e5 * bar) // 1000},{round(1e5 * bar) % 1000:03d}"
+                     for angle, bar in zip(ANGLES, BAR / 10, strict=True))  # fmt: skip
+    said = refusal(read, f"CA [deg];p [Pa]\n{rows}\n", "")
+    assert 'if it parts thousands, export without it, and if it is the decimal mark, write decimal_mark = ","' in said
+    # with the words that are told
+    assert peak(read(f"CA [deg];p [Pa]\n{rows}\n", "", 'decimal_mark = ","\n' + MACHINE)) < 0.01
+    assert is_right(read("CA [deg]\tp [bar]\n" + table(ANGLES, BAR, mark=","), ""))
+
+
+def test_one_low_sample_among_low_ones_is_told(read):
+    low = np.where(ANGLES == 250, 0.0, BAR + 0.4)
+    assert told(read(table(ANGLES, low)))["pressure_spike"]["line"] == "251"
+    noise = np.random.default_rng(2).normal(0.0, 0.02, ANGLES.size)
+    assert "pressure_spike" not in told(read(table(ANGLES, BAR + noise)))

@@ -31,6 +31,9 @@ _REFERENCES = {
 _RANGE = re.compile(r"(\d+)\s*\.\.\s*(\d+)")
 # what stands behind an angle and is more than a remark: a number or a quotient
 _SOME_UNIT = re.compile(r"\d|/")
+_BEHIND = re.compile(r",(\d+)")
+# what no pressure stays below in a machine that works [Pa]
+_NEVER = 50e3
 _MOST = 16_384
 _FEWEST = 8
 # degrees that are no cycle, and radians that are too many
@@ -70,6 +73,12 @@ def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> Me
             asked = Refusal("measured_unit_unknown", unit=written[:20], column=column, name=key, options=options)
         if not reader.doubts(f"{path}.measured.{key}"):
             reader.complain(f"{path}.measured.{key}", asked)
+        return None
+    if not reader.decimal_comma and _are_thousands(table, samples[:, 1:] * UNITS[found.pressure_unit].factor):
+        line = table.lines[0]
+        reader.complain(
+            f"{path}.measured.file", Refusal("in_file", file=file, mistake=Refusal("measured_thousands", line=line))
+        )
         return None
     degrees = samples[:, 0] if found.angle_unit == "deg" else np.degrees(samples[:, 0])
     pressure = samples[:, 1:] * UNITS[found.pressure_unit].factor
@@ -177,6 +186,14 @@ def _unit(table: FileTable, values: Values, kind: str, at: int, told: list[Told]
     if own and UNITS[own] != UNITS[stated]:
         told.append(("measured_other_unit", {"column": table.told(at), "unit": own, "stated": stated, "name": key}))
     return stated
+
+
+def _are_thousands(table: FileTable, pressure: Array) -> bool:
+    """Return whether commas may part thousands: three digits behind each, and no pressure that a machine works with."""
+    if table.separator == "," or float(np.max(np.abs(pressure), initial=0.0)) > _NEVER:
+        return False
+    behind = [len(one) for row in table.rows for one in _BEHIND.findall(row)]
+    return bool(behind) and set(behind) == {3}
 
 
 def _options(values: Values) -> tuple[str, ...]:

@@ -28,6 +28,8 @@ _NO_CLEARANCE = 1e-3
 _FEWEST = 5
 # share of all pressures by which one sample alone may miss its neighbours, and their own share of it
 _SPIKE, _NEIGHBOURS = 0.25, 0.2
+# of a low pressure the share by which one may miss it, the least of all pressures, and how many times the usual
+_LOW, _LEAST, _RARE = 0.5, 0.01, 50.0
 
 
 class Around(NamedTuple):
@@ -83,7 +85,10 @@ def _spikes(measured: MeasuredPressure) -> Iterator[Told]:
     for pressure in measured.pressure.reshape(len(measured.degrees), -1).T:
         middle = np.median(np.stack([pressure[:-2], pressure[1:-1], pressure[2:]]), axis=0)
         off = np.abs(pressure[1:-1] - (pressure[:-2] + pressure[2:]) / 2)
-        alone = (off > _SPIKE * np.ptp(middle)) & (np.abs(pressure[2:] - pressure[:-2]) < _NEIGHBOURS * off)
+        beside = np.abs(pressure[:-2] + pressure[2:]) / 2
+        # where pressures are low, beside these and beside what samples miss their neighbours by elsewhere
+        low = (off > _LOW * beside) & (off > _LEAST * np.ptp(middle)) & (off > _RARE * np.median(off))
+        alone = ((off > _SPIKE * np.ptp(middle)) | low) & (np.abs(pressure[2:] - pressure[:-2]) < _NEIGHBOURS * off)
         if np.any(alone):
             worst = int(np.argmax(np.where(alone, off, 0.0)))
             line, step, count = measured.rows[worst + 1], float(pressure[worst + 1]), float(np.sum(alone))
