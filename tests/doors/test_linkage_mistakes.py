@@ -271,3 +271,11 @@ def test_a_link_between_two_fixed_points_is_told_as_one_too_many(crankwork, mach
     answer = crankwork("check", machine_file(("[links]", bar.format(150)), name="four-bar"))
     assert answer.code == 2
     assert "its joints are 200 to 200 mm apart, and it is 150 mm long; leave it out" in answer.err
+
+
+def test_a_forgotten_centre_is_told_as_missing(crankwork, check_mistakes) -> None:
+    text = re.sub(r", centre = [^}]*\}", " }", template("four-bar"), count=1)
+    Path("a.toml").write_text(text, encoding="utf-8")
+    answer = crankwork("check", "a.toml")
+    check_mistakes(answer)
+    assert 'links.coupler.centre: is missing; give two coordinates, like ["50 mm", "0 mm"]' in answer.err

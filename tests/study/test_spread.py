@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 
 import numpy as np
 import pytest
@@ -185,4 +186,8 @@ def test_equal_causes_have_equal_shares_where_draws_are_taken():
     found = crankwork.spread(crankwork.Description(text), samples=2000)
     largest = found["turning_moment_max"]
     assert largest.is_sampled
+    # of three normal draws the greatest is 3 / (2 sqrt(pi)) deviations above their mean
+    assert largest.mean == pytest.approx(1000 + 10 * 1.5 / math.sqrt(math.pi), rel=1e-3)
+    assert largest.deviation == pytest.approx(10 * math.sqrt(0.5594672), rel=0.06)
+    assert re.search(r"mean of the draws 100[89]; ", spread_text(found))
     assert [one.share for one in largest.causes] == pytest.approx([1 / 3] * 3, abs=0.06)

@@ -25,6 +25,8 @@ _LOOKS = 24
 # share of a deviation by which what each number does alone may miss what all do together, root of the mean square
 _MISSED = 0.08
 _NOTHING = 1e-12
+# standard errors that a mean must be away from a value to be told
+_AWAY = 4.0
 # of polynomials by which a value follows one number alone
 _ORDERS = 4
 # keys of crank angles, which go round
@@ -45,6 +47,7 @@ class Spread(NamedTuple):
     deviation: float
     causes: tuple[Cause, ...]
     is_sampled: bool = False  # Whether it comes from draws, because numbers do not act one by one
+    mean: float | None = None  # Of the draws, where the stated value is further from it than so many tell
 
 
 @dataclass(frozen=True)
@@ -167,7 +170,11 @@ def spread(
     for at, key in enumerate(names):
         if deviations[at] > size[at]:
             causes = sorted(map(Cause, beside.given, shares[:, at].tolist()), key=lambda one: -one.share)
-            spreads[key] = Spread(float(middle[at]), float(deviations[at]), tuple(causes), bool(is_odd[at]))
+            mean = float(np.nanmean(drawn[:, at])) if is_odd[at] else float(middle[at])
+            is_away = abs(mean - middle[at]) > _AWAY * deviations[at] / math.sqrt(len(drawn))
+            spreads[key] = Spread(
+                float(middle[at]), float(deviations[at]), tuple(causes), bool(is_odd[at]), mean if is_away else None
+            )
     return Spreads(stated, beside.given, spreads, samples if is_odd.any() else 0)
 
 

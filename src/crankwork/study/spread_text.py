@@ -32,7 +32,12 @@ def _text(found: Spreads, language: Language) -> str:
             if cause.share > _LEAST
         )
         sign = say("study.sampled", language) if one.is_sampled else ""
-        shown = [number(one_value, language) for one_value in (displayed(key, one.value), _size(key, one.deviation))]
+        if one.mean is not None:
+            mean = number(displayed(key, one.mean), language, digits=4)
+            causes = f"{say('study.mean', language, value=mean)}; {causes}"
+        # draws tell no more digits
+        size = number(_size(key, one.deviation), language, digits=3 if one.is_sampled else 6)
+        shown = [number(displayed(key, one.value), language), size]
         rows.append((label(key, language), " ± ".join(shown), unit_name(key_unit(key), language), causes, sign))
     wide = [max((len(row[at]) for row in rows), default=0) for at in range(4)]
     lines += ["  ".join(cell.ljust(size) for cell, size in zip(row, [*wide, 0], strict=True)).rstrip() for row in rows]
@@ -59,6 +64,7 @@ def spread_data(found: Spreads) -> dict[str, Any]:
                     "deviation": rounded(_size(key, one.deviation)),
                     "unit": key_unit(key),
                     "is_sampled": one.is_sampled,
+                    "mean": None if one.mean is None else rounded(displayed(key, one.mean)),
                     "causes": {cause.key: rounded(cause.share) for cause in one.causes},
                 }
                 for key, one in found.items()
