@@ -274,3 +274,14 @@ def test_a_description_tells_its_keys_as_a_mapping_does():
     assert d.get("crank.radius") == "50 mm"
     assert d.get("crank.offset", "nothing") in ("nothing", 0, 0.0, "0 mm")
     assert all(key in d for key in d)
+
+
+def test_what_is_no_machine_no_method_and_no_language_is_told():
+    for wrong in ("my.toml", None, 3):
+        with pytest.raises(crankwork.CrankworkError, match=r"is no machine; read one first: crankwork\.analyse"):
+            crankwork.analyse(wrong)
+    engine = crankwork.Description(crankwork.template("engine"))
+    with pytest.raises(crankwork.CrankworkError, match='int is no method; write method="exact"'):
+        crankwork.analyse(engine, method=3)
+    with pytest.raises(crankwork.CrankworkError, match="de: no language of this program; take one of en, ru, vi"):
+        crankwork.template("engine", "de")

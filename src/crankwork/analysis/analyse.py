@@ -67,6 +67,10 @@ def analyse(
     >>> cw.analyse(engine, [0, 90, 180], method="textbook")["piston_displacement"].round(6).tolist()
     [0.0, 0.051328, 0.09]
     """
+    if not isinstance(machine, Machine) and not hasattr(machine, "machine"):
+        raise CrankworkError(Refusal("object_machine", value=type(machine).__name__))
+    if not isinstance(method, Method | str | None):
+        raise CrankworkError(Refusal("object_method", value=type(method).__name__))
     machine = machine if isinstance(machine, Machine) else machine.machine()
     grid = angles if angles is None or isinstance(angles, CrankGrid) else _grid(angles, machine.cycle)
     method = machine.method.named(method) if isinstance(method, str) else method

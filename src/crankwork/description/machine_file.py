@@ -27,7 +27,7 @@ from crankwork.description.schema import ListOf, Named, NameOr, Nested, Table, V
 from crankwork.description.turning_keys import PRESS_FILE, TURNING_FILE
 from crankwork.errors import CrankworkError, InputError, Problem, UnknownKeyError
 from crankwork.loads.indicator import DiagramError
-from crankwork.locale import Language, Refusal, say
+from crankwork.locale import LANGUAGES, Language, Refusal, say
 from crankwork.resources import read_resource, resource_names
 
 if TYPE_CHECKING:
@@ -380,6 +380,8 @@ def template(name: str, language: Language = "en") -> str:
     CrankworkError
         If there is none of that name.
     """
+    if language not in LANGUAGES:
+        raise CrankworkError(Refusal("language_unknown", name=str(language)[:20], known=", ".join(LANGUAGES)))
     if name not in template_names():
         shown, known = _printable(name[:40]), ", ".join(template_names())
         if near := nearest_name(name, template_names()):
