@@ -11,14 +11,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from crankwork.analysis import Results, analyse
+from crankwork.analysis.turning import turning_diagram
 from crankwork.description.machine_file import read, read_machine
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.locale import LANGUAGES, Language
 from crankwork.note.contents import note_of
 from crankwork.note.options import NoteOptions
 from crankwork.note.web import web
-from crankwork.report.figures import figures
+from crankwork.report.figures import drawings, figures
 from crankwork.report.tables import sheets
+from crankwork.show.scene import Hatch, Polyline
 
 ROOT = Path(__file__).parents[2]
 FILES = [*sorted((ROOT / "tests" / "machines").glob("turning-*.toml")), ROOT / "examples" / "punching-machine.toml"]
@@ -172,3 +174,20 @@ def test_every_value_can_be_explained(path: Path) -> None:
     for key in results.keys():  # noqa: SIM118 - those of columns, single values and what lies between
         at = results.machine.cycle / 3 if results.memory[key].varies else None
         assert results.explain(key, at)
+
+
+def test_the_loops_of_a_turning_moment_are_shaded_above_the_load_and_hatched_below_it() -> None:
+    seen = set()
+    for path in FILES:
+        results = analyse(read(path))
+        drawn, works = drawings(results).get("turning_moment"), turning_diagram(results)
+        if drawn is None or works is None:
+            continue
+        less, more = works.torque < works.load, works.torque > works.load
+        hatched = [one for one in drawn.items if isinstance(one, Hatch)]
+        shaded = [one for one in drawn.items if isinstance(one, Polyline) and one.fill not in (None, 1.0)]
+        # what is taken away at once has no area
+        assert bool(hatched) is bool(np.any(less[1:] & less[:-1])), path.stem
+        assert bool(shaded) is bool(np.any(more[1:] & more[:-1])), path.stem
+        seen |= {bool(hatched), bool(shaded)}
+    assert True in seen

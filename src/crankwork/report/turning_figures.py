@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from crankwork.analysis import Array, Results
 from crankwork.analysis.turning import TurningDiagram, turning_diagram
@@ -16,7 +15,7 @@ from crankwork.report.figure_data import figure_title
 from crankwork.report.linkage_energy import speed_curve
 from crankwork.report.linkage_look import Style, angle_ticks, axis_title, displayed_values, math_symbol
 from crankwork.report.summary import results_method
-from crankwork.show.chart import Box, Graph, Row, limits, round_ticks, sheet, sign
+from crankwork.show.chart import Box, Graph, Row, limits, round_ticks, sheet, sign, stretches
 from crankwork.show.labels import label_points
 from crankwork.show.paper import Paper, plain
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing
@@ -86,14 +85,14 @@ def _rows(results: Results, language: Language) -> list[Row]:
 def _torques(paper: Paper, box: Box, drawn: TurningDiagram, language: Language) -> None:
     graph = Graph(paper, box, (0.0, float(drawn.degrees[-1])), limits(drawn.torque, drawn.load), language)
     over = drawn.torque > drawn.load
-    for start, end in stretches(over):
-        part = slice(max(start - 1, 0), min(end + 1, over.size))
-        at = drawn.degrees[part]
-        torque, load = drawn.torque[part], drawn.load[part]
-        # where they cross they are one
-        torque = np.where(over[part], torque, load)
-        around = np.append(at, at[::-1]), np.append(torque, load[::-1])
-        paper.area(graph.across(around[0]), graph.down(around[1]), fill="#d9d9d9")
+    # what is more than the load is shaded, what is less is hatched
+    for where, fill in ((over, graph.shade), (~over, graph.hatch)):
+        for found in stretches(where):
+            part = slice(max(found.start - 1, 0), found.stop + 1)
+            at, load = drawn.degrees[part], drawn.load[part]
+            # where they cross they are one
+            torque = np.where(where[part], drawn.torque[part], load)
+            fill(np.append(at, at[::-1]), np.append(torque, load[::-1]))
     _frame(graph, is_last=False)
     for (key, _, line), values in zip(_LINES, (drawn.torque, drawn.load), strict=True):
         graph.curve(key, drawn.degrees, values, line)
@@ -103,12 +102,6 @@ def _torques(paper: Paper, box: Box, drawn: TurningDiagram, language: Language) 
         for middle, height, work in drawn.loops:
             x, y = graph.point(middle, height)
             graph.boxed(x, y + 3, _work(work, language, signed=True), "middle", size=7.5)
-
-
-def stretches(where: NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """Return begin and end of the stretches in which something is so."""
-    ends = np.flatnonzero(np.diff(np.concatenate([[False], where, [False]])))
-    return [(int(a), int(b)) for a, b in ends.reshape(-1, 2)]
 
 
 def _work(work: float, language: Language, *, signed: bool = False) -> str:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale.numbers import number
@@ -53,6 +54,12 @@ def round_ticks(low: float, high: float, most: int = 8) -> Array:
     return np.array([float(f"{at * step:.10g}") for at in range(first, last + 1)])
 
 
+def stretches(where: NDArray[np.bool_]) -> list[slice]:
+    """Return the stretches in which something is so."""
+    ends = np.flatnonzero(np.diff(np.concatenate([[False], where, [False]])))
+    return [slice(int(start), int(end)) for start, end in ends.reshape(-1, 2)]
+
+
 class Graph:
     """Axes on paper with scales that are set once: x from left to right, y from the lower to the upper edge."""
 
@@ -90,12 +97,18 @@ class Graph:
         x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
         self.curves[name] = (x, y)
         # gaps where there is no value
-        ends = np.flatnonzero(np.diff(np.concatenate([[False], np.isfinite(x + y), [False]])))
-        for start, end in ends.reshape(-1, 2):
-            part = slice(start, end)
+        for part in stretches(np.isfinite(x + y)):
             self.paper.line(
                 self.across(x[part]), self.down(y[part]), style=style, width=width, colour=colour, name=name
             )
+
+    def shade(self, x: Array, y: Array, fill: str = "#d9d9d9") -> None:
+        """Shade the area that points surround."""
+        self.paper.area(self.across(x), self.down(y), fill=fill)
+
+    def hatch(self, x: Array, y: Array) -> None:
+        """Hatch the area that points surround."""
+        self.paper.hatch(self.across(x), self.down(y))
 
     def frame(self, x_ticks: Array, y_ticks: Array, *, labels: tuple[bool, bool] = (True, True)) -> None:
         """Draw grid, ticks and numbers; the horizontal axis goes through zero where it is in reach."""

@@ -11,7 +11,7 @@ import numpy as np
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Language
 from crankwork.show import scene
-from crankwork.show.scene import CAP_HEIGHT, SOLID, Circle, Drawing, Item, Pen, Polyline, Style, Text
+from crankwork.show.scene import CAP_HEIGHT, SOLID, Circle, Drawing, Hatch, Item, Pen, Polyline, Style, Text
 
 BLACK, GREY, LIGHT = "#000000", "#737373", "#e0e0e0"
 MM = 25.4 / 72
@@ -102,6 +102,10 @@ class Paper:
     ) -> None:
         """Fill an area, with a black outline if it has a width."""
         self._items.append(Polyline(_places(x, y), Pen(width * MM), closed=True, fill=_grey(fill)))
+
+    def hatch(self, x: Sequence[float] | Array, y: Sequence[float] | Array, spacing: float = 5.0) -> None:
+        """Hatch an area with slanted lines at a distance. [pt]"""
+        self._items.append(Hatch(_places(x, y), spacing * MM))
 
     def segments(self, ends: Array, *, width: float = 0.5, colour: str = BLACK) -> None:
         """Draw many straight lines at once, such as hatching.
