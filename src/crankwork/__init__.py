@@ -51,8 +51,10 @@ if TYPE_CHECKING:
     from crankwork.report.figures import figures
     from crankwork.report.notebook import Picture
     from crankwork.report.summary import summary_text
+    from crankwork.study.optimise import Optimum, optimise
     from crankwork.study.solve import Solution, solve
     from crankwork.study.spread import Spreads, spread
+    from crankwork.study.sweep import Swept, sweep
 
 __version__ = "0.1.0"
 
@@ -76,12 +78,14 @@ _HOMES = {
     "Motion": "kinematics.motion",
     "MotionLaw": "mechanism.driver",
     "NoteOptions": "note.options",
+    "Optimum": "study.optimise",
     "Picture": "report.notebook",
     "QUANTITIES": "quantities",
     "Results": "analysis",
     "Segment": "mechanism.driver",
     "Solution": "study.solve",
     "Spreads": "study.spread",
+    "Swept": "study.sweep",
     "UnknownKeyError": "errors",
     "analyse": "analysis",
     "compare": "analysis.compare",
@@ -92,6 +96,7 @@ _HOMES = {
     "json_schema": "description.machine_file",
     "load": "description.document",
     "note_of": "note.contents",
+    "optimise": "study.optimise",
     "read": "description.machine_file",
     "read_machine": "description.machine_file",
     "scotch_yoke": "mechanism.catalog",
@@ -100,6 +105,7 @@ _HOMES = {
     "spread": "study.spread",
     "stephenson_six_bar": "mechanism.catalog",
     "summary_text": "report.summary",
+    "sweep": "study.sweep",
     "template": "description.machine_file",
     "template_names": "description.machine_file",
     "toggle_press": "mechanism.catalog",
@@ -128,12 +134,14 @@ __all__ = [
     "Motion",
     "MotionLaw",
     "NoteOptions",
+    "Optimum",
     "Picture",
     "QUANTITIES",
     "Results",
     "Segment",
     "Solution",
     "Spreads",
+    "Swept",
     "UnknownKeyError",
     "analyse",
     "compare",
@@ -144,6 +152,7 @@ __all__ = [
     "json_schema",
     "load",
     "note_of",
+    "optimise",
     "read",
     "read_machine",
     "scotch_yoke",
@@ -152,6 +161,7 @@ __all__ = [
     "spread",
     "stephenson_six_bar",
     "summary_text",
+    "sweep",
     "template",
     "template_names",
     "toggle_press",

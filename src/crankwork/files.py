@@ -36,6 +36,9 @@ _MARKED = """\
 A run of crankwork was replacing the results in this folder and was stopped before it was done:
 old and new results stand side by side. Run it again with --overwrite.
 """
+# Names the study whose parts are in a folder; who works there holds a lock on it.
+STUDY = "study.json"
+_PART = re.compile(r"part-([0-9]{7,})\.parquet")
 # What was read in this process, which no result may replace.
 _inputs: set[Path] = set()
 
@@ -164,6 +167,26 @@ def write_folder(folder: str | Path, contents: dict[str, bytes], *, overwrite: b
         raise _unwritable(folder, error) from None
 
 
+def kept(name: str, text: str) -> Path | None:
+    """Return where a text is kept between runs of the program, written if it is not there; None if it cannot be.
+
+    `CRANKWORK_CACHE` says in which folder, or the system where the user keeps such things.
+    """
+    stated = os.environ.get("CRANKWORK_CACHE") or os.environ.get("XDG_CACHE_HOME")
+    path = (Path(stated) if stated else Path.home() / ".cache") / "crankwork" / name
+    try:
+        if not path.exists():
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with tempfile.NamedTemporaryFile(
+                "w", dir=path.parent, suffix=".tmp", delete=False, encoding="utf-8"
+            ) as file:
+                file.write(text)
+            Path(file.name).replace(path)
+    except OSError:
+        return None
+    return path
+
+
 def send_nowhere(stream: TextIO) -> None:
     """Let what is still buffered in a stream go nowhere, where nobody reads it any more.
 
@@ -173,6 +196,88 @@ def send_nowhere(stream: TextIO) -> None:
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, stream.fileno())
         os.close(nowhere)
+
+
+class StudyFolder:
+    """A folder that one run fills part by part, and another may go on with; the system releases it after either."""
+
+    def __init__(self, folder: str | Path, identity: bytes, *, resume: bool) -> None:
+        self._folder, self._lock = Path(folder), -1
+        self._parts = self._folder / "parts"
+        try:
+            self._open(identity, resume=resume)
+        except (OSError, ValueError) as error:
+            self.close()
+            raise _unwritable(self._folder, error) from None
+        except CrankworkError:
+            self.close()
+            raise
+
+    def _open(self, identity: bytes, *, resume: bool) -> None:
+        path = self._folder / STUDY
+        if resume and not path.is_file():
+            raise CrankworkError(Refusal("study_none", path=self._folder))
+        if not resume and path.exists():
+            raise CrankworkError(Refusal("study_there", path=self._folder))
+        if not resume:
+            check_folder(self._folder)
+            self._parts.mkdir(parents=True, exist_ok=True)
+        self._lock = os.open(path, os.O_RDWR | (0 if resume else os.O_CREAT | os.O_EXCL), 0o644)
+        if fcntl is not None:
+            try:
+                fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                raise CrankworkError(Refusal("study_busy", path=self._folder)) from None
+            except OSError:
+                # some network disks know no locks; then runs are on their own
+                pass
+        if not resume:
+            os.write(self._lock, identity)
+            os.fsync(self._lock)
+        elif (there := os.pread(self._lock, MAX_MACHINE_FILE, 0)) != identity:
+            raise CrankworkError(Refusal("study_other", path=self._folder, what=_differing(there, identity)))
+        for left in self._parts.glob(f"{_STAGING}*"):
+            left.unlink()
+
+    def done(self) -> set[int]:
+        """Return the numbers of the parts that are there."""
+        found = (_PART.fullmatch(one.name) for one in self._parts.iterdir())
+        return {int(one[1]) for one in found if one}
+
+    def path(self, number: int) -> Path:
+        """Return where a part is."""
+        return self._parts / f"part-{number:07d}.parquet"
+
+    def read(self, number: int) -> bytes:
+        """Return what is in a part."""
+        return read_data(self.path(number))
+
+    def write(self, number: int, data: bytes) -> None:
+        """Write a part, whole or not at all."""
+        path = self.path(number)
+        staged = path.with_name(f"{_STAGING}{path.name}")
+        try:
+            _write_through(staged, data)
+            staged.replace(path)
+        except OSError as error:
+            with contextlib.suppress(OSError):
+                staged.unlink(missing_ok=True)
+            raise _unwritable(path, error) from None
+
+    def close(self) -> None:
+        """Let others in."""
+        if self._lock >= 0:
+            os.close(self._lock)
+            self._lock = -1
+
+
+def _differing(there: bytes, identity: bytes) -> str:
+    """Return what of an identity is another."""
+    try:
+        one, other = json.loads(there), json.loads(identity)
+        return ", ".join(name for name in other if one.get(name) != other[name]) or STUDY
+    except (ValueError, AttributeError):
+        return STUDY
 
 
 def check_folder(folder: str | Path, *, overwrite: bool = False) -> None:
@@ -353,5 +458,8 @@ def _unwritable(path: Path, error: Exception) -> CrankworkError:
 
 
 def _reason(error: Exception) -> str:
+    # a folder that takes no files, as /proc, says that there is no such file
+    if isinstance(error, FileNotFoundError) and Path(error.filename2 or error.filename or "").parent.is_dir():
+        return Refusal("place_takes_nothing")
     said = getattr(error, "strerror", None)
     return said.lower() if said else Refusal("path_unusable")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime as dt
 import math
 import sys
 from collections.abc import Mapping
@@ -46,6 +47,36 @@ class Stated(NamedTuple):
 
     value: float
     unit: str = ""
+
+
+@dataclass(frozen=True)
+class Document:
+    """What a note and its sheets say of themselves; what is empty is left out, or to be filled in by hand.
+
+    `work`: its kind, a course project; `subtitle`: what the note is, where it is no calculation report; `year`: 0 where
+    none is known; `sections`: those of the note in their order, none for those of its school.
+    """
+
+    ministry: str = ""
+    institution: str = ""
+    faculty: str = ""
+    department: str = ""
+    work: str = ""
+    subject: str = ""
+    subtitle: str = ""
+    variant: str = ""
+    designation: str = ""
+    author: tuple[str, ...] = ()
+    student_number: tuple[str, ...] = ()
+    group: str = ""
+    supervisor: str = ""
+    checked_by: str = ""
+    standards_by: str = ""
+    approved_by: str = ""
+    city: str = ""
+    year: int = 0
+    date: dt.date | None = None
+    sections: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -296,6 +327,8 @@ class Machine:
         Of the crank. [rad/s], [rad/s2]
     title : str
         What the owner calls it.
+    document : Document
+        What its note and sheets say of themselves.
     deviations : mapping of str to float
         Standard deviations of numbers that the file states with one, by key. [SI]
     digest : str
@@ -340,6 +373,7 @@ class Machine:
     speed: float
     angular_acceleration: float = 0.0
     title: str = ""
+    document: Document = Document()
     units: System = "metric"
     digest: str = field(default="", compare=False)
     deviations: Mapping[str, float] = field(default_factory=dict, compare=False)

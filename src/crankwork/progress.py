@@ -39,3 +39,21 @@ def with_progress(steps: Iterable[dict[str, bytes]], count: int) -> dict[str, by
             contents |= files
             told(done / count)
     return contents
+
+
+@contextlib.contextmanager
+def counting(total: int) -> Iterator[Callable[[int], None]]:
+    """Give a function that is told how many are done, and shows the rate and the time left."""
+    first: tuple[int, float] | None = None
+    with click.progressbar(length=total, file=sys.stderr, width=24, show_pos=True) as shown:
+
+        def told(count: int) -> None:
+            nonlocal first
+            # what an earlier run has done goes by at once, and says nothing about the rate
+            first = first if first is not None else (count, time.monotonic())
+            passed = time.monotonic() - first[1]
+            if passed > 1 and sys.stderr.isatty():
+                shown.label = f"{(count - first[0]) / passed:,.0f}/s".replace(",", " ")
+                shown.update(count - shown.pos)
+
+        yield told

@@ -11,6 +11,7 @@ from crankwork.resources import read_resource
 
 _ENTRY = re.compile(r"^@(?P<kind>\w+)\{(?P<key>\w+),$(?P<body>.*?)^\}$", re.MULTILINE | re.DOTALL)
 _FIELD = re.compile(r"^  (?P<name>\w+) = \{(?P<value>.*)\},$", re.MULTILINE)
+_CYRILLIC, _VIETNAMESE = re.compile("[а-яё]"), re.compile("[ăđơưạ-ỹ]")
 
 
 class Source(NamedTuple):
@@ -57,6 +58,20 @@ def cite(reference: str) -> str:
     parts = (_names(source.author or source.editor), source.title, source.edition, _publication(source))
     sentences = " ".join(part if part.endswith(".") else part + "." for part in parts if part)
     return f"{sentences.removesuffix('.')}{comma}{place}".removesuffix(".") + "."
+
+
+def source_language(key: str) -> str:
+    """Return the language of a source by the letters of its title: `ru`, `vi`, or `en` for all others.
+
+    Examples
+    --------
+    >>> source_language("kolchin_demidov_2008"), source_language("norton_2012")
+    ('ru', 'en')
+    """
+    title = sources()[key].title.lower()
+    if _CYRILLIC.search(title):
+        return "ru"
+    return "vi" if _VIETNAMESE.search(title) else "en"
 
 
 def _names(people: str) -> str:

@@ -251,18 +251,28 @@ _IMPERIAL = {
     "kg/m3": "lb/ft3", "MJ/kg": "Btu/lb", "kJ/kg": "Btu/lb", "g/(kW*h)": "lb/(hp*h)", "kg/h": "lb/h",
     "m3/min": "ft3/min", "MPa/deg": "psi/deg", "degC": "degF",
 }  # fmt: skip
+
+
+class Shown(NamedTuple):
+    """A system of units, and metric units in the place of those that numbers would be too long in."""
+
+    system: System = "metric"
+    larger: tuple[tuple[str, str], ...] = ()
+
+
+METRIC = Shown()
 # what tables, figures and notes are written in just now, as the precision of `decimal` is
-_SYSTEM: ContextVar[System] = ContextVar("system", default="metric")
+_SHOWN: ContextVar[Shown] = ContextVar("shown", default=METRIC)
 
 
 @contextlib.contextmanager
-def shown_in(system: System) -> Iterator[None]:
-    """Show values in a system of units while this lasts."""
-    token = _SYSTEM.set(system)
+def shown_in(shown: System | Shown) -> Iterator[None]:
+    """Show values in a system of units while this lasts; without units of their own long numbers keep what they had."""
+    token = _SHOWN.set(_SHOWN.get()._replace(system=shown) if isinstance(shown, str) else shown)
     try:
         yield
     finally:
-        _SYSTEM.reset(token)
+        _SHOWN.reset(token)
 
 
 def shown_unit(unit: str) -> str:
@@ -274,10 +284,12 @@ def shown_unit(unit: str) -> str:
     ...     shown_unit("MPa")
     'psi'
     """
-    system = _SYSTEM.get()
+    system, larger = _SHOWN.get()
     if system == "imperial":
         return _IMPERIAL.get(unit, unit)
-    return coherent_unit(unit) if system == "si" and unit not in _KEPT else unit
+    if system == "metric":
+        return next((one for stated, one in larger if stated == unit), unit)
+    return unit if unit in _KEPT else coherent_unit(unit)
 
 
 # angles and temperatures are told in degrees everywhere

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import base64
 import csv
+import gzip
 import hashlib
 import io
 import json
@@ -164,14 +166,14 @@ def test_a_table_of_results_can_be_read_back_as_measured_pressure(crankwork, mac
 @pytest.mark.parametrize("many", [100, 500_000])
 def test_the_workbook_holds_the_same_numbers_as_the_tables(crankwork, machine_file, monkeypatch, many) -> None:
     # of many rows a workbook waits in files
-    monkeypatch.setattr("crankwork.report.tables._MANY", many)
+    monkeypatch.setattr("crankwork.report.workbook._MANY", many)
     _run(crankwork, machine_file(), "-o", "out", "--no-figures", "--lang", "ru")
     with zipfile.ZipFile("out/tables.xlsx") as book:
         assert book.testzip() is None
         workbook = ET.fromstring(book.read("xl/workbook.xml"))  # noqa: S314 - our own workbook
         names = [sheet.get("name") for sheet in workbook.iterfind(".//x:sheet", SHEET)]
-        sheets = [ET.fromstring(book.read(f"xl/worksheets/sheet{n}.xml")) for n in (1, 2, 3)]  # noqa: S314
-    assert names[0] == "Кинематика поршня"
+        sheets = [ET.fromstring(book.read(f"xl/worksheets/sheet{n}.xml")) for n in (4, 5, 6)]  # noqa: S314
+    assert names[:4] == ["Основные результаты расчёта", "Исходные данные", "Проверка результатов", "Кинематика поршня"]
     for sheet, name in zip(sheets, ("kinematics", "harmonics", "forces"), strict=True):
         rows = sheet.findall(".//x:row", SHEET)[1:]
         values = [[float(cell.findtext("x:v", "nan", SHEET)) for cell in row] for row in rows]
@@ -227,3 +229,32 @@ def _pdf(crankwork) -> bytes:
     """Return the description of a note as PDF, which stands there as it is."""
     crankwork("report", "engine.toml", "-o", "note.pdf")
     return Path("note.pdf").read_bytes()
+
+
+@pytest.mark.parametrize("language", ["en", "ru", "vi"])
+def test_a_page_is_written_and_says_where_the_file_gives_a_value(crankwork, machine_file, tmp_path, language) -> None:
+    page = tmp_path / "machine.html"
+    answer = crankwork("page", machine_file(name="engine"), "-o", str(page), "--lang", language)
+    assert answer.code == 0, answer.err
+    letters = re.search(r'id="data">([^<]*)<', page.read_text(encoding="utf-8"))
+    nodes = json.loads(gzip.decompress(base64.b64decode(letters[1])))["memories"]["nodes"]
+    assert any(re.search(r"cylinder\.bore, \D+\d+", node.get("g", "")) for node in nodes)
+    again = crankwork("page", machine_file(name="engine"), "-o", str(page))
+    assert (again.code, "--overwrite" in again.err) == (2, True)
+    assert crankwork("page", machine_file(name="engine"), "-o", str(tmp_path / "machine.pdf")).code == 2
+
+
+def test_a_workbook_begins_with_values_givens_and_checks_and_draws_its_tables(crankwork, machine_file) -> None:
+    _run(crankwork, machine_file(), "-o", "out", "--no-figures")
+    with zipfile.ZipFile("out/tables.xlsx") as book:
+        names = set(book.namelist())
+        strings = book.read("xl/sharedStrings.xml").decode("utf-8")
+        sheets = [book.read(f"xl/worksheets/sheet{n}.xml").decode("utf-8") for n in (1, 2, 3, 4)]
+        styles = book.read("xl/styles.xml").decode("utf-8")
+    assert {"xl/charts/chart1.xml", "xl/charts/chart2.xml", "xl/charts/chart3.xml"} <= names
+    # the subscript of a symbol stands below
+    assert '<vertAlign val="subscript"/>' in strings
+    assert "crank.speed" in strings
+    assert all('ySplit="1"' in one and 'fitToHeight="0"' in one for one in sheets)
+    assert '<drawing r:id="rId1"/>' in sheets[3]
+    assert 'formatCode="0.0000"' in styles

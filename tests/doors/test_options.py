@@ -108,7 +108,10 @@ def test_forces_per_area_need_the_bore(crankwork, machine_file, check_mistakes, 
         (("new", "../../engine"), "there is no template"),
         (("new", "a\x1b[31m"), '"a\\x1b[31m"'),
         (("check",), "FILE: is missing; write it after the command"),
-        (("draw", "my.toml"), '"draw": there is no such command; write new, check, run, report, explain, solve, '),
+        (
+            ("zoom", "my.toml"),
+            '"zoom": there is no such command; write new, check, run, report, page, draw, sweep, map, explain, ',
+        ),
         (("schema", "x"), "x: is not expected here; leave it out"),
     ],
 )

@@ -238,3 +238,13 @@ def test_the_school_orders_the_sections(crankwork) -> None:
         assert crankwork("report", name, "-o", f"{school}.html", "--no-figures", "--school", school).code == 0
     assert _words("en.html").index("Main results") < _words("en.html").index("Position plans")
     assert _words("ru.html").rindex("Main results") > _words("ru.html").rindex("Position plans")
+
+
+def test_sheets_have_the_paper_that_is_asked_for(crankwork) -> None:
+    answer = crankwork("report", PRESS, "-o", "p.html", "--no-figures", "--paper", "A3", "--grid")
+    assert answer.code == 0, answer.err
+    drawn = Path("p-sheet-1.svg").read_text(encoding="utf-8")
+    assert 'viewBox="0 0 420 297"' in drawn
+    plain = crankwork("report", PRESS, "-o", "q.html", "--no-figures", "--paper", "A3")
+    assert plain.code == 0
+    assert len(Path("q-sheet-1.svg").read_text(encoding="utf-8")) < len(drawn)

@@ -90,7 +90,7 @@ def test_what_was_taken_for_what_is_told() -> None:
 @pytest.mark.parametrize("many", [100, 500_000])
 def test_workbooks_of_the_same_results_are_the_same_bytes(monkeypatch, many) -> None:
     pytest.importorskip("xlsxwriter")
-    from crankwork.report.tables import workbook
+    from crankwork.report.workbook import workbook
 
-    monkeypatch.setattr("crankwork.report.tables._MANY", many)
+    monkeypatch.setattr("crankwork.report.workbook._MANY", many)
     assert workbook(engine("metric")) == workbook(engine("metric"))

@@ -21,7 +21,6 @@ from crankwork.locale import LANGUAGES, Refusal, has_text, say, texts, told
 from crankwork.mechanism import dyads
 from crankwork.notation import ARGUMENTS
 from crankwork.note.captions import _PLACE, _SAME
-from crankwork.note.sheets.words import _SAME as SAME
 from crankwork.quantities import QUANTITIES, SUBJECTS
 from crankwork.report.notices import notice_text
 from crankwork.units import UNITS
@@ -35,7 +34,7 @@ NAMED_IN = {
     "fields": "description", "figures": "",
     "headings": "note", "kinds": "",
     "marks": "", "memory": "", "note": "note", "notices": "", "refusals": "", "report": "", "seen": "note",
-    "sentences": "", "sheets": "note", "study": "study", "tables": "",
+    "page": "", "sentences": "", "sheets": "note", "study": "study", "tables": "",
 }  # fmt: skip
 
 
@@ -130,7 +129,7 @@ def said_keys() -> set[str]:
         for call in ast.walk(tree):
             match call:
                 case ast.Call(func=ast.Name("say") | ast.Attribute(_, "say"), args=[ast.Constant(str(key)), *_]):
-                    found.add(key if "." in key else SAME.get(key, key if key in QUANTITIES else f"sheets.{key}"))
+                    found.add(key if "." in key else f"sheets.{key}")
                 case ast.Call(func=ast.Attribute(_, verb), args=[ast.Constant(str(key)), *_]) if verb in SAYING:
                     if path.is_relative_to(PACKAGE / "note"):
                         found.add(_SAME.get(f"{SAYING[verb]}.{key}", f"{SAYING[verb]}.{key}"))
@@ -146,7 +145,7 @@ def test_every_key_that_the_source_spells_has_its_text():
     found = said_keys()
     assert len(found) > 200
     assert {one for one in found if not has_text(one)} == set()
-    assert {key for key in (*SAME.values(), *_SAME.values()) if not has_text(key)} == set()
+    assert {key for key in _SAME.values() if not has_text(key)} == set()
     assert {key for key in _SAME if has_text(key)} == set()
 
 

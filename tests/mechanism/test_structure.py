@@ -1,14 +1,18 @@
 """Mobility, Assur groups, formula of structure, and what is wrong with a linkage."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+from crankwork.description.machine_file import read
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.mechanism.description import linkage_from, mechanism_from
 from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.structure import mobility, structure
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
 SIX_BAR = {
     "fixed_points": {"O": [0.0, 0.0], "B": [0.18, 0.0]},
     "crank": {"pivot": "O", "pin": "A", "radius": 0.05},
@@ -254,3 +258,10 @@ def test_a_crank_with_two_pins():
 def test_more_problems_name_the_key(tables, key, text):
     _, problems = mechanism_from(tables)
     assert [one for one in problems if one.key == key and text in one.message], problems
+
+
+def test_a_cylinder_is_two_links_of_which_its_driver_makes_one():
+    """Barrel 1, rod 2 and boom 3 of an excavator: the driver moves 2 against 1, and both together hold the boom."""
+    found, _ = structure(read(EXAMPLES / "excavator-boom.toml").linkage)
+    assert found.links == ("cylinder", "cylinder_rod", "boom")
+    assert found.formula == "I(1,2) -> II(1+2,3)"

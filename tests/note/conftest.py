@@ -32,6 +32,7 @@ from crankwork.note.document import (
     Note,
     PageBreak,
     Paragraph,
+    Person,
     Reference,
     Table,
     TitlePage,
@@ -40,13 +41,10 @@ from crankwork.note.engine_lines import engine_lines
 from crankwork.note.legends import legend
 from crankwork.note.linkage_lines import linkage_lines
 from crankwork.quantities import Language
+from crankwork.show.scene import Drawing, line
 
 HOSTILE = "# $x$ *a* _b_ @c <d> & \\e `f` ~g \"h\" 'i' #{panic()} ]] $ // /* ${k} </p> --"
-SVG = (
-    b'<?xml version="1.0"?>\n<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" '
-    b'width="200pt" height="100pt" viewBox="0 0 200 100"><defs><path id="p" d="M0 0L200 100" stroke="black"/></defs>'
-    b'<use xlink:href="#p"/></svg>'
-)
+DRAWING = Drawing("drawing", "en", 70.0, 35.0, (line((0.0, 0.0), (70.0, 35.0)),))
 
 
 @functools.cache
@@ -93,7 +91,13 @@ def sample(language: Language) -> Note:
     mass = line(total("reciprocating_mass", [given("piston_mass", 0.1395), given("rod_small_end_mass", 0.065)]))
     rows = [[f"{k}", f"{k / 7:.3f}", HOSTILE] for k in range(60)]
     blocks = (
-        TitlePage(),
+        TitlePage(
+            institution=(HOSTILE, "Trường Ậỗữ"),
+            above=(HOSTILE,),
+            below=("Thuyết minh Ậỗữ",),
+            people=(Person("Выполнил", ("А. Б. <c@d>", "Nguyễn"), signs=True), Person("Supervisor", (HOSTILE,))),
+            place="2026-11-21",
+        ),
         Contents(),
         PageBreak(),
         Heading(1, HOSTILE, label="first"),
@@ -105,14 +109,14 @@ def sample(language: Language) -> Note:
         Equation(mass),
         Equation(FORMULAS[forces.side_force.__name__], numbered=False),
         Table(HOSTILE, (("n",), ("x, ", Math("x_1")), ("text",)), rows, wide=True, align="crl", label="wide"),
-        Figure(SVG, HOSTILE, HOSTILE, label="drawing"),
+        Figure(DRAWING, HOSTILE, HOSTILE, label="drawing"),
         ItemList(((HOSTILE,), (Math("ω"),))),
         ItemList((("one",), ("two",)), ordered=True),
         Heading(1, "References", numbered=False),
         Bibliography(),
     )
     date = dt.date(2026, 11, 21)
-    return Note(HOSTILE, language, blocks, "Thuyết minh Ậỗữ", ("А. Б. <c@d>", "Nguyễn"), date, ("den_hartog_1956",))
+    return Note(HOSTILE, language, blocks, ("А. Б. <c@d>", "Nguyễn"), date, ("den_hartog_1956",))
 
 
 @pytest.fixture(params=["en", "ru", "vi"])
@@ -128,6 +132,6 @@ def hostile() -> str:
 
 
 @pytest.fixture
-def svg() -> bytes:
-    """A small drawing that refers to a part of its own."""
-    return SVG
+def drawing() -> Drawing:
+    """A small drawing."""
+    return DRAWING

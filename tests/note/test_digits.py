@@ -15,7 +15,7 @@ from crankwork.formula.known import Arithmetic, Total, Use, given, total
 from crankwork.formula.lines import FormulaLine, Moment, ValueLine, without_noise
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.note.digits import enough_digits
-from crankwork.note.equations import line_parts, shown_values
+from crankwork.note.equations import line_parts, told_values
 
 FILES = [*sorted(Path("examples").glob("*.toml")), *crankwork.template_names()]
 CASES = [(file, way) for file in FILES for way in ("exact", "textbook")]
@@ -32,7 +32,7 @@ CALCULATOR = {
 
 def keyed_in(printed: str) -> float:
     """Return what a calculator shows for a printed expression."""
-    printed = printed.replace("\u00a0rad", "")
+    printed = printed.replace("\u00a0rad", "").replace("°)", "·π/180)")
     typed = re.sub(r"[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+", lambda found: f"**({found[0].translate(SUPERSCRIPTS)})", printed)
     # a power of ten belongs to its number
     typed = re.sub(r"(?<![\d.])10\*\*\((-?\d+)\)", r"1e\1", typed)
@@ -74,7 +74,7 @@ def test_every_line_can_be_followed_with_a_calculator(file, way, results_of, gro
             if isinstance(step, ValueLine):
                 continue
             count += 1
-            *before, value = line_parts(step, "en")[: 1 - len(shown_values(step)) or None]
+            *before, value = line_parts(step, "en")[: 1 - len(told_values(step)) or None]
             # symbols, then numbers, unless those are the value
             if len(before) > 1 and (said := missed(before[-1], value)):
                 wrong.append(f"{step.key}: {said}")
@@ -93,7 +93,7 @@ def test_every_line_of_an_explanation_can_be_followed_with_a_calculator(file, wa
                 if one.residual or not isinstance(one.known.node, Use | Arithmetic | Total):
                     continue
                 step = without_noise(told.moment(one.degrees).step(one.known))
-                *before, value = line_parts(step, "en")[: 1 - len(shown_values(step)) or None]
+                *before, value = line_parts(step, "en")[: 1 - len(told_values(step)) or None]
                 if len(before) > 1 and (said := missed(before[-1], value)):
                     wrong.append(f"{key} at {at:g}: {step.key}: {said}")
     assert wrong == []

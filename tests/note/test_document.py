@@ -54,19 +54,20 @@ def test_sections_are_counted_by_level():
     assert _numbered(*headings).blocks == ("1", "1.1", "1.1.1", "1.2", "", "2", "2.1")
 
 
-def test_equations_tables_and_figures_are_counted_apart():
+def test_equations_tables_and_figures_are_counted_apart(drawing):
     blocks = [Equation(STEP, label="e"), Table("t", (("a",),), [], label="t"), Equation(STEP, numbered=False),
-              Figure(b"", "f", "f", label="f"), Equation(STEP, label="z")]  # fmt: skip
+              Figure(drawing, "f", "f", label="f"), Equation(STEP, label="z")]  # fmt: skip
     numbers = _numbered(*blocks)
     assert numbers.blocks == ("1", "1", "", "1", "2")
     assert [numbers.reference(label) for label in "etfz"] == ["(1)", "1", "1", "(2)"]
 
 
-def test_sources_are_numbered_in_the_order_in_which_the_text_comes_to_them():
-    book = "den_hartog_1956"
-    numbers = _numbered(Paragraph((Citation(f"{book}, p. 12"),)), Equation(STEP), Paragraph((Citation(book),)))
-    assert list(numbers.sources) == [book, "kolchin_demidov_2008"]
-    assert [numbers.citation(f"{book}, p. 12"), numbers.citation(book)] == ["[1, с. 12]", "[1]"]
+def test_sources_are_numbered_as_the_text_comes_to_them_those_in_its_language_first():
+    book, other = "den_hartog_1956", "norton_2012"
+    cited = [Paragraph((Citation(f"{one}, p. 12"),)) for one in (book, other, book)]
+    numbers = _numbered(*cited, Equation(STEP))
+    assert list(numbers.sources) == ["kolchin_demidov_2008", book, other]
+    assert [numbers.citation(f"{book}, p. 12"), numbers.citation(book)] == ["[2, с. 12]", "[2]"]
 
 
 @pytest.mark.parametrize(
@@ -186,6 +187,8 @@ def test_a_legend_says_a_unit_once_and_that_of_the_quantity_meant():
 def test_a_value_is_shown_in_the_unit_of_its_formula_and_in_that_of_the_tables():
     assert shown_values(line(forces.angular_speed(number(3.0), number(30.0)))) == [(3.0, "rad/s")]
     assert shown_values(ValueLine("gas_pressure", 2e6)) == [(2e6, "Pa"), (2.0, "MPa")]
+    assert shown_values(ValueLine("gas_pressure", 0.0)) == [(0.0, "Pa"), (0.0, "MPa")]
+    assert printed_unit("hp (brit)", "en") == "hp (brit)"
     assert shown_values(line(gas.piston_area(number(4.0), number(1.0)))) == [(1.0, "m2"), (1e4, "cm2")]
 
 

@@ -18,6 +18,7 @@ from crankwork.note.web import web
 from crankwork.report.drawing import moving_drawing
 from crankwork.report.figures import figures
 from crankwork.report.summary import description_text, summary_text
+from crankwork.show.moving_svg import moving_svg
 
 MACHINES = Path(__file__).parent.parent / "machines"
 NAMES = ("boom", "driven-slider", "elbow", "crank-by-table", "cylinder-between-links", "gas-by-law", "heavy-boom")
@@ -46,11 +47,19 @@ def test_every_note_is_written(results, language):
 @pytest.mark.parametrize("name", ["boom", "driven-slider", "elbow", "cylinder-between-links"])
 def test_where_no_crank_drives_nothing_says_crank(results, name):
     one = dataclasses.replace(results[name])
-    said = [written(one, "en"), summary_text(one), description_text(one), moving_drawing(one.machine)]
+    said = [written(one, "en"), summary_text(one), description_text(one), moving_drawing(one).about]
     said += [column for keys in one.tables.values() for column in keys]
     assert not any("third_side" in text for text in said[1:])
     for text in said:
         assert "crank" not in text.replace("crankwork", "").lower(), re.findall(".{40}crank.{40}", text)
+
+
+def test_joints_of_a_cylinder_are_those_of_its_barrel_and_of_its_rod(results):
+    note = linkage_note(results["boom"], NoteOptions(language="en", figures=False))
+    cells = [row[2] for one in note.blocks for row in getattr(one, "rows", ()) if len(row) == 4]
+    between = [cell for cell in cells if re.fullmatch(r"\d–\d", cell)]
+    # one closed loop of four links: each has two joints
+    assert sorted("".join(between).replace("–", "")) == list("00112233"), between
 
 
 def test_explanations_are_at_times(results):
@@ -74,17 +83,19 @@ def test_figures_run_over_time(results, name):
     assert "driver" in drawn
     for data in drawn.values():
         assert "angle of the crank" not in data.decode()
-    drawing = moving_drawing(one.machine)
-    assert re.search(r"= [\d.]+ s", drawing)
-    assert "nan" not in drawing
+    film = moving_drawing(one)
+    assert all(re.fullmatch(r"/{t} = [\d.]+ s", text) for text in film.readouts)
+    assert b"nan" not in moving_svg(film)
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_sheets_run_over_time(results, name):
-    first, second = drawn_sheets(results[name])
-    assert {"position_plans", "velocity_plans.3", "acceleration_plans.5"} <= {one.name for one in first.graphs}
-    assert {one.x.unit for one in second.graphs} == {"s"}
-    assert {one.name for one in second.graphs} & {"driver_force", "driver_torque"}
+    sheets = drawn_sheets(results[name])
+    drawn = {one.name for sheet in sheets for one in sheet.figures}
+    assert {"position_plans", "velocity_plans", "acceleration_plans", "driver"} <= drawn
+    plots = [plot for sheet in sheets for one in sheet.figures for plot in one.drawing.plots]
+    assert {one.over for one in plots if one.titles.get("x", "").endswith(", s")} == {"time"}
+    assert "crank_angle" not in {one.over for one in plots}
 
 
 def test_the_rod_of_a_cylinder_slides_on_its_barrel_in_the_plans(results):

@@ -441,10 +441,8 @@ def test_forces_per_area_are_divided_once():
         assert one / area / 1e6 == pytest.approx(other, rel=1e-3)
 
 
-def test_a_figure_that_no_section_knows_stands_in_the_appendix(monkeypatch):
-    monkeypatch.setattr(
-        engine_material, "figures", lambda *_, **__: {"crankpin_polar": b"<svg/>", "main_wear": b"<svg/>"}
-    )
+def test_a_figure_that_no_section_knows_stands_in_the_appendix(monkeypatch, drawing):
+    monkeypatch.setattr(engine_material, "drawings", lambda *_, **__: {"crankpin_polar": drawing, "main_wear": drawing})
     material = engine_material.Material(results(FOUR), NoteOptions(language="en"))
     assert material.remaining_figures() == ["crankpin_polar", "main_wear"]
     list(material.presented((), ["crankpin_polar"]))
@@ -458,7 +456,7 @@ def test_a_long_narrow_table_stands_side_by_side_and_loses_nothing():
     assert len(table.rows) == 34
     beside = [row[part : part + 2] for part in (0, 2, 4) for row in table.rows]
     assert [one for one in beside if one != ("", "")] == rows
-    short = Table("short", (("a",),), rows[:40] and [("1",)] * 40, align="c")
+    short = Table("short", (("a",),), [("1",)] * 24, align="c")
     assert folded(short) is short
 
 

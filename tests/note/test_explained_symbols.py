@@ -13,7 +13,7 @@ from crankwork.formula.lines import FormulaLine, symbols_of
 from crankwork.notation import ARGUMENTS
 from crankwork.note.contents import note_of
 from crankwork.note.document import Equation, Note, Table
-from crankwork.note.equations import equation_symbol, printed_equation, value_symbol
+from crankwork.note.equations import equation_symbol, own_key, printed_equation, value_symbol
 from crankwork.note.options import NoteOptions
 from crankwork.quantities import QUANTITIES
 from crankwork.report.language import symbol as key_symbol
@@ -39,7 +39,7 @@ def needed(step: FormulaLine, language: str) -> dict[str, tuple[str, ...]]:
         if name in CONSTANTS:
             continue
         if name in named:
-            found[value_symbol(named[name], language)] = (key_symbol(named[name].partition(".")[0], language),)
+            found[value_symbol(named[name], language)] = (key_symbol(own_key(named[name]).partition(".")[0], language),)
             continue
         entry = ARGUMENTS[name]
         if any(mark in entry.pattern for mark in ("sin", "cos")):
@@ -88,14 +88,14 @@ def printed(name: str, language: str = "ru") -> list[str]:
     [
         # a volume at a point of the diagram is not the clearance volume, nor an exponent a rotational speed
         ("spark-engine", "V_(c1) = V_c + F_п·S_x = "),
-        ("spark-engine", "p_(c1) = p_(a)·(V_(a)/V_(c1))^n_п = "),
+        ("spark-engine", "p_(c1) = p_(a)·(V_(a)/V_(c1))^n_1 = "),
         # the inertia force has a rod ratio of its own
-        ("spark-engine", "S_x″,ин = R·(cos φ + λ_ин·cos 2φ) = "),
+        ("spark-engine", "j_ин = R·ω²·(cos φ + λ_ин·cos 2φ) = "),
         ("spark-engine", "P_j = −m_j·j_ин = "),
         ("v8-diesel", "T_5 = T(300°) = "),
         ("v8-diesel", "M_кр,5 = T_5·R = "),
         ("v8-diesel", "δ = L_изб/(J_Σ·ω²) = "),
-        ("petrol-four", "Q_r = 1000·G_т·(M_2·h_r − M_1·h_0) = "),
+        ("petrol-four", "Q_r = 1000·G_т·(M_2·h_μ,r − M_1·h_μ,0) = "),
         ("petrol-four", "M_кш,3 = M_кш,2 + M_кр,2 = "),
         # integrals say what they are
         ("spark-engine", "L_i = ∮ p dV = 905,655"),

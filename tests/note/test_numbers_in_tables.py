@@ -12,15 +12,15 @@ import pytest
 from crankwork.analysis import Results
 from crankwork.analysis.whole_engine import as_engine
 from crankwork.description.machine_file import template_names
-from crankwork.formula.known import Found, in_order
+from crankwork.formula.known import Found, Pieces, in_order
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.note.contents import note_of
 from crankwork.note.document import Table
 from crankwork.note.options import NoteOptions
 from crankwork.quantities import QUANTITIES, base_key
-from crankwork.report.language import key_unit
-from crankwork.units import from_si
+from crankwork.report.language import key_unit, reader_units
+from crankwork.units import from_si, shown_in
 
 EXAMPLES = sorted(Path(__file__).parents[2].joinpath("examples").glob("*.toml"))
 FILES = [*EXAMPLES, *template_names()]
@@ -90,6 +90,8 @@ class Held:
         single = [(one.key, one.value) for one in in_order(results.memory.values()) if not one.varies]
         reached = [one.node.at for one in in_order(results.memory.values()) if isinstance(one.node, Found)]
         single += [("", at) for at in reached if at is not None]
+        laws = [one.node for one in in_order(results.memory.values()) if isinstance(one.node, Pieces)]
+        single += [("", end) for law in laws for end in (0.0, *law.ends.tolist(), results.machine.cycle)]
         single += [*results.summary.items(), *results.checks.items()]
         single += [("", 100 * one) for key, one in results.summary.items() if key.startswith("heat_share")]
         single += [
@@ -118,7 +120,8 @@ def test_the_numbers_of_tables_are_those_of_the_results(results_of, file, way):
     if way != results.method.name:
         # a linkage has one method
         return
-    held, unknown, label = Held(as_engine(results)), set(), ""
+    with shown_in(reader_units(results)):
+        held, unknown, label = Held(as_engine(results)), set(), ""
     # schools differ by language: each is seen with each method
     for language in ("en", "ru" if way == "exact" else "vi"):
         for table in note_of(results, NoteOptions(language=language, figures=False)).blocks:

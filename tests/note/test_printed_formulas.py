@@ -17,7 +17,7 @@ from crankwork.formula.expression import FORMULAS, Operation, evaluate, record, 
 from crankwork.formula.known import Arithmetic, Use
 from crankwork.formula.lines import Moment, symbols_of, without_noise
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.note.equations import line_parts, shown_values, value_symbol
+from crankwork.note.equations import line_parts, told_values, value_symbol
 
 FILES = [*sorted(Path("examples").glob("*.toml")), *crankwork.template_names()]
 RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
@@ -40,6 +40,7 @@ class Reader:
     """Someone who reads one line of text and knows what each symbol is."""
 
     def __init__(self, line: str, known: dict[str, complex]) -> None:
+        known = {"π": math.pi} | known
         self.line, self.known, self.at = line, sorted(known.items(), key=lambda one: -len(one[0])), 0
 
     def value(self) -> complex:
@@ -183,7 +184,7 @@ def remembered(results):
 
 def missed(step) -> str:
     """Return what is wrong with the numbers of a line, empty if a calculator finds the printed value from them."""
-    *before, value = line_parts(step, "en")[: 1 - len(shown_values(step)) or None]
+    *before, value = line_parts(step, "en")[: 1 - len(told_values(step)) or None]
     if len(before) < 2:
         return ""
     printed, *terms = (keyed_in(one) for one in (re.split("[\u00a0°%]", value)[0], *terms_of(before[-1])))
@@ -195,7 +196,7 @@ def missed(step) -> str:
 
 
 def keyed_in(printed: str) -> float:
-    return Reader(printed.replace("\u00a0rad", ""), {"π": math.pi}).value().real
+    return Reader(printed.replace("\u00a0rad", "").replace("°)", "·π/180)"), {}).value().real
 
 
 def terms_of(printed: str) -> list[str]:

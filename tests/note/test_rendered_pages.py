@@ -13,11 +13,12 @@ import subprocess
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
 import pytest
 
 import crankwork
 from crankwork.note.contents import note_of, written_note
-from crankwork.note.document import Heading, Table
+from crankwork.note.document import Heading, Note, Person, Table, TitlePage
 from crankwork.note.options import NoteOptions
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -56,6 +57,22 @@ def _printed(pdf: Path) -> Printed:
         elif word := WORD.search(line):
             words.append((len(pages) - 1, tuple(map(float, word.groups()[:4])), word[5]))
     return Printed(pages, words)
+
+
+def _empty_ends(pdf: Path) -> list[float]:
+    """Return which share of each page below its last line is empty, its number left out."""
+    run = subprocess.run([_program("pdftoppm"), "-r", "20", "-gray", str(pdf)], capture_output=True, check=True)
+    data, shares = run.stdout, []
+    while data:
+        size = re.match(rb"P5\s(\d+) (\d+)\s255\s", data)
+        assert size is not None
+        width, height = int(size[1]), int(size[2])
+        page = np.frombuffer(data, np.uint8, width * height, size.end()).reshape(height, width)
+        body = page[int(0.06 * height) : int(0.93 * height)]
+        inked = np.flatnonzero((body < 200).any(axis=1))
+        shares.append(1.0 - (inked[-1] + 1) / len(body) if inked.size else 1.0)
+        data = data[size.end() + width * height :]
+    return shares
 
 
 @pytest.fixture(scope="module", params=[("spark-engine", "vi"), ("petrol-four", "ru"), ("press", "ru")], ids="-".join)
@@ -169,3 +186,37 @@ def test_the_contents_of_word_have_pages(printed):
     assert len(pages) == len(titles)
     assert pages == sorted(pages)
     assert pages[-1] <= len(shown["word"].pages)
+
+
+@pytest.mark.parametrize(
+    ("name", "language"), [("two-stroke", "vi"), ("press-start", "en"), ("punching-machine", "ru")]
+)
+def test_no_page_between_cover_and_end_is_nearly_empty(name, language, tmp_path):
+    results = crankwork.analyse(crankwork.read(EXAMPLES / f"{name}.toml"))
+    path = tmp_path / "note.pdf"
+    path.write_bytes(written_note(note_of(results, NoteOptions(language=language)), "note.pdf"))
+    _, *shares, _ = _empty_ends(path)
+    assert max(shares) < 0.4
+
+
+@pytest.mark.parametrize(
+    ("language", "words"),
+    [("en", "Table 1 (continued)"), ("ru", "Продолжение таблицы 1"), ("vi", "Bảng 1 (tiếp theo)")],
+)
+def test_a_table_that_goes_on_says_so_on_every_page_but_its_first(language, words, tmp_path):
+    path = tmp_path / "note.pdf"
+    for rows, times in ((20, 0), (120, 2)):
+        table = Table("c", (("a",), ("b",)), [(str(k), "1.5") for k in range(rows)])
+        path.write_bytes(written_note(Note("t", language, (table,)), "note.pdf"))
+        assert _printed(path).text.count(words) == times
+
+
+@pytest.mark.parametrize("letter", ["W", "Щ", "Ậ"])
+def test_a_word_of_300_letters_stays_on_the_cover(tmp_path, letter):
+    word = 300 * letter
+    cover = TitlePage((word,), ("Subject",), (), (Person("Author", (word,), signs=True),), "City")
+    (tmp_path / "note.pdf").write_bytes(written_note(Note("Title", "en", (cover,)), "note.pdf"))
+    printed = _printed(tmp_path / "note.pdf")
+    assert sum(one.count(letter) for _, _, one in printed.words) == 600
+    assert len(printed.pages) == 1
+    assert all(box[0] >= 0 and box[2] <= printed.pages[0][0] for _, box, _ in printed.words)

@@ -9,7 +9,7 @@ import pytest
 
 from crankwork.errors import CrankworkError
 from crankwork.note.document import Equation, Figure, Heading, Math, Note, Paragraph, Table, TitlePage
-from crankwork.note.pdf import pdf, png
+from crankwork.note.pdf import pdf
 from crankwork.quantities import LANGUAGES, QUANTITIES
 
 pytest.importorskip("typst")
@@ -92,13 +92,7 @@ def test_a_table_of_ten_thousand_rows_is_whole():
     assert f"{9999 / 7:.3f}" in shown
 
 
-def test_a_drawing_becomes_pixels_of_its_size(svg):
-    picture = png(svg, 144.0)
-    assert picture.startswith(b"\x89PNG")
-    assert [int.from_bytes(picture[at : at + 4], "big") for at in (16, 20)] == [400, 200]
-
-
-def test_a_drawing_is_in_the_pdf_with_its_description(svg):
-    data = pdf(Note("t", "en", (Figure(svg, "caption", "what it shows"),)))
+def test_a_drawing_is_in_the_pdf_with_its_description(drawing):
+    data = pdf(Note("t", "en", (Figure(drawing, "caption", "what it shows"),)))
     assert "Figure 1. caption" in _text(data)
-    assert data != pdf(Note("t", "en", (Figure(svg, "caption", "something else"),)))
+    assert data != pdf(Note("t", "en", (Figure(drawing, "caption", "something else"),)))

@@ -11,6 +11,7 @@ import pytest
 from crankwork.note.document import Equation, Heading, Math, Note, PageBreak, Table
 from crankwork.note.equations import printed_equation
 from crankwork.note.word import word
+from crankwork.show.svg import svg
 
 docx = pytest.importorskip("docx")
 pytest.importorskip("typst")
@@ -37,7 +38,9 @@ def test_headings_are_headings_and_text_is_as_it_was(note, hostile):
     assert headings == [("Heading 1", f"1 {hostile}"), ("Heading 2", "1.1 Động học"), ("Heading 1", "References")]
     assert opened.core_properties.title == hostile
     assert opened.core_properties.language.startswith(note.language)
-    assert any(one.text == hostile and one.style.name == "Title" for one in opened.paragraphs)
+    cover = opened.tables[0]._cells
+    assert [one.text for one in cover[1].paragraphs if one.style.name == "Title"] == [hostile]
+    assert cover[2].tables[0].rows[0].cells[0].text == "Выполнил:"
 
 
 def test_every_line_of_mathematics_is_a_paragraph_of_its_own(note):
@@ -65,14 +68,14 @@ def test_a_symbol_in_a_cell_is_an_equation():
     assert (_words(cell), len(list(cell.iter(f"{MATH}sSub")))) == ("Vh", 1)
 
 
-def test_a_figure_is_a_picture_with_a_drawing_beside_it_and_a_description(note, hostile, svg):
+def test_a_figure_is_a_picture_with_a_drawing_beside_it_and_a_description(note, hostile, drawing):
     data = word(note)
     opened = docx.Document(io.BytesIO(data))
     (shape,) = opened.inline_shapes
     assert shape._inline.docPr.get("descr") == hostile
     blip = shape._inline.graphic.graphicData.pic.blipFill.blip
     (embedded,) = re.findall(r'svgBlip[^>]*r:embed="(\w+)"', docx.oxml.xmlchemy.serialize_for_reading(blip))
-    assert opened.part.related_parts[embedded].blob == svg
+    assert opened.part.related_parts[embedded].blob == svg(drawing)
     with zipfile.ZipFile(io.BytesIO(data)) as members:
         assert {"word/media/drawing1.svg", "word/media/image1.png"} <= set(members.namelist())
         assert {entry.date_time for entry in members.infolist()} == {(1980, 1, 1, 0, 0, 0)}

@@ -100,7 +100,7 @@ def test_a_formula_with_numbers_prints_those_numbers_and_no_symbol(formula: Form
     shown = text(record(formula.shown), values).replace("\u00a0rad)", ")")
     assert all(number in shown for number in values.values())
     functions = {function_name(one) for one in _functions_of(record(formula.shown))}
-    assert set(re.findall(r"[^\W\d_²³⁴]\w*", shown)) <= functions
+    assert set(re.findall(r"[^\W\d_²³⁴]\w*", shown)) <= functions | {"π"}
 
 
 @every_formula
@@ -337,4 +337,4 @@ def _value_of_text(shown: str, names: Mapping[str, Any], number: Callable[[str],
     for printed, written in {"·": "*", "−": "-", "^": "**", "²": "**2", "³": "**3", "⁴": "**4", "√": "sqrt"}.items():
         shown = shown.replace(printed, written)
     shown = re.sub(r"(?<![\w.])(\d+\.?\d*(?:e[+-]?\d+)?)", r"_number('\1')", shown)
-    return eval(shown, {"__builtins__": {}, "_number": number, **names})  # noqa: S307 - text printed by the package
+    return eval(shown, {"__builtins__": {}, "_number": number, "π": np.pi, **names})  # noqa: S307 - text printed by the package

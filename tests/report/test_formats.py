@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
+import ezdxf
 import numpy as np
 import pytest
 
@@ -15,7 +16,7 @@ from crankwork.errors import CrankworkError
 from crankwork.report.figures import drawings
 from crankwork.show.dxf import dxf
 from crankwork.show.pdf import pdf, png
-from crankwork.show.scene import Drawing, Polyline, Text, thinned
+from crankwork.show.scene import Drawing, Polyline, Text, literal, pen_of, thinned
 from crankwork.show.svg import svg
 from crankwork.show.theme import THEMES, look_of
 
@@ -79,7 +80,7 @@ def test_a_figure_as_dxf_passes_the_audit_and_has_its_texts(drawn):
         assert not document.audit().errors, name
         space = document.modelspace()
         assert len(space.query("TEXT MTEXT")) == sum(isinstance(item, Text) for item in one.items)
-        lines = sum(isinstance(item, Polyline) for item in one.items)
+        lines = sum(isinstance(item, Polyline) and pen_of(item.kind).width > 0 for item in one.items)
         assert len(space.query("LWPOLYLINE")) == lines
 
 
@@ -124,3 +125,15 @@ def test_a_thinned_line_leaves_no_point_further_away_than_nobody_sees(seed):
     shares = np.clip(np.sum((points[:, None] - start) * way, axis=2) / np.maximum(np.sum(way**2, axis=1), 1e-30), 0, 1)
     nearest = np.min(np.hypot(*np.moveaxis(points[:, None] - start - shares[..., None] * way, -1, 0)), axis=1)
     assert np.max(nearest) <= 0.01 + 1e-12
+
+
+def test_names_with_signs_of_codes_stand_in_dxf_as_they_are_written():
+    """Beside letters with an index, where a text has codes, and alone."""
+    names = ["P^{2}", "a_{b}", "c\\d", "{x}"]
+    items = [Text((5.0, 10.0 + 10 * at), f"M_{{i}} {literal(one)}") for at, one in enumerate(names)]
+    items += [Text((5.0, 60.0 + 10 * at), literal(one)) for at, one in enumerate(names)]
+    drawing = Drawing("t", "en", 100.0, 120.0, tuple(items))
+    space = ezdxf.read(io.StringIO(dxf(drawing).decode())).modelspace()
+    coded = [one.plain_text().partition(" ")[2].replace("i ", "") for one in space.query("MTEXT")]
+    assert [one.rpartition(" ")[2] for one in coded] == names
+    assert [one.plain_text() for one in space.query("TEXT")] == names

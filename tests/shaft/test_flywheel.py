@@ -11,6 +11,7 @@ from crankwork.errors import MethodError
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import excess_work, fluctuation_of_inertia, true_speed
 from crankwork.shaft.flywheel import WAYS, flywheel, flywheels, inertia_on_other_shaft, mass_energy_curve
+from crankwork.shaft.wheel import rim_speed_of_stress
 
 pytestmark = pytest.mark.elsewhere
 
@@ -104,3 +105,15 @@ def test_a_negative_inertia_has_no_motion():
 def test_a_flywheel_on_a_faster_shaft_counts_by_the_square_of_the_ratio():
     assert inertia_on_other_shaft(2.0, 3.0) == 18.0
     assert fluctuation_of_inertia(10.0, 2.0, 5.0) == 0.2
+
+
+def test_a_rim_turns_as_fast_as_its_hoop_stress_allows():
+    """A thin ring under its own centrifugal force: stress = density times the square of the speed of the rim."""
+    assert rim_speed_of_stress(8.1e6, 8100.0) == pytest.approx(31.6227766016838, rel=1e-14)
+
+
+def test_mertsalovs_flywheel_where_nothing_works_holds_what_swings_of_the_inertia():
+    """Without torque the energy of the second group alone swings: J = (J_max - J_min) / (2 delta) - J_min."""
+    inertia = Curve.hermite(ANGLE, 3.0 + np.cos(2 * ANGLE), -2.0 * np.sin(2 * ANGLE))
+    found = flywheel(inertia, Curve.linear([0, 2 * math.pi], [0.0, 0.0]), 10.0, 0.05, "mertsalov")
+    assert found.inertia == pytest.approx(2.0 / (2 * 0.05) - 2.0, rel=1e-12)

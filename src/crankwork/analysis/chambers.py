@@ -98,10 +98,11 @@ def _together(key: str, names: Sequence[str], found: Mapping[str, Known]) -> dic
 
 
 class Indicator(NamedTuple):
-    """Volume and pressure of a chamber over its cycle and back to its beginning, shape (n,). [m3], [Pa]"""
+    """Volume and pressure of a chamber over its cycle and back to its beginning, shape (n,). [m3], [Pa], [deg]"""
 
     volume: Array
     pressure: Array
+    degrees: Array
 
 
 def indicators(results: Results) -> dict[str, Indicator]:
@@ -111,8 +112,10 @@ def indicators(results: Results) -> dict[str, Indicator]:
         keys = (f"cylinder_volume.{name}", f"diagram_pressure.{name}")
         corners = breaks_of((results.memory[key] for key in keys), machine.cycle)
         fine = np.concatenate([np.arange(0.0, machine.cycle, _STEP), corners, corners[:-1] + _AFTER])
-        columns = results.columns_at(np.unique(fine), keys)
-        found[name] = Indicator(*(np.append(columns[key], columns[key][0]) for key in keys))
+        degrees = np.unique(fine)
+        columns = results.columns_at(degrees, keys)
+        volume, pressure = (np.append(columns[key], columns[key][0]) for key in keys)
+        found[name] = Indicator(volume, pressure, np.append(degrees, machine.cycle))
     return found
 
 

@@ -308,12 +308,13 @@ def load_values(
         none = Known(Found(1.0, "none", (mean,)))
         ratio = formulas.bearing_load_ratio(largest, mean) if mean.value else none
         found[f"bearing_load_ratio.{name}"] = ratio.named(f"bearing_load_ratio.{name}")
-        part = _SIZES.get(name.partition(".")[0], "crankpin")
+        of = name.partition(".")[0]
+        part = _SIZES.get(of, "crankpin")
         diameter, length = (getattr(whole.engine.bearings, f"{part}_{size}") for size in ("diameter", "length"))
         if diameter is not None and length is not None:
             area = (
-                given("bearing_diameter", diameter, f"bearings.{part}_diameter"),
-                given("bearing_length", length, f"bearings.{part}_length"),
+                given(f"bearing_diameter.{of}", diameter, f"bearings.{part}_diameter"),
+                given(f"bearing_length.{of}", length, f"bearings.{part}_length"),
             )
             for word, load in (("", mean), ("_max", largest)):
                 pressure = formulas.bearing_pressure(load, *area)

@@ -110,7 +110,7 @@ def engine_torque(
         work = work_of_mean_torque(mean, origins.cycle_angle(whole.machine))
         between["work_per_cycle"] = work
         summary["energy_fluctuation"] = fluctuation_of_energy(excess, work if mean.value > 0 else -work)
-    wheel = wheel_for(whole.machine, excess, w, turning_inertia(whole.machine, "reduced_inertia"))
+    wheel = wheel_for(whole.machine, excess, w, turning_inertia(whole.machine, "reduced_inertia.drive"))
     course = course_of(all_, found, excess, w, wheel.inertia, of[0])
     summary |= wheel.summary | course.summary
     summary |= recovery(whole.machine, wheel.inertia, w, summary)

@@ -128,7 +128,7 @@ def mean_values(over: OverCycle) -> Iterator[Known]:
         yield over.mean("friction_power", "mean_friction_power")
     if "static_torque_with_friction" in over.knowns:
         keys = "static_torque", "static_torque_with_friction"
-        ideal, actual = (over.mean(key, key).named(key) for key in keys)
+        ideal, actual = (over.mean(key, f"{key}.mean") for key in keys)
         if 0 < ideal.value <= actual.value:
             yield instantaneous_efficiency(ideal, actual).named("mean_efficiency")
 

@@ -27,6 +27,7 @@ from crankwork.shaft.flywheel import (
     inertia_on_other_shaft,
     slope_largest,
     slope_least,
+    slope_of_mean_speed,
     wittenbauer_slope_largest,
     wittenbauer_slope_least,
     work_of_mean_torque,
@@ -131,8 +132,9 @@ def _rotor(motor: GearedMotor) -> dict[str, Known]:
 
 def _excess(one: Flywheel, slopes: tuple[Known, ...], of: tuple[Known, ...]) -> Known:
     """Return the excess work in the sense of one way, by the slopes of its tangents if it has any."""
-    key = "excess_work" if one.way == "energy" else f"excess_work.{one.way}"
-    return Known(Found(one.excess, "range", (*of, *slopes)), key)
+    if one.way == "energy":
+        return Known(Found(one.excess, "range", of), "excess_work")
+    return Known(Found(one.excess, "tangents", (*of, *slopes)), f"excess_work.{one.way}")
 
 
 def _wheel(one: Flywheel, inertia: Curve, w: Known, wanted: Known, of: tuple[Known, ...]) -> Known:
@@ -141,7 +143,7 @@ def _wheel(one: Flywheel, inertia: Curve, w: Known, wanted: Known, of: tuple[Kno
     slopes = tuple(
         slope(w, wanted).named(f"wittenbauer_slope.{way}.{word}")
         for word, slope in zip(("largest", "least"), _SLOPES.get(way, ()), strict=False)
-    )
+    ) or 2 * (slope_of_mean_speed(w).named(f"wittenbauer_slope.{way}"),)
     whole: Known = inertia_for_fluctuation(_excess(one, slopes, of), wanted, w)
     parts = {"energy": ("mean", inertia.mean), "mertsalov": ("min", inertia.extremes().least)}
     if way in parts:

@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike
 
 from crankwork.analysis.reach import open_range, reachable
 from crankwork.analysis.results import Results
-from crankwork.cylinders.throw import throw_mechanism
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.transfer import PointMotion
@@ -112,14 +111,6 @@ def course(mechanism: Mechanism, frames: int) -> Course:
     low, high = open_range(found)
     swung = (1 - np.cos(math.tau * np.arange(frames + 1) / frames)) / 2
     return Course(low + (high - low) * swung, mechanism, turns=False)
-
-
-def drawn_mechanism(machine: Machine) -> Mechanism:
-    """Return the mechanism to draw: of an engine with several rods on a crankpin, all of these."""
-    lengths = machine.lengths
-    if machine.engine is None or lengths is None:
-        return machine.mechanism
-    return throw_mechanism(machine.engine.layout, lengths, machine.engine.slaves, machine.engine.offsets)
 
 
 def free_course(results: Results) -> Course | None:

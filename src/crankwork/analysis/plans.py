@@ -7,12 +7,17 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from crankwork.analysis.moving import Moving, Track
+from crankwork.analysis.moving import Moving, Track, reached_angles
 from crankwork.analysis.results import Results
 from crankwork.analysis.skeleton import Skeleton, skeleton
 from crankwork.kinematics.crank_grid import Array
+from crankwork.machine import Machine
 from crankwork.mechanism.mechanism import Mechanism
 
+# between the positions of a linkage [deg]
+POSITION_STEP = 30.0
+# columns without a value at many positions
+_IN_PLACES = ("instant_centre_", "instantaneous_efficiency")
 Kind = Literal["absolute", "relative", "normal", "tangential", "coriolis", "sliding"]
 
 
@@ -58,6 +63,35 @@ class DriverRates(NamedTuple):
     second: Array
 
 
+def positions(machine: Machine) -> Array:
+    """Return the positions of a linkage, every 30 degrees, as far as it reaches them. [deg]"""
+    reached, _ = reached_angles(machine, 1.0)
+    every = np.arange(0.0, machine.cycle + POSITION_STEP, POSITION_STEP)
+    inside = every[(every >= reached[0]) & (every <= reached[-1])]
+    # a linkage that reaches none of them is shown where it does move
+    return inside if inside.size else reached[::5]
+
+
+def worked_position(results: Results) -> float:
+    """Return the position at which a linkage is worked and its plans are drawn. [deg]
+
+    Where loads act, that of the largest torque; where a law drives, one where the driver moves, and gets faster or
+    slower if it ever does; else the first after the start.
+    """
+    machine = results.machine
+    angles = positions(machine)
+    if results.period:
+        rates = driver_rates(results, results.columns_at(angles))
+        both = np.abs(rates.first * rates.second)
+        return float(angles[np.argmax(both if np.any(both) else np.abs(rates.first))])
+    if "static_torque" in results.columns and (machine.loads or machine.chambers):
+        columns = results.columns_at(angles)
+        # in a change point forces may not be determined
+        known = np.all([np.isfinite(one) for key, one in columns.items() if not key.startswith(_IN_PLACES)], axis=0)
+        return float(angles[np.argmax(np.where(known, np.abs(columns["static_torque"]), -1.0))])
+    return float(angles[np.argmin(np.abs(angles - POSITION_STEP))])
+
+
 def driver_rates(results: Results, known: Mapping[str, Array]) -> DriverRates:
     """Return the rates of the driver: those of a crank that turns evenly, or the columns of a law."""
     driver = results.machine.mechanism.driver
@@ -80,7 +114,7 @@ def velocities(mechanism: Mechanism, moving: Moving, index: int, speed: float, l
     against the point A2 of that link underneath.
     """
     states = _States(skeleton(mechanism, links), moving, index, speed, 0.0)
-    plan = Plan({}, [], {one.number: states.turning(one.name)[0] for one in states.shape.members}, {})
+    plan = Plan({}, [], states.turnings(0), {})
     zero = np.zeros(2)
     for name, state in states.moving_points():
         plan.nodes[states.letter(name)] = state.velocity
@@ -111,7 +145,7 @@ def accelerations(
     slot of link 2 the Coriolis and the sliding part from A2 to A.
     """
     states = _States(skeleton(mechanism, links), moving, index, speed, angular_acceleration)
-    plan = Plan({}, [], {one.number: states.turning(one.name)[1] for one in states.shape.members}, {})
+    plan = Plan({}, [], states.turnings(1), {})
     zero = np.zeros(2)
     for name, state in states.moving_points():
         plan.nodes[states.letter(name)] = state.acceleration
@@ -171,7 +205,7 @@ class _States:
     def pairs(self, *, with_fixed: bool = False) -> Iterator[tuple[str, str, float]]:
         """Yield pairs of points of one link, its first and each further one that moves, and how fast it turns."""
         for one in self.shape.members:
-            if one.is_cylinder:
+            if one.rod:
                 continue
             points = [name for name in one.points if with_fixed or name not in self.shape.pivots]
             points.sort(key=lambda name: name not in self.shape.pivots)
@@ -185,10 +219,15 @@ class _States:
         first, second = float(frame.angle_1[self._index]), float(frame.angle_2[self._index])
         return first * self._speed, second * self._speed**2 + first * self._second
 
+    def turnings(self, order: int) -> dict[int, float]:
+        """Return how fast links turn, or how fast that grows, by number; a rod turns with its barrel."""
+        found = {one.number: self.turning(one.name)[order] for one in self.shape.members}
+        return found | {one.rod: found[one.number] for one in self.shape.members if one.rod}
+
     def slides(self) -> Iterator[_Sliding]:
         """Yield what slides on a moving guide; the rod of a cylinder slides on its barrel."""
         for one in self.shape.members:
-            if one.is_cylinder:
+            if one.rod:
                 barrel, end = one.points[0], self.point(one.points[1])
                 rod = self.letter(one.points[1])
                 beneath = self._carried(one.name, self.point(barrel), end.at)

@@ -11,7 +11,7 @@ import numpy as np
 from crankwork.analysis.moving import Frame, Moving
 from crankwork.kinematics.crank_grid import Array
 from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.driver import Cylinder, DrivingSlider
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, rod_name
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide, Point
 from crankwork.mechanism.mechanism import Crank, Mechanism
 
@@ -32,7 +32,7 @@ class Member(NamedTuple):
     points: tuple[str, ...]
     guide: Guide | None = None
     has_rod: bool = False
-    is_cylinder: bool = False  # Barrel and rod, from the first point to the second
+    rod: int = 0  # Number of the rod of a cylinder, whose barrel is the link: from the first point to the second
 
 
 class Skeleton(NamedTuple):
@@ -76,10 +76,15 @@ def skeleton(mechanism: Mechanism, links: Sequence[str] = ()) -> Skeleton:
     pin, crank_pivot = "", dict[str, Point]()
     if isinstance(mechanism.driver, Crank):
         pin, crank_pivot = mechanism.driver.pin, {found[0].points[0]: mechanism.driver.pivot}
-    numbers = {name: count for count, name in enumerate(links or [one.name for one in found], 1)}
+    names = [name for one in found for name in (one.name, *([rod_name(one.name)] if one.rod else []))]
+    numbers = {name: count for count, name in enumerate(links or names, 1)}
     further = {one.name: [p.name for p in mechanism.points if p.link == one.name] for one in found}
     members = tuple(
-        one._replace(number=numbers.get(one.name, 0), points=tuple(dict.fromkeys([*one.points, *further[one.name]])))
+        one._replace(
+            number=numbers.get(one.name, 0),
+            points=tuple(dict.fromkeys([*one.points, *further[one.name]])),
+            rod=numbers[rod_name(one.name)] if one.rod else 0,
+        )
         for one in found
     )
     owners = {name: sum(name in one.points for one in members) for one in members for name in one.points}
@@ -92,6 +97,12 @@ def skeleton(mechanism: Mechanism, links: Sequence[str] = ()) -> Skeleton:
     members = tuple(one._replace(points=tuple(p for p in one.points if p not in centres)) for one in members)
     couplers = tuple(name for name in free if name not in massive)
     return Skeleton(members, fixed, couplers, centres, point_letters(mechanism, members, centres), pin)
+
+
+def numbered(shape: Skeleton) -> list[tuple[int, str]]:
+    """Return numbers and names of the moving links in their order."""
+    rods = [(one.rod, rod_name(one.name)) for one in shape.members if one.rod]
+    return sorted([*((one.number, one.name) for one in shape.members), *rods])
 
 
 def _driven_first(mechanism: Mechanism) -> Iterator[Member]:
@@ -107,7 +118,7 @@ def _driven_first(mechanism: Mechanism) -> Iterator[Member]:
         case DrivingSlider(link=link, guide=guide):
             yield Member(link, 1, (), guide)
         case Cylinder(barrel=barrel, rod=rod, link=link):
-            yield Member(link, 1, (barrel, rod), is_cylinder=True)
+            yield Member(link, 1, (barrel, rod), rod=2)
     yield from (one for one in found if one.name != driver.link)
 
 

@@ -22,29 +22,16 @@ from crankwork.cli.asked import (
     machine_of,
     place_of,
 )
-from crankwork.cli.spoken import SpokenGroup, language_asked, language_of_system, placeholder
+from crankwork.cli.documents import draw, page, report
+from crankwork.cli.options import COMPARE, JSON, LANG, METHOD, NO_FIGURES, OVERWRITE, PER_AREA, SET, STEP, SYSTEM
+from crankwork.cli.spoken import SpokenGroup, language_asked, placeholder
+from crankwork.cli.studies import map_, sweep
 from crankwork.errors import CrankworkError, DoubtfulError, InputError
-from crankwork.locale import LANGUAGES, Language, Refusal, say, told
+from crankwork.locale import Language, Refusal, say, told
 from crankwork.progress import bar, with_progress
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from crankwork.show.theme import Theme
-
-_LANGUAGE = click.Choice(LANGUAGES)
-
-# options that commands share; what each is told by stands in the room `help`
-_LANG = click.option("--lang", "language", type=_LANGUAGE, default=language_of_system)
-_SYSTEM = click.option("--units", type=click.Choice(["metric", "si", "imperial"]))
-_SET = click.option("--set", "settings", multiple=True, metavar="KEY=VALUE")
-_METHOD = click.option("--method", metavar="NAME")
-_STEP = click.option("--step", metavar="DEG")
-_PER_AREA = click.option("--per-area", is_flag=True)
-_NO_FIGURES = click.option("--no-figures", is_flag=True)
-_COMPARE = click.option("--compare", metavar="METHODS|FILE")
-_JSON = click.option("--json", "as_json", is_flag=True)
-_OVERWRITE = click.option("--overwrite", is_flag=True)
 
 
 def main() -> None:
@@ -154,8 +141,8 @@ def commands() -> None:
 @commands.command()
 @click.argument("name", required=False)
 @click.option("-o", "--output", metavar="FILE")
-@_LANG
-@_OVERWRITE
+@LANG
+@OVERWRITE
 def new(name: str | None, output: str | None, language: Language, *, overwrite: bool) -> None:
     """Write a template, or list those there are."""
     from crankwork import files
@@ -176,11 +163,11 @@ def new(name: str | None, output: str | None, language: Language, *, overwrite: 
 
 @commands.command()
 @click.argument("file")
-@_LANG
-@_SYSTEM
-@_SET
+@LANG
+@SYSTEM
+@SET
 @click.option("--circuits", is_flag=True)
-@_JSON
+@JSON
 @click.option("--expand", is_flag=True)
 def check(  # noqa: PLR0913 - one argument per option of the command
     file: str,
@@ -229,19 +216,19 @@ def check(  # noqa: PLR0913 - one argument per option of the command
 @commands.command()
 @click.argument("file")
 @click.option("-o", "--output", metavar="DIR")
-@_STEP
-@_METHOD
-@_LANG
-@_SYSTEM
-@_SET
-@_COMPARE
-@_PER_AREA
-@_JSON
-@_NO_FIGURES
+@STEP
+@METHOD
+@LANG
+@SYSTEM
+@SET
+@COMPARE
+@PER_AREA
+@JSON
+@NO_FIGURES
 @click.option("--format", "formats", default="svg", metavar="FORMATS")
 @click.option("--theme", type=click.Choice(["print", "colour", "dark"]), default="print")
 @click.option("--excel-csv", is_flag=True)
-@_OVERWRITE
+@OVERWRITE
 def run(  # noqa: PLR0913 - one argument per option of the command
     file: str,
     output: str | None,
@@ -284,68 +271,18 @@ def run(  # noqa: PLR0913 - one argument per option of the command
         contents = with_progress(steps, 4 - no_figures)
         files.write_folder(output, contents, overwrite=overwrite)
         click.echo(f"\n{say('report.written', language)} {output}", err=as_json)
+        if wanted:
+            from crankwork.report.not_drawn import not_drawn
+
+            for one in not_drawn(results, language):
+                _tell(say("check.note", language, notice=one))
         if (missing := left_out()) is not None:
             _tell(say("check.note", language, notice=_told(missing.args[0])))
     doubt(file, results, language)
 
 
-@commands.command()
-@click.argument("file")
-@click.option("-o", "--output", required=True, metavar="NOTE")
-@_STEP
-@_METHOD
-@_LANG
-@click.option("--school", type=_LANGUAGE)
-@_SYSTEM
-@_SET
-@_COMPARE
-@_PER_AREA
-@click.option("--title", default="", metavar="TEXT")
-@click.option("--author", default="", metavar="TEXT")
-@_NO_FIGURES
-@click.option("--sheets", is_flag=True)
-@_OVERWRITE
-def report(  # noqa: PLR0913 - one argument per option of the command
-    file: str,
-    output: str,
-    step: str | None,
-    method: str | None,
-    language: Language,
-    school: str | None,
-    units: str | None,
-    settings: tuple[str, ...],
-    compare: str | None,
-    title: str,
-    author: str,
-    *,
-    per_area: bool,
-    no_figures: bool,
-    sheets: bool,
-    overwrite: bool,
-) -> None:
-    """Write the calculation note of a machine as PDF, Word or web page."""
-    from crankwork.note.contents import check_format, written_note
-
-    # before anything else is loaded
-    check_format(output, with_sheets=sheets)
-    from crankwork import files
-    from crankwork.note.contents import note_of, sheets_of
-    from crankwork.note.options import NoteOptions
-
-    files.check_files(output, overwrite=overwrite)
-    machine = machine_of(file, laid_over(settings, step, method, units), per_area=per_area)
-    options = NoteOptions(
-        language=language, school=school or "", per_area=per_area, title=title.strip(), author=author.strip(),
-        figures=not no_figures, sheets=sheets,
-    )  # fmt: skip
-    results = compared(machine, file, compare, per_area=per_area)
-    written: dict[str | Path, bytes] = {output: written_note(note_of(results, options), output)}
-    if sheets:
-        stem = os.path.splitext(output)[0]  # noqa: PTH122 - a name, not a file
-        written |= {stem + ending: data for ending, data in sheets_of(results, options).items()}
-    files.write_files(written, overwrite=overwrite)
-    click.echo(f"{say('report.written', language)} {', '.join(map(str, written))}")
-    doubt(file, results, language)
+for one in (report, page, draw, sweep, map_):
+    commands.add_command(one)
 
 
 @commands.command()
@@ -353,10 +290,10 @@ def report(  # noqa: PLR0913 - one argument per option of the command
 @click.argument("key", required=False)
 @click.option("--at", metavar="DEG")
 @click.option("--list", "with_keys", is_flag=True)
-@_METHOD
-@_LANG
-@_SYSTEM
-@_SET
+@METHOD
+@LANG
+@SYSTEM
+@SET
 def explain(  # noqa: PLR0913 - one argument per option of the command
     file: str,
     key: str | None,
@@ -398,9 +335,9 @@ def explain(  # noqa: PLR0913 - one argument per option of the command
 @click.option("--from", "start", metavar="VALUE")
 @click.option("--to", "end", metavar="VALUE")
 @click.option("--steps", metavar="N", default="400")
-@_LANG
-@_SET
-@_JSON
+@LANG
+@SET
+@JSON
 def solve(  # noqa: PLR0913 - one argument per option of the command
     file: str,
     equation: str,
@@ -433,10 +370,10 @@ def solve(  # noqa: PLR0913 - one argument per option of the command
 @click.argument("file")
 @click.argument("keys", nargs=-1)
 @click.option("--samples", metavar="N", default="2000")
-@_LANG
-@_SYSTEM
-@_SET
-@_JSON
+@LANG
+@SYSTEM
+@SET
+@JSON
 def spread(  # noqa: PLR0913 - one argument per option of the command
     file: str,
     keys: tuple[str, ...],
@@ -462,7 +399,7 @@ def spread(  # noqa: PLR0913 - one argument per option of the command
 
 
 @commands.command()
-@_LANG
+@LANG
 def schema(language: Language) -> None:
     """Print the JSON Schema of the machine file, for editors."""
     from crankwork.description.machine_file import json_schema

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import PurePath
 from typing import TYPE_CHECKING
 
 from crankwork.errors import CrankworkError, DoubtfulError, MissingExtraError, missing_extras
@@ -107,3 +108,18 @@ def formats_of(text: str) -> tuple[str, ...]:
     if extras := missing_extras(modules):
         raise MissingExtraError(Refusal("extra_writing", names=[one.upper() for one in found]), *extras)
     return found
+
+
+def film_ending(name: str, *, is_still: bool) -> str:
+    """Return the format that the name of a moving drawing, or of a still of it, asks for."""
+    # few commands draw
+    from crankwork.show.formats import FILMS, FORMATS, MODULES
+
+    ending = PurePath(name).suffix.lower().removeprefix(".")
+    if is_still and ending in FILMS and ending not in FORMATS:
+        raise CrankworkError(Refusal("still_film", name=name[-60:], known=", ".join(FORMATS)))
+    if ending not in (known := tuple(dict.fromkeys([*FILMS, *FORMATS]))):
+        raise CrankworkError(Refusal("drawing_ending", name=name[-60:], known=", ".join(known)))
+    if extras := missing_extras(MODULES[ending]):
+        raise MissingExtraError(Refusal("extra_writing", names=ending.upper()), *extras)
+    return ending

@@ -30,7 +30,8 @@ def placeholder(words: str) -> str:
     def stand_in(found: re.Match[str]) -> str:
         return say(stand_in_key(found[0]), language_asked()).upper().replace(" ", "-")
 
-    return re.sub(r"[A-Z]+", stand_in, words)
+    # formats of paper are no stand-ins
+    return re.sub(r"[A-Z]+(?!\d)", stand_in, words)
 
 
 def stand_in_key(word: str) -> str:

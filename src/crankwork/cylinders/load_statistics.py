@@ -53,17 +53,38 @@ def reversal(
     return LoadReversal(longest[True], longest[False], max(-peaks[1], 0.0), max(peaks[0], 0.0))
 
 
+# steps of closer marks, and which share of the size of a diagram the curve goes from mark to mark there [deg]
+_CLOSER = ((10.0, 0.45), (5.0, 0.15))
+# steps that are marked closer; of larger ones the diagrams are small [deg]
+_CLOSE = 30.0
+
+
 class PolarDiagram(NamedTuple):
     """The end of a load vector over the cycle, as a curve with marked crank angles, seen from its pole."""
 
     # Curve: to the right and downward, in a crank frame tangential and radial force, shape (n,) [N]
     across: Array
     down: Array
+    degrees: Array  # Crank angles of its points, shape (n,) [deg]
     pole: tuple[float, float]  # Where the vectors begin, right and down [N]
     marks: Array  # Marked crank angles, shape (m,) [deg]
     # Points of the curve at the marked angles, shape (m,) [N]
     marks_across: Array
     marks_down: Array
+
+
+def _marks(across: Array, down: Array, degrees: Array, cycle: float, step: float) -> Array:
+    """Return multiples of a step, and of 10 and 5 degrees where the curve goes far between them. [deg]"""
+    marks = np.arange(0.0, cycle - 1e-9 * cycle, step)
+    size = float(np.hypot(np.ptp(across), np.ptp(down)))
+    way = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(across), np.diff(down)))])
+    for closer, far in _CLOSER if step <= _CLOSE else ():
+        ends = np.append(marks, cycle)
+        gone = np.diff(np.interp(ends, degrees, way))
+        fast = (gone > far * size) & (np.diff(ends) <= 3 * closer)
+        between = [np.arange(ends[at] + closer, ends[at + 1] - 1e-9, closer) for at in np.flatnonzero(fast)]
+        marks = np.sort(np.concatenate([marks, *between]))
+    return marks
 
 
 def polar_diagram(
@@ -73,10 +94,10 @@ def polar_diagram(
 
     Given the inertia force of all rod masses at the crankpin, never positive, the curve is that of the rods without it,
     and the pole lies as far below the origin: from the pole every vector is the whole load. Marks are `step` apart
-    [deg]. Source: kolchin_demidov_2008, ch. 7.
+    [deg], and closer where the load is fast. Source: kolchin_demidov_2008, ch. 7.
     """
     degrees = np.asarray(degrees, dtype=float)
     across, down = np.asarray(load.y, dtype=float), -np.asarray(load.x) - inertia
-    marks = np.arange(0.0, cycle - 1e-9 * cycle, step)
+    marks = _marks(across, down, degrees, cycle, step)
     marked = (np.interp(marks, degrees, one, period=cycle) for one in (across, down))
-    return PolarDiagram(across, down, (0.0, -inertia), marks, *marked)
+    return PolarDiagram(across, down, degrees, (0.0, -inertia), marks, *marked)

@@ -19,15 +19,19 @@ def throw_mechanism(
     lengths: SliderCrank,
     slaves: Sequence[ArticulatedRod | None] = (),
     offsets: Sequence[float] = (),
+    crankpin: int | None = None,
 ) -> Mechanism:
-    """Return the rods and pistons of the crankpin of cylinder 1, the crank turning clockwise.
+    """Return the rods and pistons of a crankpin, that of cylinder 1 if none is named, the crank turning clockwise.
 
     Crankpin A, piston pins B1, B2 ... and knuckle pins C2, C3 ... by the numbers of the cylinders; at a crank angle
-    of zero the crank lies along the axis of cylinder 1. `lengths`: crank, rod and offset of every cylinder, of the
+    of zero the crank of cylinder 1 lies along its axis. `lengths`: crank, rod and offset of every cylinder, of the
     master where rods are articulated [m]; `slaves`: the articulated rod of each cylinder that has one; `offsets`: of
     each cylinder, if they differ [m].
     """
-    places = [one for one in layout.places if one.crankpin == layout.places[0].crankpin]
+    first = layout.places[0]
+    wanted = first.crankpin if crankpin is None else crankpin
+    # a rod stands before those that it carries
+    places = sorted((one for one in layout.places if one.crankpin == wanted), key=lambda one: one.master > 0)
     points, rods = [], []
     for place in places:
         slave = slaves[place.number - 1] if slaves else None
@@ -38,10 +42,11 @@ def throw_mechanism(
             angle = math.radians(slave.knuckle_angle)
             joint, length, offset = f"C{place.number}", slave.length, slave.offset
             along, across = slave.knuckle_radius * math.cos(angle), -slave.knuckle_radius * math.sin(angle)
-            points.append(LinkPoint(joint, "rod 1", along, across))
+            points.append(LinkPoint(joint, f"rod {place.master}", along, across))
         beside = (offset * math.cos(axis), -offset * math.sin(axis))
         rods.append(
             RRP(joint, f"B{place.number}", f"rod {place.number}", length, guide_point=beside, guide_angle=_UP - axis)
         )
-    crank = Crank(lengths.crank_radius, start=_UP - math.radians(places[0].axis), direction=-1, pin="A")
+    start = _UP - math.radians(first.axis + places[0].pin_angle)
+    crank = Crank(lengths.crank_radius, start=start, direction=-1, pin="A")
     return Mechanism(crank, tuple(rods), points=tuple(points))

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 
+from crankwork.description import document_keys
 from crankwork.description.engine_keys import BALANCE, BEARINGS, CYCLE, ENGINE, FLYWHEEL
 from crankwork.description.kinds import Choice, Flag, Number, Quantity, Text
 from crankwork.description.schema import By, Key, ListOf, Named, NameOr, Table, WordOr
@@ -165,6 +166,7 @@ TITLE = {
 
 MACHINE_FILE = Table("file", {
     **TITLE,
+    "document": document_keys.ENGINE,
     "crank": Key(_CRANK, required=True),
     "rod": Key(_ROD, required=True),
     "piston": Key(_PISTON),

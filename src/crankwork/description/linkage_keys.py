@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import get_args
 
+from crankwork.description import document_keys
 from crankwork.description.engine_keys import FLYWHEEL, HEAT_RELEASE
 from crankwork.description.keys import (
     AMBIENT,
@@ -239,6 +240,7 @@ _CHARGE = Table("charge", {
 
 LINKAGE_FILE = Table("file", {
     **TITLE,
+    "document": document_keys.LINKAGE,
     "fixed_points": Key(Named(_PLACE)),
     "crank": Key(_CRANK, required=True),
     "geared": Key(Named(_GEARED, most=50)),
@@ -293,6 +295,7 @@ _TRANSFER = Table("transfer", {
 
 TRANSFER_FILE = Table("file", {
     **TITLE,
+    "document": document_keys.TRANSFER,
     "crank": Key(Table("driving", {"speed": Key(_SPEED, required=True)}), required=True),
     "transfer": Key(_TRANSFER, required=True),
     "efficiency": Key(EFFICIENCY),

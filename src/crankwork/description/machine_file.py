@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from crankwork import files
 from crankwork.analysis import solve
 from crankwork.description.build import build_machine
+from crankwork.description.document_keys import stated_document
 from crankwork.description.file_columns import with_columns
 from crankwork.description.keys import FORMATS, MACHINE_FILE, SIZED_FILE
 from crankwork.description.kinds import Reader, is_one_line
@@ -107,6 +108,12 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
     if keys in (MACHINE_FILE, SIZED_FILE) and values.pop("friction", None) is not None:
         reader.complain("friction", Refusal("friction_of_engine"))
     read_values = keys.read(with_columns(values, keys, reader, folder), "", reader) or Values({}, keys)
+    machine = _of_kind(keys, read_values, reader, folder)
+    return None if machine is None else replace(machine, document=stated_document(read_values))
+
+
+def _of_kind(keys: Table, read_values: Values, reader: Reader, folder: Path) -> Machine | None:
+    """Return the machine of values that were read, or None after complaints."""
 
     def read_samples(table: Values, one: Reader, path: str) -> MeasuredPressure | None:
         return read_measured(table, one, path, folder)

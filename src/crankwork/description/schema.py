@@ -83,6 +83,26 @@ class Nested(NamedTuple):
         }
 
 
+class OneOrMore(NamedTuple):
+    """A value of one kind, or a list of them."""
+
+    entry: Kind
+    most: int
+
+    def read(self, value: object, key: str, reader: Reader) -> tuple[Any, ...] | None:
+        """Return the values; a bad one is left out after its complaint."""
+        if not isinstance(value, list):
+            one = self.entry.read(value, key, reader)
+            return None if one is None else (one,)
+        found = ListOf(self.entry, fewest=1, most=self.most).read(value, key, reader)
+        return None if found is None else tuple(one for one in found if one is not None)
+
+    def schema(self, language: Language, /) -> dict[str, Any]:
+        """Return the schema of either."""
+        own = self.entry.schema(language)
+        return {"anyOf": [own, {"type": "array", "items": own, "minItems": 1, "maxItems": self.most}]}
+
+
 class NameOr(NamedTuple):
     """A name, or a value of another kind."""
 

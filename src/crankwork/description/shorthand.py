@@ -103,6 +103,9 @@ def linkage_tables(values: Mapping[str, Any], machine: Machine) -> Iterator[tupl
     """Yield the keys of a linkage and their values, as a file states them."""
     yield "format", 2
     yield from ((key, values[key]) for key in ("title", "decimal_mark", "units") if key in values)
+    if "document" in values:
+        # the note of a linkage has other sections
+        yield "document", {key: one for key, one in values["document"].items() if key != "sections"}
     gears = gears_of(machine)
     yield "fixed_points", {"O": _place(0)}
     yield "crank", _crank(values["crank"], machine, gears)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import get_args
 
+from crankwork.description import document_keys
 from crankwork.description.engine_keys import FLYWHEEL
 from crankwork.description.keys import METHOD, SHEET, TABLE, TITLE
 from crankwork.description.kinds import Choice, Number, Quantity, Text
@@ -77,6 +78,7 @@ _DIAGRAM = Table("torque_diagram", {
 
 TURNING_FILE = Table("file", {
     **TITLE,
+    "document": document_keys.TURNING,
     "crank": Key(Table("turning_crank", {
         "speed": Key(_SPEED, instead_of=("largest_speed",)),
         "largest_speed": Key(_SPEED, instead_of=("speed",)),

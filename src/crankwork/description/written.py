@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime as dt
 import json
 import re
 from collections.abc import Iterator, Mapping
@@ -23,6 +24,8 @@ def toml(value: Any) -> str:  # noqa: ANN401 - whatever TOML holds
     match value:
         case bool():
             return str(value).lower()
+        case dt.date():
+            return value.isoformat()
         case str():
             return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
         case Mapping():

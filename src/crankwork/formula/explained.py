@@ -107,6 +107,17 @@ class Explanation:
                 # a plain number is a constant of the analysis, and needs its value said as much
                 yield one if isinstance(one, Known) else Known(Given(one)), degrees, name, False
 
+    def written(self, known: Known, degrees: float) -> Iterator[tuple[Known, float, str]]:
+        """Yield what stands in the line of a value: each known, its crank angle [deg] and its argument.
+
+        What arithmetic without a name is made of stands there too, and nothing that nobody stated.
+        """
+        for one, at, argument, _ in self._made_of(self._spelled(known, degrees), degrees):
+            if isinstance(one.node, Arithmetic) and not one.key:
+                yield from self.written(one, at)
+            elif not one.is_absent:
+                yield one, at, argument
+
     def _explained(self, known: Known, law: Known, argument: str, at: float | None, *, residual: bool) -> Explained:
         node, stretch = known.node, None
         table = self.moment(at).law(known).node

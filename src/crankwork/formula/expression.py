@@ -266,7 +266,7 @@ def _text(tree: Expression, values: Mapping[str, str], language: Language) -> tu
             shown = symbol(name, language)
             return shown, _binding(shown)
         case Number(value):
-            shown = decimal(f"{value:.15g}", language).replace("-", "−")
+            shown = "π" if value == math.pi else decimal(f"{value:.15g}", language).replace("-", "−")
             return shown, _binding(shown)
         case Operation(function, (left, right)) if function in _BINARY:
             return _binary_text(function, left, right, values, language)
@@ -289,7 +289,7 @@ def _text(tree: Expression, values: Mapping[str, str], language: Language) -> tu
 def _function_text(function: Callable[..., Any], inside: list[str], language: Language) -> str:
     # a comma between numbers with decimal commas would not be seen
     listed = (", " if language == "en" else "; ").join(inside)
-    if takes_angle(function) and not any(map(str.isalpha, listed)):
+    if takes_angle(function) and not listed.endswith("°") and not any(map(str.isalpha, listed)):
         listed += f"\u00a0{radians(language)}"
     return f"{function_name(function, language)}({listed})"
 
@@ -376,7 +376,8 @@ def fold(tree: Expression) -> Expression:
     operands = tuple(fold(one) for one in tree.operands)
     numbers = [one.value if isinstance(one, Number) else None for one in operands]
     function = tree.function
-    if None not in numbers and any(was != is_ for was, is_ in zip(tree.operands, operands, strict=True)):
+    is_power = function in (operator.pow, np.power)
+    if None not in numbers and (is_power or any(was != is_ for was, is_ in zip(tree.operands, operands, strict=True))):
         return Number(float(function(*numbers)))
     left = operands[0]
     if function is operator.neg:
@@ -401,14 +402,14 @@ def _folded(function: Callable[..., Any], left: Expression, right: Expression, n
         return left if zero_right else Operation(operator.neg, (right,))
     if function is operator.mul and (zero_left or zero_right):
         return Number(0.0)
-    if function is operator.mul and 1.0 in (numbers[0], numbers[1]):
-        return right if numbers[0] == 1 else left
+    if function in (operator.mul, operator.truediv) and numbers[1] == 1:
+        return left
+    if function is operator.mul and numbers[0] == 1:
+        return right
     if function is operator.truediv and (zero_left or numbers[1] == math.inf):
         return Number(0.0)
     if function is operator.sub and numbers[0] is not None and numbers[0] == numbers[1]:
         return Number(0.0)
-    if function is operator.truediv and numbers[1] == 1:
-        return left
     if function in (operator.pow, np.power) and numbers[0] in (0, 1):
         return left
     return None

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from crankwork.formula.expression import Expression, Formula, Number, Operation, Symbol, fold, record
+from crankwork.formula.expression import Expression, Formula, Number, Operation, Symbol, fold, record, symbol
 from crankwork.formula.known import (
     Arithmetic,
     Delayed,
@@ -317,7 +317,7 @@ class _Inlined:
 
     def _tree_of(self, name: str, operand: Known | float) -> Expression:
         if not isinstance(operand, Known):
-            if name in ARGUMENTS:
+            if name in ARGUMENTS and not (name == "k_h" and operand in _WRITTEN_OUT):
                 self.taken[name] = operand
                 return Symbol(name)
             return Number(operand)
@@ -337,6 +337,7 @@ class _Inlined:
 
 
 # the first two orders are written out, where books write cos and cos 2
+_WRITTEN_OUT = (1.0, 2.0)
 _OF_ORDER = {
     ("cos_kphi", 1): "cos_phi",
     ("sin_kphi", 1): "sin_phi",
@@ -354,6 +355,9 @@ def _is_made(known: Known) -> bool:
     return isinstance(known.node, Use | Arithmetic | Total | Pieces)
 
 
+_PRIMED = ("{}′", "{}″")
+
+
 def is_renamed(name: str, operand: Known) -> bool:
     """Return whether an operand prints the symbol of its own key and not that of the argument."""
     if not operand.key:
@@ -367,6 +371,9 @@ def is_renamed(name: str, operand: Known) -> bool:
         # the state before goes by its own symbol where it has one: p_z
         own, other = (QUANTITIES[base_key(key)].symbol() for key in (operand.key, entry.quantity))
         return own != other
+    if entry.pattern in _PRIMED and operand.key in QUANTITIES:
+        # the part of one order goes by its own symbol: x'_I
+        return QUANTITIES[operand.key].symbol() != symbol(name)
     return entry.pattern == "{}" and entry.quantity != operand.key
 
 

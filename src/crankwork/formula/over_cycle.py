@@ -56,6 +56,8 @@ _STEPS = 60
 # Newton's next step would be the square of this
 _SETTLED = 1e-9
 _JUMP = 1e-10
+# how far beyond a jump the law after it is met, also at the angle of another cylinder, where rounding is undone [deg]
+_BEYOND = 2e-11
 _AT_EDGE = 0.05
 _ZERO = 1e-14
 
@@ -179,31 +181,12 @@ class OverCycle:
 
     @cached_property
     def _integrals_of_roots(self) -> Array:
-        """The integral of the root of the polynomials of each column, on parts of them where it has a corner."""
-        widths, result = np.radians(self._high - self._low), np.zeros(len(self._row))
-        limit = _CONVERGED * np.sqrt(self._scale)
-        # what rounding leaves a polynomial unsure by
-        unsure = _EVALUATED * np.abs(self._coefficients).sum(axis=2)
+        """The integral of the root of the polynomials of each column."""
+        widths = np.radians(self._high - self._low)
         row, of = np.nonzero(self._is_root[:, None] & np.ones(widths.size, dtype=bool))
-        low, high = np.full(row.size, -1.0), np.ones(row.size)
-        squares = self._coefficients[row, of] @ np.concatenate([_AT_NODES, _AT_LOOK]).T
-        for cut in range(_CUTS + 1):
-            roots = np.sqrt(np.maximum(squares, 0.0))
-            fitted = roots[:, : _NODES.size] @ _FROM_VALUES.T
-            # a corner beyond the outermost node shows between the nodes only
-            missed = np.max(np.abs(roots[:, _NODES.size :] - fitted @ _AT_LOOK.T), axis=1, initial=0.0)
-            least, little = roots.min(axis=1, initial=np.inf), unsure[row, of]
-            enough = np.maximum(limit[row], little / np.maximum(least + np.sqrt(little), 1e-300))
-            is_coarse = (np.abs(fitted[:, -2]) + np.abs(fitted[:, -1]) + _LITTLE * missed > enough) & (cut < _CUTS)
-            np.add.at(result, row, np.where(is_coarse, 0.0, widths[of] * (high - low) / 2 * fitted[:, 0]))
-            row, of = np.tile(row[is_coarse], _PARTS), np.tile(of[is_coarse], _PARTS)
-            between = np.linspace(low[is_coarse], high[is_coarse], _PARTS + 1)
-            low, high = between[:-1].ravel(), between[1:].ravel()
-            if not row.size:
-                break
-            u = (low + high) / 2 + (high - low) / 2 * np.concatenate([_NODES, _LOOK])[:, None]
-            squares = legendre.legval(u, self._coefficients[row, of].T, tensor=False).T
-        return result
+        limits = _CONVERGED * np.sqrt(self._scale)[row]
+        found = integrals_of_roots(self._coefficients[row, of], limits) * widths[of]
+        return np.asarray(np.bincount(row, found, minlength=len(self._row)), dtype=float)
 
     def mean(self, key: str, name: str) -> Known:
         """Return the mean of a column under a name; what rounding leaves of nothing is nothing."""
@@ -333,7 +316,7 @@ class OverCycle:
         jump = np.nonzero(jumps & (after >= high[:, None]))
         row, interval, u = (one[at_peaks >= high[row]] for one in (row, interval, u))
         peaks = (self._low[interval] + self._high[interval]) / 2 + (self._high - self._low)[interval] / 2 * u
-        beyond = np.nextafter(self._low[jump[1]], np.inf)
+        beyond = self._low[jump[1]] + _BEYOND
         top, least = self._plain(top), self._plain(least)
         equal = _PLATEAU * (top - least + np.maximum(np.abs(top), np.abs(least)))
         return _Places(
@@ -416,3 +399,33 @@ class OverCycle:
 
 def _is_root(known: Known) -> bool:
     return known.varies and isinstance(known.node, Use) and known.node.formula.is_root
+
+
+def integrals_of_roots(coefficients: Array, limits: Array) -> Array:
+    """Return the means of the roots of polynomials from -1 to 1, on parts of them where a root has a corner.
+
+    `coefficients`: those of Legendre polynomials, shape (n, 16); `limits`: what a mean may miss, shape (n,).
+    """
+    result = np.zeros(len(coefficients))
+    # what rounding leaves a polynomial unsure by
+    unsure = _EVALUATED * np.abs(coefficients).sum(axis=1)
+    of = np.arange(len(coefficients))
+    low, high = np.full(of.size, -1.0), np.ones(of.size)
+    squares = coefficients @ np.concatenate([_AT_NODES, _AT_LOOK]).T
+    for cut in range(_CUTS + 1):
+        roots = np.sqrt(np.maximum(squares, 0.0))
+        fitted = roots[:, : _NODES.size] @ _FROM_VALUES.T
+        # a corner beyond the outermost node shows between the nodes only
+        missed = np.max(np.abs(roots[:, _NODES.size :] - fitted @ _AT_LOOK.T), axis=1, initial=0.0)
+        least, little = roots.min(axis=1, initial=np.inf), unsure[of]
+        enough = np.maximum(limits[of], little / np.maximum(least + np.sqrt(little), 1e-300))
+        is_coarse = (np.abs(fitted[:, -2]) + np.abs(fitted[:, -1]) + _LITTLE * missed > enough) & (cut < _CUTS)
+        np.add.at(result, of, np.where(is_coarse, 0.0, (high - low) / 2 * fitted[:, 0]))
+        of = np.tile(of[is_coarse], _PARTS)
+        between = np.linspace(low[is_coarse], high[is_coarse], _PARTS + 1)
+        low, high = between[:-1].ravel(), between[1:].ravel()
+        if not of.size:
+            break
+        u = (low + high) / 2 + (high - low) / 2 * np.concatenate([_NODES, _LOOK])[:, None]
+        squares = legendre.legval(u, coefficients[of].T, tensor=False).T
+    return result

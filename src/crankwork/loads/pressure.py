@@ -64,7 +64,8 @@ def polytrope_origin(
         computed = at_angle(volume, diagram.named[name][0], V_1.key)
         if math.isclose(computed.value, state_volume, rel_tol=_SAME_VOLUME):
             V_1 = computed
-    return p_1, V_1, given("polytropic_exponent", exponent, f"{path}.pieces[{segment.piece}].exponent")
+    kind = "compression_exponent" if segment.pressures[-1] > segment.pressures[0] else "expansion_exponent"
+    return p_1, V_1, given(kind, exponent, f"{path}.pieces[{segment.piece}].exponent")
 
 
 def _stated(name: str) -> str:

@@ -23,9 +23,9 @@ class Weight:
 
 
 @formula("load_x", "artobolevsky_1988, ch. 12")
-def weight_along(m_i: Value, g: Value, cos_th: Value) -> Value:
+def weight_along(m_i: Value, g: Value, cos_ga: Value) -> Value:
     """Component of a weight along a fixed axis."""
-    return m_i * g * cos_th
+    return m_i * g * cos_ga
 
 
 def weight(load: Weight, mechanism: Mechanism, motion: Motion) -> AppliedLoads:

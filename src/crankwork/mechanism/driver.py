@@ -102,6 +102,11 @@ class Cylinder:
     turns = False
 
 
+def rod_name(cylinder: str) -> str:
+    """Return the name of the rod of a cylinder, which is a link of its own."""
+    return f"{cylinder}_rod"
+
+
 @dataclass(frozen=True)
 class LinkMotor:
     """A motor in the pin of two moving links: the angle from the first to the second is the coordinate.

@@ -10,7 +10,7 @@ from crankwork.errors import Problem
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import Known, absent, given
 from crankwork.locale import Refusal
-from crankwork.mechanism.driver import Cylinder, LinkMotor
+from crankwork.mechanism.driver import Cylinder, LinkMotor, rod_name
 from crankwork.mechanism.linkage import GROUND, Linkage, Member
 
 # sets of members looked at for one group; larger groups than any linkage has
@@ -37,6 +37,7 @@ class Structure:
     groups: tuple[AssurGroup, ...]  # Groups in the order in which they are solved
     drive: tuple[str, str] = (GROUND, "")  # What the driver moves against each other; the first link by default
     meshes: int = 0  # Pairs of gears, p4
+    driven: str = ""  # The member of a group that a driver between two links makes of them
 
     @property
     def mobility(self) -> int:
@@ -50,14 +51,22 @@ class Structure:
 
     @property
     def formula(self) -> str:
-        """The formula of structure, for example `I(0,1) -> II(2,3) -> II(4,5)`."""
-        number = {GROUND: 0, "": 1, **{name: count for count, name in enumerate(self.links, start=1)}}
-        driven = f"I({','.join(str(number[name]) for name in self.drive)})"
-        # the third side of a triangle has no number
-        return " -> ".join([driven, *(
-            f"{_ROMAN[group.number]}({','.join(str(number[name]) for name in group.members if name in number)})"
+        """The formula of structure, for example `I(0,1) -> II(2,3) -> II(4,5)`.
+
+        A driver between links 1 and 2 makes one link of them, `1+2`, that its group moves.
+        """
+        numbers = {name: str(count) for count, name in enumerate(self.links, start=1)}
+        first, second = ({GROUND: "0", "": "1", **numbers}[name] for name in self.drive)
+        inside = {**numbers, self.driven: f"{first}+{second}"} if self.driven else numbers
+        groups = (
+            f"{_ROMAN[group.number]}({','.join(sorted((inside[name] for name in group.members), key=_first_number))})"
             for group in self.groups
-        )])  # fmt: skip
+        )
+        return " -> ".join([f"I({first},{second})", *groups])
+
+
+def _first_number(links: str) -> int:
+    return int(links.partition("+")[0])
 
 
 def mobility(linkage: Linkage) -> Known:
@@ -84,7 +93,7 @@ def links_of(linkage: Linkage) -> tuple[str, ...]:
     names = [one.name for one in linkage.members]
     match linkage.driver:
         case Cylinder(link=link):
-            names = [link, f"{link}_rod", *names]
+            names = [link, rod_name(link), *names]
         case LinkMotor(link=link, links=links):
             names = [*links, *(name for name in names if name != link)]
         case _:
@@ -122,7 +131,8 @@ def structure(linkage: Linkage) -> tuple[Structure | None, list[Problem]]:
         solved |= set(found)
     links, driver = links_of(linkage), linkage.driver
     drive = links[:2] if isinstance(driver, Cylinder | LinkMotor) else (GROUND, links[0])
-    return Structure(links, _joints(linkage), tuple(groups), (drive[0], drive[1]), len(linkage.geared)), []
+    driven = "" if drive[0] == GROUND else driver.link
+    return Structure(links, _joints(linkage), tuple(groups), (drive[0], drive[1]), len(linkage.geared), driven), []
 
 
 def _only_bearer(linkage: Linkage, some: tuple[str, ...], bodies: dict[str, str]) -> str:

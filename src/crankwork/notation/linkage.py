@@ -10,6 +10,7 @@ ARGUMENTS: dict[str, Argument] = {
     "th": Argument("link_angle"),
     "cos_th": Argument("link_angle", "cos {}"),
     "sin_th": Argument("link_angle", "sin {}"),
+    "cos_ga": Argument("", "cos θ_G"),
     "cos_al": Argument("line_angle", "cos {}"),
     "sin_al": Argument("line_angle", "sin {}"),
     "u_P": Argument("point_along"),

@@ -68,6 +68,11 @@ def caption(kind: str, number: str, title: str, language: Language) -> str:
     return say(f"note.{kind}", language, number=number, title=title)
 
 
+def continued(number: str, language: Language) -> str:
+    """Return what stands above a table where it goes on."""
+    return say("note.continued", language, number=number)
+
+
 def place_in_source(place: str, language: Language) -> str:
     """Return chapter, page or equation of a source as that language abbreviates it.
 

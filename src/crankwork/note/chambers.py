@@ -54,7 +54,8 @@ def _given(chamber: StatedChamber, material: Material) -> Iterator[str]:
     yield words.number(
         in_display_unit("clearance_volume", [results.summary.get(f"clearance_volume.{chamber.name}", 0.0)])[0]
     )
-    yield words.number(in_display_unit("ambient_pressure", [chamber.ambient])[0])
+    # of gauge pressures nobody is told what they are counted from
+    yield words.number(in_display_unit("ambient_pressure", [chamber.ambient])[0]) if chamber.ambient else "–"
     amounts = {name: words.amount(value, unit) for name, (value, unit) in chamber.amounts.items()}
     told = say(f"sentences.of_{chamber.kind}", words.language, **chamber.names, **amounts)
     if chamber.delay:

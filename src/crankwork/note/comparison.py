@@ -7,13 +7,12 @@ from collections.abc import Iterator
 from crankwork.analysis import Results
 from crankwork.note.document import Block, Heading, Reference, Runs, Table
 from crankwork.note.printed_units import printed_unit
+from crankwork.note.table_width import SIZES, fits
 from crankwork.note.words import NoteWords
 from crankwork.report.comparison import comparison_rows, shown_names
 from crankwork.report.language import key_unit, label, told_as
 
 _LABEL = "compared"
-# columns that fit on a page upright
-_UPRIGHT = 5
 _DIGITS = 3
 
 
@@ -43,4 +42,4 @@ def comparison_blocks(
         if not key.partition(".")[0].endswith(("_max_angle", "_min_angle", "_max_time", "_min_time"))
     ]
     align = "lc" + "r" * (len(titles) - 2)
-    yield Table(caption, tuple(titles), rows, wide=len(titles) > _UPRIGHT, align=align, label=_LABEL)
+    yield Table(caption, tuple(titles), rows, wide=not fits(titles, rows, SIZES[-1]), align=align, label=_LABEL)

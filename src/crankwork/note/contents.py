@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import PurePath
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from crankwork.errors import CrankworkError, MissingExtraError, missing_extras
 from crankwork.locale import Refusal
@@ -13,7 +13,7 @@ from crankwork.note.options import NoteOptions
 from crankwork.note.pdf import pdf
 from crankwork.note.web import web
 from crankwork.note.word import word
-from crankwork.report.language import in_own_units
+from crankwork.report.language import for_readers, reader_units
 from crankwork.report.summary import provenance
 from crankwork.show.dxf import dxf
 from crankwork.show.pdf import pdf as page
@@ -23,9 +23,10 @@ from crankwork.units import shown_in
 if TYPE_CHECKING:
     from crankwork.analysis import Results
     from crankwork.note.document import Note
+    from crankwork.quantities import Language
 
 
-@in_own_units
+@for_readers
 def note_of(results: Results, options: NoteOptions | None = None) -> Note:
     """Return the calculation note of a machine."""
     # words that are not needed are not loaded
@@ -36,23 +37,22 @@ def note_of(results: Results, options: NoteOptions | None = None) -> Note:
         from crankwork.note.turning_note import turning_note as written  # noqa: PLC0415 - loaded where it is needed
     else:
         from crankwork.note.linkage_note import linkage_note as written  # noqa: PLC0415 - loaded where it is needed
-    return replace(written(results, options), units=results.machine.units, provenance=provenance(results))
+    return replace(
+        written(results, options), units=reader_units(results), provenance=provenance(results), results=results
+    )
 
 
 def sheets_of(results: Results, options: NoteOptions | None = None) -> dict[str, bytes]:
-    """Return the drawing sheets of a machine, metric, in every format, by the ending of their files."""
+    """Return the drawing sheets of a machine in every format, by the ending of their files."""
     options = options or NoteOptions()
     if results.machine.turning is not None:
         raise CrankworkError(Refusal("sheets_of_shaft"))
     # few notes have sheets
-    from crankwork.analysis.whole_engine import as_engine  # noqa: PLC0415 - loaded where it is needed
     from crankwork.note import sheets  # noqa: PLC0415 - loaded where it is needed
 
-    paper = sheets.Paper(block=sheets.TitleBlock(drawn_by=options.author) if options.order == "ru" else None)
-    # sheets say what the note says, which takes a crank gear of its own as an engine of one cylinder
-    results = as_engine(results)
-    extra = sheets.whole_engine_extra(results)
-    drawn = sheets.drawn_sheets(results, options.language, paper=paper, per_area=options.per_area, extra=extra)
+    block = sheets.block_of(results.machine.document, cast("Language", options.order), options.author)
+    paper = sheets.Paper(options.paper, has_grid=options.grid, block=block)
+    drawn = sheets.drawn_sheets(results, options.language, paper=paper, per_area=options.per_area)
     formats = {"pdf": page, "svg": svg, "dxf": dxf}
     return {
         f"-sheet-{number}.{ending}": written(one.drawing)

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from crankwork.formula.expression import Expression, Operation, evaluate
+from crankwork.formula.expression import Expression, Operation, Symbol, evaluate, takes_angle
 from crankwork.formula.lines import DelayedLine, FormulaLine, Line, SumLine, ValueLine
 
 RESULT_DIGITS = 6
 _MOST_DIGITS = 12
 _UNITS = 2
+_NEARLY_WHOLE = 1e-9
 _SUMS = (operator.add, operator.sub)
 
 
@@ -42,9 +43,8 @@ def _terms(step: FormulaLine | SumLine, digits: int) -> list[float]:
     """Return the terms of a line from its printed numbers."""
     if isinstance(step, SumLine):
         return [as_printed(one.value, digits) for one in step.terms]
-    put_in = {
-        name: math.pi if is_exact_pi(name, value) else as_printed(value, digits) for name, value in step.values.items()
-    }
+    exact = _exact(step.expression, step.values)
+    put_in = {name: exact.get(name, as_printed(value, digits)) for name, value in step.values.items()}
     with np.errstate(all="ignore"):
         try:
             return [sign * float(evaluate(one, put_in)) for one, sign in terms_of(step.expression)]
@@ -62,6 +62,27 @@ def terms_of(tree: Expression) -> Iterator[tuple[Expression, int]]:
             yield from ((term, -sign) for term, sign in terms_of(one))
         case _:
             yield tree, 1
+
+
+def _exact(tree: Expression, values: Mapping[str, float]) -> dict[str, float]:
+    """Return what is printed without rounding: π itself, and angles of whole degrees in functions of them."""
+    found = {name: math.pi for name, value in values.items() if is_exact_pi(name, value)}
+    stack = [tree]
+    while stack:
+        one = stack.pop()
+        if isinstance(one, Operation):
+            stack += one.operands
+            if takes_angle(one.function) and whole_degrees(one.operands[0], values) is not None:
+                found |= {name.name: values[name.name] for name in one.operands if isinstance(name, Symbol)}
+    return found
+
+
+def whole_degrees(angle: Expression, values: Mapping[str, float]) -> float | None:
+    """Return an angle in degrees where it is put in as a number of whole degrees, as it is printed then."""
+    if not isinstance(angle, Symbol) or angle.name not in values:
+        return None
+    degrees = math.degrees(values[angle.name])
+    return float(round(degrees)) if abs(degrees - round(degrees)) < _NEARLY_WHOLE else None
 
 
 def is_exact_pi(name: str, value: float) -> bool:

@@ -7,15 +7,18 @@ Where a block takes runs, a plain text is a run too.
 from __future__ import annotations
 
 import datetime as dt
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Self
+from typing import TYPE_CHECKING
 
 from crankwork.formula.expression import Expression, Formula
-from crankwork.formula.lines import Line
-from crankwork.note.options import NoteOptions
+from crankwork.formula.lines import FormulaLine, Line
 from crankwork.quantities import Language
-from crankwork.units import System
+from crankwork.show.scene import Drawing
+from crankwork.units import METRIC, Shown
+
+if TYPE_CHECKING:
+    from crankwork.analysis import Results
 
 
 @dataclass(frozen=True)
@@ -27,9 +30,9 @@ class Bold:
 
 @dataclass(frozen=True)
 class Math:
-    """A symbol written as the tables do, `v_п.ср`, or a recorded formula, in the line of the text."""
+    """A symbol written as the tables do, `v_п.ср`, a recorded formula, or that of a line, in the line of the text."""
 
-    content: str | Expression
+    content: str | Expression | FormulaLine
 
 
 @dataclass(frozen=True)
@@ -48,6 +51,18 @@ class Citation:
 
 Run = str | Bold | Math | Reference | Citation
 Runs = tuple[Run, ...]
+
+
+def listed(labels: Sequence[str]) -> Runs:
+    """Return references with commas between them."""
+    first, *others = (Reference(one) for one in labels)
+    return (first, *(run for one in others for run in (", ", one)))
+
+
+# letters of a line of the cover, and how many lines fit
+_COVER_LINE, _COVER_LINES = 60, 24
+# letters of a formula in a table, about
+_FORMULA = 24
 # what stands in a table: finished text or a symbol
 Cell = str | Math
 
@@ -82,7 +97,8 @@ class Equation:
     """A worked step, or a formula without numbers, with the number of its source and its own.
 
     `symbol` replaces the symbol of the step's key; `legend` explains symbols below it, after "where". `defined` is the
-    key of a value without a formula whose definition stands before the number.
+    key of a value without a formula whose definition stands before the number. `area`: piston area by which tables
+    divide the value, 0 if they do not [m2].
     """
 
     step: Line | Formula
@@ -91,6 +107,7 @@ class Equation:
     label: str = ""
     legend: tuple[Explanation, ...] = ()
     defined: str = ""
+    area: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -117,18 +134,24 @@ class Table:
 
 def cell_length(cell: Cell) -> int:
     """Return about how many letters wide a cell is."""
+    if isinstance(cell, Math) and isinstance(cell.content, FormulaLine):
+        return _FORMULA
     return len(cell if isinstance(cell, str) else str(cell.content))
 
 
 @dataclass(frozen=True)
 class Figure:
-    """A drawing as SVG; `png` is the same for Word, made from the SVG if it is left out. `alt` says what it shows."""
+    """A drawing; `alt` says what it shows, and the end of its label what it is called elsewhere."""
 
-    svg: bytes
+    drawing: Drawing
     caption: str
     alt: str
-    png: bytes | None = None
     label: str = ""
+
+    @property
+    def name(self) -> str:
+        """The name of the figure."""
+        return self.label.partition(":")[2]
 
 
 @dataclass(frozen=True)
@@ -150,8 +173,29 @@ class Contents:
 
 
 @dataclass(frozen=True)
+class Person:
+    """Who has to do with a note, as what, and whether there is room for a signature."""
+
+    label: str
+    names: tuple[str, ...]
+    signs: bool = False
+
+
+@dataclass(frozen=True)
 class TitlePage:
-    """Title, subtitle, authors and date of the note on a page of their own."""
+    """A page of its own with the title of the note: whose it is, what stands around the title, who, where and when."""
+
+    institution: tuple[str, ...] = ()
+    above: tuple[str, ...] = ()
+    below: tuple[str, ...] = ()
+    people: tuple[Person, ...] = ()
+    place: str = ""
+
+    @property
+    def is_crowded(self) -> bool:
+        """Whether so much stands on it that it fits in small letters only."""
+        every = [*self.institution, *self.above, *self.below, *(name for one in self.people for name in one.names)]
+        return sum(-(-len(one) // _COVER_LINE) for one in every) > _COVER_LINES
 
 
 @dataclass(frozen=True)
@@ -171,16 +215,9 @@ class Note:
     title: str
     language: Language
     blocks: tuple[Block, ...]
-    subtitle: str = ""
     authors: tuple[str, ...] = ()
     date: dt.date | None = None
     sources: tuple[str, ...] = ()
-    units: System = "metric"
+    units: Shown = METRIC
     provenance: str = ""  # program, method and hash of the machine file
-
-    @classmethod
-    def of(cls, blocks: Iterable[Block], options: NoteOptions, title: str, subtitle: str) -> Self:
-        """Return a note of these blocks behind a title page and contents."""
-        authors = (options.author,) if options.author else ()
-        front = (TitlePage(), Contents(), PageBreak())
-        return cls(options.title or title, options.language, (*front, *blocks), subtitle, authors)
+    results: Results | None = None  # What it tells of, for a page that is read with a cursor

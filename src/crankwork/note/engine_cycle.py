@@ -8,6 +8,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from crankwork.analysis.polytropes import Polytropes, polytropes
+from crankwork.formula.known import Pieces
+from crankwork.formula.known import Table as TableOfValues
 from crankwork.formula.lines import FormulaLine, Line, ValueLine
 from crankwork.locale import say
 from crankwork.note.document import Block, Cell, Citation, Math, Reference, Runs, Table
@@ -132,7 +134,10 @@ def indicator(material: Material) -> Iterator[Block]:
     if found is not None:
         yield words.paragraph("polytropes", polytrope=_exponents(found, words), table=Reference("t:polytropes"))
         yield _polytrope_table(found, words)
-    yield from material.presented([_points(material)], ("indicator", "pressure"))
+    gas = material.machine.gas
+    if gas is not None and gas.is_absolute:
+        yield words.paragraph("absolute")
+    yield from material.presented([_points(material), _laws(material)], ("indicator", "pressure"))
     kinds = ("indicated_work", "indicated_mean_pressure", "indicated_power")
     yield from material.intro("work", material.equations("power", *kinds))
     yield from material.intro("delivery", material.equations("delivery"), source=Citation(_DELIVERED))
@@ -167,7 +172,8 @@ def _measured(material: Material) -> Iterator[Block]:
 def _exponents(found: Polytropes, words: EngineWords) -> Runs:
     numbers = {name: words.number(one) for name, one in found.exponents.items()}
     if len(numbers) == 1:
-        return words.sentence("exponent", value=next(iter(numbers.values())))
+        ((name, value),) = numbers.items()
+        return words.sentence("exponent", symbol=Math(words.symbol(f"{name}_exponent")), value=value)
     return words.sentence("exponents", **numbers)
 
 
@@ -178,7 +184,8 @@ def _polytrope_table(found: Polytropes, words: EngineWords) -> Table:
     ]
     for name, pressures in found.pressures.items():
         shown = in_display_unit("diagram_pressure", pressures.tolist())
-        columns.append(((words.column(name, "MPa"),), words.column_texts(shown)))
+        heading = (f"{words.column(name)} ", *words.titled("diagram_pressure"))
+        columns.append((heading, words.column_texts(shown)))
     return column_table("polytropes", columns, words)
 
 
@@ -196,7 +203,34 @@ def _points(material: Material) -> Table | None:
         _shown("cylinder_volume", volumes.tolist(), words),
         _shown("diagram_pressure", [pressure for _, (_, pressure) in named], words),
     ]
+    gas = material.machine.gas
+    if gas is not None and gas.is_absolute:
+        columns.append(_shown("gas_pressure", [pressure - gas.ambient for _, (_, pressure) in named], words))
     return column_table("points", columns, words)
+
+
+def _laws(material: Material) -> Table | None:
+    """Return the law of the pressure on each stretch of the cycle, where it has several."""
+    words, results = material.words, material.results
+    known = results.memory.get("diagram_pressure")
+    if known is None or not isinstance(known.node, Pieces):
+        return None
+    rows: list[tuple[Cell, ...]] = []
+    start = 0.0
+    for end in np.unique([*known.node.ends, results.machine.cycle]).tolist():
+        moment = results.moment((start + end) / 2)
+        law, step = moment.law(known).node, moment.step(known)
+        if isinstance(step, FormulaLine):
+            told: Cell = Math(step)
+        elif isinstance(law, TableOfValues):
+            told = say(f"memory.{law.word}", words.language)
+        else:
+            told = words.amount(step.value, "MPa")
+        rows.append((words.number(start, digits=5), words.number(end, digits=5), told))
+        start = end
+    titles = tuple((words.column(one, "deg"),) for one in ("law_from", "law_to"))
+    law_of = (Math(words.symbol("diagram_pressure")),)
+    return Table(words.caption("laws"), (*titles, law_of), rows, align="rrl", label="t:laws")
 
 
 def _shown(key: str, values: Sequence[float], words: EngineWords) -> tuple[Runs, Sequence[str]]:

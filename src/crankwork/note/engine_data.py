@@ -5,16 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from crankwork.locale import say
+from crankwork.formula.known import in_order
 from crankwork.machine import Bearings, Engine
-from crankwork.note.document import Block, Cell, Citation, Math, Reference
+from crankwork.note.document import Block, Cell, Citation, Reference
 from crankwork.note.engine_material import Material
 from crankwork.note.engine_tables import value_row, value_table
 from crankwork.note.engine_words import EngineWords
-from crankwork.note.printed_units import printed_unit
-from crankwork.quantities import QUANTITIES
 from crankwork.quantities import cycle as cycle_quantities
-from crankwork.report.language import displayed, label
 from crankwork.report.summary import results_method
 
 GEAR = ("rotational_speed", "angular_acceleration", "crank_radius", "rod_length", "rod_ratio", "offset")
@@ -23,6 +20,7 @@ _SIZES = (
     ("bearing_diameter", "main_diameter", "main_journal"), ("bearing_length", "main_length", "main_journal"),
     ("bearing_diameter", "pin_diameter", "small_end"), ("bearing_length", "pin_length", "small_end"),
 )  # fmt: skip
+_OF_ROD = ("rod_mass", "small_end_share", "rod_centre_distance", "rod_inertia", "rod_gyration_radius")
 _ELSEWHERE = ("cylinder_count", "displacement")
 _SOURCES = {"first": "kolchin_demidov_2008, ch. 7", "second": "kolchin_demidov_2008, ch. 9"}
 
@@ -106,15 +104,24 @@ def _cylinder(material: Material) -> Iterator[tuple[Cell, ...]]:
 def _masses(material: Material) -> Iterator[tuple[Cell, ...]]:
     masses = material.machine.masses
     if masses is not None:
-        parts = {
-            "piston_mass": masses.piston,
+        rod = _rod(material) or {
             "rod_small_end_mass": masses.rod_small_end,
             "rod_big_end_mass": masses.rod_big_end,
             "rod_inertia_excess": masses.rod_inertia_excess,
-            "crank_mass": masses.crank,
         }
+        parts = {"piston_mass": masses.piston, **rod, "crank_mass": masses.crank}
         area = material.summary.get("piston_area") if material.per_area else None
         yield from (value_row(key, value, material.words, area=area) for key, value in parts.items() if value)
+
+
+def _rod(material: Material) -> dict[str, float]:
+    """Return the mass of the rod and where it is, of a rod whose parts follow from that."""
+    memory = material.results.memory
+    behind = in_order([memory[key] for key in ("reciprocating_mass", "correction_couple") if key in memory])
+    known = {one.key: one.value for one in behind if one.key in _OF_ROD and isinstance(one.value, float)}
+    if "small_end_share" in known:
+        known.pop("rod_centre_distance", None)
+    return {key: known[key] for key in _OF_ROD if key in known} if "rod_mass" in known else {}
 
 
 def _engine(engine: Engine, words: EngineWords) -> Iterator[tuple[Cell, ...]]:
@@ -128,13 +135,7 @@ def _sizes(bearings: Bearings, words: EngineWords) -> Iterator[tuple[Cell, ...]]
     for key, name, part in _SIZES:
         value = getattr(bearings, name)
         if value is not None:
-            row = QUANTITIES[key]
-            yield (
-                f"{label(key, words.language)}, {say(f'report.{part}', words.language)}",
-                Math(row.symbol(words.language)),
-                words.number(displayed(key, value)),
-                printed_unit(row.unit, words.language),
-            )
+            yield value_row(f"{key}.{part}", value, words)
 
 
 def cycle_keys(material: Material) -> list[str]:

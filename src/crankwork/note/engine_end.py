@@ -14,6 +14,7 @@ from crankwork.note.engine_motion import errors
 from crankwork.note.engine_shaft import balance, evenness, mains
 from crankwork.note.engine_tables import value_row, value_table
 from crankwork.note.engine_words import EngineWords
+from crankwork.note.main_numbers import main_numbers
 from crankwork.note.printed_units import printed_unit
 from crankwork.report.language import displayed, key_unit, label
 from crankwork.report.notices import notice_text
@@ -99,6 +100,7 @@ def conclusion(material: Material) -> Iterator[Block]:
     """Yield the main results as a table."""
     words = material.words
     yield words.heading("results" if material.order == "en" else "conclusion")
+    yield from main_numbers(material.summary, words)
     yield words.paragraph("conclusion", table=Reference("t:summary"))
     yield value_table("summary", [_row(material, key) for key in _main_keys(material)], words)
 

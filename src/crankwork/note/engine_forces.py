@@ -19,7 +19,10 @@ _BEFORE_FORCES = (
     "rod_sine", "rod_cosine", "crank_rod_sine", "crank_rod_cosine", "cylinder_volume", "diagram_pressure",
     "gas_pressure", "gas_force",
 )  # fmt: skip
-_INERTIA = ("piston_transfer_1", "piston_transfer_2", "piston_acceleration", "inertia_force", "rotating_inertia_force")
+_INERTIA = (
+    "piston_transfer_1", "piston_transfer_2", "piston_acceleration", "inertia_acceleration", "inertia_force",
+    "rotating_inertia_force",
+)  # fmt: skip
 # decimals of the table of forces that Vietnamese notes print
 _VIETNAMESE = {"gas_force": 5, "inertia_force": 6, "piston_force": 6}
 

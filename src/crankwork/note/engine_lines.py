@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 from crankwork.analysis import Results
 from crankwork.formula.known import Delayed, Use
 from crankwork.formula.known import Given as GivenNode
-from crankwork.formula.lines import Line, Moment, ValueLine
+from crankwork.formula.lines import FormulaLine, Line, Moment, ValueLine, symbols_of
 from crankwork.machine import Engine
+from crankwork.notation import ARGUMENTS
 from crankwork.note.groups import DELIVERY, Group
 
 _DEGREES, _TURN = 30.0, 360.0
@@ -196,8 +197,19 @@ def _cycle(results: Results) -> Iterator[Line]:
     ]
     yield from (one for at, one in known if at < end)
     for at, line in enumerate(lines):
-        yield line._replace(key=key_of(line.key) if at == last[line.key] else f"{line.key}.before_rounding")
+        key = key_of(line.key) if at == last[line.key] else f"{line.key}.before_rounding"
+        yield _of_cycle(line, key_of)._replace(key=key)
     yield from (one for at, one in known if at > end)
+
+
+def _of_cycle(line: Line, key_of: Callable[[str], str]) -> Line:
+    """Return a line of a cycle, its operands under the keys that they have in the results."""
+    if not isinstance(line, FormulaLine):
+        return line
+    told = {name for name, _ in line.named}
+    entries = {name: ARGUMENTS[name] for name in symbols_of(line.expression) if name in ARGUMENTS and name not in told}
+    own = [(name, key_of(one.quantity)) for name, one in entries.items() if one.pattern == "{}" and one.quantity]
+    return line._replace(named=(*line.named, *((name, key) for name, key in own if key != entries[name].quantity)))
 
 
 def _articulated(results: Results, engine: Engine, degrees: float) -> Group:

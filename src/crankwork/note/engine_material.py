@@ -13,15 +13,17 @@ from crankwork.analysis import Array, Results
 from crankwork.analysis.forces import force_functions
 from crankwork.formula.lines import DelayedLine, FormulaLine, Line, ValueLine
 from crankwork.machine import Machine
-from crankwork.note.document import Block, Equation, Figure, Paragraph, Reference, Run, Runs, Table
+from crankwork.note.document import Block, Equation, Figure, Paragraph, Run, Runs, Table, listed
 from crankwork.note.engine_lines import cycle_lines, engine_lines
-from crankwork.note.engine_seen import crankpins, kind_of, seen
+from crankwork.note.engine_seen import crankpins, seen
 from crankwork.note.engine_words import EngineWords
 from crankwork.note.groups import Group
 from crankwork.note.options import NoteOptions
-from crankwork.report.figure_data import figure_title
-from crankwork.report.figures import figures
-from crankwork.report.language import key_unit
+from crankwork.note.textbook import TRANSFER, in_one_formula
+from crankwork.report.figure_data import figure_title, kind_of
+from crankwork.report.figures import drawings
+from crankwork.report.language import is_per_area, key_unit
+from crankwork.show.scene import Drawing
 from crankwork.units import from_si
 
 # what a crank gear of its own has no need of
@@ -101,11 +103,11 @@ class Material:
         return cycle_lines(self.results)
 
     @cached_property
-    def drawn(self) -> Mapping[str, bytes]:
+    def drawn(self) -> Mapping[str, Drawing]:
         """Figures by name; none if they are left out."""
         if not self.options.figures:
             return {}
-        return figures(self.results, language=self.options.language, per_area=self.per_area)
+        return drawings(self.results, language=self.options.language, per_area=self.per_area)
 
     def equations(self, group: str, *kinds: str, first: bool = False) -> list[Block]:
         """Return equations of the lines of a group that the note has not shown yet.
@@ -120,22 +122,33 @@ class Material:
     def worked(self, lines: Iterable[Line]) -> list[Block]:
         """Return equations of lines that the note has not shown yet."""
         found: list[Block] = []
-        for one in lines:
+        if self.results.method.kinematics == "textbook":
+            lines = list(lines)
+            self._formulas |= {_formula_name(one) for one in lines if one.key in TRANSFER}
+            lines = in_one_formula(lines)
+        for one in map(self._plain, lines):
             mark = _identity(one)
             if mark in self._shown:
                 continue
             self._shown.add(mark)
             defined = one.key if isinstance(one, ValueLine) else ""
-            found.append(Equation(one, symbol=self.words.symbol(self._plain(one.key)), defined=defined))
+            area = self.summary["piston_area"] if self.per_area and is_per_area(one.key) else 0.0
+            found.append(Equation(one, symbol=self.words.symbol(one.key), defined=defined, area=area))
             self._keys.add(one.key)
             self._formulas.add(_formula_name(one))
         return found
 
-    def _plain(self, key: str) -> str:
-        """Return the key of a value of the cycle without its mark, where the diagram gives the same."""
+    def _plain(self, line: Line) -> Line:
+        """Return a line of the cycle, values without the mark of the cycle where the diagram gives the same."""
+        if isinstance(line, FormulaLine):
+            named = [(name, kind) for name, key in line.named if (kind := self._kind(key, line.values[name])) != key]
+            if named:
+                line = line._replace(named=tuple({**dict(line.named), **dict(named)}.items()))
+        return line._replace(key=self._kind(line.key, line.value))
+
+    def _kind(self, key: str, value: float) -> str:
         kind, _, name = key.partition(".")
-        summary = self.summary
-        same = name == "cycle" and kind in summary and math.isclose(summary.get(key, math.nan), summary[kind])
+        same = name == "cycle" and math.isclose(value, self.summary.get(kind, math.nan))
         return kind if same else key
 
     def is_shown(self, key: str) -> bool:
@@ -162,7 +175,7 @@ class Material:
             "tables": [one.label for one in some if one.label],
             "figures": [one.label for one in drawn],
         }
-        known = {side: _listed(labels) for side, labels in sides.items() if labels}
+        known = {side: listed(labels) for side, labels in sides.items() if labels}
         said: list[Run] = []
         for side, runs in known.items():
             sentence = self.words.sentence(f"see_{side if len(sides[side]) > 1 else side[:-1]}", **{side: runs})
@@ -228,11 +241,3 @@ def _first(lines: list[Line]) -> Iterator[Line]:
         if mark not in seen:
             seen.add(mark)
             yield one
-
-
-def _listed(labels: list[str]) -> Runs:
-    """Return references with commas between them."""
-    runs: list[Run] = []
-    for label_ in labels:
-        runs += [", ", Reference(label_)] if runs else [Reference(label_)]
-    return tuple(runs)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Iterator
 
 from crankwork.analysis import Results
@@ -16,25 +15,34 @@ from crankwork.note.engine_forces import across, along, dynamics, inertia
 from crankwork.note.engine_material import Material
 from crankwork.note.engine_motion import acceleration, displacement, kinematics, velocity
 from crankwork.note.engine_shaft import balance, big_end, crankpin, evenness, mains, polar, total, unrolled, wear
-from crankwork.note.legends import explained
 from crankwork.note.options import NoteOptions
+from crankwork.note.sections import note_of_sections
 
 Section = Callable[[Material], Iterator[Block]]
 
-_ORDERS: dict[str, tuple[Section, ...]] = {
+_SECTIONS: dict[str, Section] = {
+    "preface": preface, "data": data, "method": method, "cycle": cycle, "indicator": indicator,
+    "kinematics": kinematics, "displacement": displacement, "velocity": velocity, "acceleration": acceleration,
+    "dynamics": dynamics, "inertia": inertia, "piston_forces": along, "crank_forces": across, "torque": total,
+    "crankpin": crankpin, "polar": polar, "unrolled": unrolled, "big_end": big_end, "wear": wear, "mains": mains,
+    "balance": balance, "evenness": evenness, "comparison": comparison, "checks": checks, "conclusion": conclusion,
+    "sources": sources, "appendix": appendix,
+}  # fmt: skip
+_ORDERS: dict[str, tuple[str, ...]] = {
     "ru": (
-        preface, data, cycle, indicator, kinematics, dynamics, total, crankpin, mains, balance, evenness, comparison,
-        checks, conclusion, sources, appendix,
+        "preface", "data", "cycle", "indicator", "kinematics", "dynamics", "torque", "crankpin", "mains", "balance",
+        "evenness", "comparison", "checks", "conclusion", "sources", "appendix",
     ),
     # between the data and the checks the twelve sections that such notes have
     "vi": (
-        preface, data, cycle, indicator, displacement, velocity, acceleration, inertia, along, across, total, polar,
-        unrolled, big_end, wear, comparison, checks, conclusion, sources, appendix,
+        "preface", "data", "cycle", "indicator", "displacement", "velocity", "acceleration", "inertia",
+        "piston_forces", "crank_forces", "torque", "polar", "unrolled", "big_end", "wear", "comparison", "checks",
+        "conclusion", "sources", "appendix",
     ),
     # engineers who read English want the results before the way to them
     "en": (
-        data, method, conclusion, cycle, indicator, kinematics, dynamics, total, crankpin, mains, balance, evenness,
-        comparison, checks, sources, appendix,
+        "data", "method", "conclusion", "cycle", "indicator", "kinematics", "dynamics", "torque", "crankpin", "mains",
+        "balance", "evenness", "comparison", "checks", "sources", "appendix",
     ),
 }  # fmt: skip
 
@@ -45,6 +53,11 @@ def engine_note(results: Results, options: NoteOptions) -> Note:
         raise CrankworkError(f'no school of notes is called "{options.order}"; take en, ru or vi')
     material = Material(as_engine(results), options, has_engine=results.machine.engine is not None)
     words = material.words
-    blocks = itertools.chain.from_iterable(section(material) for section in _ORDERS[options.order])
-    title = results.machine.title or words.title("crank_gear")
-    return Note.of(explained(blocks, options.language, with_results=True), options, title, words.title("subtitle"))
+    return note_of_sections(
+        material,
+        _SECTIONS,
+        _ORDERS[options.order],
+        words.title("crank_gear"),
+        words.title("subtitle"),
+        with_results=True,
+    )

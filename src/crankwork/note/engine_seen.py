@@ -7,6 +7,7 @@ from typing import Protocol
 
 from crankwork.analysis import Array, Results
 from crankwork.note.engine_words import EngineWords
+from crankwork.report.figure_data import kind_of
 from crankwork.report.language import label
 
 _SHOWN: Mapping[str, tuple[str, ...]] = {
@@ -62,11 +63,6 @@ def seen(name: str, shown: Shown) -> str:
     if name in _OVER_CYCLE:
         keys = shown.results.groups.get(_OVER_CYCLE[name], ())
     return "; ".join(one for one in (_range(key, shown) for key in keys) if one)
-
-
-def kind_of(name: str) -> str:
-    """Return the name of a figure without the number of a crankpin."""
-    return name.rstrip("0123456789").rstrip("_")
 
 
 def crankpins(name: str, columns: Iterable[str]) -> tuple[str, ...]:

@@ -54,7 +54,7 @@ def total(material: Material) -> Iterator[Block]:
         yield from material.equations("engine_torque", *kinds)
     if material.order == "vi":
         yield words.paragraph("tangential_sum")
-    yield from material.presented([_total_table(material)], ("total_torque",))
+    yield from material.presented([_total_table(material)] if count > 1 else [], ("total_torque",))
     if count == 1 and "torque" in material.drawn:
         yield words.paragraph("see_figure", figures=Reference("f:torque"))
     if count > 1:

@@ -11,13 +11,11 @@ from crankwork.note.document import Cell, Math, Runs, Table
 from crankwork.note.engine_material import Material
 from crankwork.note.engine_words import EngineWords
 from crankwork.note.printed_units import printed_unit
-from crankwork.quantities import QUANTITIES
-from crankwork.report.language import displayed, key_unit, label, row_name, symbol
+from crankwork.note.table_width import SIZES, fits
+from crankwork.report.language import displayed, key_unit, label, row_name
 
-# columns of numbers that fit on a page upright
-_UPRIGHT = 9
-# rows that fit on a page, and parts of a table that stand side by side
-_LONG, _MOST_PARTS = 40, 3
+# rows that fit on a page, and parts and columns of a table that stand side by side
+_LONG, _MOST_PARTS, _MOST = 24, 3, 10
 _TURN = 360.0
 
 
@@ -51,7 +49,7 @@ def long_table(
 def folded(table: Table) -> Table:
     """Return a long narrow table with its parts side by side; any other as it is."""
     count, rows = len(table.headings), list(table.rows)
-    parts = min((_UPRIGHT + 1) // count, _MOST_PARTS)
+    parts = min(_MOST // count, _MOST_PARTS)
     if len(rows) <= _LONG or parts == 1 or not parts:
         return table
     height = -(-len(rows) // parts)
@@ -64,11 +62,12 @@ def folded(table: Table) -> Table:
 def column_table(caption: str, columns: Sequence[tuple[Runs, Sequence[Cell]]], words: EngineWords) -> Table:
     """Return a table of finished columns."""
     rows = list(zip(*(entries for _, entries in columns), strict=True))
+    headings = tuple(heading for heading, _ in columns)
     return Table(
         words.caption(caption),
-        tuple(heading for heading, _ in columns),
+        headings,
         rows,
-        wide=len(columns) - 1 > _UPRIGHT,
+        wide=not fits(headings, rows, SIZES[-1]),
         align="c" + "r" * (len(columns) - 1),
         label=f"t:{caption}",
     )
@@ -106,11 +105,9 @@ def value_table(caption: str, rows: Iterable[tuple[Cell, ...]], words: EngineWor
 
 def value_row(key: str, value: float, words: EngineWords, *, area: float | None = None) -> tuple[Cell, ...]:
     """Return name, symbol, value and unit of a single value."""
-    kind = key.partition(".")[0]
-    shown = words.symbol(key) if kind in QUANTITIES else symbol(key, words.language)
     return (
         label(key, words.language),
-        Math(shown),
+        Math(words.symbol(key)),
         words.number(displayed(key, value, per_area=area)),
         printed_unit(key_unit(key, per_area=area is not None), words.language) or "–",
     )

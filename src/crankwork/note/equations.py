@@ -13,19 +13,22 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import NamedTuple
 
-from crankwork.formula.expression import Formula, record, text
+from crankwork.formula.expression import Formula, Operation, Symbol, record, takes_angle, text
 from crankwork.formula.lines import DelayedLine, FormulaLine, Line, SumLine, ValueLine, without_noise
 from crankwork.locale import say, texts
 from crankwork.locale.numbers import number
 from crankwork.note.definitions import definition_box, definition_text
-from crankwork.note.digits import enough_digits, is_exact_pi
+from crankwork.note.digits import enough_digits, is_exact_pi, whole_degrees
 from crankwork.note.document import Equation
 from crankwork.note.layout import (
     EQUALS,
     SPACE,
+    Apply,
     Box,
     Fence,
+    Letter,
     Row,
+    Script,
     Sign,
     Upright,
     broken,
@@ -38,6 +41,7 @@ from crankwork.note.math import formula_box
 from crankwork.note.printed_units import display_unit, printed_unit
 from crankwork.note.symbols import number_box, symbol_box
 from crankwork.quantities import QUANTITIES, Language, base_key, chambers, linkage
+from crankwork.report.language import displayed, key_unit
 from crankwork.report.language import symbol as key_symbol
 from crankwork.units import UNITS, coherent_unit, from_si, to_si
 
@@ -68,9 +72,32 @@ def printed_equation(block: Equation, language: Language, limit: float = LINE_WI
     left = symbol_box(block.symbol or equation_symbol(block.step, language))
     parts: list[Box] = []
     for part in (*_definition(block, language), *_parts(block.step, language)):
-        if part != left and (not parts or part != parts[-1]):
+        if parts and isinstance(part, Row) and Row(part.parts[:-2]) == row(parts[-1]):
+            # the same number follows with its unit
+            parts.pop()
+        if _bare(part) != left and (not parts or part != parts[-1]):
             parts.append(part)
-    return PrintedEquation(tuple(_lines(left, parts, limit)), _plain(block, language))
+    lines = list(_lines(left, parts, limit))
+    if block.area:
+        symbol, value, unit = _per_area(block, language)
+        lines += _lines(symbol_box(symbol), [value_box(value, unit, language)], limit)
+    return PrintedEquation(tuple(lines), _plain(block, language))
+
+
+def _bare(box: Box) -> Box:
+    """Return a function of a symbol as the symbol of its value is written: without parentheses."""
+    match box:
+        case Apply(name, Fence(Row((Letter() | Script() as inside,)))):
+            return Apply(name, inside)
+    return box
+
+
+def _per_area(block: Equation, language: Language) -> tuple[str, float, str]:
+    """Return a value by the piston area as tables give it: symbol, value and unit."""
+    assert not isinstance(block.step, Formula)  # noqa: S101 - only values are divided
+    key = block.step.key
+    symbol = f"{block.symbol or equation_symbol(block.step, language)}/{QUANTITIES['piston_area'].symbol(language)}"
+    return symbol, displayed(key, block.step.value, per_area=block.area), key_unit(key, per_area=True)
 
 
 def equation_symbol(step: Line | Formula, language: Language) -> str:
@@ -89,14 +116,26 @@ def equation_symbol(step: Line | Formula, language: Language) -> str:
 OF_LINKS = frozenset(row.key for row in (*linkage.ROWS, *chambers.ROWS))
 
 
+# loads of any bearing that are known as those of a crankpin too
+_OF_CRANKPIN = {"mean_bearing_load": "mean_crankpin_load", "bearing_load_max": "crankpin_load_max"}
+
+
+def own_key(key: str) -> str:
+    """Return the key under which a value has its symbol and its name, where it is known under two."""
+    kind, *names = key.split(".")
+    if kind in _OF_CRANKPIN and names[:1] == ["crankpin"]:
+        return ".".join((_OF_CRANKPIN[kind], *names[1:]))
+    return key
+
+
 def value_symbol(key: str, language: Language) -> str:
     """Return the symbol of a value as `base_subscript`, what tells it from others of its quantity in the subscript."""
-    kind, *names = key.split(".")
+    kind, *names = own_key(key).split(".")
     if base_key(kind) not in QUANTITIES:
         return kind
     shown = equation_symbol(ValueLine(kind, 0.0), language)
     if kind in OF_LINKS and names and names[0] not in _NO_LINKS:
-        return owned_symbol(shown, ".".join(names), language)
+        return owned_symbol(kind, shown, ".".join(names), language)
     known = texts("marks", language)
     if kind in _OF_ORDERS and names and names[0] in _WITHOUT_ORDER:
         # what turns with the shaft has no order
@@ -142,19 +181,39 @@ def _parts(step: Line | Formula, language: Language) -> Iterator[Box]:
             yield formula_box(record(step.shown), None, language)
             return
         case FormulaLine(values=values):
-            tree, symbols = step.expression, _symbols(step, language)
-            yield formula_box(tree, None, language, symbols=symbols)
-            yield formula_box(tree, values, language, digits=enough_digits(step), symbols=symbols)
+            yield formula_box(step.expression, None, language, symbols=_symbols(step, language))
+            yield formula_box(
+                step.expression, values, language, digits=enough_digits(step), symbols=_symbols(step, language)
+            )
         case DelayedLine(of=of, degrees=degrees):
             yield row(symbol_box(value_symbol(of, language)), Fence(value_box(degrees, "deg", language)))
         case SumLine(terms=terms):
             if len(terms) <= _MANY:
-                yield _joined([symbol_box(value_symbol(one.key, language)) for one in terms])
+                yield _sum_of_symbols(step, language)
             if len(terms) > 1:
                 digits = enough_digits(step)
                 yield _joined([number_box(one.value, language, digits)[0] for one in terms])
-    for value, unit in shown_values(step):
+    for value, unit in told_values(step):
         yield value_box(value, unit, language)
+
+
+def _sum_of_symbols(step: SumLine, language: Language) -> Box:
+    return _joined([symbol_box(value_symbol(one.key, language)) for one in step.terms])
+
+
+def formula_of(step: FormulaLine, language: Language) -> Box:
+    """Return the formula of a step in symbols."""
+    return formula_box(step.expression, None, language, symbols=_symbols(step, language))
+
+
+def symbolic(step: Line, language: Language) -> Box | None:
+    """Return the formula or the sum of a step in symbols, if it has one."""
+    match step:
+        case FormulaLine():
+            return formula_of(step, language)
+        case SumLine(terms=terms) if len(terms) > 1:
+            return _sum_of_symbols(step, language)
+    return None
 
 
 def _joined(boxes: list[Box]) -> Box:
@@ -179,6 +238,12 @@ def shown_values(step: Line) -> list[tuple[float, str]]:
         return [(step.value, stated)]
     si = step.value if UNITS[stated].factor == 1.0 else to_si(step.value, stated)
     return [(step.value, stated), (float(from_si(si, shown)), shown)]
+
+
+def told_values(step: Line) -> list[tuple[float, str]]:
+    """Return the values that a line ends with: nothing is the same in two units, but for degrees."""
+    first, *others = shown_values(step)
+    return [first, *others] if first[0] or any(value for value, _ in others) else [first]
 
 
 def _same_dimension(one: str, other: str) -> bool:
@@ -208,7 +273,11 @@ def _plain(block: Equation, language: Language) -> str:
         parts += [one for one in (definition_text(block.defined, language),) if one]
     if isinstance(step, Formula):
         return " = ".join([*parts, text(record(step.shown), None, language)])
-    return " = ".join([*parts, *line_parts(step, language)])
+    told = " = ".join([*parts, *line_parts(step, language)])
+    if not block.area:
+        return told
+    symbol, value, unit = _per_area(block, language)
+    return f"{told}; {symbol} = {value_text(value, unit, language)}"
 
 
 def line_parts(step: Line, language: Language, symbols: Mapping[str, str] = MappingProxyType({})) -> list[str]:
@@ -221,6 +290,7 @@ def line_parts(step: Line, language: Language, symbols: Mapping[str, str] = Mapp
         put_in = {name: one for name, one in step.values.items() if not is_exact_pi(name, one)}
         printed = {name: number(one, language, digits=digits) for name, one in put_in.items()}
         shown = {**_symbols(step, language), **symbols}
+        printed |= _angles(step, language)
         parts = [text(step.expression, shown, language), text(step.expression, printed, language)]
     elif isinstance(step, DelayedLine):
         parts = [f"{value_symbol(step.of, language)}({value_text(step.degrees, 'deg', language)})"]
@@ -231,8 +301,17 @@ def line_parts(step: Line, language: Language, symbols: Mapping[str, str] = Mapp
     while parts and parts[-1] == number(step.value, language):
         # the same number follows with its unit
         parts.pop()
-    parts += [value_text(value, unit, language) for value, unit in shown_values(step)]
+    parts += [value_text(value, unit, language) for value, unit in told_values(step)]
     return [one for at, one in enumerate(parts) if not at or one != parts[at - 1]]
+
+
+def _angles(step: FormulaLine, language: Language) -> dict[str, str]:
+    """Return angles that are put in as whole degrees, of a step that is a function of an angle alone."""
+    tree = step.expression
+    if not (isinstance(tree, Operation) and takes_angle(tree.function) and isinstance(tree.operands[0], Symbol)):
+        return {}
+    degrees = whole_degrees(tree.operands[0], step.values)
+    return {} if degrees is None else {tree.operands[0].name: f"{number(degrees, language)}°"}
 
 
 def _fenced(printed: str) -> str:

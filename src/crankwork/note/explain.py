@@ -29,9 +29,10 @@ from crankwork.locale import capital, has_text, say, texts
 from crankwork.locale.numbers import number
 from crankwork.notation import ARGUMENTS, argument_unit
 from crankwork.note.definitions import definition_text, integral_text
-from crankwork.note.equations import OF_LINKS, line_parts, shown_values, value_symbol, value_text
+from crankwork.note.equations import OF_LINKS, line_parts, shown_values, told_values, value_symbol, value_text
 from crankwork.note.legends import words_of
 from crankwork.note.numbering import Numbering
+from crankwork.note.printed_units import printed_unit
 from crankwork.quantities import QUANTITIES, Language, base_key, cycle
 from crankwork.report.language import in_own_units, label, told_as
 from crankwork.sources import cite
@@ -40,6 +41,9 @@ from crankwork.units import UNITS, from_si, to_si
 _OF_ANGLE = re.compile(r"^(sin|cos|tan) ?")
 _OF_CYCLE = frozenset(row.key for row in cycle.ROWS)
 _OWNERS = {"stroke": "of_piston"}
+# what is found of the whole course of a column, and how many rows of that are told at most [deg]
+_OF_COURSES = ("mean", "harmonic_mean", "integral", "fourier", "range")
+_COARSE, _FEWEST, _MOST = 30.0, 5, 25
 _FENCES = re.compile(r"[() ]")
 
 
@@ -73,7 +77,7 @@ def explanation(
     head = [f"{capital(label(told_as(key, results), language)) if _has_label(key) else key}: {shown}"]
     if explained is None:
         return "\n".join([*head, "", say("explain.no_memory", language)]) + "\n"
-    return "\n".join([*head, *_Printed(explained, places, place)]) + "\n"
+    return "\n".join([*head, *_Printed(explained, places, place, _shown_rows(results))]) + "\n"
 
 
 @in_own_units
@@ -87,6 +91,13 @@ def key_lines(results: Results, language: Language = "en") -> list[str]:
         f"{key:<{wide}}  {sign if key in varying else '   '}  {label(told_as(key, results), language)}".rstrip()
         for key in keys
     ]
+
+
+def _shown_rows(results: Results) -> list[float]:
+    """Return rows of the tables at which a column is told whose whole course counts. [deg]"""
+    rows: list[float] = results.grid.degrees.tolist()
+    coarse = [one for one in rows if one % _COARSE == 0]
+    return coarse if _FEWEST <= len(coarse) <= _MOST else rows[:: -(-len(rows) // _MOST)]
 
 
 def place_text(origin: Origin, language: Language) -> str:
@@ -134,7 +145,8 @@ class _Places(NamedTuple):
 class _Printed:
     """The lines below the value: of what does not vary, of each crank angle, what is given, sources."""
 
-    def __init__(self, explanation: Explanation, places: _Places, place: Place) -> None:
+    def __init__(self, explanation: Explanation, places: _Places, place: Place, rows: list[float]) -> None:
+        self._rows = rows
         self._explanation, self._language, self._place = explanation, places.language, place
         self._places = places
         self._sources: dict[str, int] = {}
@@ -179,11 +191,28 @@ class _Printed:
             line = self._line(one)
             if line:
                 yield f"  {line}"
+                yield from self._courses(one)
+
+    def _courses(self, one: Explained) -> Iterator[str]:
+        """Yield the columns that a value was found of over the cycle, at some rows of the tables."""
+        node = one.known.node
+        if not isinstance(node, Found | Table) or node.word not in _OF_COURSES:
+            return
+        for column in (part for part in node.operands if part.key and part.varies):
+            told: list[str] = []
+            for at in self._rows:
+                step = ValueLine(column.key, self._explanation.moment(at).value(column))
+                value, unit = shown_values(step)[-1] if base_key(column.key) in QUANTITIES else (step.value, "")
+                told.append(f"{self._places(at)}: {number(value, self._language, digits=5)}".replace(" ", "\u00a0"))
+            unit_text = printed_unit(unit, self._language)
+            head = f"{self._symbol(column)}{f', {unit_text}' if unit_text else ''} – "
+            yield from textwrap.wrap(head + "; ".join(told), 116, initial_indent="    ", subsequent_indent="      ",
+                                     break_long_words=False, break_on_hyphens=False)  # fmt: skip
 
     def _symbol(self, known: Known, argument: str = "") -> str:
         match known.node:
-            case OfAngle(function=function, multiple=multiple, shift=shift) if not _has_own_symbol(known):
-                return _of_angle(function, multiple, shift, self._language)
+            case OfAngle(function=function, multiple=multiple, shift=shift) if not has_own_symbol(known):
+                return of_angle(function, multiple, shift, self._language)
         if known.key and not goes_by_argument(known, argument):
             return self._own.get(known.key) or value_symbol(known.key, self._language)
         return symbol(argument, self._language) if argument in ARGUMENTS else "?"
@@ -210,7 +239,7 @@ class _Printed:
                 parts = ["0"] if one.residual else parts
                 parts += [say(f"memory.{one.word}", language)] if one.word else []
                 found = line_parts(step, language, self._symbols(step))
-                parts += found[: -len(shown_values(step))] if one.residual else found
+                parts += found[: -len(told_values(step))] if one.residual else found
                 source = step.formula.source if isinstance(step, FormulaLine) else ""
                 return " = ".join(_once(parts)) + self._cited(source) + self._held(one)
             case Delayed(of=of, by=by, cycle=cycle) if one.degrees is not None:
@@ -262,7 +291,7 @@ class _Printed:
         if not isinstance(node, OfAngle) or degrees is None:
             return []
         whole = _angle(node.multiple * degrees + node.shift, self._language)
-        turned = _of_angle(node.function, node.multiple, node.shift, self._language)
+        turned = of_angle(node.function, node.multiple, node.shift, self._language)
         if node.function == "angle":
             return [turned, whole, value_text(one.value, "rad", self._language)]
         name = {"one_minus_sin": "1 − sin ", "one_plus_sin": "1 + sin "}.get(node.function, f"{node.function} ")
@@ -312,10 +341,10 @@ class _Printed:
     def _meaning(self, one: Explained) -> tuple[str, str]:
         """Return a symbol as it stands for all its points and links, and its words."""
         known, language = one.known, self._language
-        if isinstance(known.node, OfAngle) and not _has_own_symbol(known):
+        if isinstance(known.node, OfAngle) and not has_own_symbol(known):
             return value_symbol("crank_angle", language), label("crank_angle", language)
         if not known.key or goes_by_argument(known, one.argument):
-            return _meaning_of_argument(one.argument, language)
+            return meaning_of_argument(one.argument, language)
         kind, _, part = known.key.partition(".")
         if kind not in QUANTITIES:
             return "", ""
@@ -332,7 +361,8 @@ def symbol_of_kind(key: str, language: Language) -> str:
     return value_symbol(f"{kind}.i" if part and kind in OF_LINKS and kind != "efficiency" else kind, language)
 
 
-def _meaning_of_argument(name: str, language: Language) -> tuple[str, str]:
+def meaning_of_argument(name: str, language: Language) -> tuple[str, str]:
+    """Return the symbol of an argument of formulas and what it means, empty where nobody has to be told."""
     entry = ARGUMENTS.get(name)
     if entry is None:
         return "", ""
@@ -376,7 +406,7 @@ def _stands_at(one: Explained) -> bool:
     return isinstance(node, Found) and node.at is not None and bool(node.operands)
 
 
-def _has_own_symbol(known: Known) -> bool:
+def has_own_symbol(known: Known) -> bool:
     """Return whether a function of the crank angle goes by a name of its own."""
     return bool(known.key) and not known.key.startswith("crank_")
 
@@ -387,7 +417,8 @@ def _once(parts: list[str]) -> list[str]:
     return [part for at, part in enumerate(parts) if not at or plain[at] != plain[at - 1]]
 
 
-def _of_angle(function: str, multiple: int, shift: float, language: Language) -> str:
+def of_angle(function: str, multiple: int, shift: float, language: Language) -> str:
+    """Return a function of the crank angle, counted from elsewhere where that is shifted: cos (φ + 72°)."""
     phi = QUANTITIES["crank_angle"].symbol(language)
     turned = f"{'' if multiple == 1 else multiple}{phi}"
     if shift:

@@ -10,13 +10,13 @@ from crankwork.formula.lines import FormulaLine, symbols_of
 from crankwork.locale import has_text, say
 from crankwork.notation import ARGUMENTS, Argument, argument_unit
 from crankwork.note.document import Block, Equation, Explanation
-from crankwork.note.equations import value_symbol
+from crankwork.note.equations import own_key, value_symbol
 from crankwork.note.printed_units import printed_unit
 from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.report.language import label
 
 # parts of a quantity that are no cylinder or point, and arguments made of a quantity
-_PARTS = {"inertia": "of_inertia"}
+_PARTS = {"inertia": "of_inertia", "drive": "of_drive"}
 _DERIVED = {
     "{}′": "derivative_1",
     "{}″": "derivative_2",
@@ -115,8 +115,9 @@ def _explaining(name: str, named: Mapping[str, str]) -> tuple[str, ...]:
     """Return the keys that explain an argument."""
     entry = ARGUMENTS.get(name, _NAMED_ONLY)
     if name in named:
-        kind, _, part = named[name].partition(".")
-        return (named[name] if part in _PARTS else kind,)
+        key = own_key(named[name])
+        kind, _, part = key.partition(".")
+        return (key if part in _PARTS else kind,)
     if has_text(f"arguments.{name}") or entry.pattern in _DERIVED:
         return (f"argument:{name}",)
     return tuple(key for key in (entry.quantity, entry.extra) if key)

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from crankwork.analysis.linkage import four_bar_type
 from crankwork.analysis.stated import StatedLoad, stated_loads
 from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.driver import Cylinder
+from crankwork.mechanism.driver import Cylinder, rod_name
 from crankwork.mechanism.dyads import PRP, RRP, RRR, Dyad
 from crankwork.mechanism.joints import Pin, joints, pivots_of
 from crankwork.mechanism.linkage import GROUND, Member
@@ -53,6 +53,7 @@ def task(material: Material) -> Iterator[Block]:
         yield words.paragraph("drive_inertia", value=words.amount(machine.drive.inertia, "kg*m2"))
     if machine.drive.fluctuation is not None:
         yield words.paragraph("fluctuation", value=words.number(machine.drive.fluctuation))
+    yield words.paragraph("linkage_computed")
     yield method(material)
     if material.options.sheets:
         yield words.paragraph("sheets")
@@ -157,6 +158,10 @@ def structural_analysis(material: Material) -> Iterator[Block]:
     yield from equations(material.lines("structure"), words)
     yield words.paragraph("one_driver" if material.words.period else "one_drive")
     numbers = {name: str(number) for number, name in enumerate(found.links, start=1)}
+    driver = material.machine.mechanism.driver
+    if isinstance(driver, Cylinder):
+        # barrel and rod stand for one link of changing length
+        numbers[driver.link] += f"+{numbers[rod_name(driver.link)]}"
     kinds = {_members(one): type(one).__name__ for one in material.machine.mechanism.dyads}
     rows = [
         (
@@ -194,12 +199,16 @@ def _pairs(material: Material, links: tuple[str, ...]) -> Table:
     pivots = pivots_of(material.machine.mechanism)
     rows = []
     for number, one in enumerate(joints(material.machine.mechanism), start=1):
-        ends = sorted(0 if name == GROUND else links.index(name) for name in (one.link, one.other))
+        both = [one.link, one.other]
+        if isinstance(driver, Cylinder) and isinstance(one, Pin) and one.point == driver.rod:
+            # there the rod of the cylinder ends, not its barrel
+            both = [rod_name(name) if name == driver.link else name for name in both]
+        ends = sorted(0 if name == GROUND else links.index(name) for name in both)
         name = (one.point or pivots.get(one.link, "")) if isinstance(one, Pin) else one.link
         kind = words.term("turning" if isinstance(one, Pin) else "sliding")
         rows.append((str(number), name, f"{ends[0]}–{ends[1]}", kind))
     if isinstance(driver, Cylinder):
-        inside = "–".join(str(links.index(name)) for name in (driver.link, f"{driver.link}_rod"))
+        inside = "–".join(str(links.index(name)) for name in (driver.link, rod_name(driver.link)))
         rows.append((str(len(rows) + 1), driver.link, inside, words.term("sliding")))
     titles = tuple((words.column(one),) for one in ("number", "pair", "between", "kind"))
     return Table(words.caption("pairs"), titles, rows, align="cccc")

@@ -113,6 +113,7 @@ def driven_motion(material: Material) -> Iterator[Block]:
     yield from material.figures("driver", "sliders")
     if "velocity_plan" in material.drawn:
         yield words.heading("polygons", 2)
+        yield words.paragraph("plan_numbers", table=Reference("links"))
         yield from material.figures("velocity_plan", "acceleration_plan")
 
 

@@ -9,11 +9,12 @@ import numpy as np
 from crankwork.analysis import Array
 from crankwork.analysis.linkage import torque_by_routes
 from crankwork.analysis.rounding import without_rounding
-from crankwork.note.document import Block, Citation, Reference, Table
+from crankwork.note.document import Block, Citation, Paragraph, Reference, Table
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_motion import worked_at
 from crankwork.note.linkage_tables import Column, equations, position_tables, quantity_columns
 from crankwork.note.linkage_words import Words, named
+from crankwork.report.not_drawn import not_drawn
 from crankwork.report.tables import any_nonzero
 
 _STATICS, _WORK, _RUNNING, _EFFICIENCY = (f"artobolevsky_1988, ch. {one}" for one in (13, 15, 16, 14))
@@ -49,7 +50,9 @@ def forces(material: Material) -> Iterator[Block]:
     )
     shown = quantity_columns(keys, columns, words)
     yield from position_tables("reactions", material.positions, shown, words, first=material.first, label="reactions")
-    yield from material.figures("joint_forces")
+    yield from material.figures("joint_forces", "force_plans")
+    for one in not_drawn(material.results, words.language):
+        yield Paragraph((f"{one[0].upper()}{one[1:]}.",))
     yield from _lever(material)
 
 
@@ -69,6 +72,7 @@ def _lever(material: Material) -> Iterator[Block]:
     percent = [words.number(one, digits=2) for one in (100.0 * apart).tolist()]
     shown.append(Column((words.column("difference"),), percent))
     yield from position_tables("routes", material.positions, shown, words, first=material.first, label="routes")
+    yield from material.figures("zhukovsky_lever")
 
 
 def _route(name: str, values: Array, words: Words) -> Column:

@@ -46,5 +46,9 @@ def _rubbing(one: StatedFriction, words: Words) -> Runs:
     """Return a joint that rubs in words."""
     runs: list[Run] = []
     for key, (value, unit) in one.amounts.items():
-        runs += [", " if runs else f"{one.name}: ", Math(words.symbol(key)), f" = {words.amount(value, unit)}"]
+        runs += [
+            ", " if runs else f"{one.name.replace('_', ' ')}: ",
+            Math(words.symbol(key)),
+            f" = {words.amount(value, unit)}",
+        ]
     return tuple(runs)

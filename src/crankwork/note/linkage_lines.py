@@ -55,11 +55,16 @@ _COURSE_OF_SHAFT = (
 
 
 def linkage_lines(results: Results, degrees: float | None = None) -> tuple[Group, ...]:
-    """Return what the note of a linkage shows at a crank angle, or the nearest one of the columns, each once. [deg]"""
+    """Return what the note of a linkage shows at a crank angle, or the nearest one that it reaches, each once. [deg]"""
     if results.machine.turning is not None:
         return _of_shaft(results)
-    row = int(np.argmin(np.abs(results.grid.degrees - (_DEGREES if degrees is None else degrees))))
-    told = Told(results, float(results.grid.degrees[row]))
+    reached = results.grid.degrees
+    if degrees is None or results.machine.linkage is None:
+        # what was given as a table is known at its rows only
+        at = float(reached[np.argmin(np.abs(reached - (_DEGREES if degrees is None else degrees)))])
+    else:
+        at = float(np.clip(degrees, reached[0], reached[-1]))
+    told = Told(results, at)
     groups = [
         Group("structure", told.lines(["mobility"])),
         Group("speed", told.lines(["speed"]) if results.method.pi != math.pi else ()),

@@ -9,21 +9,25 @@ from functools import cached_property
 import numpy as np
 
 from crankwork.analysis import Array, Results
-from crankwork.analysis.moving import reached_angles
+from crankwork.analysis.plans import POSITION_STEP, positions, worked_position
 from crankwork.analysis.rounding import summary_without_rounding, without_rounding
 from crankwork.formula.lines import Line
 from crankwork.machine import Machine, TransferTable
 from crankwork.mechanism.structure import Structure, structure
-from crankwork.note.document import Block
+from crankwork.note.document import Block, listed
 from crankwork.note.groups import Group
 from crankwork.note.linkage_lines import linkage_lines
 from crankwork.note.linkage_words import Words
 from crankwork.note.options import NoteOptions
-from crankwork.report.figures import figures
+from crankwork.report.figure_data import kind_of
+from crankwork.report.figures import drawings
+from crankwork.show.scene import Drawing
 
-_POSITION_STEP = 30.0
-# columns without a value at many positions
-_IN_PLACES = ("instant_centre_", "instantaneous_efficiency")
+# figures that are no curves
+_CONSTRUCTED = (
+    "position_plans", "velocity_plan", "acceleration_plan", "force_plans", "zhukovsky_lever", "centrodes",
+    "wittenbauer",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -57,17 +61,13 @@ class Material:
 
     @cached_property
     def positions(self) -> Array:
-        """The positions of the plans, every 30 degrees, as far as the linkage reaches them. [deg]"""
-        reached, _ = reached_angles(self.machine, 1.0)
-        every = np.arange(0.0, self.machine.cycle + _POSITION_STEP, _POSITION_STEP)
-        inside = every[(every >= reached[0]) & (every <= reached[-1])]
-        # a linkage that reaches none of them is shown where it does move
-        return inside if inside.size else reached[::5]
+        """The positions of the plans, as far as the linkage reaches them. [deg]"""
+        return positions(self.machine)
 
     @property
     def first(self) -> int | None:
         """Number of the first position, counted from a crank angle of zero; none where they have no numbers."""
-        numbers = self.positions / _POSITION_STEP
+        numbers = self.positions / POSITION_STEP
         return round(float(numbers[0])) if np.allclose(numbers, np.round(numbers)) else None
 
     @cached_property
@@ -82,18 +82,11 @@ class Material:
 
     @cached_property
     def groups(self) -> dict[str, Group]:
-        """Lines of the memory by the name of their group, worked where the loads need the largest torque."""
-        degrees = None
-        if self.machine.turning is not None:
-            return {one.name: one for one in linkage_lines(self.results)}
-        largest = ("driver_force", "driver_torque") if self.results.period else ("static_torque",)
-        key = next((one for one in largest if one in self.columns), None)
-        if (self.machine.loads or self.machine.chambers) and key is not None:
-            # in a change point forces may not be determined
-            told = [one for name, one in self.columns.items() if not name.startswith(_IN_PLACES)]
-            is_told = np.all(np.isfinite(told), axis=0)
-            degrees = float(self.positions[int(np.argmax(np.where(is_told, np.abs(self.columns[key]), -1.0)))])
-        return {one.name: one for one in linkage_lines(self.results, degrees)}
+        """Lines of the memory by the name of their group, worked where the plans are drawn."""
+        is_drawn = self.machine.linkage is not None
+        return {
+            one.name: one for one in linkage_lines(self.results, worked_position(self.results) if is_drawn else None)
+        }
 
     def lines(self, group: str, *kinds: str) -> tuple[Line, ...]:
         """Return the lines of a group, or those of it that give some quantities; none if there is no such group."""
@@ -101,12 +94,19 @@ class Material:
         return tuple(one for one in lines if not kinds or one.key.partition(".")[0] in kinds)
 
     @cached_property
-    def drawn(self) -> Mapping[str, bytes]:
+    def drawn(self) -> Mapping[str, Drawing]:
         """Figures by name; none if they are left out."""
-        return figures(self.results, language=self.options.language) if self.options.figures else {}
+        return drawings(self.results, language=self.options.language) if self.options.figures else {}
 
     def figures(self, *names: str) -> Iterator[Block]:
-        """Yield figures, those that there are."""
-        for name in names:
-            if name in self.drawn:
-                yield self.words.figure(name, self.drawn[name])
+        """Yield figures, those that there are, after sentences that refer to them by number."""
+        drawn = [one for name in names for one in self.drawn if kind_of(one) == name]
+        built = [name for name in drawn if name in _CONSTRUCTED]
+        others = [name for name in drawn if name not in built]
+        said = [(("see_construction", "see_constructions"), built), (("see_figure", "see_figures"), others)]
+        # by their numbers
+        for keys, some in sorted((one for one in said if one[1]), key=lambda one: drawn.index(one[1][0])):
+            references = listed([f"figure:{name}" for name in some])
+            yield self.words.paragraph(keys[len(some) > 1], figures=references)
+        for name in drawn:
+            yield self.words.figure(name, self.drawn[name])

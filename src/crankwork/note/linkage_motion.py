@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from crankwork.analysis.moving import transfer_ratios
 from crankwork.analysis.rounding import without_rounding
-from crankwork.note.document import Block, Citation
+from crankwork.note.document import Block, Citation, Reference
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_tables import Column, equations, position_tables, quantity_columns
 from crankwork.note.linkage_words import named
@@ -44,8 +44,10 @@ def kinematics(material: Material) -> Iterator[Block]:
     accelerations = quantity_columns(named(columns, *_ACCELERATING), columns, words)
     yield from position_tables("accelerations", degrees, accelerations, words, first=material.first)
     yield from instant_centres(material)
+    yield from material.figures("centrodes", "points", "links")
     if material.drawn:
         yield words.heading("polygons", 2)
+        yield words.paragraph("plan_numbers", table=Reference("links"))
         yield from material.figures("velocity_plan", "acceleration_plan", "sliders")
 
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Iterator
 
 from crankwork.analysis import Results
 from crankwork.note.chambers import chambers
 from crankwork.note.document import Block, Note
-from crankwork.note.legends import explained
 from crankwork.note.linkage_data import structural_analysis, task
 from crankwork.note.linkage_driver import driven_forces, driven_motion, driven_task
 from crankwork.note.linkage_forces import balance, forces, reduction, torques
@@ -20,35 +18,42 @@ from crankwork.note.linkage_shaft import appendix, checks, comparison, conclusio
 from crankwork.note.linkage_table_note import driving, dynamic, static, table_task
 from crankwork.note.linkage_transient import transient
 from crankwork.note.options import NoteOptions
+from crankwork.note.sections import note_of_sections
 
 Section = Callable[[Material], Iterator[Block]]
 
-_COURSE: tuple[Section, ...] = (
-    task, structural_analysis, kinematics, quality, chambers, forces, balance, reduction, torques, friction, motor,
-    flywheel, law_of_motion, transient, comparison, checks, conclusion, sources, appendix,
-)  # fmt: skip
-# engineers who read English want the results before the way to them
-_REPORT: tuple[Section, ...] = (
-    task, conclusion, structural_analysis, kinematics, quality, chambers, forces, balance, reduction, torques, friction,
-    motor, flywheel, law_of_motion, transient, comparison, checks, sources, appendix,
-)  # fmt: skip
-_DRIVEN: tuple[Section, ...] = (
-    driven_task, structural_analysis, driven_motion, quality, chambers, driven_forces, friction, comparison, checks,
-    conclusion, sources, appendix,
-)  # fmt: skip
+_SECTIONS: dict[str, Section] = {
+    "task": task, "structure": structural_analysis, "kinematics": kinematics, "quality": quality,
+    "chambers": chambers, "forces": forces, "balance": balance, "reduction": reduction, "torques": torques,
+    "friction": friction, "motor": motor, "flywheel": flywheel, "law_of_motion": law_of_motion,
+    "transient": transient, "comparison": comparison, "checks": checks, "conclusion": conclusion, "sources": sources,
+    "appendix": appendix,
+}  # fmt: skip
+# a driver with a law of its own needs a torque or force at every moment, and no flywheel
+_DRIVEN = {"task": driven_task, "kinematics": driven_motion, "forces": driven_forces}
+_NOT_DRIVEN = ("balance", "reduction", "torques", "motor", "flywheel", "law_of_motion", "transient")
 # the tables keep the numbers that courses of machines give them
-_OF_TABLE: tuple[Section, ...] = (table_task, static, dynamic, driving, comparison, checks, conclusion, sources)
+_OF_TABLE: dict[str, Section] = {
+    "task": table_task, "static": static, "dynamic": dynamic, "driving": driving, "comparison": comparison,
+    "checks": checks, "conclusion": conclusion, "sources": sources,
+}  # fmt: skip
 
 
 def linkage_note(results: Results, options: NoteOptions) -> Note:
     """Return the note of a linkage, or of a table of transfer functions (artobolevsky_1988, ch. 2-16)."""
     material = Material(results, options)
-    sections, title = _REPORT if options.order == "en" else _COURSE, "linkage"
-    if results.period:
-        sections = _DRIVEN
+    sections, order, title = _SECTIONS, list(_SECTIONS), "linkage"
     if results.has_positions:
-        sections, title = _OF_TABLE, "tabulated"
+        sections, order, title = _OF_TABLE, list(_OF_TABLE), "tabulated"
+    elif results.period:
+        sections = {**_SECTIONS, **_DRIVEN, **dict.fromkeys(_NOT_DRIVEN, _nothing)}
+    elif options.order == "en":
+        # engineers who read English want the results before the way to them
+        order = ["task", "conclusion", *(name for name in order if name not in ("task", "conclusion"))]
     words = material.words
-    blocks = itertools.chain.from_iterable(section(material) for section in sections)
-    title = results.machine.title or words.title(title)
-    return Note.of(explained(blocks, options.language), options, title, words.title("linkage_subtitle"))
+    return note_of_sections(material, sections, tuple(order), words.title(title), words.title("linkage_subtitle"))
+
+
+def _nothing(_: Material) -> Iterator[Block]:
+    """Yield nothing: a section that such a machine has not."""
+    yield from ()

@@ -14,6 +14,7 @@ from crankwork.note.linkage_lines import WHEEL_SIZES
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_tables import equations, position_tables, quantity_columns
 from crankwork.note.linkage_words import Words, named
+from crankwork.note.main_numbers import main_numbers
 from crankwork.note.printed_units import printed_unit
 from crankwork.report.language import displayed, key_unit, label, told_as
 from crankwork.report.notices import notice_text
@@ -81,6 +82,7 @@ def _marks(ways: Iterable[str], words: Words) -> Mapping[str, str]:
             found[f"{kind}.{way}"] = words.symbol(kind)
         slope = words.symbol("wittenbauer_slope")
         ends = {"largest": "max", "least": "min"}
+        found[f"wittenbauer_slope.{way}"] = slope
         found |= {f"wittenbauer_slope.{way}.{end}": f"{slope}_{mark}" for end, mark in ends.items()}
     return found
 
@@ -118,6 +120,7 @@ def conclusion(material: Material) -> Iterator[Block]:
     """Yield the main results as a table."""
     words, results = material.words, material.results
     yield words.heading("results" if material.options.order == "en" else "conclusion")
+    yield from main_numbers(results.summary, words)
     yield words.paragraph("conclusion", table=Reference("summary"))
     rows = [_row(key, material) for key in results.summary if not _is_angle(key)]
     titles: list[Runs] = [(words.column(one),) for one in ("quantity", "value", "unit")]

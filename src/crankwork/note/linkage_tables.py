@@ -11,10 +11,8 @@ from crankwork.note.linkage_words import Words
 from crankwork.note.words import in_display_unit
 from crankwork.quantities import QUANTITIES, base_key
 
-# columns of numbers beside position and crank angle, on a page upright and on its side
-_UPRIGHT, _WIDE = 9, 14
-# rows of a table that is worth a page on its side
-_LONG = 24
+# columns of numbers beside position and crank angle that fit on a page
+_MOST = 9
 
 
 class Column:
@@ -59,22 +57,21 @@ def position_tables(
     before = [Column(heading, [words.number(value) for _, value, _ in places])]
     if first is not None:
         before.insert(0, Column((words.column("position"),), [str(first + k) for k in range(count)]))
-    for part, some in enumerate(_parts(columns, _UPRIGHT if count < _LONG else _WIDE), start=1):
+    for part, some in enumerate(_parts(columns), start=1):
         shown = [*before, *some]
         rows = list(zip(*(one.entries for one in shown), strict=True))
         yield Table(
             words.caption(caption, part),
             tuple(one.heading for one in shown),
             rows,
-            wide=len(some) > _UPRIGHT,
             align="c" * len(before) + "r" * len(some),
             label=label if part == 1 else "",
         )
 
 
-def _parts(columns: Sequence[Column], most: int) -> Iterator[Sequence[Column]]:
+def _parts(columns: Sequence[Column]) -> Iterator[Sequence[Column]]:
     """Yield columns that fit on a page, about as many on each."""
-    count = -(-len(columns) // most)
+    count = -(-len(columns) // _MOST)
     each = -(-len(columns) // count)
     for start in range(0, len(columns), each):
         yield columns[start : start + each]

@@ -10,7 +10,9 @@ from crankwork.note.document import Figure, Heading, Math, Runs
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.words import NoteWords
 from crankwork.quantities import QUANTITIES
+from crankwork.report.figure_data import kind_of
 from crankwork.report.language import symbol as key_symbol
+from crankwork.show.scene import Drawing
 
 # what of a link or point: its guide, the arm from a joint, the load on it
 _PARTS = frozenset(
@@ -34,7 +36,7 @@ _PARTS = frozenset(
         "damper",
     )
 )
-_WITHIN = str.maketrans({".": ",", "/": ":", "′": "'", "″": "'"})
+_WITHIN = str.maketrans({".": ",", "/": ":", "′": "'", "″": "'", "_": " "})
 
 
 class Words(NoteWords):
@@ -59,8 +61,8 @@ class Words(NoteWords):
         return (self.column("at") + " ", symbol, ", °" if unit == "deg" else f", {printed_unit(unit, self.language)}")
 
     def heading(self, key: str, level: int = 1, label: str = "") -> Heading:
-        """Return a heading of a section; those of bibliography and appendix have no number."""
-        numbered = not key.startswith(("sources", "appendix"))
+        """Return a heading of a section; those of conclusion, bibliography and appendix have no number."""
+        numbered = not key.startswith(("conclusion", "sources", "appendix"))
         return Heading(level, self.title(key), numbered=numbered, label=label)
 
     def caption(self, key: str, part: int = 1) -> str:
@@ -72,16 +74,18 @@ class Words(NoteWords):
         """Return the name of a way to find a flywheel."""
         return say("report.exact" if key == "exact" else f"report.way_{key}", self.language)
 
-    def figure(self, name: str, svg: bytes) -> Figure:
+    def figure(self, name: str, drawing: Drawing) -> Figure:
         """Return a figure with caption and description."""
-        caption, seen = note_text(f"figures.{name}", self.language), say(f"seen.{name}", self.language)
-        return Figure(svg, caption, seen, label=f"figure:{name}")
+        number = name.removeprefix(kind_of(name)).removeprefix("_")
+        caption = note_text(f"figures.{kind_of(name)}", self.language) + (f", {number}" if number else "")
+        seen = say(f"seen.{kind_of(name)}", self.language)
+        return Figure(drawing, caption, seen, label=f"figure:{name}")
 
     def symbol(self, key: str) -> str:
         """Return the symbol of a key as `base_subscript`, the name of what it belongs to in the subscript."""
         kind, _, name = key.partition(".")
         shown = QUANTITIES[kind].symbol(self.language) if kind in QUANTITIES else key_symbol(kind, self.language)
-        return owned_symbol(shown, name, self.language) if name else shown
+        return owned_symbol(kind, shown, name, self.language) if name else shown
 
     def titled(self, key: str, unit: str | None = None) -> Runs:
         """Return the heading of a column of a table: symbol and unit, that of the quantity if none is given."""
@@ -108,22 +112,24 @@ def subscript(name: str) -> str:
     --------
     >>> subscript("upper rod.x")
     'upper-rod,x'
+    >>> subscript("P_coupler")
+    'P-coupler'
     """
     return "-".join(name.translate(_WITHIN).split())
 
 
-def owned_symbol(shown: str, name: str, language: Language) -> str:
-    """Return a symbol with the name of the link or point that it belongs to in the subscript.
+def owned_symbol(kind: str, shown: str, name: str, language: Language) -> str:
+    """Return the symbol of a quantity with the name of the link or point that it belongs to in the subscript.
 
     Examples
     --------
-    >>> owned_symbol("R_x", "A", "en"), owned_symbol("x", "upper rod.guide", "en")
+    >>> owned_symbol("joint_force_x", "R_x", "A", "en"), owned_symbol("point_x", "x", "upper rod.guide", "en")
     ('R_x,A', 'x_upper-rod,g')
     """
     owner, *parts = name.split(".")
     marks = texts("marks", language)
     name = subscript(".".join([owner, *(marks[one] if one in _PARTS else one for one in parts)]))
-    if "_i" in shown:
+    if "_i" in shown and not kind.startswith("indicated"):
         return shown.replace("_i", f"_{name}", 1)
     return f"{shown}{',' if '_' in shown else '_'}{name}"
 

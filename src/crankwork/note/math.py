@@ -7,6 +7,7 @@ formula states (`n` in revolutions per minute), because only those numbers give 
 
 from __future__ import annotations
 
+import math
 import operator
 from collections.abc import Mapping
 from types import MappingProxyType
@@ -24,7 +25,7 @@ from crankwork.formula.expression import (
     symbol,
     takes_angle,
 )
-from crankwork.note.digits import is_exact_pi
+from crankwork.note.digits import is_exact_pi, whole_degrees
 from crankwork.note.layout import (
     DOT,
     MINUS,
@@ -78,6 +79,8 @@ def _box(tree: Expression, printing: _Printing) -> tuple[Box, int]:
     match tree:
         case Symbol(name):
             return _symbol(name, printing)
+        case Number(math.pi):
+            return symbol_box("π"), _ATOM
         case Number(value):
             return _bound(*number_box(value, printing.language, digits=15))
         case Operation(function, (left, right)) if function in (operator.add, operator.sub):
@@ -180,5 +183,9 @@ def _function(function: Any, operands: tuple[Expression, ...], printing: _Printi
     for operand in operands:
         inside += [*([between] if inside else []), _box(operand, printing)[0]]
     if printing.values and takes_angle(function):
-        inside += [SPACE, Upright(radians(printing.language))]
+        degrees = whole_degrees(operands[0], printing.values)
+        if degrees is None:
+            inside += [SPACE, Upright(radians(printing.language))]
+        else:
+            inside = [number_box(degrees, printing.language)[0], Upright("°")]
     return Apply(Upright(function_name(function, printing.language)), Fence(row(*inside))), _POWER

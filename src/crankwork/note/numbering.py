@@ -12,7 +12,7 @@ from crankwork.formula.lines import FormulaLine
 from crankwork.note.captions import place_in_source
 from crankwork.note.document import Block, Citation, Equation, Figure, Heading, ItemList, Note, Paragraph, Run, Table
 from crankwork.quantities import Language
-from crankwork.sources import sources
+from crankwork.sources import source_language, sources
 
 
 class Numbering(NamedTuple):
@@ -87,6 +87,8 @@ def _source_numbers(note: Note) -> dict[str, int]:
     unknown = [key for key in keys if key not in sources()]
     if unknown:
         raise CrankworkError(f'the bibliography has no "{unknown[0]}"; add it to sources.bib or cite another source')
+    # those in the language of the note first, as lists of references have them
+    keys.sort(key=lambda key: source_language(key) != note.language)
     return {key: number for number, key in enumerate(keys, start=1)}
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from crankwork.quantities import Language
 
@@ -27,6 +28,10 @@ class NoteOptions:
         Draw figures.
     sheets : bool
         Whether drawing sheets are written beside the note.
+    paper : str
+        Format of the sheets, `A0` to `A3`.
+    grid : bool
+        Whether the sheets are millimetre paper.
     """
 
     language: Language = "en"
@@ -36,6 +41,8 @@ class NoteOptions:
     author: str = ""
     figures: bool = True
     sheets: bool = False
+    paper: Literal["A0", "A1", "A2", "A3"] = "A1"
+    grid: bool = False
 
     @property
     def order(self) -> str:

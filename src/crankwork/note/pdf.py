@@ -8,7 +8,7 @@ from crankwork.errors import CrankworkError, MissingExtraError
 from crankwork.locale import Refusal
 from crankwork.note.document import Note
 from crankwork.note.numbering import numbering
-from crankwork.note.typst_parts import svg_width, typst_source
+from crankwork.note.typst_parts import typst_source
 
 _NO_GLYPH = re.compile(r'the text `"(?P<text>.+?)"` could not be displayed', re.DOTALL)
 
@@ -34,17 +34,3 @@ def _missing_character(text: str) -> CrankworkError:
     shown = re.sub(r"\\u\{([0-9a-fA-F]+)\}", lambda code: chr(int(code[1], 16)), text)
     codes = " ".join(f"U+{ord(character):04X}" for character in shown)
     return CrankworkError(Refusal("glyph_missing", character=shown, codes=codes))
-
-
-def png(svg: bytes, pixels_per_inch: float = 110.0) -> bytes:
-    """Return a drawing as a picture of pixels, for programs that know no SVG."""
-    try:
-        import typst  # noqa: PLC0415 - an optional part
-    except ImportError:
-        raise MissingExtraError(Refusal("extra_writing", names="DOCX"), "report") from None
-    data = svg.decode("utf-8").replace("\\", "\\\\").replace('"', '\\"')
-    source = (
-        "#set page(width: auto, height: auto, margin: 0pt)\n"
-        f'#image(bytes("{data}"), format: "svg", width: {svg_width(svg):.2f}pt)\n'
-    )
-    return typst.compile(source.encode("utf-8"), format="png", ppi=pixels_per_inch, ignore_system_fonts=True)

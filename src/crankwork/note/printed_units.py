@@ -13,6 +13,7 @@ from crankwork.units import UNITS
 _DIGIT = re.compile(r"(?<=[A-Za-zА-Яа-я])([23])(?!\d)")
 _WORD = re.compile(r"[A-Za-z]+")
 _CYRILLIC = re.compile(r"[А-Яа-я]+")
+_FACTOR = re.compile(r" (?!\()")
 _RAISED = {"2": "²", "3": "³"}
 
 
@@ -35,7 +36,8 @@ def printed_unit(unit: str, language: Language) -> str:
     if name == unit and language == "ru":
         name = _WORD.sub(lambda word: _in_russian(word[0]), unit)
     name = _WORD.sub(lambda word: unit_name(word[0], language), name)
-    return _DIGIT.sub(lambda digit: _RAISED[digit[1]], name).replace("*", "·").replace(" ", "·")
+    # what follows in parentheses is no factor
+    return _FACTOR.sub("·", _DIGIT.sub(lambda digit: _RAISED[digit[1]], name).replace("*", "·"))
 
 
 def _in_russian(word: str) -> str:

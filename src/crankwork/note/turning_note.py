@@ -9,13 +9,13 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from crankwork.analysis import Results
-from crankwork.note.document import Block, Contents, ItemList, Note, PageBreak, Runs, Table, TitlePage
-from crankwork.note.legends import explained
+from crankwork.note.document import Block, ItemList, Note, Runs, Table
 from crankwork.note.linkage_data import method
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_shaft import checks, comparison, conclusion, sources
 from crankwork.note.linkage_tables import Column, equations, position_tables
 from crankwork.note.options import NoteOptions
+from crankwork.note.sections import note_of_sections
 from crankwork.note.words import in_display_unit
 
 _TABLES = (("torque", "drives"), ("load", "resists"))
@@ -35,26 +35,9 @@ Section = Callable[[Material], Iterator[Block]]
 def turning_note(results: Results, options: NoteOptions) -> Note:
     """Return the note of a shaft with torques on it (khurmi_gupta_2005, ch. 16)."""
     material = Material(results, options)
-    sections: tuple[Section, ...] = (
-        _task,
-        _moments,
-        _excess,
-        _flywheel,
-        _course,
-        comparison,
-        checks,
-        conclusion,
-        sources,
-    )
-    blocks: list[Block] = [TitlePage(), Contents(), PageBreak()]
-    for section in sections:
-        blocks.extend(section(material))
-    return Note(
-        options.title or results.machine.title or material.words.title("turning"),
-        options.language,
-        tuple(explained(blocks, options.language)),
-        subtitle=material.words.title("turning_subtitle"),
-        authors=(options.author,) if options.author else (),
+    words = material.words
+    return note_of_sections(
+        material, _SECTIONS, tuple(_SECTIONS), words.title("turning"), words.title("turning_subtitle")
     )
 
 
@@ -179,3 +162,9 @@ def _course(material: Material) -> Iterator[Block]:
     ]
     yield from position_tables("turning", degrees[rows], tabulated, words, first=None, label="turning")
     yield from material.figures("speed")
+
+
+_SECTIONS: dict[str, Section] = {
+    "task": _task, "moments": _moments, "energy": _excess, "flywheel": _flywheel, "law_of_motion": _course,
+    "comparison": comparison, "checks": checks, "conclusion": conclusion, "sources": sources,
+}  # fmt: skip

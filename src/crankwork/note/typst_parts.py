@@ -6,8 +6,9 @@ import re
 from collections.abc import Iterator
 
 from crankwork.formula.expression import Expression, text
+from crankwork.formula.lines import FormulaLine
 from crankwork.locale import say
-from crankwork.note.captions import LANGUAGE_TAGS, caption, printed_date
+from crankwork.note.captions import LANGUAGE_TAGS, caption, continued
 from crankwork.note.characters import typst_string
 from crankwork.note.document import (
     Bibliography,
@@ -28,15 +29,17 @@ from crankwork.note.document import (
     Runs,
     Table,
     TitlePage,
-    cell_length,
 )
-from crankwork.note.equations import legend_rows, printed_equation
-from crankwork.note.layout import Box
+from crankwork.note.equations import formula_of, legend_rows, line_parts, printed_equation
+from crankwork.note.layout import Box, Fraction, width
 from crankwork.note.math import formula_box
 from crankwork.note.numbering import Numbering, equation_source
 from crankwork.note.symbols import symbol_box
+from crankwork.note.table_width import SIZES, fits, one_line_widths
 from crankwork.note.typst_math import typst_box
 from crankwork.quantities import Language
+from crankwork.show.place import MM
+from crankwork.show.svg import svg
 from crankwork.sources import cite
 
 _SETTINGS = """
@@ -58,17 +61,25 @@ _SETTINGS = """
 #let lines(number, ..all) = block(width: 100%, breakable: false, above: 1.1em, below: 1.1em, grid(
   columns: (1fr, auto), column-gutter: 0.8em,
   align: (center + horizon, right + if all.pos().len() > 1 { bottom } else { horizon }),
-  grid(row-gutter: 0.9em, align: center, ..all.pos().map(fitted)), number,
+  grid(row-gutter: 0.9em, align: center, ..all.pos()), number,
 ))
-#let drawing(body, words) = figure(body, caption: words, numbering: none, supplement: none, kind: "drawing")
+#let drawing(body, words) = figure(
+  body, caption: words, numbering: none, supplement: none, kind: "drawing", placement: auto,
+)
+#let parts = counter("parts")
+#let again(count, words) = (table.cell(colspan: count, inset: 0pt, stroke: none, align: left, {
+  parts.step()
+  context if parts.get().first() > 1 { box(width: 0pt, height: 1.6em, place(left, box(width: 60mm, words))) }
+}),)
 #let above(words) = block(width: 100%, sticky: true, above: 1.4em, below: 0.6em, words)
 """
-_SIZE = re.compile(rb'<svg[^>]*?\swidth="([\d.]+)(pt|px|mm|cm|in)?"')
-_POINTS = {b"": 0.75, b"px": 0.75, b"pt": 1.0, b"mm": 72 / 25.4, b"cm": 72 / 2.54, b"in": 72.0}
-_TOGETHER = 16
-_LONG, _SHORT = 300, 14
-# width of the text on a page upright and on its side, in points
-_PAGE, _WIDE_PAGE = 480.0, 725.0
+_TOGETHER = 8
+# a line of an equation that is no wider is not measured, which takes long [em]
+_SURELY_FITS = 27.0
+# height of a line of a table [em], and what is free above and below it [pt]
+_LINE, _INSET = 0.66, 3.2
+# a word that may be wider than a column of the cover
+_LONG_WORD = re.compile(r"\S{28,}")
 _ALIGN = {"l": "left", "c": "center", "r": "right"}
 
 
@@ -114,7 +125,7 @@ def _block(block: Block, number: str, note: Note, numbers: Numbering) -> Iterato
             title = typst_string(say("note.contents", note.language))
             yield f"#outline(title: {title}, depth: 2, indent: 1em)"
         case TitlePage():
-            yield _title_page(note)
+            yield _title_page(block, note)
         case Bibliography():
             yield "#enum(" + ", ".join(typst_string(cite(key)) for key in numbers.sources) + ")"
 
@@ -136,9 +147,11 @@ def _run(run: Run, numbers: Numbering) -> str:
     return f"#{typst_string(run)};"
 
 
-def _inline(content: str | Expression, language: Language) -> str:
+def _inline(content: str | Expression | FormulaLine, language: Language) -> str:
     if isinstance(content, str):
         return _math(symbol_box(content), content)
+    if isinstance(content, FormulaLine):
+        return _math(formula_of(content, language), line_parts(content, language)[0])
     return _math(formula_box(content, None, language), text(content, language=language))
 
 
@@ -154,7 +167,8 @@ def _equation(block: Equation, number: str, numbers: Numbering) -> Iterator[str]
     for k, line in enumerate(printed.lines):
         # what is read aloud is the whole equation once
         words = typst_string(printed.text if k == 0 else "…")
-        drawn.append(f"math.equation(block: true, alt: {words}, $ {typst_box(line)} $)")
+        set_line = f"math.equation(block: true, alt: {words}, $ {typst_box(line)} $)"
+        drawn.append(f"fitted({set_line})" if width(line) > _SURELY_FITS else set_line)
     yield f"#lines({typst_string(mark)}, {', '.join(drawn)})"
     if block.legend:
         cells = ", ".join(
@@ -166,48 +180,54 @@ def _equation(block: Equation, number: str, numbers: Numbering) -> Iterator[str]
 
 def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     count = len(block.headings)
-    size = 10 if count <= 9 else 9 if count <= 14 else 8
+    size = next((one for one in SIZES if fits(block.headings, block.rows, one, wide=block.wide)), SIZES[-1])
     align = ", ".join(_ALIGN[letter] for letter in (block.align or "r" * count))
     # a short table stays on one page with its caption
     whole = len(block.rows) <= _TOGETHER
     if whole:
         yield "#block(breakable: false)["
     yield f"#above({typst_string(caption('table', number, block.caption, numbers.language))})"
-    headings = ", ".join(f"[{_runs(runs, numbers)}]" for runs in block.headings)
+    headings = ", ".join(f"[{_heading(runs, numbers)}]" for runs in block.headings)
     rows = ",\n".join(
         ", ".join(typst_string(cell) if isinstance(cell, str) else f"[{_run(cell, numbers)}]" for cell in row)
         for row in block.rows
     )
-    columns = _columns(block, size)
-    header = f"table.header(..({headings},).map(cell => table.cell(align: center + horizon, cell)))"
+    again = "" if whole else f"..again({count}, {typst_string(continued(number, numbers.language))}), "
+    header = f"table.header({again}..({headings},).map(cell => table.cell(align: center + horizon, cell)))"
+    begin = "" if whole else "parts.update(0)\n"
     yield (
-        f"#{{\nset text(size: {size}pt, hyphenate: false)\nset par(justify: false, leading: 0.55em)\n"
-        f"align(center, table({columns}, align: ({align},), {header},\n{rows}))\n}}"
+        f"#{{\nset text(size: {size:g}pt, hyphenate: false)\nset par(justify: false, leading: 0.55em)\n{begin}"
+        f"align(center, table({_columns(block, size, marked=not whole)}, align: ({align},), {header},\n{rows}))\n}}"
     )
     if whole:
         yield "]"
 
 
-def _columns(block: Table, size: int) -> str:
-    """Return the columns of a table; those of a long table of short entries are not measured, which takes long."""
-    longest = [max(map(cell_length, column), default=0) for column in zip(*block.rows, strict=True)]
-    if len(block.rows) < _LONG or max(longest) > _SHORT:
-        return f"columns: {len(block.headings)}"
-    widths = [max(0.55 * size * length, 3.2 * size) + 8 for length in longest]
-    if sum(widths) > (_WIDE_PAGE if block.wide else _PAGE):
-        return f"columns: {len(block.headings)}"
-    return f"columns: ({', '.join(f'{one:.1f}pt' for one in widths)},), rows: (auto, {1.55 * size:.1f}pt)"
+def _heading(runs: Runs, numbers: Numbering) -> str:
+    """Return a heading of a column; a fraction alone is as high as it is, which in a line of text it would not be."""
+    match runs:
+        case (Math(str(content)),) if isinstance(box := symbol_box(content), Fraction):
+            return f"#math.equation(block: true, alt: {typst_string(content)}, $ {typst_box(box)} $);"
+    return _runs(runs, numbers)
 
 
-def svg_width(svg: bytes) -> float:
-    """Return the width that an SVG says it has. [pt]"""
-    found = _SIZE.search(svg)
-    return float(found[1]) * _POINTS[found[2] or b""] if found else 460.0
+def _columns(block: Table, size: float, *, marked: bool) -> str:
+    """Return the columns of a table, and its rows where each is one line; measuring them would take most of the time.
+
+    `marked`: whether a row that says where the table goes on stands above its header.
+    """
+    widths = one_line_widths(block.headings, block.rows, size, wide=block.wide)
+    if not widths:
+        return f"columns: {len(block.headings)}"
+    columns = f"columns: ({', '.join(f'{one:.1f}pt' for one in widths)},)"
+    if any(isinstance(cell, Math) for row in block.rows for cell in row):
+        return columns
+    return f"{columns}, rows: ({'auto, auto' if marked else 'auto'}, {_LINE * size + 2 * _INSET:.2f}pt)"
 
 
 def _figure(block: Figure, number: str, language: Language) -> str:
-    width = svg_width(block.svg)
-    data = block.svg.decode("utf-8").replace("\\", "\\\\").replace('"', '\\"')
+    width = block.drawing.width / MM
+    data = svg(block.drawing).decode("utf-8").replace("\\", "\\\\").replace('"', '\\"')
     words = typst_string(caption("figure", number, block.caption, language))
     image = (
         f'layout(size => image(bytes("{data}"), format: "svg", alt: {typst_string(block.alt)}, '
@@ -216,12 +236,37 @@ def _figure(block: Figure, number: str, language: Language) -> str:
     return f"#drawing({image}, {words})"
 
 
-def _title_page(note: Note) -> str:
-    lines = [f"#text(size: 20pt, weight: 700, {typst_string(note.title)})"]
-    if note.subtitle:
-        lines.append(f"#text(size: 14pt, {typst_string(note.subtitle)})")
-    lines += [f"#{typst_string(author)}" for author in note.authors]
-    if note.date:
-        lines.append(f"#{typst_string(printed_date(note.date, note.language))}")
-    body = "\n\n".join(lines)
-    return f"#page(numbering: none)[#set par(justify: false)\n#set align(center)\n#v(1fr)\n{body}\n#v(2fr)]"
+def _breakable(text: str) -> str:
+    """Return a text of the cover as a string, words that no line holds divided anywhere."""
+    return typst_string(_LONG_WORD.sub(lambda word: "\u200b".join(word[0]), text))
+
+
+def _title_page(page: TitlePage, note: Note) -> str:
+    """Return the cover: whose it is at the head, the title in the middle, people below, place and year at the foot."""
+    small = 0.62 if page.is_crowded else 1.0
+
+    def lines(some: tuple[str, ...], size: float, weight: int = 400) -> str:
+        every = ", ".join(f"text(size: {size * small:.1f}pt, weight: {weight}, {_breakable(one)})" for one in some)
+        return f"#stack(spacing: {0.9 * small:.2f}em, {every})\n" if some else ""
+
+    # the strokes of signatures stand under names that are written by hand
+    sign = "box(width: 32mm, height: 0.9em, stroke: (bottom: 0.4pt))"
+    people = ", ".join(
+        f"{typst_string(one.label + ':' if k == 0 else '')}, {sign if one.signs else '[]'}, {_breakable(name)}"
+        for one in page.people
+        for k, name in enumerate(one.names)
+    )
+    columns = "(auto, auto, 1fr)" if any(one.signs for one in page.people) else "(auto, 0pt, auto)"
+    grid = f"grid(columns: {columns}, column-gutter: 0.7em, row-gutter: 0.9em, align: left + bottom, {people})"
+    body = (
+        f"{lines(page.institution, 13)}#v(1fr)\n{lines(page.above, 15)}#v(0.8em)\n{lines((note.title,), 20, 700)}"
+        f"#v(0.8em)\n{lines(page.below, 14)}#v(1fr)\n"
+    )
+    if people:
+        width = 100 if page.is_crowded else 75
+        sized = f"#set text(size: {12 * small:.1f}pt)\n#align(left, {grid})"
+        body += f"#align(right, block(width: {width}%)[{sized}])\n#v(1fr)\n"
+    return (
+        "#page(numbering: none)[#set par(justify: false, leading: 0.55em)\n#set text(hyphenate: false)\n"
+        f"#set align(center)\n{body}{lines((page.place,), 12) if page.place else ''}]"
+    )

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
+from crankwork.browser import script, style
 from crankwork.locale import say
-from crankwork.note.captions import caption, printed_date
+from crankwork.note.captions import caption
 from crankwork.note.characters import xml_text
 from crankwork.note.document import (
     Bibliography,
@@ -29,17 +29,16 @@ from crankwork.note.document import (
     TitlePage,
 )
 from crankwork.note.equations import legend_rows, printed_equation
+from crankwork.note.live import bar, controls, look, page_data, stored, symbol_html
 from crankwork.note.mathml import mathml_box
 from crankwork.note.numbering import Numbering, equation_source, numbering
 from crankwork.note.web_style import STYLE
 from crankwork.note.word_parts import inline_box
 from crankwork.quantities import Language
+from crankwork.report.drawing import film_of
+from crankwork.show.inline import inline_film, inline_svg
 from crankwork.sources import cite
 
-_PROLOGUE = re.compile(r"^.*?(?=<svg\b)", re.DOTALL)
-_METADATA = re.compile(r"<metadata>.*?</metadata>|<!--.*?-->", re.DOTALL)
-_IDENTIFIER = re.compile(r'(\bid="|href="#|url\(#)')
-_SIZE = re.compile(r'(<svg\b[^>]*?) height="[^"]*"', re.DOTALL)
 # the fonts of browsers are wider than those of the PDF
 _LINE_WIDTH = 31.0
 _ALIGN = {"l": "left", "c": "centre", "r": "right"}
@@ -47,16 +46,26 @@ _ALIGN = {"l": "left", "c": "centre", "r": "right"}
 
 def web(note: Note) -> bytes:
     """Return a note as a web page, UTF-8."""
-    numbers = numbering(note)
+    numbers, results = numbering(note), note.results
+    drawn = {block.name: block.drawing for block in note.blocks if isinstance(block, Figure)}
+    film = film_of(results, language=note.language, forces=True) if results is not None and drawn else None
     parts = [
         f'<!DOCTYPE html>\n<html lang="{note.language}">\n<head>\n<meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         f'<meta name="generator" content="{xml_text(note.provenance)}">',
-        f"<title>{xml_text(note.title)}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<main>",
+        f"<title>{xml_text(note.title)}</title>\n<style>{look()}{style('page')}{STYLE}</style>\n</head>\n<body>",
+        *([] if results is None else bar(note.language)),
+        "<main>",
     ]
     for k, (block, number) in enumerate(zip(note.blocks, numbers.blocks, strict=True)):
         parts.extend(_block(block, number, k, note, numbers))
-    return "\n".join([*parts, "</main>\n</body>\n</html>\n"]).encode("utf-8")
+        if isinstance(block, TitlePage) and film is not None:
+            own = "".join(controls(film, note.language))
+            parts.append(f'<figure id="machine">{inline_film(film, "machine")}{own}</figure>')
+    parts.append("</main>")
+    if results is not None:
+        parts += [stored(page_data(results, drawn, film, note.language)), f"<script>{script('page')}</script>"]
+    return "\n".join([*parts, "</body>\n</html>\n"]).encode("utf-8")
 
 
 def _block(block: Block, number: str, k: int, note: Note, numbers: Numbering) -> Iterator[str]:  # noqa: C901 - one case per block
@@ -80,7 +89,7 @@ def _block(block: Block, number: str, k: int, note: Note, numbers: Numbering) ->
         case Contents():
             yield _contents(note, numbers)
         case TitlePage():
-            yield _title_page(note)
+            yield _title_page(block, note)
         case Bibliography():
             yield (
                 '<ol class="sources">' + "".join(f"<li>{xml_text(cite(key))}</li>" for key in numbers.sources) + "</ol>"
@@ -120,7 +129,7 @@ def _equation(block: Equation, number: str, numbers: Numbering) -> Iterator[str]
 
 def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     kinds = [_ALIGN[letter] for letter in (block.align or "r" * len(block.headings))]
-    headings = "".join(f'<th scope="col">{_runs(runs, numbers)}</th>' for runs in block.headings)
+    headings = "".join(f'<th scope="col">{_heading(runs, numbers)}</th>' for runs in block.headings)
     words = xml_text(caption("table", number, block.caption, numbers.language))
     before = ["<td>" if kind == "right" else f'<td class="{kind}">' for kind in kinds]
     rows = "\n".join(
@@ -135,14 +144,19 @@ def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     )
 
 
+def _heading(runs: Runs, numbers: Numbering) -> str:
+    """Return a heading; a symbol alone is set as text, because readers of pages take mathematics alone for nothing."""
+    match runs:
+        case (Math(str(symbol)),):
+            return symbol_html(symbol)
+    return _runs(runs, numbers)
+
+
 def _figure(block: Figure, number: str, k: int, language: Language) -> str:
-    """Return a figure, its drawing inside the page; identifiers of different drawings are kept apart."""
-    drawing = _METADATA.sub("", _PROLOGUE.sub("", block.svg.decode("utf-8"), count=1))
-    drawing = _IDENTIFIER.sub(lambda found: f"{found[1]}f{k}-", drawing)
-    drawing = _SIZE.sub(r"\1", drawing, count=1)
-    drawing = drawing.replace("<svg", f'<svg role="img" aria-label="{xml_text(block.alt)}"', 1)
+    """Return a figure, its drawing inside the page."""
     words = xml_text(caption("figure", number, block.caption, language))
-    return f"<figure>{drawing}<figcaption>{words}</figcaption></figure>"
+    drawing = inline_svg(block.drawing, block.name, block.alt)
+    return f'<figure id="b{k}">{drawing}<figcaption>{words}</figcaption></figure>'
 
 
 def _contents(note: Note, numbers: Numbering) -> str:
@@ -154,11 +168,18 @@ def _contents(note: Note, numbers: Numbering) -> str:
     return f'<nav><p class="contents">{say("note.contents", note.language)}</p><ul>{items}</ul></nav>'
 
 
-def _title_page(note: Note) -> str:
-    lines = [f"<h1>{xml_text(note.title)}</h1>"]
-    if note.subtitle:
-        lines.append(f'<p class="subtitle">{xml_text(note.subtitle)}</p>')
-    lines += [f"<p>{xml_text(author)}</p>" for author in note.authors]
-    if note.date:
-        lines.append(f'<p><time datetime="{note.date:%Y-%m-%d}">{printed_date(note.date, note.language)}</time></p>')
-    return f'<header class="title">{"".join(lines)}</header>'
+def _title_page(page: TitlePage, note: Note) -> str:
+    def lines(some: tuple[str, ...], name: str) -> str:
+        return f'<div class="{name}">{"".join(f"<p>{xml_text(one)}</p>" for one in some)}</div>' if some else ""
+
+    signed = '<td class="sign"></td>'
+    people = "".join(
+        f"<tr><td>{xml_text(one.label + ':') if k == 0 else ''}</td>"
+        f"{signed if one.signs else '<td></td>'}<td>{xml_text(name)}</td></tr>"
+        for one in page.people
+        for k, name in enumerate(one.names)
+    )
+    table = f'<table class="people" role="presentation">{people}</table>' if people else ""
+    title = f"{lines(page.above, 'above')}<h1>{xml_text(note.title)}</h1>{lines(page.below, 'subtitle')}"
+    place = lines((page.place,), "place") if page.place else ""
+    return f'<header class="title">{lines(page.institution, "institution")}<div>{title}</div>{table}{place}</header>'

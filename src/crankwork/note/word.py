@@ -5,12 +5,13 @@ from __future__ import annotations
 import datetime as dt
 import io
 import zipfile
+from collections import defaultdict
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from crankwork.errors import MissingExtraError
 from crankwork.locale import Refusal
-from crankwork.note.captions import LANGUAGE_TAGS, caption, printed_date
+from crankwork.note.captions import LANGUAGE_TAGS, caption
 from crankwork.note.characters import plain_text
 from crankwork.note.document import (
     Bibliography,
@@ -26,21 +27,25 @@ from crankwork.note.document import (
     Table,
     TitlePage,
 )
+from crankwork.note.equations import printed_equation
 from crankwork.note.numbering import Numbering, numbering
-from crankwork.note.pdf import png
-from crankwork.note.typst_parts import svg_width
+from crankwork.note.word_cover import cover_xml
+from crankwork.note.word_figure import figure_xml
+from crankwork.note.word_flow import block_height, equation_height, flow, table_height
 from crankwork.note.word_parts import (
-    PAGE_BREAK,
+    EQUATION_WIDTH,
     PREFIXES,
     contents_xml,
     equation_xml,
     heading_xml,
-    paragraph,
     runs_xml,
+    table_columns,
     table_xml,
-    text_run,
 )
 from crankwork.note.word_styles import FOOTER, set_pages, set_styles
+from crankwork.note.word_xml import PAGE_BREAK, paragraph, text_run
+from crankwork.show.pdf import pngs
+from crankwork.show.svg import svg
 from crankwork.sources import cite
 
 if TYPE_CHECKING:
@@ -48,13 +53,7 @@ if TYPE_CHECKING:
 
 _EPOCH = dt.datetime(2000, 1, 1, tzinfo=dt.UTC)
 _ZIP_TIME = (1980, 1, 1, 0, 0, 0)
-_SVG_PART = (
-    '<a:ext xmlns:a="http://schemas.openxmlformats.org/drawingml/2006/main" '
-    'uri="{{96DAC541-7B7A-43D3-8B79-37D633B846F1}}">'
-    '<asvg:svgBlip xmlns:asvg="http://schemas.microsoft.com/office/drawing/2016/SVG/main" '
-    'xmlns:r="http://schemas.openxmlformats.org/officeDocument/2006/relationships" r:embed="{}"/></a:ext>'
-)
-_WIDEST = 481.0
+_PIXELS_PER_INCH = 110.0
 
 
 def word(note: Note) -> bytes:
@@ -71,9 +70,7 @@ def word(note: Note) -> bytes:
     set_pages(document.sections[0], wide=False)
     document.sections[0].different_first_page_header_footer = any(isinstance(one, TitlePage) for one in note.blocks)
     writer.footer()
-    for block, number in zip(note.blocks, numbers.blocks, strict=True):
-        writer.turn(wide=isinstance(block, Table) and block.wide)
-        writer.block(block, number)
+    writer.write()
     stream = io.BytesIO()
     document.save(stream)
     return _reproducible(stream.getvalue())
@@ -89,6 +86,31 @@ class _Writer:
         self._wide = False
         self._headings = 0
         self._figures = 0
+        self._pictures = _pictures(note)
+        self._printed = {
+            id(one): printed_equation(one, note.language, EQUATION_WIDTH)
+            for one in note.blocks
+            if isinstance(one, Equation)
+        }
+        self._columns = {id(one): table_columns(one, numbers) for one in note.blocks if isinstance(one, Table)}
+
+    def write(self) -> None:
+        """Add the blocks of the note, figures where there is room for them."""
+        blocks = self._note.blocks
+        headings = len(_headings(self._note, self._numbers))
+        for k in flow(blocks, [self._height(one, headings) for one in blocks]):
+            block = blocks[k]
+            self.turn(wide=isinstance(block, Table) and block.wide)
+            self.block(block, self._numbers.blocks[k])
+
+    def _height(self, block: Block, headings: int) -> float:
+        match block:
+            case Equation():
+                return equation_height(block, self._printed[id(block)].lines)
+            case Table():
+                columns = self._columns[id(block)]
+                return table_height(block, columns.size / 2, columns.row_height)
+        return block_height(block, headings)
 
     def footer(self) -> None:
         footer = self._document.sections[0].footer
@@ -123,9 +145,9 @@ class _Writer:
             case Paragraph(runs):
                 yield paragraph(runs_xml(runs, numbers), "BodyText")
             case Equation():
-                yield from equation_xml(block, number, numbers)
+                yield from equation_xml(block, number, numbers, self._printed[id(block)])
             case Table():
-                yield from table_xml(block, number, numbers)
+                yield from table_xml(block, number, numbers, self._columns[id(block)])
             case ItemList(items, ordered):
                 for k, item in enumerate(items, start=1):
                     yield _item(f"{k}." if ordered else "–", runs_xml(item, numbers))
@@ -134,7 +156,7 @@ class _Writer:
             case Contents():
                 yield from contents_xml(_headings(note, numbers), note.language)
             case TitlePage():
-                yield from _title_page(note)
+                yield from cover_xml(block, note)
             case Bibliography():
                 for key, k in numbers.sources.items():
                     yield _item(f"{k}.", text_run(cite(key)))
@@ -143,25 +165,29 @@ class _Writer:
         from docx.opc.constants import RELATIONSHIP_TYPE  # noqa: PLC0415 - an optional part
         from docx.opc.packuri import PackURI  # noqa: PLC0415
         from docx.opc.part import Part  # noqa: PLC0415
-        from docx.shared import Pt  # noqa: PLC0415
 
         self._figures += 1
-        document = self._document
-        width = Pt(min(svg_width(block.svg), _WIDEST))
-        shape = document.add_picture(io.BytesIO(block.png or png(block.svg)), width=width)
-        shape._inline.docPr.set("descr", plain_text(block.alt))  # noqa: SLF001 - python-docx has no alternative text
-        name = PackURI(f"/word/media/drawing{self._figures}.svg")
-        part = Part(name, "image/svg+xml", block.svg, document.part.package)
-        relation = document.part.relate_to(part, RELATIONSHIP_TYPE.IMAGE)
-        blip = shape._inline.graphic.graphicData.pic.blipFill.blip  # noqa: SLF001
-        blip.append(_element(f"<a:extLst {_DRAWING}>{_SVG_PART.format(relation)}</a:extLst>"))
-        document.paragraphs[-1].style = document.styles["Drawing"]
+        part, (drawn, picture) = self._document.part, self._pictures[id(block)]
+        lines = Part(PackURI(f"/word/media/drawing{self._figures}.svg"), "image/svg+xml", drawn, part.package)
+        relations = part.get_or_add_image(io.BytesIO(picture))[0], part.relate_to(lines, RELATIONSHIP_TYPE.IMAGE)
         words = caption("figure", number, block.caption, self._note.language)
-        body = document.element.body
-        body.insert(len(body) - 1, _element(paragraph(text_run(words), "Caption", '<w:jc w:val="center"/>')))
+        body = self._document.element.body
+        for xml in figure_xml(block, words, self._figures, *relations):
+            body.insert(len(body) - 1, _element(xml))
 
 
-_DRAWING = 'xmlns:a="http://schemas.openxmlformats.org/drawingml/2006/main"'
+def _pictures(note: Note) -> dict[int, tuple[bytes, bytes]]:
+    """Return figures as lines and as pixels, those of one size made at once."""
+    sizes: dict[tuple[float, float], list[Figure]] = defaultdict(list)
+    for one in note.blocks:
+        if isinstance(one, Figure):
+            sizes[one.drawing.width, one.drawing.height].append(one)
+    made: dict[int, tuple[bytes, bytes]] = {}
+    for some in sizes.values():
+        drawn = [svg(one.drawing) for one in some]
+        pictures = pngs([one.drawing for one in some], "print", _PIXELS_PER_INCH, drawn)
+        made |= {id(one): pair for one, pair in zip(some, zip(drawn, pictures, strict=True), strict=True)}
+    return made
 
 
 def _element(xml: str) -> Any:  # noqa: ANN401 - an element of lxml, which has no types
@@ -183,17 +209,6 @@ def _item(mark: str, content: str) -> str:
     return paragraph(f"{text_run(mark)}<w:r><w:tab/></w:r>{content}", "Item")
 
 
-def _title_page(note: Note) -> Iterator[str]:
-    yield paragraph(text_run(note.title), "Title")
-    if note.subtitle:
-        yield paragraph(text_run(note.subtitle), "Subtitle")
-    for author in note.authors:
-        yield paragraph(text_run(author), "TitleLine")
-    if note.date:
-        yield paragraph(text_run(printed_date(note.date, note.language)), "TitleLine")
-    yield PAGE_BREAK
-
-
 def _set_properties(document: Document, note: Note) -> None:
     """Set title, authors and language, and dates that do not depend on when the file is written."""
     properties = document.core_properties
@@ -213,6 +228,6 @@ def _reproducible(data: bytes) -> bytes:
     with zipfile.ZipFile(io.BytesIO(data)) as old, zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as new:
         for name in old.namelist():
             entry = zipfile.ZipInfo(name, _ZIP_TIME)
-            entry.compress_type = zipfile.ZIP_DEFLATED
+            entry.compress_type = zipfile.ZIP_STORED if name.endswith(".png") else zipfile.ZIP_DEFLATED
             new.writestr(entry, old.read(name))
     return stream.getvalue()

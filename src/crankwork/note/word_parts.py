@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from crankwork.formula.expression import Expression
+from crankwork.formula.lines import FormulaLine
 from crankwork.locale import say
 from crankwork.note.captions import caption
 from crankwork.note.characters import xml_text
 from crankwork.note.document import Bold, Cell, Citation, Equation, Math, Reference, Run, Runs, Table, cell_length
-from crankwork.note.equations import legend_rows, printed_equation
+from crankwork.note.equations import PrintedEquation, formula_of, legend_rows
 from crankwork.note.layout import Box
 from crankwork.note.layout import width as box_width
 from crankwork.note.math import formula_box
 from crankwork.note.numbering import Numbering, equation_source
 from crankwork.note.omml import omml_box
 from crankwork.note.symbols import symbol_box
+from crankwork.note.word_xml import TEXT_WIDTH, WIDE_TEXT_WIDTH, cell, paragraph, text_run
 from crankwork.quantities import Language
 
 PREFIXES = (
@@ -23,17 +26,17 @@ PREFIXES = (
     'xmlns:m="http://schemas.openxmlformats.org/officeDocument/2006/math" '
     'xmlns:r="http://schemas.openxmlformats.org/officeDocument/2006/relationships"'
 )
-# twentieths of a point, for an A4 page upright and on its side
-TEXT_WIDTH, WIDE_TEXT_WIDTH = 9638, 14570
 # of a column, and the room beside its text [twip]
 _NARROWEST, _SIDES = 640, 140
 # how wide a digit and a letter are for every half point of their size, and an em of mathematics, in a wide font: what
 # stands in for Times New Roman elsewhere is no wider [twip]
 _DIGIT, _LETTER, _EM = 6.6, 7.4, 240
 # of a line of an equation in Cambria Math, whose digits are wider than those of the PDF [em]
-_LINE_WIDTH = 26.0
+EQUATION_WIDTH = 26.0
 # of the text of tables, tried in turn [half pt]
 _SIZES = (20, 18, 16, 14)
+# height of a row of one line, for every half point [pt]
+_ROW_HEIGHT = 0.6
 _MARK_WIDTH = 2150
 _LEGEND = (
     '<w:tabs><w:tab w:val="left" w:pos="960"/></w:tabs><w:spacing w:after="0"/><w:ind w:left="960" w:hanging="960"/>'
@@ -42,24 +45,6 @@ _CELL_STYLE = '<w:pStyle w:val="TableText"/>'
 # rows that stay with the heading of their table; LibreOffice loses the others where one alone ends a page
 _TOGETHER = 2
 _ALIGN = {"l": "left", "c": "center", "r": "right"}
-
-
-def text_run(text: str, properties: str = "") -> str:
-    """Return a run of text."""
-    look = f"<w:rPr>{properties}</w:rPr>" if properties else ""
-    return f'<w:r>{look}<w:t xml:space="preserve">{xml_text(text)}</w:t></w:r>'
-
-
-def paragraph(content: str, style: str = "", properties: str = "") -> str:
-    """Return a paragraph of runs."""
-    named = f'<w:pStyle w:val="{style}"/>' if style else ""
-    return f"<w:p><w:pPr>{named}{properties}</w:pPr>{content}</w:p>"
-
-
-# the rest of its paragraph stands on the next page, as low as can be
-PAGE_BREAK = paragraph(
-    '<w:r><w:br w:type="page"/></w:r>', "", '<w:spacing w:before="0" w:after="0" w:line="20" w:lineRule="exact"/>'
-)
 
 
 def runs_xml(runs: Runs, numbers: Numbering, properties: str = "") -> str:
@@ -84,14 +69,15 @@ def _words(run: str | Bold | Reference | Citation, numbers: Numbering) -> str:
     return run
 
 
-def inline_box(content: str | Expression, language: Language) -> Box:
+def inline_box(content: str | Expression | FormulaLine, language: Language) -> Box:
     """Return the boxes of mathematics in a line: of a symbol, or of a recorded formula."""
+    if isinstance(content, FormulaLine):
+        return formula_of(content, language)
     return symbol_box(content) if isinstance(content, str) else formula_box(content, None, language)
 
 
-def equation_xml(block: Equation, number: str, numbers: Numbering) -> Iterator[str]:
+def equation_xml(block: Equation, number: str, numbers: Numbering, printed: PrintedEquation) -> Iterator[str]:
     """Yield an equation, a table without lines: mathematics in the middle, source and number at the right."""
-    printed = printed_equation(block, numbers.language, _LINE_WIDTH)
     source = equation_source(block)
     mark = "\u2002".join(([numbers.citation(source)] if source else []) + ([f"({number})"] if number else []))
     spacing = '<w:spacing w:before="60" w:after="60" w:line="240" w:lineRule="auto"/>'
@@ -109,7 +95,7 @@ def equation_xml(block: Equation, number: str, numbers: Numbering) -> Iterator[s
         '<w:tblCellMar><w:left w:w="0" w:type="dxa"/><w:right w:w="0" w:type="dxa"/></w:tblCellMar>'
         f'<w:tblDescription w:val="{xml_text(printed.text)}"/></w:tblPr>'
         f'<w:tblGrid><w:gridCol w:w="{left}"/><w:gridCol w:w="{_MARK_WIDTH}"/></w:tblGrid>'
-        f"<w:tr><w:trPr><w:cantSplit/></w:trPr>{_cell(left, lines, 'center')}{_cell(_MARK_WIDTH, right, place)}</w:tr>"
+        f"<w:tr><w:trPr><w:cantSplit/></w:trPr>{cell(left, lines, 'center')}{cell(_MARK_WIDTH, right, place)}</w:tr>"
         "</w:tbl>"
     )
     if not block.legend:
@@ -120,19 +106,14 @@ def equation_xml(block: Equation, number: str, numbers: Numbering) -> Iterator[s
         yield paragraph(f"{text_run(where)}<w:r><w:tab/></w:r>{mathematics}{text_run(words)}", "", _LEGEND)
 
 
-def _cell(width: int, content: str, place: str) -> str:
-    size = f'<w:tcW w:w="{width}" w:type="dxa"/>'
-    return f'<w:tc><w:tcPr>{size}<w:vAlign w:val="{place}"/></w:tcPr>{content}</w:tc>'
-
-
-def table_xml(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
+def table_xml(block: Table, number: str, numbers: Numbering, columns: Columns) -> Iterator[str]:
     """Yield the caption of a table, the table with a header on every page, and a gap after it."""
-    size, widths = _columns(block, WIDE_TEXT_WIDTH if block.wide else TEXT_WIDTH, numbers)
+    size, widths, row_height = columns
     font = f'<w:sz w:val="{size}"/><w:szCs w:val="{size}"/>'
     words = caption("table", number, block.caption, numbers.language)
     yield paragraph(text_run(words), "Caption", '<w:keepNext/><w:jc w:val="left"/>')
     heading = "".join(
-        _cell(
+        cell(
             width,
             paragraph(runs_xml(runs, numbers, font), "TableText", '<w:keepNext/><w:jc w:val="center"/>'),
             "center",
@@ -146,8 +127,10 @@ def table_xml(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     )
     aligned = [f'<w:jc w:val="{_ALIGN[letter]}"/></w:pPr>' for letter in (block.align or "r" * len(widths))]
     loose, kept = ([f"<w:tc><w:p><w:pPr>{_CELL_STYLE}{keep}{one}" for one in aligned] for keep in ("", "<w:keepNext/>"))
+    # rows as high as they are counted on to be, whatever font stands in for that of the note
+    high = f'<w:trHeight w:val="{round(20 * row_height)}" w:hRule="exact"/>' if row_height else ""
     rows = "".join(
-        "<w:tr><w:trPr><w:cantSplit/></w:trPr>"
+        f"<w:tr><w:trPr><w:cantSplit/>{high}</w:trPr>"
         + "".join(
             f"{start}{_run(cell, numbers, font)}</w:p></w:tc>"
             for start, cell in zip(kept if k < _TOGETHER else loose, row, strict=True)
@@ -166,14 +149,26 @@ def table_xml(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     yield paragraph("", "", '<w:spacing w:before="0" w:after="0"/>')
 
 
-def _columns(block: Table, full: int, numbers: Numbering) -> tuple[int, list[int]]:
-    """Return the size of the text of a table [half pt] and the widths of its columns, together no wider than the text.
+class Columns(NamedTuple):
+    """Size of the text of a table [half pt], widths of its columns [twip], height of a row [pt], 0 if they differ."""
 
-    A column is as wide as its entries, but no narrower than a word of them or of its heading. [twip]
+    size: int
+    widths: list[int]
+    row_height: float
+
+
+def table_columns(block: Table, numbers: Numbering) -> Columns:
+    """Return the columns of a table, together no wider than the text.
+
+    A column is as wide as its entries, but no narrower than a word of them or of its heading.
     """
+    full = WIDE_TEXT_WIDTH if block.wide else TEXT_WIDTH
     columns = list(zip(*block.rows, strict=True)) or [()] * len(block.headings)
     words = [max(map(_word_width, column), default=0.0) for column in columns]
-    entries = [_DIGIT * max(map(cell_length, column), default=0) for column in columns]
+    entries = [
+        max(_DIGIT * max(map(cell_length, column), default=0), word)
+        for column, word in zip(columns, words, strict=True)
+    ]
     size, least = _SIZES[0], [0]
     for size in _SIZES:
         headings = [_heading_width(runs, numbers, size) for runs in block.headings]
@@ -184,11 +179,13 @@ def _columns(block: Table, full: int, numbers: Numbering) -> tuple[int, list[int
         if sum(least) <= full:
             break
     else:
-        return size, [one * full // sum(least) for one in least]
+        return Columns(size, [one * full // sum(least) for one in least], 0.0)
     wanted = [max(one, round(size * entry) + _SIDES) for one, entry in zip(least, entries, strict=True)]
     excess = sum(wanted) - sum(least)
     share = min(1.0, (full - sum(least)) / excess) if excess else 1.0
-    return size, [int(one + share * (most - one)) for one, most in zip(least, wanted, strict=True)]
+    is_even = share == 1.0 and all(isinstance(cell, str) and " " not in cell for row in block.rows for cell in row)
+    widths = [int(one + share * (most - one)) for one, most in zip(least, wanted, strict=True)]
+    return Columns(size, widths, _ROW_HEIGHT * size if is_even else 0.0)
 
 
 def _word_width(cell: Cell) -> float:

@@ -26,7 +26,7 @@ _STYLES = {
     "Heading1": ("heading 1", 30, True, _LEFT, 360, 160, "<w:keepNext/><w:keepLines/>"),
     "Heading2": ("heading 2", 26, True, _LEFT, 280, 120, "<w:keepNext/><w:keepLines/>"),
     "Heading3": ("heading 3", 24, True, _LEFT, 240, 100, "<w:keepNext/><w:keepLines/>"),
-    "Title": ("Title", 40, True, _CENTRE, 4200, 240, ""),
+    "Title": ("Title", 40, True, _CENTRE, 240, 240, ""),
     "Subtitle": ("Subtitle", 28, False, _CENTRE, 0, 240, ""),
     "TitleLine": ("Title Line", 24, False, _CENTRE, 0, 80, ""),
     "Caption": ("caption", 24, False, _CENTRE, 120, 120, ""),

@@ -40,6 +40,9 @@ class Quantity(NamedTuple):
         """Return the symbol used in books of that language, the name of a point or link in its subscript."""
         kind, part = self._split()
         shown = say(f"symbols.{kind}", language)
+        if part and shown.endswith("_i") and not kind.startswith("indicated"):
+            # the name takes the place of the index
+            return f"{shown.removesuffix('i')}{part}"
         return f"{shown}{',' if '_' in shown else '_'}{part}" if part else shown
 
     def label(self, language: Language = "en") -> str:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 
 from crankwork.analysis import Array, Results
 from crankwork.analysis.chambers import indicators
@@ -19,14 +20,14 @@ _PER_PANEL = 4
 
 def chamber_figures(
     results: Results, degrees: Array, known: Mapping[str, Array], style: Style = PLAIN
-) -> dict[str, Drawing]:
+) -> dict[str, Callable[[], Drawing]]:
     """Return the figures of the gas by name; none without chambers."""
     panels = [keys for kind in _KINDS for keys in _panels([one for one in known if one.partition(".")[0] == kind])]
     if not panels:
         return {}
     return {
-        "indicator": indicator(results, style),
-        "chambers": curves(degrees, known, panels, say("figures.chambers", style.language), style),
+        "indicator": partial(indicator, results, style),
+        "chambers": partial(curves, degrees, known, panels, say("figures.chambers", style.language), style),
     }
 
 
@@ -44,7 +45,9 @@ def indicator(results: Results, style: Style = PLAIN) -> Drawing:
     graph = Graph(paper, box, x, y, style.language)
     graph.frame(round_ticks(*x), round_ticks(*y, 10))
     for number, (name, (across, up)) in enumerate(drawn.items()):
-        graph.curve(name, across, up, STYLES[number % 4])
+        # tables of a law over time go by time
+        angles = found[name].degrees * (results.period / 360.0 if results.period else 1.0)
+        graph.curve(name, across, up, STYLES[number % 4], angles=angles)
     graph.x_title(axis_title(volume, style.language))
     graph.y_title(axis_title(pressure, style.language))
     sign(paper, style.method)

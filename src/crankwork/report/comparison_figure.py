@@ -119,7 +119,8 @@ def _graph(  # noqa: PLR0913 - place, curves and how they are told
     """Return a graph that holds all numbers of some curves, with its frame drawn."""
     y = limits(*curves.values())
     if results.period or results.machine.cycle > _LONG:
-        graph = Graph(paper, box, (0.0, float(at[-1])), y, language)
+        over = "time" if results.period else "crank_angle"
+        graph = Graph(paper, box, (0.0, float(at[-1])), y, language, over)
         graph.frame(round_ticks(0.0, float(at[-1])), round_ticks(*y, 4), labels=(numbers, True))
         return graph
     return over_cycle(paper, box, y, float(at[-1]), language, numbers=numbers)

@@ -42,7 +42,7 @@ def dataset(results: Results, *, shown: bool = False) -> xr.Dataset:
 
     `shown`: in the units of tables instead of SI; `units` of each variable says which.
     """
-    _check_extras("xarray")
+    check_extras("xarray")
     import xarray as xr  # noqa: PLC0415 - an optional part
 
     along = "time" if "time" in results.columns else "crank_angle"
@@ -138,7 +138,7 @@ def _attributes(key: str, *, shown: bool) -> dict[str, str]:
 @in_own_units
 def frame(results: Results, *, shown: bool = False) -> pd.DataFrame:
     """Return the columns as a frame over the crank angle, or over the time of a law; `shown` as `dataset` takes it."""
-    _check_extras("pandas")
+    check_extras("pandas")
     import pandas as pd  # noqa: PLC0415 - an optional part
 
     along = "time" if "time" in results.columns else "crank_angle"
@@ -159,7 +159,7 @@ def written(results: Results, name: str) -> bytes:
     ending = PurePath(name).suffix.lower()
     if ending not in _MODULES:
         raise CrankworkError(Refusal("data_ending", name=name[-60:], known=", ".join(_MODULES)))
-    _check_extras(_MODULES[ending], "xarray", "pandas")
+    check_extras(_MODULES[ending], "xarray", "pandas")
     stream = io.BytesIO()
     if ending == ".parquet":
         frame(results).to_parquet(stream)
@@ -183,6 +183,7 @@ def _variables(data: xr.Dataset) -> Iterator[tuple[str, object]]:
     yield "about", {key: str(value) for key, value in data.attrs.items()}
 
 
-def _check_extras(*modules: str) -> None:
+def check_extras(*modules: str) -> None:
+    """Refuse with the extras that bring modules which are not installed."""
     if extras := missing_extras(dict.fromkeys(modules, "data")):
         raise MissingExtraError(Refusal("extra_data"), *extras)

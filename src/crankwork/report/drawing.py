@@ -1,87 +1,232 @@
-"""The mechanism as one moving SVG: crank gears as engines are drawn, any other linkage link by link."""
+"""The mechanism of a machine as it moves: engines as they are built, any other linkage link by link."""
 
 from __future__ import annotations
 
-import html
 import math
-import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
-from crankwork.analysis.moving import Course, course, drawn_mechanism, moving
-from crankwork.analysis.skeleton import skeleton
-from crankwork.errors import CrankworkError
-from crankwork.locale import capital, say
+import numpy as np
+
+from crankwork.analysis import Array, Results
+from crankwork.analysis.moving import Course, course, moving
+from crankwork.analysis.moving_engine import FORCES, engine_moving
+from crankwork.analysis.skeleton import Skeleton, numbered, skeleton
+from crankwork.errors import CrankworkError, GeometryError
+from crankwork.locale import Refusal, capital, say
 from crankwork.locale.numbers import number, unit_name
 from crankwork.machine import Machine
 from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import Language
-from crankwork.report import drawing_parts as parts
-from crankwork.report.drawing_parts import Box, Stage
-from crankwork.report.language import displayed, key_unit, label, symbol
-from crankwork.report.linkage_drawing import linkage_drawing
-from crankwork.report.linkage_engine import crank_gear, engine_drawing
+from crankwork.report.engine_drawing import engine_sketch
+from crankwork.report.language import displayed, for_readers, key_unit, label, symbol
+from crankwork.report.linkage_drawing import linkage_sketch
+from crankwork.report.linkage_look import scale_text
+from crankwork.report.sketch import Sketch
+from crankwork.show.film import Told
+from crankwork.show.formats import FILMS, FORMATS
+from crankwork.show.moving import MovingDrawing
+from crankwork.show.paper import marked
+from crankwork.show.scene import TEXT, Box, Drawing, Item, Text, line, text_width
+from crankwork.show.theme import Theme
 
-_MARGIN, _FOOTER, _NARROWEST = 34.0, 44.0, 260.0
+_MARGIN, _FOOT, _ROW, _NARROWEST = 8.0, 14.0, 8.0, 80.0
+# about a view that is looked at alone [mm]
+_AROUND = 4.0
+# a still shows the crank at this angle
 _STILL = 60.0
-_READOUT = 15
-_NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_TURN = 360.0
+# frames of a turn, and of the two turns of four strokes
+_FRAMES, _FRAMES_OF_CYCLE = 72, 120
 
 
 def moving_drawing(
-    machine: Machine | Mechanism,
+    machine: Results | Machine | Mechanism,
     *,
     language: Language = "en",
     seconds: float = 4.0,
-    frames: int = 72,
-    links: Sequence[str] = (),
-    free: Course | None = None,
-) -> str:
-    """Return the mechanism of a machine as an SVG that moves by itself, one revolution after the other, or to and fro.
+    frames: int = 0,
+    way: Course | None = None,
+    forces: bool = False,
+) -> MovingDrawing:
+    """Return the mechanism of a machine as a drawing that moves, one cycle after the other, or to and fro.
 
-    Lengths are to scale and the motion is exact, points moving on straight lines between frames; strokes, joints,
-    blocks and letters have their own size. Links are in the order of their numbers, as `Structure.links` gives them;
-    without them those of a Machine, or group after group. `free`: how the crank of a machine let go moves, which is
-    then drawn in its own time.
+    Lengths are to scale and the motion is exact at each frame. Gas, firing and forces are shown of results. Links have
+    the numbers of the structure, or follow group after group where only a mechanism is known. `seconds`: time of a
+    turn; `frames`: of a cycle, else as many as the eye asks for; `way`: how the crank moves, that of a machine let go
+    in its own time; `forces`: whether arrows show those in pins and joints.
     """
-    if frames < 8 or not 0 < seconds < math.inf:
+    if (frames and frames < 8) or not 0 < seconds < math.inf:
         raise CrankworkError("a moving drawing needs at least 8 frames and a time above zero")
-    mechanism, whole = (machine, None) if isinstance(machine, Mechanism) else (drawn_mechanism(machine), machine)
-    way = free or course(mechanism, frames)
-    seconds, frames = (way.own_time or seconds), len(way.degrees) - 1
-    mechanism, moved = way.mechanism, moving(way.mechanism, way.degrees)
-    duration, still = f"{seconds:g}s", round(frames * _STILL / mechanism.period)
-    if whole is not None and whole.linkage is not None and not links:
-        found, _ = structure(whole.linkage)
-        links = found.links if found else ()
-    gear = crank_gear(mechanism, whole.cylinder if whole else None, has_gas=bool(whole and whole.gas))
-    if gear:
-        drawn, reach, scale = engine_drawing(gear, moved, duration, still)
+    results = machine if isinstance(machine, Results) else None
+    whole = results.machine if results is not None else machine if isinstance(machine, Machine) else None
+    mechanism = whole.mechanism if whole else machine
+    assert isinstance(mechanism, Mechanism)  # noqa: S101 - what else there could be
+    way = way or _course(whole, mechanism, frames)
+    engine = engine_moving(whole, way.degrees, results) if whole else None
+    time = _time(way, seconds, language)
+    if engine is not None and whole is not None:
+        labels = {key: marked(f"${symbol(key, language)}$") for key in FORCES}
+        sketch = engine_sketch(whole, engine, labels if forces else None)
+        about = [*_lengths(way.mechanism, whole, language), time]
     else:
-        drawn, reach, scale = linkage_drawing(skeleton(mechanism, links), moved, duration, still)
-    x, y, width, height = _view_box(reach)
-    stage = Stage(scale, duration, still)
-    foot = [
-        parts.scale_bar(x + _MARGIN / 2, y + height - 16, scale, 0.3 * width, language),
-        _readout(x + width - _MARGIN / 2, y + height - 16, stage, way, language),
-    ]
-    box = f"{x:.0f} {y:.0f} {width:.0f} {height:.0f}"
-    head = (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" width="{width:.0f}" height="{height:.0f}" role="img">'
-    )
-    title = _title(whole.title if whole else "", language)
-    about = _description(way, language, seconds, links)
-    back = f'<rect x="{x:.0f}" y="{y:.0f}" width="{width:.0f}" height="{height:.0f}" fill="white"/>'
-    lines = [head, f"<title>{title}</title>", f"<desc>{about}</desc>", back, *drawn, *foot, "</svg>", ""]
-    return "\n".join(lines)
+        shape = skeleton(way.mechanism, _links(whole))
+        columns = _columns(results, way.degrees, forces=forces) if results is not None else {}
+        sketch = linkage_sketch(
+            shape, moving(way.mechanism, way.degrees), whole, columns, _named_forces(columns, language)
+        )
+        about = [*_lengths(way.mechanism, None, language), *_members(shape), time]
+    return _film(sketch, way, seconds, whole, "; ".join(about), language)
 
 
-def _view_box(reach: Box) -> tuple[float, float, float, float]:
-    """Return left, top, width and height of a picture with room around what is drawn. [px]"""
-    left, top, right, bottom = reach
-    spare = max(0.0, _NARROWEST - 2 * _MARGIN - (right - left)) / 2
-    left, right = left - spare - _MARGIN, right + spare + _MARGIN
-    return left, top - _MARGIN, right - left, bottom - top + 2 * _MARGIN + _FOOTER
+def film_of(
+    results: Results, *, language: Language = "en", frames: int = 0, forces: bool = False
+) -> MovingDrawing | None:
+    """Return the machine of results as it moves, if it has a mechanism, and one that is driven by what it can turn."""
+    if results.machine.transfer is not None or results.machine.turning is not None:
+        return None
+    try:
+        return moving_drawing(results, language=language, frames=frames, forces=forces)
+    except GeometryError:
+        # a linkage that cannot turn fully has a notice that says so
+        return None
+
+
+@for_readers
+def drawn(  # noqa: PLR0913 - what is drawn, and how
+    results: Results,
+    ending: str,
+    theme: Theme,
+    at: float | None = None,
+    language: Language = "en",
+    *,
+    forces: bool,
+    told: Told = lambda _: None,
+) -> bytes:
+    """Return a machine in a format as it moves, or as it stands.
+
+    `at`: crank angle of a still, or time where a law drives [deg] or [s]; a format that holds no film has one anyway;
+    `told`: is told which part of a film is done.
+    """
+    machine = results.machine
+    if machine.transfer is not None or machine.turning is not None:
+        raise CrankworkError(Refusal("nothing_moves"))
+    if results.period and at is not None and not 0 <= at <= results.period:
+        raise CrankworkError(Refusal("time_outside", time=at, period=results.period))
+    way = _course(machine, machine.mechanism, 0)
+    if at is not None:
+        way, rest = _through(way, results.degrees_of(at))
+    film = moving_drawing(results, language=language, forces=forces, way=way)
+    if forces and not any(one.name.startswith("force.") for one in film.parts):
+        raise CrankworkError(Refusal("forces_unknown"))
+    if at is None and ending in FILMS:
+        return FILMS[ending](film, theme, told)
+    return FORMATS[ending](film.still(None if at is None else rest), theme)
+
+
+def _through(way: Course, at: float) -> tuple[Course, int]:
+    """Return a course of which a frame stands at a crank angle, and which. [deg]"""
+    low, high = float(way.degrees.min()), float(way.degrees.max())
+    if not low <= at <= high:
+        raise CrankworkError(Refusal("still_outside", angle=at, low=f"{low:.4g}", high=f"{high:.4g}"))
+    degrees, frame = way.degrees.copy(), int(np.argmin(np.abs(way.degrees[:-1] - at)))
+    degrees[frame] = at
+    return way._replace(degrees=degrees), frame
+
+
+def _columns(results: Results, degrees: Array, *, forces: bool) -> dict[str, Array]:
+    """Return volume and pressure of chambers by key, and the forces in joints where they are wanted. [SI]"""
+    kinds = ("cylinder_volume.", "gas_pressure.", *(("joint_force_x.", "joint_force_y.") if forces else ()))
+    keys = [key for key in results.memory if key.startswith(kinds)]
+    return results.columns_at(np.mod(degrees, results.machine.cycle), keys)
+
+
+def _course(whole: Machine | None, mechanism: Mechanism, frames: int) -> Course:
+    """Return how the crank goes: that of an engine through its cycle, any other as far as it gets."""
+    if whole is None or whole.lengths is None:
+        return course(mechanism, frames or _FRAMES)
+    frames = frames or (_FRAMES if whole.cycle <= _TURN else _FRAMES_OF_CYCLE)
+    return Course(np.arange(frames + 1) * whole.cycle / frames, mechanism, turns=True)
+
+
+def _links(whole: Machine | None) -> Sequence[str]:
+    """Return the links of a machine in the order of their numbers."""
+    if whole is None or whole.linkage is None:
+        return ()
+    found, _ = structure(whole.linkage)
+    return found.links if found else ()
+
+
+def _passage(way: Course, seconds: float) -> float:
+    """Return the time of one passage. [s]"""
+    turns = (way.degrees[-1] - way.degrees[0]) / _TURN if way.turns else 1.0
+    return way.own_time or seconds * max(1.0, float(turns))
+
+
+def _film(
+    sketch: Sketch, way: Course, seconds: float, whole: Machine | None, about: str, language: Language
+) -> MovingDrawing:
+    """Return a sketch on its paper, with a scale and the crank angle beneath it."""
+    (wide, tall), middle = sketch.high - sketch.low, (sketch.low + sketch.high) / 2
+    width, readouts = max(float(wide), _NARROWEST) + 2 * _MARGIN, _readouts(way, language)
+    bar, below, foot = _scale_bar(sketch.scale, 0.3 * width, language), list[Item](), _FOOT
+    if sketch.force_scale:
+        text = marked(scale_text("μ_F", sketch.force_scale, key_unit("piston_force"), language))
+        # in a row of its own where it would stand on the length of the bar or on the crank angle
+        taken = text_width(text) + 2 * max(0.3 * width, *map(text_width, readouts)) + 2 * _MARGIN
+        row = _ROW if taken > width - 2 * _MARGIN else 0.0
+        foot += row
+        below.append(Text((width / 2, _MARGIN + row), text, TEXT, "middle"))
+    height = float(tall) + 2 * _MARGIN + foot
+    placed = sketch.moved(np.array([width / 2, (height + foot) / 2]) - middle)
+    frames, items = len(way.degrees) - 1, (*placed.items, *bar, *below)
+    ground = Drawing(_title(whole.title if whole else "", language), language, width, height, items)
+    return MovingDrawing(
+        ground, tuple(placed.parts), way.degrees, _passage(way, seconds), readouts,
+        (width - _MARGIN, _MARGIN), round(frames * _STILL / (way.degrees[-1] or _TURN)) % frames if way.turns else 0,
+        way.turns, about, _views(placed, height, language), _choices(placed, language),
+    )  # fmt: skip
+
+
+def _named_forces(columns: Mapping[str, Array], language: Language) -> dict[str, str]:
+    """Return the symbols of forces in joints, by the joint."""
+    names = [key.partition(".")[2] for key in columns if key.startswith("joint_force_x.")]
+    sign = symbol("joint_force", language)
+    told = {name: name.replace("_", ",") for name in names}
+    return {name: marked(f"${sign}_{one}$") if one.replace(",", "").isalnum() else "" for name, one in told.items()}
+
+
+def _views(sketch: Sketch, height: float, language: Language) -> tuple[tuple[str, Box], ...]:
+    """Return views by name, with where they are from the top left corner of the paper. [mm]"""
+    if len(sketch.views) < 2:
+        return ()
+    found = []
+    for cylinders, low, high in sketch.views:
+        numbers = ", ".join(map(str, cylinders))
+        name = say("drawing.from_side", language, numbers=numbers) if cylinders else say("drawing.along", language)
+        (left, low_end), (right, top) = low - _AROUND, high + _AROUND
+        found.append((name, Box(float(left), height - float(top), float(right - left), float(top - low_end))))
+    return tuple(found)
+
+
+def _choices(sketch: Sketch, language: Language) -> dict[str, str]:
+    """Return the kinds of forces that are drawn."""
+    names = [one.name for one in sketch.parts if one.name.startswith("force.")]
+    kinds = {f"force.{key}.": label(key, language) for key in FORCES}
+    found = {start: text for start, text in kinds.items() if any(one.startswith(start) for one in names)}
+    return found or ({"force.": label("joint_force", language)} if names else {})
+
+
+def _scale_bar(scale: float, longest: float, language: Language) -> list[Item]:
+    """Return a bar of a round length with the length on it; `scale` in millimetres of the paper per metre."""
+    millimetres = longest / scale * 1e3
+    power = 10.0 ** math.floor(math.log10(millimetres))
+    length = max(one * power for one in (1, 2, 5) if one * power <= millimetres)
+    end = _MARGIN + length / 1e3 * scale
+    text = f"{number(length, language)} {unit_name('mm', language)}"
+    ticks = [line((x, _MARGIN - 1.2), (x, _MARGIN + 1.2), "medium") for x in (_MARGIN, end)]
+    bar = line((_MARGIN, _MARGIN), (end, _MARGIN), "medium")
+    return [bar, *ticks, Text(((_MARGIN + end) / 2, _MARGIN + 1.8), text, TEXT, "middle")]
 
 
 def period_of(mechanism: Mechanism) -> float:
@@ -89,47 +234,40 @@ def period_of(mechanism: Mechanism) -> float:
     return 0.0 if mechanism.driver.law is None else mechanism.driver.law.period
 
 
-def _readout(x: float, y: float, stage: Stage, way: Course, language: Language) -> str:
-    """Write the crank angle or the time, one text per step, each shown in its turn."""
-    count, period = round(way.mechanism.period) // _READOUT, way.own_time or period_of(way.mechanism)
-    sign, unit = symbol("crank_angle", language), unit_name("deg", language)
+def _readouts(way: Course, language: Language) -> tuple[str, ...]:
+    """Return the crank angle or the time at each frame."""
+    frames, period = len(way.degrees) - 1, way.own_time or period_of(way.mechanism)
     if period:
-        sign, unit = symbol("time", language), f" {unit_name('s', language)}"
-    frames = len(way.degrees) - 1
-    texts = []
-    for step in range(count):
-        shown = ["hidden", "visible", "hidden"][0 if step else 1 : 3 if step < count - 1 else 2]
-        times = [0.0, step / count, (step + 1) / count][0 if step else 1 : 3 if step < count - 1 else 2]
-        # to and fro, the angle in the middle of the time for which it is shown
-        angle = step * _READOUT if way.turns else round(float(way.degrees[round((step + 0.5) / count * frames)]))
-        shown_angle = number(period * step / count, language, digits=3) if period else number(angle, language)
-        text = f'<tspan font-style="italic">{sign}</tspan> = {shown_angle}{unit}'
-        turns = parts.animate("visibility", shown, stage, times=times)
-        still = "visible" if step * _READOUT == _STILL else "hidden"
-        texts.append(f'<text x="{x:.1f}" y="{y:.1f}" visibility="{still}">{text}{turns}</text>')
-    return f'<g class="angle" {parts.FONT} text-anchor="end">{"".join(texts)}</g>'
+        sign, unit = symbol("time", language), unit_name("s", language)
+        return tuple(f"/{{{sign}}} = {number(period * at / frames, language, digits=3)} {unit}" for at in range(frames))
+    sign, unit = symbol("crank_angle", language), unit_name("deg", language)
+    return tuple(f"/{{{sign}}} = {number(round(float(one), 1), language)}{unit}" for one in way.degrees[:-1])
 
 
 def _title(title: str, language: Language) -> str:
     what = say("drawing.moving_drawing", language)
-    own = _NOT_XML.sub("", title).strip()
-    return html.escape(f"{own}: {what}" if own else capital(what))
+    own = "".join(one for one in title if one.isprintable()).strip()
+    return f"{own}: {what}" if own else capital(what)
 
 
-def _description(way: Course, language: Language, seconds: float, links: Sequence[str]) -> str:
-    """Return the lengths in words, what the numbers stand for, and the time of a revolution, or of to and fro."""
-    mechanism = way.mechanism
-    gear = crank_gear(mechanism)
+def _lengths(mechanism: Mechanism, whole: Machine | None, language: Language) -> list[str]:
+    """Return the lengths of the crank, and of the rod of an engine, in words."""
     lengths = [("crank_radius", mechanism.driver.radius)] if isinstance(mechanism.driver, Crank) else []
-    lengths += [("rod_length", rod.length) for rod in (gear.rods if gear else ())]
-    texts = [
+    if whole is not None and whole.lengths is not None:
+        lengths.append(("rod_length", whole.lengths.rod_length))
+    return [
         f"{label(key, language)} {number(displayed(key, value), language)} {unit_name(key_unit(key), language)}"
         for key, value in lengths
     ]
-    if not gear:
-        members = sorted(skeleton(mechanism, links).members, key=lambda one: one.number)
-        texts += [f"{one.number} – {one.name}" for one in members]
-    every = "one_period" if period_of(mechanism) else "one_revolution" if way.turns else "to_and_fro"
-    every = "in_its_time" if way.own_time else every
-    texts.append(say(f"drawing.{every}", language, seconds=number(seconds, language)))
-    return html.escape(_NOT_XML.sub("", "; ".join(texts)))
+
+
+def _members(shape: Skeleton) -> list[str]:
+    """Return what the numbers stand for."""
+    return [f"{number} – {name}" for number, name in numbered(shape)]
+
+
+def _time(way: Course, seconds: float, language: Language) -> str:
+    """Return how long a turn takes, or to and fro."""
+    every = "one_period" if period_of(way.mechanism) else "one_revolution" if way.turns else "to_and_fro"
+    every, seconds = ("in_its_time", way.own_time) if way.own_time else (every, seconds)
+    return say(f"drawing.{every}", language, seconds=number(seconds, language))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple, Self
 
 import numpy as np
@@ -12,14 +12,12 @@ from crankwork.analysis.engine_diagrams import CrankpinLoad, PolarDiagram, crank
 from crankwork.analysis.results import Listing
 from crankwork.locale import say
 from crankwork.report.engine_figure_data import EngineDrawn
-from crankwork.report.engine_figure_labels import label_marks, spread
 from crankwork.report.language import row_name
 from crankwork.show.chart import (
+    ARROW,
     BOTTOM,
     CIRCLE,
-    RIGHT,
     TOP,
-    WIDTH,
     Box,
     Graph,
     Row,
@@ -29,10 +27,16 @@ from crankwork.show.chart import (
     sheet,
     small_text,
 )
+from crankwork.show.labels import label_marks, mark
 from crankwork.show.paper import Paper
+from crankwork.show.place import here
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID
 
-_HEIGHT, _MARGIN = 340.0, 1.12
+_HEIGHT, _MARGIN, _LOWEST = 340.0, 1.12, 0.55
+# rays and circle of the mean of a polar diagram, and what is as narrow as a stick
+_RAYS, _RAY, _MEAN, _STICK = 30.0, "#b8b8b8", 0.7, 0.12
+# marks nearer than this to another one have no number [pt]
+_CROWDED = 10.0
 _LINES = (SOLID, DASHED, DASH_DOT, DOTTED)
 
 
@@ -58,10 +62,10 @@ class _OverCycle(NamedTuple):
 
 def crankpin_polar(engine: EngineDrawn, pin: int) -> tuple[Paper, Mapping[str, Graph]]:
     """Return the load of all rods on a crankpin: tangential to the right, radial downward, seen from its pole."""
-    return _pin_polar(engine, engine.diagrams.crankpin(pin))
+    return _pin_polar(engine, engine.diagrams.crankpin(pin), f"crankpin.{pin}")
 
 
-def _pin_polar(engine: EngineDrawn, load: CrankpinLoad) -> tuple[Paper, Mapping[str, Graph]]:
+def _pin_polar(engine: EngineDrawn, load: CrankpinLoad, pin: str = "crankpin") -> tuple[Paper, Mapping[str, Graph]]:
     """Draw the polar diagram of a crankpin with the inertia force of its rods from its pole."""
     rods, inertia = load.rods, load.inertia
     count = f"{rods} " if rods > 1 else ""
@@ -69,12 +73,12 @@ def _pin_polar(engine: EngineDrawn, load: CrankpinLoad) -> tuple[Paper, Mapping[
     force = (
         f"{count}{engine.symbol('big_end_inertia_force')} – {engine.named('big_end_inertia_force').partition(' – ')[2]}"
     )
-    rows = [Row(f"O – {pole}", CIRCLE), Row(f"{force}, {engine.value('big_end_inertia_force', -inertia)}", width=1.8)]
+    rows = [Row(f"O – {pole}", CIRCLE), Row(f"{force}, {engine.value('big_end_inertia_force', -inertia)}", ARROW, 1.8)]
     titles = (
         f"{engine.symbol('tangential_force')}, {engine.unit('tangential_force')}",
         f"{engine.symbol('radial_force')}, {engine.unit('radial_force')}",
     )
-    return _polar(engine, "crankpin_load", load.polar, rows if inertia else [], titles)
+    return _polar(engine, "crankpin_load", load.polar, rows if inertia else [], titles, pin)
 
 
 def crankpin_polar_of_one(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
@@ -99,8 +103,7 @@ def _rod_polar(engine: EngineDrawn, key: str) -> tuple[Paper, Mapping[str, Graph
         f"{engine.symbol(key)} {say('drawing.across_rod', engine.language)}, {unit}",
         f"{engine.symbol(key)} {say('drawing.along_rod', engine.language)}, {unit}",
     )
-    # along the rod is upward, not downward
-    return _polar(engine, key, engine.diagrams.rod_bearings[key], [], titles, upward=True)
+    return _polar(engine, key, engine.diagrams.rod_bearings[key], [], titles)
 
 
 def _polar(
@@ -109,49 +112,108 @@ def _polar(
     diagram: PolarDiagram,
     rows: list[Row],
     titles: tuple[str, str],
-    *,
-    upward: bool = False,
+    pin: str = "",
 ) -> tuple[Paper, Mapping[str, Graph]]:
-    """Draw a polar diagram on equal scales with its pole, marked every 30 degrees."""
+    """Draw a polar diagram with its pole, the rays from it, and a circle of the mean load.
+
+    `pin`: the row of a crankpin among the loads of bearings. Scales are equal, but for a diagram that would be a stick.
+    """
     across, down = (
         np.append(one, one[0]) for one in (engine.shown(key, diagram.across), engine.shown(key, diagram.down))
     )
     pole = tuple(float(one) for one in engine.shown(key, np.array(diagram.pole)))
-    paper, box = sheet(_HEIGHT, rows)
-    x, y = _equal_scales(box, np.append(across, [0.0, pole[0]]), np.append(down, [0.0, pole[1]]))
-    graph = Graph(paper, box, x, (-y[0], -y[1]) if upward else y, engine.language)
-    sign = -1.0 if upward else 1.0
-    graph.frame(round_ticks(*x, 7), round_ticks(min(graph.y), max(graph.y), 7))
+    # along the rod is upward, not downward
+    sign = 1.0 if pin else -1.0
+    mean, wide = _mean(engine, pin or key.removesuffix("_load")), _wider(float(np.ptp(across)), float(np.ptp(down)))
+    rows = [Row(engine.named(key)), *rows]
+    if mean:
+        # that of a crankpin has a name of its own
+        of = "mean_crankpin_load" if pin else "mean_bearing_load"
+        text = f"{engine.named(of)}, {engine.value(of, mean)}"
+        rows = [*rows, Row(text, DASHED, _MEAN if wide == 1 else 0.0)]
+    if wide > 1:
+        rows = [*rows, Row(say("drawing.wider_across", engine.language, factor=wide), width=0.0)]
+    # lower than that nobody tells its marks apart
+    paper, box = sheet(_HEIGHT * max(1.0, _LOWEST / here().tall), rows)
+    # a circle where scales are equal, which would be an ellipse elsewhere
+    radius = float(engine.shown(key, mean)) if wide == 1 else 0.0
+    ends = np.array([0.0, *(one + side * radius for one in pole for side in (-1.0, 1.0))])
+    box, x, y = _equal_scales(box, wide * np.append(across, ends[:3]), np.append(down, ends[[0, 3, 4]]))
+    x = x[0] / wide, x[1] / wide
+    graph = Graph(paper, box, x, (sign * y[0], sign * y[1]), engine.language)
+    box = graph.box
+    graph.frame(round_ticks(*x, min(7, round(box.width / 45))), round_ticks(min(graph.y), max(graph.y), 7))
     origin = graph.point(0.0, 0.0)
     paper.segments(np.array([(origin[0], box.top, origin[0], box.top + box.height)]), width=0.8)
-    graph.curve("load", across, sign * down)
-    cross = [
-        spread(graph.across(np.array(x)), np.full(2, origin[1])),
-        spread(np.full(2, origin[0]), np.array([box.top, box.top + box.height])),
-    ]
+    graph.curve("load", across, sign * down, angles=np.append(diagram.degrees, engine.cycle))
     graph.curves["pole"] = np.array([pole[0]]), sign * np.array([pole[1]])
     at = graph.point(pole[0], sign * pole[1])
     if pole[1]:
         paper.arrow(at, origin, width=1.8)
-        cross.append(spread(np.array([at[0], origin[0]]), np.array([at[1], origin[1]])))
     marked = engine.shown(key, diagram.marks_across), sign * engine.shown(key, diagram.marks_down)
+    kept = _apart(graph, diagram.marks, marked)
+    marks, marked = diagram.marks[kept], (marked[0][kept], marked[1][kept])
     graph.curves["marks"] = marked
-    places = zip(diagram.marks, graph.across(marked[0]), graph.down(marked[1]), strict=True)
-    line = spread(graph.across(across), graph.down(sign * down))
+    _rays(graph, at, [one[marks % _RAYS == 0] for one in marked])
+    if radius:
+        around = np.radians(np.arange(0.0, 361.0, 3.0))
+        circle = pole[0] + radius * np.sin(around), sign * pole[1] + radius * np.cos(around)
+        graph.curve("mean", *circle, DASHED, width=_MEAN)
+    places = zip(marks, graph.across(marked[0]), graph.down(marked[1]), strict=True)
     names = [("O", *at), *((f"{angle:g}", float(a), float(b)) for angle, a, b in places)]
-    label_marks(paper, names, np.vstack([line, *cross]))
-    paper.dot(*at, 2.6, fill="#ffffff", width=1.0)
     graph.x_title(titles[0])
     graph.y_title(titles[1], 48.0)
+    label_marks(paper, names, frame=graph.box)
+    paper.dot(*at, 2.6, fill="#ffffff", width=1.0)
     return paper, {key: graph}
 
 
-def _equal_scales(box: Box, x: Array, y: Array) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return ends of the scales that hold the points, equal both ways, the vertical one downward."""
+def _mean(engine: EngineDrawn, name: str) -> float:
+    """Return the mean load of a bearing; nothing of one that no listing has. [N]"""
+    listing = engine.drawn.results.listings.get("bearing_loads")
+    if listing is None or name not in listing.names:
+        return 0.0
+    return _OverCycle.read(listing, name).mean
+
+
+def _apart(graph: Graph, angles: Array, places: tuple[Array, Array]) -> list[int]:
+    """Return which marks have room for their numbers, those at quarters of a turn first, then at its twelfths."""
+    order = sorted(range(len(angles)), key=lambda one: (angles[one] % 90 > 0, angles[one] % _RAYS > 0, angles[one]))
+    on_paper, kept = np.column_stack([graph.across(places[0]), graph.down(places[1])]), list[int]()
+    for one in order:
+        if not kept or np.hypot(*(on_paper[kept] - on_paper[one]).T).min() > _CROWDED:
+            kept.append(one)
+    return sorted(kept)
+
+
+def _rays(graph: Graph, pole: tuple[float, float], ends: Sequence[Array]) -> None:
+    """Draw a ray from the pole to every mark."""
+    x, y = graph.across(ends[0]), graph.down(ends[1])
+    graph.paper.segments(np.column_stack([np.full_like(x, pole[0]), np.full_like(y, pole[1]), x, y]), width=0.4,
+                         colour=_RAY)  # fmt: skip
+
+
+def _wider(across: float, along: float) -> int:
+    """Return how many times wider a diagram is drawn than it is, 1 unless it would be a stick."""
+    share = across / along if along else 1.0
+    # on a sheet both scales are round only where one is ten times the other
+    factors = (10,) if here().is_sheet else (50, 20, 10, 5)
+    return 1 if share > _STICK else next((one for one in factors if one * share <= 0.8), factors[-1])
+
+
+def _equal_scales(box: Box, x: Array, y: Array) -> tuple[Box, tuple[float, float], tuple[float, float]]:
+    """Return a box, and ends of the scales that hold the points in it, equal both ways, the vertical one downward."""
     middle = (float(x.min()) + float(x.max())) / 2, (float(y.min()) + float(y.max())) / 2
-    scale = _MARGIN * max(float(np.ptp(x)) / box.width, float(np.ptp(y)) / box.height) or 1.0
+    wide, high = float(np.ptp(x)) / box.width, float(np.ptp(y)) / box.height
+    scale = _MARGIN * max(wide, high) or 1.0
+    if here().is_sheet:
+        # of paper beside it other figures have the use
+        most = max(wide, high, 1e-30)
+        width, height = box.width * wide / most, box.height * high / most
+        width, height = max(width, 0.3 * height), max(height, 0.3 * width)
+        box = box._replace(left=box.left + (box.width - width) / 2, width=width, height=height)
     half = scale * box.width / 2, scale * box.height / 2
-    return (middle[0] - half[0], middle[0] + half[0]), (middle[1] + half[1], middle[1] - half[1])
+    return box, (middle[0] - half[0], middle[0] + half[0]), (middle[1] + half[1], middle[1] - half[1])
 
 
 def crankpin_load(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
@@ -190,7 +252,7 @@ def crankpin_load(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     level = float(engine.shown("crankpin_load", found.mean))
     graph.curve("mean", [0.0, engine.cycle], [level, level], style, width=0.8)
     for name, angle, value in (("max", found.max_angle, found.max), ("min", found.min_angle, found.min)):
-        graph.mark(name, angle, float(engine.shown("crankpin_load", value)), name, below=name == "min")
+        mark(graph, name, angle, float(engine.shown("crankpin_load", value)), name)
     graph.x_title(engine.title("crank_angle"))
     graph.y_title(
         engine.title("crankpin_load")
@@ -207,15 +269,15 @@ def main_journal_polar(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]
     reach = 1.18 * float(engine.shown("main_journal_load", most)) or 1.0
     columns = min(len(diagrams), 2 if len(diagrams) in (2, 4) else 3)
     lines = -(-len(diagrams) // columns)
-    side, gap = (WIDTH - 52 - RIGHT + 22) / columns - 22, (22.0, 26.0)
-    paper = Paper(WIDTH, TOP + 12 + lines * side + (lines - 1) * gap[1] + BOTTOM)
+    side, gap = (here().width - 52 - here().right + 22) / columns - 22, (22.0, 26.0)
+    paper = Paper(here().width, TOP + 12 + lines * side + (lines - 1) * gap[1] + BOTTOM)
     graphs = {}
     for at, diagram in enumerate(diagrams):
         column, line = at % columns, at // columns
         box = Box(52 + column * (side + gap[0]), TOP + 12 + line * (side + gap[1]), side, side)
         has_below = at + columns >= len(diagrams)
-        graphs[str(at + 1)] = _small_polar(engine, paper, box, diagram, reach, labels=(has_below, column == 0))
         small_text(paper, box.left + side / 2, box.top - 5, row_name(f"main_journal.{at + 1}", engine.language))
+        graphs[str(at + 1)] = _small_polar(engine, paper, box, diagram, reach, labels=(has_below, column == 0))
         if has_below:
             graphs[str(at + 1)].x_title(f"{engine.symbol('main_journal_load')}, {engine.unit('main_journal_load')}")
     return paper, graphs
@@ -226,20 +288,18 @@ def _small_polar(
 ) -> Graph:
     """Draw one of several polar diagrams, crank 1 upward, marked every 90 degrees."""
     graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language)
-    ticks = round_ticks(-reach, reach, 5)
+    box, ticks = graph.box, round_ticks(-reach, reach, min(5, max(1, round(graph.box.width / 32))))
     graph.frame(ticks, ticks, labels=labels)
     middle = graph.point(0.0, 0.0)
     paper.segments(np.array([(middle[0], box.top, middle[0], box.top + box.height)]), width=0.8)
     across, up = engine.shown("main_journal_load", diagram.across), -engine.shown("main_journal_load", diagram.down)
     across, up = np.append(across, across[0]), np.append(up, up[0])
-    graph.curve("load", across, up, width=1.0)
+    graph.curve("load", across, up, width=1.0, angles=np.append(diagram.degrees, engine.cycle))
     marked = (
         engine.shown("main_journal_load", diagram.marks_across),
         -engine.shown("main_journal_load", diagram.marks_down),
     )
     graph.curves["marks"] = marked
     places = zip(diagram.marks, graph.across(marked[0]), graph.down(marked[1]), strict=True)
-    cross = spread(np.array([box.left, box.left + box.width]), np.full(2, middle[1]))
-    line = np.vstack([spread(graph.across(across), graph.down(up)), cross])
-    label_marks(paper, [(f"{angle:g}", float(a), float(b)) for angle, a, b in places], line, size=6.5, dot=1.3)
+    label_marks(paper, [(f"{angle:g}", float(a), float(b)) for angle, a, b in places], size=6.5, dot=1.3, frame=box)
     return graph

@@ -10,18 +10,10 @@ from crankwork.analysis import Array
 from crankwork.analysis.diagrams import BrixPoints, brix_points, tangent_ends, tolle_parabola, tolle_points
 from crankwork.locale import say
 from crankwork.report.engine_figure_data import EngineDrawn
-from crankwork.report.engine_figure_labels import label_marks, spread
-from crankwork.show.chart import (
-    RIGHT,
-    WIDTH,
-    Box,
-    Graph,
-    Row,
-    limits,
-    round_ticks,
-    sheet,
-)
+from crankwork.show.chart import Box, Graph, Row, limits, round_ticks, sheet
+from crankwork.show.labels import label_marks
 from crankwork.show.paper import GREY, Paper
+from crankwork.show.place import here, tall
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID
 
 _SIDES = ("AC", "BD", "CD", "EF", "CF", "FD")
@@ -47,13 +39,14 @@ def brix(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
             width=0.0,
         ),
     ]
-    height = _CIRCLE * max(1.0, float(exact.max()) / (2 * radius))
-    paper, box = sheet(height + _MARGIN - 10, rows)
+    side = min(tall(_CIRCLE), 0.45 * here().width)
+    height = side * max(1.0, float(exact.max()) / (2 * radius))
+    paper, box = sheet((height + _MARGIN - 10) / here().tall, rows)
     top = box.top + _MARGIN - 14
-    left = _MARGIN + _CIRCLE + _MARGIN - 6 + _TITLES
-    graph_box = Box(left, top, WIDTH - left - RIGHT, height)
-    graph = Graph(paper, graph_box, (0.0, 360.0), (float(exact.max()), 0.0), engine.language)
-    ring = Graph(paper, Box(_MARGIN, top, _CIRCLE, _CIRCLE), (-radius, radius), (-radius, radius), engine.language)
+    left = _MARGIN + side + _MARGIN - 6 + _TITLES
+    graph_box = Box(left, top, here().width - left - here().right, height)
+    graph = Graph(paper, graph_box, (0.0, 360.0), (float(exact.max()), 0.0), engine.language, "crank_angle")
+    ring = Graph(paper, Box(_MARGIN, top, side, side), (-radius, radius), (-radius, radius), engine.language)
     marks = np.arange(0.0, 360.0, _STEP)
     points = brix_points(lengths, marks)
     _projections(ring, graph, points, radius, marks)
@@ -66,7 +59,9 @@ def brix(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     graph.curve("displacement", degrees, exact)
     graph.curves["construction"] = degrees, radius * (1 - circle.up)
     graph.x_title(engine.title("crank_angle"))
-    paper.text(WIDTH - RIGHT, top - 10, engine.title("piston_displacement"), anchor="end")
+    title = engine.title("piston_displacement")
+    graph.shows(title)
+    paper.text(here().width - here().right, top - 10, title, anchor="end")
     return paper, {"circle": ring, "displacement": graph}
 
 
@@ -88,9 +83,9 @@ def _rays(engine: EngineDrawn, ring: Graph, points: BrixPoints, radius: float, m
         out = np.array([a, b]) - centre
         place = np.array(centre) + out * (1 + 12 / float(np.hypot(*out)))
         ring.boxed(float(place[0]), float(place[1]) + 2.8, engine.number(float(mark)), "middle", 7.5)
-    for at, name, right in ((start, "O′", 7.0), (centre, "O", -8.0)):
+    label_marks(ring.paper, [("O′", *start), ("O", *centre)], dot=0.0, frame=ring.box)
+    for at in (start, centre):
         ring.paper.dot(*at, 2.0, fill="#ffffff", width=0.9)
-        ring.paper.text(at[0] + right, at[1] + (10.0 if name == "O′" else -4.0), name, size=8, anchor="middle")
 
 
 def _projections(ring: Graph, graph: Graph, points: BrixPoints, radius: float, marks: Array) -> None:
@@ -138,14 +133,8 @@ def tolle(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     if is_apart:
         graph.curve("parabola", *parabola, DOTTED, width=1.0)
     graph.curve("acceleration", x, y, width=1.6)
-    lines = [spread(graph.across(x), graph.down(y))]
-    for side in _SIDES:
-        along, up = graph.curves[side]
-        lines.append(spread(graph.across(along), graph.down(up)))
-    level = float(graph.down(0.0))
-    lines.append(spread(np.array([box.left, box.left + box.width]), np.array([level, level])))
     places = [(name, *graph.point(*place)) for name, place in corners.items()]
-    label_marks(paper, [*places, *_numbered(graph, tangents)], np.vstack(lines), size=8.0)
+    label_marks(paper, [*places, *_numbered(graph, tangents)], frame=box)
     graph.x_title(engine.title("piston_displacement"))
     graph.y_title(engine.title("piston_acceleration"), 48.0)
     return paper, {"tolle": graph}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
@@ -11,27 +12,19 @@ import numpy as np
 from crankwork.analysis import Array
 from crankwork.locale import say
 from crankwork.quantities import QUANTITIES
+from crankwork.report.engine_figure_bands import banded_sheet, strokes
 from crankwork.report.engine_figure_data import EngineDrawn
-from crankwork.report.engine_figure_labels import label_marks, spread
-from crankwork.show.chart import (
-    BOTTOM,
-    LEFT,
-    RIGHT,
-    TOP,
-    WIDTH,
-    Box,
-    Graph,
-    Row,
-    limits,
-    over_cycle,
-    sheet,
-)
+from crankwork.show.chart import BOTTOM, TOP, Box, Graph, Row, limits, over_cycle
+from crankwork.show.labels import label_marks
 from crankwork.show.paper import Paper
+from crankwork.show.place import here, tall
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Style
 
 _STYLES = (SOLID, DASHED, DASH_DOT, DOTTED)
 _HEIGHT, _PANEL, _PANEL_GAP = 216.0, 126.0, 38.0
 _LONGEST = 16
+# a letter with an index and primes
+_SYMBOL = re.compile(r"([^\W\d_])_?([^\W_]{0,3})(['′″]*)")
 
 
 class _Line(NamedTuple):
@@ -49,14 +42,16 @@ def kinematics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     has_orders = "piston_velocity_first_order" in drawn.columns
     gap = _PANEL_GAP if has_orders else 20.0
     head = 16.0 if has_orders else 4.0
-    paper = Paper(WIDTH, TOP + head + 3 * _PANEL + 2 * gap + BOTTOM)
+    panel = tall(_PANEL)
+    paper = Paper(here().width, TOP + head + 3 * panel + 2 * gap + BOTTOM)
     graphs: dict[str, Graph] = {}
+    top = TOP + head
     for row, noun in enumerate(("displacement", "velocity", "acceleration")):
         keys = {f"piston_{noun}": SOLID}
         if has_orders:
             keys |= {f"piston_{noun}_first_order": DASHED, f"piston_{noun}_second_order": DASH_DOT}
         curves = [_Line(key, drawn.values(key)[turn], style) for key, style in keys.items()]
-        box = Box(LEFT, TOP + head + row * (_PANEL + gap), WIDTH - LEFT - RIGHT, _PANEL)
+        box = Box(here().left, top, here().inner, panel)
         ends = limits(*(one.values for one in curves))
         graph = over_cycle(paper, box, ends, 360.0, engine.language, numbers=row == 2)
         for at, one in enumerate(curves):
@@ -67,6 +62,7 @@ def kinematics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
                 paper.text(left + 27, box.top - 7, engine.symbol(one.key), size=8.5)
         graph.y_title(engine.title(f"piston_{noun}"), 42.0)
         graphs[noun] = graph
+        top += graph.box.height + gap
     graphs["acceleration"].x_title(engine.title("crank_angle"))
     return paper, graphs
 
@@ -77,14 +73,15 @@ def pressure(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     others = engine.other_pressures
     names = [say("drawing.cylinder", engine.language, number=number) for number in (1, *others)]
     rows = [Row(name, style) for name, style in zip(names, itertools.cycle(_STYLES), strict=False)]
-    paper, box = sheet(_HEIGHT, rows if others else ())
+    paper, box = banded_sheet(engine, _HEIGHT, rows if others else ())
     graph = over_cycle(paper, box, limits(values, *others.values()), engine.cycle, engine.language)
     for (number, other), row in zip(others.items(), rows[1:], strict=True):
         graph.curve(f"gas_pressure.{number}", degrees, other, row.style)
     graph.curve("gas_pressure", degrees, values)
     graph.x_title(engine.title("crank_angle"))
     graph.y_title(engine.title("gas_pressure"))
-    mark_points(graph, named_points(engine), spread(graph.across(degrees), graph.down(values)))
+    strokes(engine, graph)
+    mark_points(graph, named_points(engine))
     return paper, {"pressure": graph}
 
 
@@ -99,27 +96,22 @@ def named_points(engine: EngineDrawn) -> list[tuple[str, float, float]]:
 
 def _short(name: str) -> str:
     """Return the name of a point as it is printed: with a subscript if it has one, shortened if it is long."""
+    if symbol := _SYMBOL.fullmatch(name):
+        base, index, primes = symbol.groups()
+        marks = "″" * (primes == "''") or primes.replace("'", "′")
+        return f"${base}{marks}{'_' if index else ''}{index}$"
     known = "".join(one if one.isprintable() and one != "$" else "□" for one in name)
-    known = known if len(known) <= _LONGEST else f"{known[: _LONGEST - 1]}…"
-    return f"${known}$" if "_" in known else known
+    return known if len(known) <= _LONGEST else f"{known[: _LONGEST - 1]}…"
 
 
-def mark_points(graph: Graph, points: Sequence[tuple[str, float, float]], *lines: Array) -> None:
-    """Mark named points of a graph, their names clear of its lines and axes.
+def mark_points(graph: Graph, points: Sequence[tuple[str, float, float]]) -> None:
+    """Mark named points of a graph, their names clear of what is drawn.
 
-    `points`: name and place in the units of the scales [their units]; `*lines`: points along lines [pt], shape (n,
-    2).
+    `points`: name and place in the units of the scales [their units].
     """
-    left, top, width, height = graph.box
-    level = float(graph.down(0.0)) if min(graph.y) < 0 < max(graph.y) else top + height
-    axes = [
-        spread(np.array([left, left]), np.array([top, top + height])),
-        spread(np.array([left, left + width]), np.array([level, level])),
-    ]
     if points:
         graph.curves["points"] = np.array([one[1] for one in points]), np.array([one[2] for one in points])
-        marks = [(name, *graph.point(x, y)) for name, x, y in points]
-        label_marks(graph.paper, marks, np.vstack([*lines, *axes]), frame=graph.box)
+        label_marks(graph.paper, [(name, *graph.point(x, y)) for name, x, y in points], frame=graph.box)
 
 
 def piston_forces(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
@@ -151,10 +143,11 @@ def _forces(engine: EngineDrawn, name: str, keys: Mapping[str, Style]) -> tuple[
 def _over_cycle(
     engine: EngineDrawn, name: str, curves: Sequence[_Line], rows: Sequence[Row], title: str
 ) -> tuple[Paper, Mapping[str, Graph]]:
-    paper, box = sheet(_HEIGHT, rows)
+    paper, box = banded_sheet(engine, _HEIGHT, rows)
     graph = over_cycle(paper, box, limits(*(one.values for one in curves)), engine.cycle, engine.language)
     for one in curves:
         graph.curve(one.key, engine.drawn.degrees, one.values, one.style)
+    strokes(engine, graph)
     graph.x_title(engine.title("crank_angle"))
     graph.y_title(title)
     return paper, {name: graph}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 
 from crankwork.locale import say
 from crankwork.report.engine_figure_bearings import (
@@ -33,7 +34,7 @@ from crankwork.report.engine_figure_orders import (
 )
 from crankwork.report.engine_figure_torque import accumulated_torque, crank_speed, excess_work, total_torque
 from crankwork.report.engine_figure_wear import crankpin_wear, main_wear
-from crankwork.report.figure_data import Drawn
+from crankwork.report.figure_data import Drawn, kind_of
 from crankwork.show.chart import Graph
 from crankwork.show.paper import Paper
 from crankwork.show.scene import Drawing
@@ -68,12 +69,25 @@ def engine_figures(drawn: Drawn, only: str = "") -> Iterator[tuple[str, Drawing]
 
     `only`: the name of the one that is wanted.
     """
+    for name, draw in engine_pictures(drawn).items():
+        if only in ("", name):
+            yield name, draw()
+
+
+def engine_pictures(drawn: Drawn) -> dict[str, Callable[[], Drawing]]:
+    """Return what draws each figure of a machine where it is placed."""
     engine = EngineDrawn(drawn)
-    for name, draw in figure_list(engine).items():
-        if only not in ("", name):
-            continue
-        kind = name.rstrip("0123456789").rstrip("_")
-        yield name, engine.finished(name, draw(engine)[0], _remark(engine, kind), forces=kind in _OF_FORCES)
+    listed = figure_list(engine)
+    numbered = {name.rstrip("0123456789") for name in listed}
+
+    def picture(name: str, draw: Draw) -> Drawing:
+        kind = kind_of(name)
+        # of several crankpins the first has a number too
+        first = next(iter(engine.diagrams.loads[1].crankpins), 1) if f"{name}_" in numbered else 0
+        title = f"{name}_{first}" if first else name
+        return engine.finished(title, draw(engine)[0], _remark(engine, kind), forces=kind in _OF_FORCES)
+
+    return {name: partial(picture, name, draw) for name, draw in listed.items()}
 
 
 def figure_list(engine: EngineDrawn) -> dict[str, Draw]:

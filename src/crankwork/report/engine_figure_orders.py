@@ -11,18 +11,10 @@ from crankwork.analysis import Array
 from crankwork.analysis.engine_diagrams import Locus
 from crankwork.locale import say
 from crankwork.report.engine_figure_data import EngineDrawn
-from crankwork.show.chart import (
-    BOTTOM,
-    LEFT,
-    RIGHT,
-    TOP,
-    WIDTH,
-    Box,
-    Graph,
-    round_ticks,
-    small_text,
-)
-from crankwork.show.paper import BLACK, Paper, text_width
+from crankwork.show.chart import BOTTOM, TOP, Box, Graph, round_ticks, small_text
+from crankwork.show.labels import label_marks
+from crankwork.show.paper import BLACK, WIDER, Paper, text_width
+from crankwork.show.place import here, tall
 from crankwork.show.scene import DASHED, SOLID
 
 
@@ -54,7 +46,7 @@ def _bar_graph(
     """Draw groups of bars over the orders."""
     most = max((max(one.heights.values(), default=0.0) for one in bars), default=0.0) or 1.0
     top_end = (1.22 if len(orders) < 8 else 1.1) * most
-    graph = Graph(paper, box, (0.0, float(len(orders))), (0.0, top_end), engine.language)
+    graph = Graph(paper, box, (0.0, float(len(orders))), (0.0, top_end), engine.language, to_scale=False)
     has_any = any(one.heights and max(one.heights.values()) for one in bars)
     ticks = round_ticks(0.0, top_end, max(3, round(box.height / 26))) if has_any else np.zeros(1)
     graph.frame(np.array([]), ticks)
@@ -62,15 +54,16 @@ def _bar_graph(
         present = [at for at, one in enumerate(bars) if order in one.heights]
         width = 0.8 / max(len(bars), 1)
         start = place + 0.5 - width * len(present) / 2
-        for at, which in enumerate(present):
+        values = [engine.number(bars[which].heights[order], 4) for which in present]
+        is_upright = any(WIDER * text_width(one, 7.0) > box.width / len(orders) * width for one in values)
+        for at, (which, text) in enumerate(zip(present, values, strict=True)):
             height = bars[which].heights[order]
             left, right = graph.across(start + at * width), graph.across(start + (at + 1) * width)
             top, bottom = graph.down(height), graph.down(0.0)
             if height > 0.002 * most:
                 _fill(paper, (float(left), float(top), float(right), float(bottom)), fills[which])
                 if len(orders) < 8:
-                    text = engine.number(height, 4)
-                    _value(paper, float(left + right) / 2, float(top) - 3, text, float(right - left))
+                    _value(paper, float(left + right) / 2, float(top) - 3, text, is_upright=is_upright)
             elif len(orders) < 8:
                 small_text(paper, float(left + right) / 2, float(bottom) - 2.5, "0")
         if len(orders) <= 12 or order == round(order):
@@ -80,32 +73,32 @@ def _bar_graph(
     return graph
 
 
-def _value(paper: Paper, middle: float, bottom: float, text: str, room: float) -> None:
-    """Write a value over its bar, upward if the bar is narrower than the text."""
-    if text_width(text, 7.0) <= room + 1:
-        paper.text(middle, bottom, text, size=7.0, anchor="middle")
+def _value(paper: Paper, middle: float, bottom: float, text: str, *, is_upright: bool) -> None:
+    """Write a value over its bar, upward where bars are narrower than their values."""
+    if is_upright:
+        paper.upward_text(middle + 2.5, bottom - WIDER * text_width(text, 7.0) / 2, text, size=7.0)
     else:
-        paper.upward_text(middle + 2.5, bottom - text_width(text, 7.0) / 2, text, size=7.0)
+        paper.text(middle, bottom, text, size=7.0, anchor="middle")
 
 
 def _swatches(paper: Paper, texts: Sequence[str], fills: Sequence[int]) -> None:
     """Write the legend of bars above the graph, on as many lines as they need."""
-    left, top = LEFT, TOP - 4
+    left, top = here().left, TOP - 4
     for text, fill in zip(texts, fills, strict=True):
-        width = text_width(text, 8.5) + 30
-        if left > LEFT and left + width > WIDTH - 4:
-            left, top = LEFT, top + 13.4
+        width = WIDER * text_width(text, 8.5) + 26
+        if left > here().left and left + width > here().width - 4:
+            left, top = here().left, top + 13.4
         _fill(paper, (left, top + 1.5, left + 13, top + 9.5), fill)
         paper.text(left + 18, top + 9, text, size=8.5)
         left += width
 
 
 def _swatch_lines(texts: Sequence[str]) -> int:
-    left, lines = LEFT, 1
+    left, lines = here().left, 1
     for text in texts:
-        width = text_width(text, 8.5) + 30
-        if left > LEFT and left + width > WIDTH - 4:
-            left, lines = LEFT, lines + 1
+        width = WIDER * text_width(text, 8.5) + 26
+        if left > here().left and left + width > here().width - 4:
+            left, lines = here().left, lines + 1
         left += width
     return lines
 
@@ -127,8 +120,8 @@ def balance_orders(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     panels = ["force", "moment"] if engine.diagrams.is_spread else ["force"]
     texts = [say(f"report.{kind}", language) for kind in kinds]
     head = 13.4 * _swatch_lines(texts) + 5
-    height = 150.0
-    paper = Paper(WIDTH, TOP + head + len(panels) * height + (len(panels) - 1) * 28 + BOTTOM)
+    height = tall(150.0)
+    paper = Paper(here().width, TOP + head + len(panels) * height + (len(panels) - 1) * 28 + BOTTOM)
     _swatches(paper, texts, fills)
     orders = [float(one.order) for one in balance.reciprocating]
     graphs: dict[str, Graph] = {}
@@ -138,7 +131,7 @@ def balance_orders(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
             _Bars(kind, {float(one.order): float(engine.shown(key, getattr(one, panel).largest)) for one in parts})
             for kind, parts in kinds.items()
         ]
-        box = Box(LEFT, TOP + head + at * (height + 28), WIDTH - LEFT - RIGHT, height)
+        box = Box(here().left, TOP + head + at * (height + 28), here().inner, height)
         graphs[panel] = _bar_graph(engine, paper, box, bars, orders, fills)
         graphs[panel].y_title(f"{say(f'drawing.{key}', language)} {engine.symbol(key)}, {engine.unit(key)}")
     graphs[panels[-1]].x_title(say("report.order", language, order="$q$"))
@@ -157,15 +150,14 @@ def balance_ellipses(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     rows = [say("drawing.before", language), say("drawing.after", language)] if is_balanced else []
     columns = 2 if len(loci) > 1 else 1
     lines = -(-len(loci) // columns)
-    side, gap = (170.0, 56.0) if columns == 2 else (240.0, 0.0)
+    side, gap = (tall(170.0), 56.0) if columns == 2 else (tall(240.0), 0.0)
     head = 13.4 * len(rows) + (5 if rows else 0) + 12
-    start = (WIDTH - columns * side - (columns - 1) * gap) / 2 + 16
-    paper = Paper(WIDTH, TOP + head + lines * side + (lines - 1) * 52 + BOTTOM)
+    start = (here().width - columns * side - (columns - 1) * gap) / 2 + 16
+    paper = Paper(here().width, TOP + head + lines * side + (lines - 1) * 52 + BOTTOM)
     for at, text in enumerate(rows):
-        paper.line(
-            [LEFT, LEFT + 20], [TOP + 2 + 13.4 * at] * 2, style=DASHED if at == 0 else SOLID, width=1.2, name="legend"
-        )
-        paper.text(LEFT + 27, TOP + 5 + 13.4 * at, text, size=8.5)
+        left, style = here().left, DASHED if at == 0 else SOLID
+        paper.line([left, left + 20], [TOP + 2 + 13.4 * at] * 2, style=style, width=1.2, name="legend")
+        paper.text(left + 27, TOP + 5 + 13.4 * at, text, size=8.5)
     graphs: dict[str, Graph] = {}
     for at, (order, (before, after)) in enumerate(loci.items()):
         box = Box(start + (at % columns) * (side + gap), TOP + head + (at // columns) * (side + 52), side, side)
@@ -179,7 +171,7 @@ def _locus(engine: EngineDrawn, paper: Paper, box: Box, before: Locus, after: Lo
     """Draw the loci of one order, the reference direction of the engine upward."""
     reach = 1.15 * float(engine.shown("free_force", max(before.largest, after.largest)))
     graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language)
-    ticks = round_ticks(-reach, reach, 5)
+    box, ticks = graph.box, round_ticks(-reach, reach, min(5, max(1, round(graph.box.width / 32))))
     graph.frame(ticks, ticks)
     middle = graph.point(0.0, 0.0)
     paper.segments(np.array([(middle[0], box.top, middle[0], box.top + box.height)]), width=0.8)
@@ -207,9 +199,17 @@ def torque_harmonics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
         for name, key in kinds.items()
     ]
     texts = [f"{engine.symbol(key)} – {say(f'drawing.{name}', engine.language)}" for name, key in kinds.items()]
-    paper = Paper(WIDTH, TOP + 19 + 200.0 + BOTTOM)
+    height = tall(200.0)
+    paper = Paper(here().width, TOP + 19 + height + BOTTOM)
     _swatches(paper, texts, [0, 4][: len(texts)])
-    graph = _bar_graph(engine, paper, Box(LEFT, TOP + 19, WIDTH - LEFT - RIGHT, 200.0), bars, orders, [0, 4])
+    graph = _bar_graph(
+        engine,
+        paper,
+        Box(here().left, TOP + 19, here().inner, 200.0),
+        bars,
+        orders,
+        [0, 4],
+    )
     graph.x_title(engine.title("harmonic_order"))
     symbols = ", ".join(engine.symbol(key) for key in kinds.values())
     graph.y_title(f"{symbols}, {engine.unit('harmonic_amplitude')}")
@@ -221,8 +221,8 @@ def phase_stars(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     stars = engine.diagrams.phase_stars
     columns = 4 if len(stars) > 6 else 3
     lines = -(-len(stars) // columns)
-    side, gap, head = (WIDTH - 24) / columns - 8, 8.0, 14.0
-    paper = Paper(WIDTH, TOP + lines * (side + head) + 30)
+    side, gap, head = (here().width - 24) / columns - 8, 8.0, 14.0
+    paper = Paper(here().width, TOP + lines * (side + head) + 30)
     graphs: dict[str, Graph] = {}
     for at, star in enumerate(stars):
         box = Box(12 + (at % columns) * (side + gap), TOP + head + (at // columns) * (side + head), side, side)
@@ -230,7 +230,7 @@ def phase_stars(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
         graphs[order] = _star(paper, box, star.vectors.tolist(), star.sum, engine)
         text = f"$ν$ = {order}  ({engine.number(round(abs(star.sum), 9), 3)})"
         small_text(paper, box.left + side / 2, box.top - 3, text)
-    paper.text(WIDTH / 2, paper.height - 18, say("drawing.star_sum", engine.language), size=8, anchor="middle")
+    paper.text(here().width / 2, paper.height - 18, say("drawing.star_sum", engine.language), size=8, anchor="middle")
     return paper, graphs
 
 
@@ -241,18 +241,20 @@ def _star(paper: Paper, box: Box, vectors: Sequence[complex], total: complex, en
         directions.setdefault((round(vector.real, 6) + 0.0, round(vector.imag, 6) + 0.0), []).append(number)
     longest = max(*(len(one) for one in directions.values()), abs(total))
     reach = longest * (1 + 22 / (box.width / 2 - 22))
-    graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language)
+    graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language, to_scale=False)
     middle = graph.point(0.0, 0.0)
     if abs(total) > 1e-9:
         end = graph.point(total.imag, total.real)
         paper.arrow(middle, end, width=3.2, colour="#a8a8a8")
     graph.curves["sum"] = np.array([total.imag]), np.array([total.real])
+    ends = []
     for (up, across), numbers in directions.items():
         for at in range(len(numbers)):
             paper.arrow(graph.point(at * across, at * up), graph.point((at + 1) * across, (at + 1) * up), width=0.8)
         end = graph.point(len(numbers) * across, len(numbers) * up)
-        _numbers(paper, end, (across, up), [str(one) for one in numbers])
+        ends.append((",".join(str(one) for one in numbers), *end))
     paper.dot(*middle, 1.6)
+    label_marks(paper, ends, size=7.0, dot=0.0)
     graph.curves["ends"] = _ends(directions)
     return graph
 
@@ -261,14 +263,3 @@ def _ends(directions: Mapping[tuple[float, float], Sequence[int]]) -> tuple[Arra
     lengths = np.array([len(one) for one in directions.values()])
     up, across = np.array(list(directions)).T
     return across * lengths, up * lengths
-
-
-def _numbers(paper: Paper, end: tuple[float, float], direction: tuple[float, float], numbers: Sequence[str]) -> None:
-    """Write the numbers of the cylinders beyond the end of their arrow, on two lines if they are many."""
-    half = -(-len(numbers) // 2) if len(numbers) > 3 else len(numbers)
-    lines = [",".join(numbers[:half]), ",".join(numbers[half:])] if half < len(numbers) else [",".join(numbers)]
-    width = max(text_width(one, 7.0) for one in lines)
-    x = end[0] + direction[0] * (4 + width / 2)
-    y = end[1] - direction[1] * (4 + 4 * len(lines))
-    for at, one in enumerate(lines):
-        paper.text(x, y + 2.5 + 8 * (at - (len(lines) - 1) / 2), one, size=7.0, anchor="middle")

@@ -8,28 +8,21 @@ import numpy as np
 
 from crankwork.analysis import Array
 from crankwork.locale import say
+from crankwork.report.engine_figure_bands import firings
 from crankwork.report.engine_figure_data import EngineDrawn
 from crankwork.report.language import row_name
-from crankwork.show.chart import (
-    BOTTOM,
-    LEFT,
-    RIGHT,
-    TOP,
-    WIDTH,
-    Box,
-    Graph,
-    Row,
-    limits,
-    over_cycle,
-    sheet,
-    small_text,
-)
-from crankwork.show.paper import GREY, Paper
-from crankwork.show.scene import DASH_DOT, DASHED, DOTTED
+from crankwork.show.chart import BOTTOM, TOP, Box, Graph, Row, limits, over_cycle, sheet, small_text
+from crankwork.show.labels import label_marks, mark
+from crankwork.show.paper import BLACK, GREY, Paper
+from crankwork.show.place import here, tall
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, Style
 
-_MANY = 8
-_PANEL_GAP = 15.0
+_MANY, _FIRING = 8, 15.0
+_PANEL_GAP, _NAMES = 15.0, 24.0
 _THIN, _NAMED = 0.8, 1.3
+# of the torques of cylinders, and what is lighter than black
+_DASHES: tuple[Style, ...] = (DOTTED, DASH_DOT, (3.0, 2.0), (12.0, 2.0, 1.5, 2.0, 1.5, 2.0))
+_LIGHTER = "#808080"
 
 
 def total_torque(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
@@ -41,42 +34,62 @@ def total_torque(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     total[-1] = total[0]
     mean = float(engine.shown("mean_total_torque", torque.excess.mean_torque))
     mean = 0.0 if abs(mean) < 1e-9 * float(np.max(np.abs(total))) else mean
-    which = (
-        say("drawing.cylinders", language, last=len(each))
-        if len(shown) > 1
-        else say("drawing.cylinder", language, number=1)
-    )
     rows = [
         Row(engine.named("total_torque"), width=_NAMED),
         Row(f"{engine.named('mean_total_torque')}, {engine.value('mean_total_torque', mean)}", DASHED),
-        Row(f"{engine.named('crank_torque')}, {which}", DOTTED, _THIN),
+        *_of_cylinders(engine, len(shown)),
+        Row(f"▼ – {say('drawing.fires', language)}", width=0.0),
     ]
-    paper, box = sheet(225.0, rows)
+    paper, box = sheet(225.0 + _FIRING, rows)
+    box = box._replace(top=box.top + _FIRING, height=box.height - _FIRING)
     graph = over_cycle(paper, box, limits(total, shown), engine.cycle, language)
-    for at, one in enumerate(shown, start=1):
-        graph.curve(f"cylinder_{at}", engine.diagrams.degrees, one, DOTTED, width=_THIN, colour="#404040")
+    firings(engine, graph)
+    for at, one in enumerate(shown):
+        style, colour = _look(at)
+        graph.curve(f"cylinder_{at + 1}", engine.diagrams.degrees, one, style, width=_THIN, colour=colour)
     graph.curve("total", engine.diagrams.degrees, total, width=_NAMED)
     graph.level(mean, DASHED, "mean")
     graph.x_title(engine.title("crank_angle"))
     graph.y_title(f"{engine.symbol('total_torque')}, {engine.symbol('crank_torque')}, {engine.unit('total_torque')}")
+    if len(shown) > 1:
+        peaks = [(at, int(np.argmax(one))) for at, one in enumerate(shown)]
+        tips = [(str(at + 1), *graph.point(engine.diagrams.degrees[peak], shown[at][peak])) for at, peak in peaks]
+        label_marks(paper, tips, size=7.5, dot=1.2, frame=graph.box)
     return paper, {"total_torque": graph}
+
+
+def _look(cylinder: int) -> tuple[Style, str]:
+    """Return dashes and shade of the torque of a cylinder, no two alike of as many as are shown."""
+    return _DASHES[cylinder % len(_DASHES)], (BLACK, _LIGHTER)[cylinder // len(_DASHES)]
+
+
+def _of_cylinders(engine: EngineDrawn, count: int) -> list[Row]:
+    """Return what a legend says of the torques of so many cylinders, one line for each way they are dashed."""
+    rows = []
+    for first in range(min(count, len(_DASHES))):
+        numbers = ", ".join(str(at + 1) for at in range(first, count, len(_DASHES)))
+        key = "drawing.cylinders" if "," in numbers else "drawing.cylinder"
+        which = say(key, engine.language, number=numbers)
+        rows.append(Row(f"{engine.named('crank_torque')}, {which}", _DASHES[first], _THIN))
+    return rows
 
 
 def accumulated_torque(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     """Return the torque on every main journal that carries some, in panels of one scale."""
     journals = engine.shown("journal_torque", engine.diagrams.journal_torques)
-    height = max(52.0, min(110.0, 560.0 / len(journals)))
-    paper = Paper(WIDTH, TOP + len(journals) * height + (len(journals) - 1) * _PANEL_GAP + BOTTOM)
-    graphs, ends = {}, limits(journals)
+    height = tall(max(52.0, min(110.0, 560.0 / len(journals))))
+    paper = Paper(here().width, TOP + len(journals) * height + (len(journals) - 1) * _PANEL_GAP + BOTTOM)
+    graphs, ends, top = {}, limits(journals), TOP
     for at, values in enumerate(journals):
         is_last = at == len(journals) - 1
-        box = Box(LEFT, TOP + at * (height + _PANEL_GAP), WIDTH - LEFT - RIGHT, height)
+        box = Box(here().left, top, here().inner, height)
         graph = over_cycle(paper, box, ends, engine.cycle, engine.language, numbers=is_last)
         graph.curve(f"journal_{at + 2}", engine.diagrams.degrees, values)
         graph.y_title(f"{engine.symbol('journal_torque')[:-1]}{at + 2}$, {engine.unit('journal_torque')}")
         name = row_name(f"main_journal.{at + 2}", engine.language)
-        small_text(paper, box.left + box.width - 3, box.top + 7, name, "end")
+        small_text(paper, box.left + box.width - 3, box.top - 2, name, "end")
         graphs[str(at + 2)] = graph
+        top += graph.box.height + _PANEL_GAP
     graph.x_title(engine.title("crank_angle"))
     return paper, graphs
 
@@ -88,30 +101,26 @@ def excess_work(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     surplus = engine.shown("total_torque", engine.diagrams.torque.total(angle) - excess.mean_torque)
     surplus[-1] = surplus[0]
     energy = engine.shown("kinetic_energy_change", excess.curve(angle))
-    upper, lower = 120.0, 150.0
-    paper = Paper(WIDTH, TOP + upper + _PANEL_GAP + lower + BOTTOM)
-    width = WIDTH - LEFT - RIGHT
-    torque = over_cycle(paper, Box(LEFT, TOP, width, upper), limits(surplus), engine.cycle, language, numbers=False)
+    upper, lower = tall(120.0), tall(150.0)
+    paper = Paper(here().width, TOP + upper + _PANEL_GAP + lower + BOTTOM)
+    box = Box(here().left, TOP, here().inner, upper)
+    torque = over_cycle(paper, box, limits(surplus), engine.cycle, language, numbers=False)
     _hatch(torque, engine.diagrams.degrees, surplus)
     torque.curve("surplus", engine.diagrams.degrees, surplus)
     torque.y_title(
         f"{engine.symbol('total_torque')} − {engine.symbol('mean_total_torque')}, {engine.unit('total_torque')}"
     )
-    box = Box(LEFT, TOP + upper + _PANEL_GAP, width, lower)
-    low, high = limits(energy, margin=0.16)
+    box = box._replace(top=TOP + torque.box.height + _PANEL_GAP, height=lower)
+    # room for names above and below
+    low, high = limits(energy, margin=max(0.16, _NAMES / lower))
     graph = over_cycle(paper, box, (low, high), engine.cycle, language)
     graph.curve("energy", engine.diagrams.degrees, energy)
     found = excess.curve.extremes()
     unit_less = [float(engine.shown("kinetic_energy_change", one)) for one in (found.largest, found.least)]
     for name, value, at in zip(("max", "min"), unit_less, (found.at_largest, found.at_least), strict=True):
         graph.level(value, DASH_DOT, f"level_{name}")
-        graph.mark(
-            name,
-            float(np.degrees(at)),
-            value,
-            f"{engine.symbol('kinetic_energy_change')[:-1]}_{name}$",
-            below=name == "min",
-        )
+        sign = f"{engine.symbol('kinetic_energy_change')[:-1]}_{name}$"
+        mark(graph, name, float(np.degrees(at)), value, sign)
     at = 0.5 * engine.cycle * (0.02 if np.degrees(found.at_largest) > 0.1 * engine.cycle else 1.9)
     _span(graph, at, unit_less, f"{engine.symbol('excess_work')} = {engine.value('excess_work', excess.work)}")
     graph.x_title(engine.title("crank_angle"))
@@ -161,7 +170,7 @@ def crank_speed(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     ends = speed.extremes
     for name, value, at in (("max", ends.largest, ends.at_largest), ("min", ends.least, ends.at_least)):
         text = f"{engine.symbol('speed')[:-1]}_{name}$ = {engine.value('crank_speed', value, 5)}"
-        graph.mark(name, float(np.degrees(at)), float(engine.shown("crank_speed", value)), text, below=name == "min")
+        mark(graph, name, float(np.degrees(at)), float(engine.shown("crank_speed", value)), text)
     graph.x_title(engine.title("crank_angle"))
     graph.y_title(engine.title("crank_speed"))
     return paper, {"crank_speed": graph}

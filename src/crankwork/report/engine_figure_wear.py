@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -11,8 +12,9 @@ from crankwork.analysis.engine_diagrams import WearRing, wear_rings
 from crankwork.locale import say
 from crankwork.report.engine_figure_data import EngineDrawn
 from crankwork.report.language import row_name
-from crankwork.show.chart import TOP, WIDTH, Box, Graph, small_text
-from crankwork.show.paper import GREY, Paper
+from crankwork.show.chart import TOP, Box, Graph, small_text
+from crankwork.show.paper import GREY, WIDER, Paper, fitted_lines
+from crankwork.show.place import here, tall
 from crankwork.show.scene import DASH_DOT
 
 # The largest sum takes this share of the radius of the journal.
@@ -21,6 +23,8 @@ _FOOT, _GAP, _ROOM, _HEAD = 40.0, 14.0, 26.0, 14.0
 _HATCH = 4.0
 # Rings smaller than this say what they have to say above themselves. [pt]
 _SMALL = 200.0
+# on a sheet none takes the room of other diagrams [pt]
+_LARGEST = 270.0
 
 
 def crankpin_wear(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
@@ -39,11 +43,13 @@ def _rings(engine: EngineDrawn, listing: str, thing: str) -> tuple[Paper, Mappin
     rings = {name: one._replace(sums=engine.shown("wear_sum", one.sums)) for name, one in rings.items()}
     across = len(rings) if len(rings) < 3 else 2 if len(rings) == 4 else 3
     lines = -(-len(rings) // across)
-    side = min((WIDTH - 24 - (across - 1) * _GAP) / across, 290.0)
-    start = (WIDTH - across * side - (across - 1) * _GAP) / 2
+    side = min(
+        (here().width - 24 - (across - 1) * _GAP) / across, tall(290.0), _LARGEST if here().is_sheet else math.inf
+    )
+    start = (here().width - across * side - (across - 1) * _GAP) / 2
     is_small = side < _SMALL
     head = (_HEAD if len(rings) > 1 else 0.0) + (10.0 if is_small else 0.0)
-    paper = Paper(WIDTH, TOP + lines * (side + head) + (lines - 1) * _GAP + _FOOT)
+    paper = Paper(here().width, TOP + lines * (side + head) + (lines - 1) * _GAP + _FOOT)
     deepest = max(float(one.sums.max()) for one in rings.values()) or 1.0
     graphs = {}
     for at, (name, one) in enumerate(rings.items()):
@@ -59,16 +65,17 @@ def _rings(engine: EngineDrawn, listing: str, thing: str) -> tuple[Paper, Mappin
     unit = engine.unit("wear_sum")
     largest = say("drawing.largest", engine.language, value=f"{engine.number(deepest, 4)} {unit}")
     text = f"{engine.symbol('wear_sum')} – {largest}; {say('drawing.worn', engine.language)}"
-    paper.text(WIDTH / 2, paper.height - 35, text, size=8, anchor="middle")
     frame = say("drawing.crank_up" if thing == "crankpin" else "drawing.crank_one", engine.language)
-    paper.text(WIDTH / 2, paper.height - 23, frame, size=8, anchor="middle")
+    rows = [row for one in (text, frame) for row in fitted_lines(one, 8, here().width / WIDER)]
+    for at, row in enumerate(rows):
+        paper.text(here().width / 2, paper.height - 35 + 12 * at, row, size=8, anchor="middle")
     return paper, graphs
 
 
 def _ring(engine: EngineDrawn, paper: Paper, box: Box, angles: Array, ring: WearRing, deepest: float) -> Graph:
     """Draw a journal of radius 1, what is worn off it, its numbered rays and its oil hole."""
     reach = 1 + _ROOM / (box.width / 2 - _ROOM)
-    graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language)
+    graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language, to_scale=False)
     depth = _DEEPEST * ring.sums / deepest
     fine = np.arange(0.0, 361.0, 2.0)
     worn = 1 - np.interp(fine, angles, depth, period=360)

@@ -8,17 +8,21 @@ from typing import NamedTuple
 from crankwork.analysis import Array, Results
 from crankwork.analysis.diagrams import fine_columns
 from crankwork.errors import CrankworkError
-from crankwork.locale import has_text, say
+from crankwork.locale import say
 from crankwork.quantities import Language
 from crankwork.report.language import displayed
 
 
+def kind_of(name: str) -> str:
+    """Return the name of a figure without the number of a crankpin, or of one that goes on."""
+    return name.rstrip("0123456789").rstrip("_")
+
+
 def figure_title(name: str, language: Language) -> str:
     """Return what a figure shows, for its caption."""
-    kind, _, last = name.rpartition("_")
-    if last.isdecimal() and has_text(f"figures.{kind}"):
-        return f"{say(f'figures.{kind}', language)}, {last}"
-    return say(f"figures.{name}", language)
+    kind = kind_of(name)
+    number = name.removeprefix(kind).removeprefix("_")
+    return say(f"figures.{kind}", language) + (f", {number}" if number else "")
 
 
 class Drawn(NamedTuple):

@@ -7,7 +7,7 @@ from crankwork.quantities import Language
 from crankwork.report.comparison_figure import comparison_figure
 from crankwork.report.engine_figure_list import engine_figures
 from crankwork.report.figure_data import drawn_from
-from crankwork.report.language import in_own_units
+from crankwork.report.language import for_readers
 from crankwork.report.linkage_figures import linkage_figures
 from crankwork.report.turning_figures import turning_figures
 from crankwork.show.scene import Drawing
@@ -30,7 +30,7 @@ def figures(
     return {name: svg(one, theme) for name, one in drawings(results, language=language, per_area=per_area).items()}
 
 
-@in_own_units
+@for_readers
 def drawings(
     results: Results, *, language: Language = "en", per_area: bool = False, only: str = ""
 ) -> dict[str, Drawing]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Concatenate, ParamSpec, TypeVar
@@ -11,7 +12,7 @@ import numpy as np
 
 from crankwork.locale import decimal, has_text, say
 from crankwork.quantities import QUANTITIES, Language, base_key
-from crankwork.units import from_si, shown_in
+from crankwork.units import Shown, from_si, shown_in
 
 if TYPE_CHECKING:
     from crankwork.analysis import Array, Results
@@ -55,6 +56,36 @@ def in_own_units(function: Callable[Concatenate[Results, P], R]) -> Callable[Con
     return shown
 
 
+# what takes the place of a unit of which results have as many as that
+_LARGER = {"N": ("kN", 1e4), "N*m": ("kN*m", 1e5), "J": ("kJ", 1e5), "W": ("kW", 1e5)}
+# sums of forces, that nobody compares with forces
+_SUMS = ("crankpin_wear", "main_wear")
+
+
+def reader_units(results: Results) -> Shown:
+    """Return the units that a reader is shown: no force of 10000 N where all of them are told in kN."""
+    listed = (one.columns for name, one in results.listings.items() if name not in _SUMS)
+    largest = dict.fromkeys(_LARGER, 0.0)
+    for key, values in itertools.chain(*(one.items() for one in (results.columns, *listed))):
+        unit = "" if _is_angle(key) or _is_time(key) else QUANTITIES[base_key(key)].metric
+        if unit in largest:
+            known = values[np.isfinite(values)]
+            largest[unit] = max(largest[unit], float(np.max(np.abs(known), initial=0.0)))
+    shown = tuple((unit, larger) for unit, (larger, many) in _LARGER.items() if largest[unit] >= many)
+    return Shown(results.machine.units, shown)
+
+
+def for_readers(function: Callable[Concatenate[Results, P], R]) -> Callable[Concatenate[Results, P], R]:
+    """Return a function that shows results as `in_own_units` does, long numbers in larger units."""
+
+    @functools.wraps(function)
+    def shown(results: Results, /, *args: P.args, **options: P.kwargs) -> R:
+        with shown_in(reader_units(results)):
+            return function(results, *args, **options)
+
+    return shown
+
+
 def key_unit(key: str, *, per_area: bool = False) -> str:
     """Return the display unit of a key, a derived one such as `piston_force_max_angle` included."""
     if _is_angle(key):
@@ -72,13 +103,14 @@ def displayed(key: str, value: float, *, per_area: float | None = None) -> float
 
 def displayed_column(key: str, values: Array, *, per_area: float | None = None) -> Array:
     """Return SI values in the display unit of their key; `per_area` as `displayed` takes it."""
-    if per_area is not None and QUANTITIES.get(base_key(key), None) and _is_per_area(key):
+    if per_area is not None and QUANTITIES.get(base_key(key), None) and is_per_area(key):
         values = values / per_area
     # adding zero turns -0.0 into 0.0
     return np.asarray(from_si(values, key_unit(key, per_area=per_area is not None)) + 0.0)
 
 
-def _is_per_area(key: str) -> bool:
+def is_per_area(key: str) -> bool:
+    """Return whether a quantity may be given by the piston area."""
     return not _is_angle(key) and not _is_time(key) and bool(QUANTITIES[base_key(key)].per_area_unit)
 
 
@@ -102,7 +134,7 @@ def _part(kind: str, name: str, language: Language) -> str:
     """Return what a part of a quantity is called: the report's own phrase, or the name as it is."""
     way = f"report.way_{name}"
     key = way if kind in _BY_WAY and has_text(way) else f"report.{name}"
-    return say(key, language) if has_text(key) else name
+    return say(key, language) if has_text(key) else name.replace("_", " ")
 
 
 def row_name(name: str, language: Language) -> str:

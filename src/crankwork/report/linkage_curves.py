@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from crankwork.analysis import Array
 from crankwork.errors import CrankworkError
-from crankwork.locale.numbers import unit_name
+from crankwork.locale import say
+from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import Quantity
 from crankwork.report.linkage_look import (
     PLAIN,
@@ -17,8 +20,10 @@ from crankwork.report.linkage_look import (
     math_symbol,
     quantity_of,
 )
-from crankwork.show.chart import BOTTOM, LEFT, RIGHT, TOP, WIDTH, Box, Row, legend, legend_height, limits, sign
+from crankwork.show.chart import BOTTOM, TOP, Box, Graph, Row, legend, legend_height, limits, sign
+from crankwork.show.labels import mark
 from crankwork.show.paper import Paper, plain
+from crankwork.show.place import here, tall
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing
 
 STYLES = (SOLID, DASHED, DASH_DOT, DOTTED)
@@ -27,6 +32,10 @@ _ALONE, _PANEL, _GAP = 216.0, 126.0, 16.0
 _TALLEST = 600.0
 # characters of a name that still fit beside a panel
 _LONG = 20
+# what tells where something is
+_PLACES = ("slider_displacement", "driver_displacement", "driver_angle", "link_angle", "point_x", "point_y")
+# curves nearer than this share of the range fall together in print
+_SAME, _ROUNDING = 0.003, 1e-9
 
 
 def curves(
@@ -44,23 +53,28 @@ def curves(
     sets = [_panel((one,) if isinstance(one, str) else tuple(one), columns) for one in panels]
     if not sets:
         raise CrankworkError("curves need at least one key")
-    legends = [_rows(one, style) if _has_legend(one, style) else [] for one in sets]
+    shown = [[displayed_values(row, columns[row.key]) for row in one] for one in sets]
+    # beside a panel among others there is no room for a name
+    has_legends = any(_has_legend(one, style) for one in sets)
+    legends = [_rows(*one, style) if has_legends else [] for one in zip(sets, shown, strict=True)]
     above = [legend_height(rows) for rows in legends]
     room = (_TALLEST - BOTTOM - sum(above)) / len(sets) - _GAP
-    tall = _ALONE if len(sets) == 1 else min(_PANEL, room)
-    paper = Paper(WIDTH, TOP + sum(above) + len(sets) * (tall + _GAP) - _GAP + BOTTOM)
+    high = tall(_ALONE if len(sets) == 1 else min(_PANEL, room))
+    paper = Paper(here().width, TOP + sum(above) + len(sets) * (high + _GAP) - _GAP + BOTTOM)
     at = degrees * style.period / 360.0 if style.period else degrees
     top = TOP
-    for quantities, rows, height in zip(sets, legends, above, strict=True):
+    for quantities, values, rows, height in zip(sets, shown, legends, above, strict=True):
         legend(paper, rows, top - 4)
-        box = Box(LEFT, top + height, WIDTH - LEFT - RIGHT, tall)
-        values = [displayed_values(row, columns[row.key]) for row in quantities]
-        graph = drive_graph(paper, box, at, limits(*values), style, is_last=quantities is sets[-1])
-        for number, (row, one) in enumerate(zip(quantities, values, strict=True)):
-            graph.curve(row.key, at, one, STYLES[number % 4])
-        graph.y_title(_title(quantities, style))
-        top += height + tall + _GAP
-    sign(paper, style.method)
+        box = Box(here().left, top + height, here().inner, high)
+        is_place = quantities[0].key.partition(".")[0] in _PLACES
+        ends = limits(*values, is_place=is_place)
+        graph = drive_graph(paper, box, at, ends, style, is_last=quantities is sets[-1])
+        _draw(graph, at, quantities, values)
+        graph.y_title(_title(quantities, style, has_legend=has_legends))
+        top += height + graph.box.height + _GAP
+    dead = "; ".join(f"{number(round(one, 2), style.language)}°" for one in style.limits)
+    remark = say("drawing.dead_positions", style.language, angles=dead) if dead and not style.period else ""
+    sign(paper, style.method, remark)
     return paper.drawing(title, style.language)
 
 
@@ -77,20 +91,52 @@ def _panel(keys: tuple[str, ...], columns: Mapping[str, Array]) -> list[Quantity
 
 
 def _has_legend(quantities: Sequence[Quantity], style: Style) -> bool:
-    """Return whether names stand above a panel: there are several, or one too long for the axis."""
-    return len(quantities) > 1 or len(quantities[0].label(style.language)) > _LONG
+    """Return whether names stand above a panel: there are several, or one with a name of its own, or too long."""
+    return len(quantities) > 1 or "." in quantities[0].key or len(quantities[0].label(style.language)) > _LONG
 
 
-def _rows(quantities: Sequence[Quantity], style: Style) -> list[Row]:
-    return [
-        Row(f"{math_symbol(row.symbol(style.language))} – {plain(row.label(style.language))}", STYLES[number % 4])
-        for number, row in enumerate(quantities)
-    ]
+def _draw(graph: Graph, at: Array, quantities: Sequence[Quantity], values: Sequence[Array]) -> None:
+    """Draw the curves of a panel, and the extremes of one that is alone."""
+    for order, together in enumerate(_together(values)):
+        first, *others = together
+        for one in others:
+            graph.curves[quantities[one].key] = at, values[one]
+        graph.curve(quantities[first].key, at, values[first], STYLES[order % 4])
+    known = np.where(np.isfinite(values[0]), values[0], 0.0)
+    if len(values) > 1 or np.ptp(known) <= _SAME * np.max(np.abs(known)):
+        return
+    for name, where in (("max", int(np.argmax(known))), ("min", int(np.argmin(known)))):
+        # what is nothing beside the largest is rounding
+        value = float(known[where]) if abs(known[where]) > _ROUNDING * np.max(np.abs(known)) else 0.0
+        mark(graph, name, float(at[where]), value, graph.told(value))
 
 
-def _title(quantities: Sequence[Quantity], style: Style) -> str:
+def _together(values: Sequence[Array]) -> list[list[int]]:
+    """Return which curves of a panel fall together, so that they are drawn once."""
+    size = max((float(np.ptp(one[np.isfinite(one)])) for one in values if np.isfinite(one).any()), default=0.0)
+    found: list[list[int]] = []
+    for at, one in enumerate(values):
+        for some in found:
+            if np.allclose(values[some[0]], one, rtol=0.0, atol=_SAME * size, equal_nan=True):
+                some.append(at)
+                break
+        else:
+            found.append([at])
+    return found
+
+
+def _rows(quantities: Sequence[Quantity], values: Sequence[Array], style: Style) -> list[Row]:
+    rows = []
+    for order, together in enumerate(_together(values)):
+        signs = dict.fromkeys(math_symbol(quantities[one].symbol(style.language)) for one in together)
+        names = (plain(quantities[one].label(style.language)) for one in together)
+        rows.append(Row(f"{', '.join(signs)} – {'; '.join(names)}", STYLES[order % 4]))
+    return rows
+
+
+def _title(quantities: Sequence[Quantity], style: Style, *, has_legend: bool) -> str:
     """Return what stands beside the vertical axis: the name, or where a legend has the names the symbols."""
-    if not _has_legend(quantities, style):
+    if not has_legend:
         return axis_title(quantities[0], style.language)
     unit = unit_name(quantities[0].unit, style.language)
     signs = dict.fromkeys(math_symbol(row.symbol(style.language)) for row in quantities)

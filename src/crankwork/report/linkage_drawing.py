@@ -1,47 +1,98 @@
-"""The moving drawing of any linkage: its parts as SVG, one after the other from the ground up."""
+"""How a linkage is drawn: its ground, and its links as parts that move."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from itertools import count
 
 import numpy as np
 
 from crankwork.analysis import Array
 from crankwork.analysis.moving import Moving
-from crankwork.analysis.skeleton import Skeleton
-from crankwork.report import drawing_parts as parts
-from crankwork.report.drawing_parts import Box, Stage
-from crankwork.report.linkage_labels import Label, labels
-from crankwork.report.linkage_scene import SLOT, Rail, Scene, Slot, scene
+from crankwork.analysis.skeleton import Pose, Skeleton
+from crankwork.machine import Machine
+from crankwork.report.arrows import forces_in_joints, with_forces
+from crankwork.report.linkage_gas import gas, spaces, with_pistons
+from crankwork.report.linkage_labels import labels
+from crankwork.report.linkage_scene import RAM, SLOT, Bar, Block, Rail, Scene, Slot, scene
+from crankwork.report.sketch import Sketch
+from crankwork.show.moving import Part, part
+from crankwork.show.scene import Circle, Item, Pen, Polyline, Text, line, literal
 
+# millimetres of paper in a unit in which blocks and pivots are sized; distance of hatches in such units
+UNIT, HATCH = 0.3, 8.0
 _SIZE = 420.0
-_BARREL = 9.0
-_DOWN = np.array([1.0, -1.0])
+_GROUND_REACH = ((-34.0, 0.0), (38.0, -36.0))
+_LINK, _DRIVER, _BARREL = Pen(0.9), Pen(1.5), Pen(2.7)
+_LETTERS = 3.2
 
 
-def linkage_drawing(shape: Skeleton, moving: Moving, duration: str, still: int) -> tuple[list[str], Box, float]:
-    """Return the parts of the drawing, the box that holds them at all angles, and the scale in pixels per metre."""
+def linkage_sketch(
+    shape: Skeleton,
+    moving: Moving,
+    machine: Machine | None = None,
+    columns: Mapping[str, Array] | None = None,
+    forces: Mapping[str, str] | None = None,
+) -> Sketch:
+    """Return a linkage as it is drawn over all its angles.
+
+    `columns`: gas of the chambers of a machine, and forces in joints where they are to be drawn, by key, shape (n,);
+    `forces`: what is written at them, by joint.
+    """
     drawn, scale = scene(shape, moving, _SIZE)
-    stage = Stage(scale, duration, still)
+    chambers = spaces(machine, shape, moving, columns or {}, RAM[0] / scale)
+    drawn = with_pistons(drawn, chambers, scale)
     paths = [drawn.points[name] for name in shape.traced]
     texts = labels(drawn, [path[::2] for path in paths])
-    body = [
-        *(parts.path(path * _DOWN) for path in paths),
-        *_ground(drawn),
-        *_moving(drawn, stage),
-        *(_written(one, stage) for one in texts),
+    items: list[Item] = [
+        Polyline(path * UNIT, "axis", name=f"path.{name}") for name, path in zip(shape.traced, paths, strict=True)
     ]
-    return body, _box(drawn, texts), scale
+    written = [
+        part(f"text.{at}", [_text(one.text, slanted=not one.is_number)], one.places * UNIT)
+        for at, one in enumerate(texts, start=1)
+    ]
+    places = np.vstack([corners(drawn), *(one.places + side * one.half for one in texts for side in (1, -1))]) * UNIT
+    walls, filled = gas(chambers, scale * UNIT)
+    places = np.vstack([places, *(one.points for one in walls)])
+    parts = [*filled, *_parts(drawn), *written]
+    low, high = places.min(axis=0), places.max(axis=0)
+    sketch = Sketch([*items, *walls, *ground(drawn)], parts, low, high, scale * UNIT)
+    points = {name: at * UNIT for name, at in drawn.points.items()}
+    return with_forces(sketch, forces_in_joints(columns or {}, points, forces or {}))
 
 
-def _ground(drawn: Scene) -> Iterator[str]:
-    """Draw guides with their centre lines, and the pivots."""
+def _text(text: str, *, slanted: bool) -> Text:
+    shown = f"/{{{text}}}" if slanted and text.isalnum() else literal(text)
+    return Text((0.0, -_LETTERS / 2), shown, _LETTERS, "middle", halo=True)
+
+
+def ground(drawn: Scene, middle: Array | tuple[float, float] = (0.0, 0.0)) -> list[Item]:
+    """Return guides and pivots, hatched; `middle`: where the origin stands on the paper [mm]."""
+    items: list[Item] = []
     for rail in drawn.rails:
-        ends = [rail.line.place(one)[0] * _DOWN for one in (rail.start - 14, rail.end + 14)]
-        yield parts.centre_line(*ends)
-        yield parts.rail([(one * _DOWN, other * _DOWN) for one, other in walls(rail)])
+        ends = [rail.line.place(one)[0] * UNIT + middle for one in (rail.start - 14, rail.end + 14)]
+        items.append(line(ends[0], ends[1], "axis"))
+        for start, end in walls(rail):
+            items += hatched(start * UNIT + middle, end * UNIT + middle)
     for name in drawn.skeleton.pivots:
-        yield parts.ground_pivot(drawn.points[name][0] * _DOWN)
+        items += pivot(drawn.points[name][0] * UNIT + middle)
+    return items
+
+
+def pivot(at: Array) -> list[Item]:
+    """Return the support of a fixed joint: a triangle upon hatched ground. [mm]"""
+    triangle = at + np.array([[0.0, 0.0], [-13.0, -24.0], [13.0, -24.0]]) * UNIT
+    foot = [at + np.array([side, -24.0]) * UNIT for side in (20.0, -20.0)]
+    return [Polyline(triangle, "medium", closed=True, fill=1.0), *hatched(*foot)]
+
+
+def hatched(start: Array, end: Array) -> list[Item]:
+    """Return a wall, hatched on the left of the way from start to end. [mm]"""
+    length = float(np.hypot(*(end - start)))
+    ahead, step = (end - start) / length, HATCH * UNIT
+    slant = step * (np.array([-ahead[1], ahead[0]]) - ahead)
+    feet = start + np.arange(step, length + 0.03, step)[:, None] * ahead
+    return [line(start, end, "medium"), *(line(foot, foot + slant) for foot in feet)]
 
 
 def walls(rail: Rail) -> list[tuple[Array, Array]]:
@@ -51,46 +102,64 @@ def walls(rail: Rail) -> list[tuple[Array, Array]]:
     return [(upper[0], upper[1]), (lower[0], lower[1])]
 
 
-def _moving(drawn: Scene, stage: Stage) -> Iterator[str]:
-    """Draw what moves: rams, links, slots and the blocks in them, the driving link, joints upon all."""
-    driver, points = drawn.skeleton.driver, drawn.points
+def _parts(drawn: Scene) -> Iterator[Part]:
+    """Yield what moves: rams, links, slots and the blocks in them, the driving link, joints upon all."""
+    driver = drawn.skeleton.driver
     for block in (one for one in drawn.blocks if one.is_still):
-        yield parts.carried(
-            stage, f"block {block.name}", block.pose.origin * _DOWN, block.pose.along * _DOWN, block.half
-        )
+        yield _block(block)
+    numbers = {name: count(1) for name in [one.name for one in drawn.bars]}
     for bar in sorted(drawn.bars, key=lambda one: one.is_flat):
-        if bar.name == driver.name:
-            continue
-        nodes = [node * _DOWN for node in bar.nodes]
-        yield (
-            parts.link(stage, bar.name, nodes[0], nodes[1], 3.0) if bar.is_flat else parts.plate(stage, bar.name, nodes)
-        )
-    for slot in drawn.slots:
+        if bar.name != driver.name:
+            yield _link(bar, _LINK, next(numbers[bar.name]))
+    for at, slot in enumerate(drawn.slots, start=1):
         middle, half = slot_middle(slot)
-        yield parts.carried(stage, f"slot {slot.carrier}", middle * _DOWN, slot.line.along * _DOWN, (half, SLOT), SLOT)
+        yield _carried(f"slot.{slot.carrier}.{at}", Pose(middle, slot.line.along), _slotted(half), 1.0)
     for block in (one for one in drawn.blocks if not one.is_still):
-        yield parts.carried(
-            stage, f"block {block.name}", block.pose.origin * _DOWN, block.pose.along * _DOWN, block.half
-        )
-    wide = _BARREL if driver.is_cylinder else 5.0
+        yield _block(block)
     for bar in (one for one in drawn.bars if one.name == driver.name):
-        nodes, flat = [node * _DOWN for node in bar.nodes], bar.is_flat
-        yield parts.link(stage, bar.name, nodes[0], nodes[1], wide) if flat else parts.plate(stage, bar.name, nodes)
+        yield _link(bar, _BARREL if driver.rod else _DRIVER, next(numbers[bar.name]))
     for name in drawn.skeleton.letters:
-        if name in drawn.skeleton.centres:
-            yield parts.centre_of_mass(stage, points[name] * _DOWN)
-        elif name in points:
-            yield parts.joint(stage, points[name] * _DOWN)
+        if name in drawn.points:
+            dot = Circle((0.0, 0.0), 0.9, "thin", 0.0) if name in drawn.skeleton.centres else _JOINT
+            yield part(f"joint.{name}", [dot], drawn.points[name] * UNIT)
+
+
+_JOINT = Circle((0.0, 0.0), 1.5, "medium", 1.0)
+
+
+def _block(block: Block) -> Part:
+    u, v = block.half
+    return _carried(f"{block.kind}.{block.name}", block.pose, np.array([(u, v), (-u, v), (-u, -v), (u, -v)]), 0.87)
+
+
+def _slotted(half: float) -> Array:
+    """Return the outline of a slot with round ends, shape (k, 2)."""
+    turns = np.radians(np.linspace(-90, 90, 13))
+    end = np.column_stack([half - SLOT + SLOT * np.cos(turns), SLOT * np.sin(turns)])
+    return np.vstack([end, -end])
+
+
+def _carried(name: str, pose: Pose, outline: Array, fill: float) -> Part:
+    """Return an area that follows a frame."""
+    turns = np.degrees(np.unwrap(np.arctan2(pose.along[:, 1], pose.along[:, 0])))
+    return part(name, [Polyline(outline * UNIT, "medium", closed=True, fill=fill)], pose.origin * UNIT, turns)
+
+
+def _link(bar: Bar, pen: Pen, number: int) -> Part:
+    """Return a link as a line, or as a plate between its points."""
+    start = bar.nodes[0]
+    far = max(bar.nodes[1:], key=lambda one: float(np.hypot(*(one[0] - start[0]))))
+    way = far - start
+    turns = np.unwrap(np.arctan2(way[:, 1], way[:, 0]))
+    cos, sin = np.cos(turns[0]), np.sin(turns[0])
+    nodes = np.array([node[0] - start[0] for node in bar.nodes]) @ np.array([[cos, -sin], [sin, cos]]) * UNIT
+    shape = Polyline(nodes, pen) if bar.is_flat else Polyline(nodes, _LINK, closed=True, fill=0.93)
+    return part(f"link.{bar.name}.{number}", [shape], start * UNIT, np.degrees(turns))
 
 
 def slot_middle(slot: Slot) -> tuple[Array, float]:
     """Return the middle of a slot, array of shape (n, 2), and half its length."""
     return slot.line.place((slot.start + slot.end) / 2), (slot.end - slot.start) / 2
-
-
-def _written(one: Label, stage: Stage) -> str:
-    place = one.places * _DOWN
-    return parts.number(stage, place, int(one.text)) if one.is_number else parts.name(stage, place, one.text)
 
 
 def corners(drawn: Scene) -> Array:
@@ -102,18 +171,10 @@ def corners(drawn: Scene) -> Array:
         u, v = block.half
         found += [block.pose.place(x, y) for x in (u, -u) for y in (v, -v)]
     for rail in drawn.rails:
-        outside = rail.half + parts.HATCH
+        outside = rail.half + HATCH
         found += [
             rail.line.place(end, side) for end in (rail.start - 14, rail.end + 14) for side in (outside, -outside)
         ]
     for name in drawn.skeleton.pivots:
-        found += [drawn.points[name] + np.array(reach) * _DOWN for reach in parts.GROUND_REACH]
+        found += [drawn.points[name] + np.array(reach) for reach in _GROUND_REACH]
     return np.vstack(found)
-
-
-def _box(drawn: Scene, texts: list[Label]) -> Box:
-    """Return the corners of a box that nothing leaves at any angle. [px]"""
-    found = [corners(drawn), *(one.places + side * one.half for one in texts for side in (1, -1))]
-    places = np.vstack(found) * _DOWN
-    (left, top), (right, bottom) = places.min(axis=0), places.max(axis=0)
-    return Box(float(left), float(top), float(right), float(bottom))

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,13 +15,26 @@ from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language
 from crankwork.report.figure_data import figure_title
 from crankwork.report.language import symbol
-from crankwork.report.linkage_look import PLAIN, Style, axis_title, displayed_values, drive_graph, quantity_of
+from crankwork.report.linkage_look import (
+    PLAIN,
+    Style,
+    axis_title,
+    displayed_values,
+    drive_graph,
+    quantity_of,
+    scale_text,
+)
 from crankwork.show.chart import Graph, Row, round_ticks, sheet, sign
-from crankwork.show.labels import Line, label_points
+from crankwork.show.labels import label_marks, label_points
+from crankwork.show.place import here, points_per_mm, round_scale, tall
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, Drawing
-from crankwork.units import shown_in
+from crankwork.units import METRIC, shown_in
 
 _TALL, _WIDE = 331.0, 1.08
+# how much taller it may be for a round scale; how far tangents are drawn beyond the curve, of its width
+_TALLER, _BEYOND = 1.3, 0.12
+
+Ends = tuple[float, float]
 
 
 def wittenbauer(inertia: Array, energy: Array, wanted: Fluctuation, degrees: Array, style: Style = PLAIN) -> Drawing:
@@ -30,51 +45,80 @@ def wittenbauer(inertia: Array, energy: Array, wanted: Fluctuation, degrees: Arr
     """
     found, language = tangents(inertia, energy, wanted), style.language
     # slopes and angles are those of J over kg m2
-    with shown_in("metric"):
-        feet = (found.foot_max, found.foot_min)
-        through = np.array([*energy, *feet, 0.0])
-        margin = 0.06 * float(np.ptp(through))
-        x = 0.0, _WIDE * float(np.max(inertia))
-        y = float(through.min()) - margin, float(through.max()) + margin
+    with shown_in(METRIC):
+        ends, scales = _ends(inertia, energy, found)
         slopes = (found.slope_max, DASHED, "max"), (found.slope_min, DASH_DOT, "min")
-        paper, box = sheet(
-            _TALL, [Row(_angle(box_scale(x, y), one, name, language), line, 0.9) for one, line, name in slopes]
-        )
-        graph = Graph(paper, box, x, y, language)
-        graph.frame(round_ticks(*x), round_ticks(*y, 12))
+        rows = [Row(_angle(scales.x / scales.y, one, name, language), line, 0.9) for one, line, name in slopes]
+        if not here().is_sheet:
+            # a sheet has them over every graph
+            rows.append(Row(_scales(scales, language), width=0.0))
+        paper, box = sheet((ends[1][1] - ends[1][0]) / scales.y * points_per_mm() / tall(1.0), rows)
+        graph = Graph(paper, box, *ends, language)
+        graph.frame(round_ticks(*graph.x), graph.up_ticks)
         _lines(graph, inertia, energy, found, degrees)
         graph.x_title(axis_title(QUANTITIES["reduced_inertia"], language))
         graph.y_title(axis_title(QUANTITIES["kinetic_energy_change"], language))
-        flywheel = say("drawing.flywheel", language)
+        cut = number((found.foot_max - found.foot_min) / scales.y, language, digits=5)
         shown = f"{number(found.flywheel, language, digits=4)} {unit_name('kg*m2', language)}"
-        sign(paper, style.method, f"{flywheel}: $kl$/(tan $ψ_max$ − tan $ψ_min$) = {shown}")
+        tan = "tg" if language == "ru" else "tan"
+        formula = f"$μ_J$ $kl$/({tan} $ψ_max$ − {tan} $ψ_min$) = {shown}"
+        foot = f"$kl$ = {cut} {unit_name('mm', language)}; {say('drawing.flywheel', language)}: {formula}"
+        sign(paper, style.method, foot)
         return paper.drawing(figure_title("wittenbauer", language), language)
 
 
-def box_scale(x: tuple[float, float], y: tuple[float, float]) -> float:
-    """Return how much longer a unit of the vertical axis is on paper than one of the horizontal axis."""
+class _Scales(NamedTuple):
+    """What a millimetre of the paper is across and upward. [kg m2], [J]"""
+
+    x: float
+    y: float
+
+
+def _ends(inertia: Array, energy: Array, found: Tangents) -> tuple[tuple[Ends, Ends], _Scales]:
+    """Return the ends of both axes, and their scales, which are 1, 2 or 5 times a power of ten."""
+    most = float(np.max(inertia))
+    feet = np.array([found.foot_max, found.foot_min])
+    # as far as the tangents are seen to touch the curve
+    touch = np.array([inertia[found.touch_max], inertia[found.touch_min]]) + _BEYOND * most
+    beyond = feet + np.array([found.slope_max, found.slope_min]) * np.minimum(touch, _WIDE * most)
+    through = np.array([*energy, *feet, *beyond, 0.0])
+    margin = 0.06 * float(np.ptp(through))
+    low, high = float(through.min()) - margin, float(through.max()) + margin
     _, box = sheet(_TALL)
-    return box.height / (y[1] - y[0]) * (x[1] - x[0]) / box.width
+    length, height = box.width / points_per_mm(), _TALLER * box.height / points_per_mm()
+    scales = _Scales(round_scale(_WIDE * most / length, (1, 2, 5)), round_scale((high - low) / height, (1, 2, 5)))
+    return ((0.0, scales.x * length), (low, high)), scales
+
+
+def _scales(scales: _Scales, language: Language) -> str:
+    """Return the scales of both axes on paper, which the angles on it depend on."""
+    texts = []
+    for key, value in zip(("reduced_inertia", "kinetic_energy_change"), scales, strict=True):
+        sign = QUANTITIES[key].symbol(language).lstrip("Δ")
+        texts.append(scale_text(f"μ_{sign.partition('_')[0]}", value, QUANTITIES[key].unit, language))
+    return "; ".join(texts)
 
 
 def _lines(graph: Graph, inertia: Array, energy: Array, found: Tangents, degrees: Array) -> None:
     """Draw the curve, its tangents down to the energy axis, and the angles on it."""
     width, feet = graph.x[1], (found.foot_max, found.foot_min)
-    graph.curve("energy", inertia, energy)
-    lines: list[Line] = [(inertia, energy)]
+    graph.curve("energy", inertia, energy, angles=degrees)
     for foot, slope, line, name in (
         (feet[0], found.slope_max, DASHED, "max"),
         (feet[1], found.slope_min, DASH_DOT, "min"),
     ):
         ends = [0.0, width], [foot, foot + slope * width]
         graph.curve(name, *inside(ends, graph.y), line, width=0.9)
-        lines.append(ends)
     marks = [int(np.argmin(np.abs(degrees - one))) for one in np.arange(0, float(degrees[-1]) - 1, 30)]
     points = [(f"{degrees[i]:g}", float(inertia[i]), float(energy[i])) for i in marks]
-    label_points(graph, [*points, ("k", 0.0, feet[0]), ("l", 0.0, feet[1])], *lines)
+    label_points(graph, [*points, ("k", 0.0, feet[0]), ("l", 0.0, feet[1])])
+    for name in ("max", "min"):
+        x, y = (one[-1] for one in graph.curves[name])
+        foot = graph.curves[name][1][0]
+        label_marks(graph.paper, [(f"$ψ_{name}$", *graph.point(0.9 * x, foot + 0.9 * (y - foot)))], dot=0.0)
 
 
-def inside(ends: Line, y: tuple[float, float]) -> tuple[list[float], list[float]]:
+def inside(ends: tuple[Sequence[float], Sequence[float]], y: tuple[float, float]) -> tuple[list[float], list[float]]:
     """Return the part of a straight line that lies within a range of its ordinates."""
     (a, b), (p, q) = ends
     low, high = min(y), max(y)
@@ -87,7 +131,7 @@ def _angle(scale: float, slope: float, name: str, language: Language) -> str:
     angle = math.degrees(math.atan(slope * scale))
     words = say("drawing.slope", language)
     unit = f"{unit_name('J', language)}/({unit_name('kg*m2', language)})"
-    return f"$ψ_{name}$ = {number(angle, language, digits=4)}°; {words} {number(slope, language, digits=4)} {unit}"
+    return f"$ψ_{name}$ = {number(angle, language, digits=6)}°; {words} {number(slope, language, digits=4)} {unit}"
 
 
 def speed_curve(degrees: Array, speed: Array, style: Style = PLAIN) -> Drawing:

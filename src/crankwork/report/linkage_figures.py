@@ -3,23 +3,30 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 
 import numpy as np
 
 from crankwork.analysis import Array, Results
 from crankwork.analysis.diagrams import Fluctuation
 from crankwork.analysis.moving import moving, reached_angles
-from crankwork.analysis.plans import DriverRates, driver_rates
+from crankwork.analysis.plans import DriverRates, driver_rates, worked_position
+from crankwork.analysis.rounding import without_rounding
+from crankwork.formula.known import Found, breaks_of
 from crankwork.locale import say
 from crankwork.machine import Machine
 from crankwork.mechanism.linkage import Linkage
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import Language
 from crankwork.report.chambers import chamber_figures
+from crankwork.report.figure_data import figure_title
 from crankwork.report.language import label
+from crankwork.report.linkage_centrodes import centrodes
 from crankwork.report.linkage_curves import curves
 from crankwork.report.linkage_energy import speed_curve, wittenbauer
+from crankwork.report.linkage_force_figures import force_figure
+from crankwork.report.linkage_lever import lever_figure
 from crankwork.report.linkage_look import Style
 from crankwork.report.linkage_plan_figures import acceleration_plan, velocity_plan
 from crankwork.report.linkage_positions import position_plans
@@ -29,91 +36,157 @@ from crankwork.report.tables import any_nonzero
 from crankwork.show.scene import Drawing
 
 _DENSE_STEP = 2.0
-_MAIN = 30.0
 _PER_PANEL = 4
+# behind a corner, where there may be a jump [deg]
+_AFTER = 1e-6
+
+Pictures = dict[str, Callable[[], Drawing]]
 
 
 def linkage_figures(results: Results, *, language: Language = "en") -> dict[str, Drawing]:
     """Return the figures of a linkage by name; those for which nothing is known are left out."""
+    return {name: draw() for name, draw in linkage_pictures(results, language).items()}
+
+
+def linkage_pictures(results: Results, language: Language) -> Pictures:
+    """Return what draws each figure of a linkage where it is placed."""
     style = Style(language, (), results_method(results, language), results.period)
     if results.machine.linkage is None:
-        return _dynamics(results.grid.degrees, results.columns, style)
+        columns = without_rounding(results.columns, results.machine.speed)
+        return _dynamics(*_closed(results.grid.degrees, columns, results.machine.cycle), style)
     return _of_drawing(results, results.machine.linkage, style)
 
 
-def _of_drawing(results: Results, linkage: Linkage, style: Style) -> dict[str, Drawing]:
+def _of_drawing(results: Results, linkage: Linkage, style: Style) -> Pictures:
     """Return the figures of a linkage that was drawn, between its dead positions."""
     machine, (found, _) = results.machine, structure(linkage)
-    style = style._replace(links=found.links if found is not None else ())
+    ends = [results.summary[one] for one in ("crank_range_start", "crank_range_end") if one in results.summary]
+    style = style._replace(links=found.links if found is not None else (), limits=tuple(np.degrees(ends).tolist()))
     degrees, is_whole = reached_angles(machine, _DENSE_STEP)
-    known = results.columns_at(degrees)
+    worked = worked_position(results)
+    degrees = np.union1d(_with_corners(results, degrees), worked)
+    known = without_rounding(results.columns_at(degrees), results.solved.speed)
     rates = driver_rates(results, known)
-    if style.period:
-        drawn, both = _driver(degrees, known, style), np.abs(rates.first * rates.second)
-        # where the driver moves, and gets faster or slower if it ever does
-        at = int(np.argmax(both if np.any(both) else np.abs(rates.first)))
-    else:
-        drawn, at = {}, int(np.argmin(np.abs(degrees - _MAIN)))
+    drawn = _driver(degrees, known, style) if style.period else {}
+    at = int(np.searchsorted(degrees, worked))
     drawn |= _plans(machine, degrees, at, rates, style, is_whole=is_whole)
     drawn |= _sliders(degrees, known, style)
+    drawn |= _links(degrees, known, style)
+    drawn |= _points(degrees, known, style)
+    if not style.period:
+        drawn |= centrodes(machine.mechanism, known, degrees, at, style)
     drawn |= chamber_figures(results, degrees, known, style)
     drawn |= _dynamics(degrees, known, style)
+    if "joint_forces" in drawn:
+        drawn |= force_figure(results, float(degrees[at]), style)
+        drawn |= {} if style.period else lever_figure(results, float(degrees[at]), style)
     drawn |= transient_figures(results, style)
     if is_whole:
         drawn |= _evenness(machine, degrees, known, results.solved.speed, style)
     return drawn
 
 
-def _plans(
-    machine: Machine, degrees: Array, at: int, rates: DriverRates, style: Style, *, is_whole: bool
-) -> dict[str, Drawing]:
+def _with_corners(results: Results, degrees: Array) -> Array:
+    """Return crank angles with those of extremes, and on both sides of where a load jumps or bends. [deg]"""
+    found = breaks_of([results.memory[key] for key in results.columns if key in results.memory], results.machine.cycle)
+    single = (results.memory[key].node for key in results.summary if key in results.memory)
+    extremes = [one.at for one in single if isinstance(one, Found) and one.at is not None]
+    found = np.concatenate([found, found + _AFTER, extremes])
+    return np.union1d(degrees, found[(found >= degrees[0]) & (found <= degrees[-1])])
+
+
+def _closed(degrees: Array, columns: Mapping[str, Array], cycle: float) -> tuple[Array, Mapping[str, Array]]:
+    """Return a table up to the end of its cycle, where it is what it was at the beginning."""
+    step = float(degrees[-1] - degrees[-2])
+    if degrees[0] != 0 or abs(degrees[-1] + step - cycle) > _AFTER:
+        return degrees, columns
+    return np.append(degrees, cycle), {key: np.append(one, one[0]) for key, one in columns.items()}
+
+
+def _plans(machine: Machine, degrees: Array, at: int, rates: DriverRates, style: Style, *, is_whole: bool) -> Pictures:
     """Return position plans of all that is reached, and the plans of velocity and acceleration at one crank angle.
 
     `at`: which of the crank angles.
     """
     mechanism = machine.mechanism
     ends = None if is_whole else (float(degrees[0]), float(degrees[-1]))
-    plans = {"position_plans": position_plans(mechanism, ends, style=style)}
+    plans = {"position_plans": partial(position_plans, mechanism, ends, float(degrees[at]), style)}
     moved, first, second = moving(mechanism, degrees), float(rates.first[at]), float(rates.second[at])
     return plans | {
-        "velocity_plan": velocity_plan(mechanism, moved, at, first, style),
-        "acceleration_plan": acceleration_plan(mechanism, moved, at, first, second, style),
+        "velocity_plan": partial(velocity_plan, mechanism, moved, at, first, style),
+        "acceleration_plan": partial(acceleration_plan, mechanism, moved, at, first, second, style),
     }
 
 
-def _driver(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[str, Drawing]:
+def _driver(degrees: Array, known: Mapping[str, Array], style: Style) -> Pictures:
     """Return coordinate and rates of the driver, its force or torque, its power."""
     panels = [key for key in known if key.startswith("driver_")]
-    return {"driver": curves(degrees, known, panels, say("tables.driver", style.language), style)}
+    return {"driver": partial(curves, degrees, known, panels, say("tables.driver", style.language), style)}
 
 
-def _sliders(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[str, Drawing]:
-    names = [key.partition(".")[2] for key in known if key.startswith("slider_displacement.")]
+def _sliders(degrees: Array, known: Mapping[str, Array], style: Style) -> Pictures:
     kinds = ("slider_displacement", "slider_velocity", "slider_acceleration")
-    panels = [[f"{kind}.{name}" for name in names[:_PER_PANEL]] for kind in kinds]
-    if not names:
-        return {}
-    return {"sliders": curves(degrees, known, panels, say("tables.links", style.language), style)}
+    return _by_fours("sliders", kinds, _named(known, kinds[0]), degrees, known, style)
 
 
-def _dynamics(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[str, Drawing]:
+def _links(degrees: Array, known: Mapping[str, Array], style: Style) -> Pictures:
+    """Return angle, angular velocity and acceleration of the links."""
+    kinds = ("link_angle", "link_angular_velocity", "link_angular_acceleration")
+    return _by_fours("links", kinds, _named(known, kinds[1]), degrees, known, style)
+
+
+def _points(degrees: Array, known: Mapping[str, Array], style: Style) -> Pictures:
+    """Return place, velocity and acceleration of the points that have names of their own."""
+    kinds = ("point_x", "point_y", "point_velocity", "point_acceleration")
+    names = [one for one in _named(known, kinds[2]) if "." not in one]
+    return _by_fours("points", kinds, names, degrees, known, style)
+
+
+def _named(known: Mapping[str, Array], kind: str) -> list[str]:
+    """Return what a quantity is known of."""
+    return [key.partition(".")[2] for key in known if key.startswith(f"{kind}.")]
+
+
+def _by_fours(
+    figure: str,
+    kinds: Sequence[str],
+    names: Sequence[str],
+    degrees: Array,
+    known: Mapping[str, Array],
+    style: Style,
+) -> Pictures:
+    """Return quantities of all that have them, a few in each figure; those after the first have numbers."""
+    names = [one for one in names if all(f"{kind}.{one}" in known for kind in kinds)]
+    found: Pictures = {}
+    for first in range(0, len(names), _PER_PANEL):
+        name = f"{figure}_{first // _PER_PANEL + 1}" if first else figure
+        panels = [[f"{kind}.{one}" for one in names[first : first + _PER_PANEL]] for kind in kinds]
+        found[name] = partial(curves, degrees, known, panels, figure_title(name, style.language), style)
+    return found
+
+
+def _dynamics(degrees: Array, known: Mapping[str, Array], style: Style) -> Pictures:
     """Return reduced inertia, torques and joint forces."""
-    result = {}
+    result: Pictures = {}
     inertia = any_nonzero(("reduced_inertia", "reduced_inertia_1"), known)
     if inertia and "dynamic_torque" in known:
-        result["reduced_inertia"] = curves(degrees, known, inertia, label("reduced_inertia", style.language), style)
+        result["reduced_inertia"] = partial(
+            curves, degrees, known, inertia, label("reduced_inertia", style.language), style
+        )
     torques = any_nonzero(("static_torque", "dynamic_torque", "driving_torque"), known)
     if torques:
-        result["torques"] = curves(degrees, known, [torques], label("driving_torque", style.language), style)
+        result["torques"] = partial(curves, degrees, known, [torques], label("driving_torque", style.language), style)
     result |= _friction(degrees, known, style)
     joints = any_nonzero((key for key in known if key.partition(".")[0] == "joint_force"), known)
     if joints:
         panels = [joints[start : start + _PER_PANEL] for start in range(0, len(joints), _PER_PANEL)]
-        result["joint_forces"] = curves(degrees, known, panels, say("tables.joint_forces", style.language), style)
+        result["joint_forces"] = partial(
+            curves, degrees, known, panels, say("tables.joint_forces", style.language), style
+        )
     return result
 
 
-def _friction(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[str, Drawing]:
+def _friction(degrees: Array, known: Mapping[str, Array], style: Style) -> Pictures:
     """Return what the driver needs with and without friction, and the efficiency."""
     pairs = (("balancing_torque", "torque_with_friction"), ("driver_force", "driver_force_with_friction"),
              ("driver_torque", "driver_torque_with_friction"))  # fmt: skip
@@ -122,20 +195,19 @@ def _friction(degrees: Array, known: Mapping[str, Array], style: Style) -> dict[
     if not panels or not all(np.isfinite(known[key]).any() for key in itertools.chain(*panels, *ratio)):
         return {}
     title = say("tables.friction", style.language)
-    return {"friction": curves(degrees, known, [*panels, *ratio], title, style)}
+    return {"friction": partial(curves, degrees, known, [*panels, *ratio], title, style)}
 
 
-def _evenness(
-    machine: Machine, degrees: Array, known: Mapping[str, Array], speed: float, style: Style
-) -> dict[str, Drawing]:
+def _evenness(machine: Machine, degrees: Array, known: Mapping[str, Array], speed: float, style: Style) -> Pictures:
     """Return the energy-mass diagram and the speed with the flywheel found."""
     if "crank_speed" not in known:
         return {}
-    course = {"speed": speed_curve(degrees, known["crank_speed"], style)}
+    course: Pictures = {"speed": partial(speed_curve, degrees, known["crank_speed"], style)}
     if machine.drive.fluctuation is None:
         return course
     wanted = Fluctuation(speed, machine.drive.fluctuation)
     energy, inertia = known["kinetic_energy_change"], known["reduced_inertia"]
-    # without masses the energy stands over one point
-    drawn = {"wittenbauer": wittenbauer(inertia, energy, wanted, degrees, style)} if np.any(inertia) else {}
-    return drawn | course
+    if np.any(inertia):
+        # without masses the energy stands over one point
+        course["wittenbauer"] = partial(wittenbauer, inertia, energy, wanted, degrees, style)
+    return course

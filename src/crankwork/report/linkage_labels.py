@@ -7,8 +7,11 @@ from itertools import pairwise, product
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from crankwork.analysis import Array
+from crankwork.mechanism.driver import rod_name
+from crankwork.mechanism.linkage import GROUND
 from crankwork.report.linkage_scene import SLOT, Scene
 
 _TURNS = np.radians([45, 135, 315, 225, 90, 0, 180, 270, 20, 70, 110, 160, 200, 250, 290, 340])
@@ -16,6 +19,8 @@ _AROUND = np.column_stack([np.cos(_TURNS), np.sin(_TURNS)])
 _REACHES = (15.0, 19.0, 24.0, 30.0)
 _EVERY = 3
 _STEP = 7.0
+# a number nearer than this to a link is read as that of the link
+_NEAR = 15.0
 
 
 class Label(NamedTuple):
@@ -33,58 +38,72 @@ class Label(NamedTuple):
 
 def labels(drawn: Scene, fixed: Sequence[Array] = (), *, every: int = _EVERY) -> list[Label]:
     """Return the names of points and the numbers of links."""
-    obstacles = _samples(drawn, every)
+    obstacles, owners = _samples(drawn, every)
     still = np.vstack([*fixed, np.zeros((0, 2))])
     count = obstacles.shape[0]
     obstacles = np.concatenate([obstacles, np.broadcast_to(still, (count, *still.shape))], axis=1)
-    seen = np.ascontiguousarray(obstacles[..., 0]), np.ascontiguousarray(obstacles[..., 1])
+    owners += [""] * len(still)
     placed: list[Label] = []
     # without pivots there is no place for the number of the ground
-    for text, is_number, ways in (one for one in _wanted(drawn) if one[2]):
-        placed.append(_cheapest([(Label(text, place, is_number), extra) for place, extra in ways], seen, placed, every))
+    for text, of, ways in (one for one in _wanted(drawn) if one[2]):
+        # places on other links, of which a number could be
+        others = np.array([bool(of and one and one != of) for one in owners])
+        seen = _Seen(np.ascontiguousarray(obstacles[..., 0]), np.ascontiguousarray(obstacles[..., 1]), others)
+        choices = [(Label(text, place, bool(of)), extra) for place, extra in ways]
+        placed.append(_cheapest(choices, seen, placed, every))
     return placed
 
 
-def _cheapest(
-    ways: Sequence[tuple[Label, float]], obstacles: tuple[Array, Array], placed: Sequence[Label], every: int
-) -> Label:
+class _Seen(NamedTuple):
+    """Places on all that is drawn, shape (frames, k), and which of them are on links that a number is not of."""
+
+    x: Array
+    y: Array
+    others: NDArray[np.bool_]
+
+
+def _cheapest(ways: Sequence[tuple[Label, float]], seen: _Seen, placed: Sequence[Label], every: int) -> Label:
     """Return the label that costs least; one that costs more at least than another does is not looked at."""
     best, found = np.inf, 0
-    obstacles = _reachable([label for label, _ in ways], obstacles, every)
+    seen = _reachable([label for label, _ in ways], seen, every)
     names = np.array([one.places[::every] for one in placed]), np.array([[one.half] for one in placed])
     for at in sorted(range(len(ways)), key=lambda one: ways[one][1]):
         label, extra = ways[at]
         if extra > best:
             break
-        cost = _cost(label, extra, obstacles, names, every)
+        cost = _cost(label, extra, seen, names, every)
         best, found = min((best, found), (cost, at))
     return ways[found][0]
 
 
-def _reachable(ways: Sequence[Label], obstacles: tuple[Array, Array], every: int) -> tuple[Array, Array]:
-    """Return the obstacles that a label could cover at one place or another."""
+def _reachable(ways: Sequence[Label], seen: _Seen, every: int) -> _Seen:
+    """Return the places that a label could cover, or be read as the number of, at one place or another."""
     places = np.array([one.places[::every] for one in ways])
-    half = np.max([one.half for one in ways], axis=0)
+    half = np.max([one.half for one in ways], axis=0) + (_NEAR if seen.others.any() else 0.0)
     low, high = places.min(axis=0) - half, places.max(axis=0) + half
-    x, y = obstacles
-    near = (x > low[:, :1]) & (x < high[:, :1]) & (y > low[:, 1:]) & (y < high[:, 1:])
+    near = (seen.x > low[:, :1]) & (seen.x < high[:, :1]) & (seen.y > low[:, 1:]) & (seen.y < high[:, 1:])
     kept = near.any(axis=0)
-    return np.ascontiguousarray(x[:, kept]), np.ascontiguousarray(y[:, kept])
+    return _Seen(np.ascontiguousarray(seen.x[:, kept]), np.ascontiguousarray(seen.y[:, kept]), seen.others[kept])
 
 
-def _cost(label: Label, extra: float, obstacles: tuple[Array, Array], names: tuple[Array, Array], every: int) -> float:
+def _cost(label: Label, extra: float, seen: _Seen, names: tuple[Array, Array], every: int) -> float:
     centre, half = label.places[::every, None], label.half
-    near = [np.abs(one - centre[..., axis]) < half[axis] for axis, one in enumerate(obstacles)]
-    cost = extra + 10.0 * float(np.count_nonzero(near[0] & near[1])) / len(centre)
+    off = seen.x - centre[..., 0], seen.y - centre[..., 1]
+    covered = (np.abs(off[0]) < half[0]) & (np.abs(off[1]) < half[1])
+    cost = extra + 10.0 * float(np.count_nonzero(covered)) / len(centre)
+    if seen.others.any():
+        # beside another link as near as beside its own it says the wrong thing
+        apart = np.hypot(off[0][:, seen.others], off[1][:, seen.others]).min(axis=1)
+        cost += 60.0 * float(np.mean(apart < _NEAR))
     middles, halves = names
     if len(middles):
-        covered = np.all(np.abs(middles - label.places[::every]) < half + halves + (7.0, 1.0), axis=2)
-        cost += 60.0 * float(covered.mean(axis=1).sum())
+        covers = np.all(np.abs(middles - label.places[::every]) < half + halves + (11.0, 2.0), axis=2)
+        cost += 60.0 * float(covers.mean(axis=1).sum())
     return cost
 
 
-def _wanted(drawn: Scene) -> Iterator[tuple[str, bool, list[tuple[Array, float]]]]:
-    """Yield each text with the places where it could go, and what each of them costs at least."""
+def _wanted(drawn: Scene) -> Iterator[tuple[str, str, list[tuple[Array, float]]]]:
+    """Yield each text, the link it is the number of, the places where it could go, and what each costs at least."""
     shape = drawn.skeleton
     seen: set[str] = set()
     for name, letter in shape.letters.items():
@@ -93,7 +112,7 @@ def _wanted(drawn: Scene) -> Iterator[tuple[str, bool, list[tuple[Array, float]]
             wide = 4.4 * (len(letter) - 1)
             yield (
                 letter,
-                False,
+                "",
                 [
                     (drawn.points[name] + (reach + wide * abs(way[0])) * way, 0.4 * (reach - 15) + 0.2 * rank)
                     for reach in _REACHES
@@ -103,11 +122,13 @@ def _wanted(drawn: Scene) -> Iterator[tuple[str, bool, list[tuple[Array, float]]
     spots = [(side * x, -y) for x, y in ((32, 24), (30, 12), (36, 36), (12, 46)) for side in (1, -1)]
     yield (
         "0",
-        True,
+        GROUND,
         [(drawn.points[name] + spot, 3.0 * rank) for rank, name in enumerate(shape.pivots) for spot in spots],
     )
     for one in shape.members:
-        yield str(one.number), True, list(_number_ways(drawn, one.name))
+        yield str(one.number), one.name, list(_number_ways(drawn, one.name))
+        if one.rod:
+            yield str(one.rod), rod_name(one.name), list(_number_ways(drawn, rod_name(one.name)))
 
 
 def _number_ways(drawn: Scene, name: str) -> Iterator[tuple[Array, float]]:
@@ -121,7 +142,7 @@ def _number_ways(drawn: Scene, name: str) -> Iterator[tuple[Array, float]]:
             yield slot.line.place(slot.start + share * (slot.end - slot.start), side * (SLOT + 10)), 6.0
     for bar in (one for one in drawn.bars if one.name == name):
         if not bar.is_flat:
-            yield np.asarray(np.mean(bar.nodes, axis=0)), -20.0
+            yield np.asarray(np.mean(bar.nodes, axis=0)), -8.0
         for start, end in _edges(bar.nodes, is_flat=bar.is_flat):
             yield from _beside(start, end)
 
@@ -140,24 +161,28 @@ def _edges(nodes: Sequence[Array], *, is_flat: bool) -> Iterator[tuple[Array, Ar
         yield nodes[-1], nodes[0]
 
 
-def _samples(drawn: Scene, every: int) -> Array:
-    """Return places on everything that is drawn, shape (frames, k, 2)."""
-    lines = [edge for bar in drawn.bars for edge in _edges(bar.nodes, is_flat=bar.is_flat)]
+def _samples(drawn: Scene, every: int) -> tuple[Array, list[str]]:
+    """Return places on everything that is drawn, shape (frames, k, 2), and the links that they are on."""
+    lines = [(bar.name, edge) for bar in drawn.bars for edge in _edges(bar.nodes, is_flat=bar.is_flat)]
     for slot in drawn.slots:
         sides = (SLOT, -SLOT)
-        lines += [(slot.line.place(slot.start, side), slot.line.place(slot.end, side)) for side in sides]
+        ends = ((slot.line.place(slot.start, side), slot.line.place(slot.end, side)) for side in sides)
+        lines += [(slot.carrier, one) for one in ends]
     for block in drawn.blocks:
         u, v = block.half
-        lines += [(block.pose.place(-u, side), block.pose.place(u, side)) for side in (v, 0.0, -v)]
+        rows = np.linspace(v, -v, max(3, int(v / _STEP))).tolist()
+        lines += [(block.name, (block.pose.place(-u, side), block.pose.place(u, side))) for side in rows]
     for rail in drawn.rails:
         for side in (rail.half, rail.half + 6, -rail.half, -rail.half - 6):
-            lines.append((rail.line.place(rail.start, side), rail.line.place(rail.end, side)))
+            lines.append(("", (rail.line.place(rail.start, side), rail.line.place(rail.end, side))))
     for at in (place for name, place in drawn.points.items() if name in drawn.skeleton.pivots):
-        lines += [(at, np.add(at, foot)) for foot in ((-13.0, -24.0), (13.0, -24.0))]
-        lines += [(np.add(at, (-26.0, drop)), np.add(at, (20.0, drop))) for drop in (-24.0, -31.0)]
-    found = [place[::every, None] for place in drawn.points.values()]
-    for start, end in lines:
+        feet = [(at, np.add(at, foot)) for foot in ((-13.0, -24.0), (13.0, -24.0))]
+        feet += [(np.add(at, (-26.0, drop)), np.add(at, (20.0, drop))) for drop in (-24.0, -31.0)]
+        lines += [("", one) for one in feet]
+    found, owners = [place[::every, None] for place in drawn.points.values()], [""] * len(drawn.points)
+    for name, (start, end) in lines:
         length = float(np.max(np.hypot(*(end - start).T)))
         shares = np.linspace(0, 1, max(2, int(length / _STEP)))[:, None]
         found.append(start[::every, None] + shares * (end - start)[::every, None])
-    return np.concatenate(found, axis=1)
+        owners += [name] * len(shares)
+    return np.concatenate(found, axis=1), owners

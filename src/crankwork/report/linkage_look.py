@@ -14,10 +14,10 @@ from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language, Quantity
 from crankwork.report.language import symbol
 from crankwork.show.chart import Box, Graph, round_ticks
-from crankwork.show.paper import MM, Paper, plain
+from crankwork.show.paper import GREY, Paper, plain
+from crankwork.show.scene import DASH_DOT
 from crankwork.units import from_si
 
-POINTS_PER_MM = 1 / MM
 _DIGITS = 4
 # what would mark something in a text of a figure, where a name is the user's own
 _SIGNS = frozenset(r"$\#{}%^_~&")
@@ -30,13 +30,16 @@ class Style(NamedTuple):
     links: tuple[str, ...] = ()
     method: str = ""
     period: float = 0.0  # Of the law that drives; curves are over time then, and not over the crank angle [s]
+    limits: tuple[float, ...] = ()  # Dead positions of a crank that turns back [deg]
 
 
 PLAIN = Style()
 
 
-def math_symbol(sign: str) -> str:
+def math_symbol(sign: str, power: str = "") -> str:
     r"""Return a symbol `base_index` as figures set it, and one with a name that would mark something as plain text.
+
+    `power`: what stands over the index, `^n`.
 
     Examples
     --------
@@ -44,7 +47,9 @@ def math_symbol(sign: str) -> str:
     $v_п.ср$ F \$x^\$
     """
     base, _, index = sign.partition("_")
-    return f"${sign}$" if _SIGNS.isdisjoint(index) else plain(f"{base} {index}")
+    if _SIGNS.isdisjoint(index):
+        return f"${sign}{power}$"
+    return plain(f"{base} {index}") + (f"^{{{power[1:]}}}" if power else "")
 
 
 def position_text(degrees: float, style: Style) -> str:
@@ -82,7 +87,7 @@ def axis_title(row: Quantity, language: Language) -> str:
 
 
 _TICKS = (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 60.0, 90.0, 180.0, 360.0, 720.0, 1800.0, 3600.0)
-_MOST_TICKS = 12
+_MOST_TICKS, _AROUND, _BEYOND = 12, 0.5, 0.02
 
 
 def angle_ticks(start: float, end: float) -> Array:
@@ -101,34 +106,28 @@ def drive_graph(
     `at`: the angles [deg], or times where a law drives [s].
     """
     start, end = float(at[0]), float(at[-1])
-    graph = Graph(paper, box, (start, end), y, style.language)
+    # an axis of one point goes around it
+    start, end = (start, end) if end > start else (start - _AROUND, start + _AROUND)
+    dead = () if style.period else style.limits
+    if dead:
+        room = _BEYOND * (dead[-1] - dead[0])
+        start, end = min(start, dead[0] - room), max(end, dead[-1] + room)
+    over = "time" if style.period else "crank_angle"
+    graph = Graph(paper, box, (start, end), y, style.language, over)
     graph.frame(
         round_ticks(start, end) if style.period else angle_ticks(start, end),
-        round_ticks(*y, max(4, round(box.height / 24))),
+        graph.up_ticks,
         labels=(is_last, True),
     )
+    for one in dead:
+        x = float(graph.across(one))
+        paper.line([x, x], [graph.box.top, graph.box.top + graph.box.height], style=DASH_DOT, width=0.8, colour=GREY)
     if is_last:
         # a linkage has a crank, no crankshaft
         sign = math_symbol(QUANTITIES["crank_angle"].symbol(style.language))
         angle = f"{say('drawing.angle_of_crank', style.language)} {sign}, °"
         graph.x_title(axis_title(QUANTITIES["time"], style.language) if style.period else angle)
     return graph
-
-
-def round_scale(least: float) -> float:
-    """Return the smallest of 1, 2, 2.5, 4, 5 times a power of ten that is not less.
-
-    Examples
-    --------
-    >>> round_scale(0.013), round_scale(0.3), round_scale(0.5)
-    (0.02, 0.4, 0.5)
-    """
-    power = math.floor(math.log10(least))
-    for one in (1, 2, 2.5, 4, 5, 10):
-        scale = float(f"{one}e{power}")
-        if scale >= least * (1 - 1e-9):
-            return scale
-    return 10.0 ** (power + 1)
 
 
 def scale_text(sign: str, value: float, unit: str, language: Language) -> str:

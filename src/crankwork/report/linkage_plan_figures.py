@@ -16,33 +16,35 @@ from crankwork.report.figure_data import figure_title
 from crankwork.report.language import symbol
 from crankwork.report.linkage_look import (
     PLAIN,
-    POINTS_PER_MM,
     Style,
     math_symbol,
     position_sign,
     position_text,
-    round_scale,
     scale_text,
 )
-from crankwork.show.chart import WIDTH, Box, Graph, sign
-from crankwork.show.labels import Line, label_points
-from crankwork.show.paper import Paper
+from crankwork.show.chart import Box, Graph, sign
+from crankwork.show.labels import label_points
+from crankwork.show.paper import Paper, plain
+from crankwork.show.place import here, points_per_mm, round_scale, tall
 from crankwork.show.scene import DASH_DOT, DASHED, SOLID, Drawing
 from crankwork.show.scene import Style as Dashes
 
-_SIDE, _TALL, _MARGIN, _LIST, _ROW = 290.0, 330.0, 26.0, 150.0, 13.5
-_UNDER = 3
+_TALL, _MARGIN, _BESIDE, _LIST, _ROW = 330.0, 26.0, 170.8, 150.0, 13.5
+# height of a plan at least, and how many points that lie beneath others are explained
+_LOWEST, _UNDER = 40.0, 3
+# a linkage whose points have velocities or accelerations a billionth of this stands still
+_STILL = 1e-3
 _LOOKS: dict[Kind, tuple[float, Dashes]] = {
     "absolute": (1.6, SOLID), "relative": (0.9, SOLID), "tangential": (0.9, SOLID), "sliding": (0.9, SOLID),
     "normal": (0.9, DASHED), "coriolis": (0.9, DASH_DOT),
 }  # fmt: skip
 _MARKS: dict[Kind, str] = {
-    "absolute": "", "relative": "", "normal": "^n", "tangential": "^t", "coriolis": "^k", "sliding": "^r"
+    "absolute": "", "relative": "", "normal": "^n", "tangential": "^{}", "coriolis": "^k", "sliding": "^r"
 }  # fmt: skip
 
 
 class _Kind(NamedTuple):
-    """Velocities or accelerations: title, symbol, unit, symbol and unit of turning, pole, the plan's own letter."""
+    """Velocities or accelerations: title, symbol, unit, symbol and unit of turning, pole, size of turning."""
 
     title: str
     sign: str
@@ -50,51 +52,69 @@ class _Kind(NamedTuple):
     turning: str
     turning_unit: str
     pole: str
+    size: float
 
 
-def velocity_plan(mechanism: Mechanism, moving: Moving, index: int, speed: float, style: Style = PLAIN) -> Drawing:
-    """Return the velocity plan of a linkage at one crank angle."""
-    kind = _Kind("velocity_plan", "v", "m/s", symbol("speed", style.language), "rad/s", "p")
-    return _figure(velocities(mechanism, moving, index, speed, style.links), kind, moving.degrees[index], style)
+def velocity_plan(
+    mechanism: Mechanism, moving: Moving, index: int, speed: float, style: Style = PLAIN, position: int | None = None
+) -> Drawing:
+    """Return the velocity plan of a linkage at one crank angle; `position`: its number among others."""
+    kind = _Kind("velocity_plan", "v", "m/s", symbol("speed", style.language), "rad/s", "p", abs(speed))
+    plan = velocities(mechanism, moving, index, speed, style.links)
+    return _figure(plan, kind, moving.degrees[index], style, position)
 
 
-def acceleration_plan(
+def acceleration_plan(  # noqa: PLR0913 - a machine, its state, and how it is shown
     mechanism: Mechanism,
     moving: Moving,
     index: int,
     speed: float,
     angular_acceleration: float = 0.0,
     style: Style = PLAIN,
+    position: int | None = None,
 ) -> Drawing:
-    """Return the acceleration plan of a linkage at one crank angle."""
+    """Return the acceleration plan of a linkage at one crank angle; `position`: its number among others."""
     plan = accelerations(mechanism, moving, index, speed, angular_acceleration, style.links)
     pole = "q" if style.language == "en" else "π"
-    kind = _Kind("acceleration_plan", "a", "m/s2", symbol("angular_acceleration", style.language), "rad/s2", pole)
-    return _figure(plan, kind, moving.degrees[index], style)
+    kind = _Kind(
+        "acceleration_plan", "a", "m/s2", symbol("angular_acceleration", style.language), "rad/s2", pole, speed**2
+    )
+    return _figure(plan, kind, moving.degrees[index], style, position)
 
 
-def _figure(plan: Plan, kind: _Kind, degrees: float, style: Style) -> Drawing:
+def _figure(plan: Plan, kind: _Kind, degrees: float, style: Style, position: int | None) -> Drawing:
     """Draw a plan, and beside it what its vectors and the turning of the links are."""
     language = style.language
-    seen = [one for one in plan.vectors if one.length > 1e-9 * max(other.length for other in plan.vectors)]
+    longest = max((one.length for one in plan.vectors), default=0.0)
+    seen = [one for one in plan.vectors if one.length > 1e-9 * max(longest, _STILL)]
     places = np.array([[0.0, 0.0], *(end for one in seen for end in (one.start, one.end))])
     width, height = np.maximum(np.ptp(places, axis=0), 1e-12)
-    scale = round_scale(float(POINTS_PER_MM * max(width / (_SIDE - 2 * _MARGIN), height / (_TALL - 2 * _MARGIN))))
-    unit = POINTS_PER_MM / scale
-    rows = _rows(seen, plan, kind, language)
-    tall = max(float(height) * unit + 2 * _MARGIN, _ROW * len(rows) + 30) + 34
-    paper = Paper(WIDTH, tall)
-    middle = (places.min(axis=0) + places.max(axis=0)) / 2 * unit
-    left, bottom = middle[0] - _SIDE / 2, middle[1] - (tall + 34) / 2
-    graph = Graph(paper, Box(0.0, 0.0, WIDTH, tall), (left, left + WIDTH), (bottom, bottom + tall), language)
-    _vectors(graph, seen, unit)
-    _nodes(graph, plan, kind.pole, seen, unit)
+    # only beside one plan there is room for a list
+    side = here().width - (_BESIDE if position is None else 0.0)
+    room = side - 2 * _MARGIN, max(tall(_TALL) - 2 * _MARGIN, _LOWEST)
+    scale = round_scale(float(points_per_mm() * max(width / room[0], height / room[1])))
+    unit = points_per_mm() / scale
+    rows = [] if position is not None else _rows(seen, plan, kind, language)
+    high = max(float(height) * unit + 2 * _MARGIN, _ROW * len(rows) + 30) + 34
+    paper = Paper(here().width, high)
+    middle = (places.min(axis=0) + places.max(axis=0)) / 2
+    left, bottom = middle[0] - side / 2 / unit, middle[1] - (high + 34) / 2 / unit
+    x, y = (left, left + here().width / unit), (bottom, bottom + high / unit)
+    graph = Graph(paper, Box(0.0, 0.0, here().width, high), x, y, language, to_scale=False)
+    draw_vectors(graph, seen, unit)
     for count, row in enumerate(rows):
-        paper.text(WIDTH - _LIST, 23 + _ROW * count, row, size=8.5)
-    paper.text(14, tall - 20, scale_text(f"μ_{kind.sign}", scale, kind.unit, language))
-    shown = f"{position_sign(style)} = {position_text(float(degrees), style)}"
-    paper.text(WIDTH - 14, tall - 20, shown, anchor="end")
-    sign(paper, style.method, _remark(plan, kind, language))
+        paper.text(here().width - _LIST, 23 + _ROW * count, row, size=8.5)
+    scale_shown = scale_text(f"μ_{kind.sign}", scale, kind.unit, language)
+    if position is not None:
+        scale_shown = scale_shown if seen else f"${kind.sign}$ = 0"
+        shown = f"{say('sheets.position', language)} {position}: {scale_shown}"
+        paper.text(here().width / 2, high - 20, shown, anchor="middle")
+    else:
+        paper.text(14, high - 20, scale_shown)
+        shown = f"{position_sign(style)} = {position_text(float(degrees), style)}"
+        paper.text(here().width - 14, high - 20, shown, anchor="end")
+        sign(paper, style.method, _remark(plan, kind, language))
+    _nodes(graph, plan, kind.pole, unit)
     return paper.drawing(f"{figure_title(kind.title, language)}, {position_text(float(degrees), style)}", language)
 
 
@@ -103,31 +123,31 @@ def _remark(plan: Plan, kind: _Kind, language: Language) -> str:
     remarks = [say("drawing.anticlockwise", language, symbol=kind.turning)]
     if plan.beneath:
         some = list(plan.beneath.items())[:_UNDER]
-        points, links = (_plain(name) for name, _ in some), (str(link) for _, (link, _) in some)
-        others = (_plain(one) for _, (_, one) in some)
+        points, links = (plain(name) for name, _ in some), (str(link) for _, (link, _) in some)
+        others = (plain(one) for _, (_, one) in some)
         joined = {"points": ", ".join(points), "links": ", ".join(links), "others": ", ".join(others)}
         remarks.append(say("drawing.beneath", language, **joined))
     return "; ".join(remarks)
 
 
-def _vectors(graph: Graph, vectors: list[Vector], unit: float) -> None:
+def draw_vectors(graph: Graph, vectors: list[Vector], unit: float, thin: float = 1.0) -> None:
+    """Draw the vectors of a plan; `unit`: points of the paper in its unit; `thin`: by how much lines are thinner."""
     for one in vectors:
         width, line = _LOOKS[one.kind]
-        start, end = (graph.point(*(place * unit)) for place in (one.start, one.end))
+        start, end = (graph.point(*place) for place in (one.start, one.end))
         if one.length * unit > 6:
-            graph.paper.arrow(start, end, width=width, style=line)
+            graph.paper.arrow(start, end, width=thin * width, style=line)
         else:
-            graph.paper.line([start[0], end[0]], [start[1], end[1]], width=width, style=line)
+            graph.paper.line([start[0], end[0]], [start[1], end[1]], width=thin * width, style=line)
 
 
-def _nodes(graph: Graph, plan: Plan, pole: str, vectors: list[Vector], unit: float) -> None:
+def _nodes(graph: Graph, plan: Plan, pole: str, unit: float) -> None:
     """Name the pole and the ends of the vectors."""
     taken = {node_name(name) for name in plan.nodes}
     points = [(next(one for one in (pole, "o", f"{pole}₀") if one not in taken), 0.0, 0.0)]
-    points += [(node_name(name), float(at[0] * unit), float(at[1] * unit)) for name, at in plan.nodes.items()
+    points += [(node_name(name), float(at[0]), float(at[1])) for name, at in plan.nodes.items()
                if np.hypot(*at) * unit > 1.0]  # fmt: skip
-    lines: list[Line] = [tuple(np.array([one.start, one.end]).T * unit) for one in vectors]
-    label_points(graph, points, *lines)
+    label_points(graph, points)
 
 
 def node_name(letter: str) -> str:
@@ -139,17 +159,17 @@ def _rows(vectors: list[Vector], plan: Plan, kind: _Kind, language: Language) ->
     """Return the magnitudes of the vectors and the turning of the links."""
     rows, unit = [], unit_name(kind.unit, language)
     for one in vectors:
-        mark = _MARKS[one.kind] if kind.sign == "a" else ""
-        name = math_symbol(f"{kind.sign}_{_plain(one.of)}").removesuffix("$")
-        rows.append(f"{name}{mark}$ = {number(one.length, language, digits=4)} {unit}")
+        mark = _MARKS[one.kind].format(say("marks.tangential", language)) if kind.sign == "a" else ""
+        name = math_symbol(f"{kind.sign}_{one.of}", mark)
+        rows.append(f"{name} = {_told(one.length, language)} {unit}")
     unit = unit_name(kind.turning_unit, language)
     for link, value in plan.turning.items():
-        if abs(value) > 1e-9 * max(abs(one) for one in plan.turning.values()):
+        if abs(value) > 1e-9 * max(kind.size, *(abs(one) for one in plan.turning.values())):
             name = math_symbol(f"{kind.turning}_{link}")
-            rows.append(f"{name} = {number(value, language, digits=4)} {unit}")
+            rows.append(f"{name} = {_told(value, language)} {unit}")
     return rows
 
 
-def _plain(name: str) -> str:
-    """Return a name without what mathtext would read."""
-    return "".join(one if one.isalnum() or one in "′'. " else "-" for one in name)
+def _told(value: float, language: Language) -> str:
+    """Return a value to four digits, without a power of ten if it has no more than six."""
+    return number(float(f"{value:.4g}"), language)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -12,23 +12,20 @@ from crankwork.analysis import Array
 from crankwork.analysis.moving import moving
 from crankwork.analysis.skeleton import Pose, skeleton
 from crankwork.mechanism.mechanism import Mechanism
-from crankwork.report import drawing_parts as parts
 from crankwork.report.figure_data import figure_title
-from crankwork.report.linkage_drawing import corners, slot_middle, walls
-from crankwork.report.linkage_labels import labels
+from crankwork.report.linkage_drawing import HATCH, corners, slot_middle, walls
 from crankwork.report.linkage_look import (
     PLAIN,
-    POINTS_PER_MM,
     Style,
     position_sign,
     position_text,
-    round_scale,
     scale_text,
 )
-from crankwork.report.linkage_scene import SLOT, Scene, scene
-from crankwork.show.chart import WIDTH, Box, Graph, sign
-from crankwork.show.labels import Line, label_points
-from crankwork.show.paper import BLACK, Paper, plain
+from crankwork.report.linkage_scene import SLOT, Rail, Scene, scene
+from crankwork.show.chart import Box, Graph, sign
+from crankwork.show.labels import label_marks, label_points
+from crankwork.show.paper import BLACK, Paper, plain, text_width
+from crankwork.show.place import here, letters, points_per_mm, round_scale, tall
 from crankwork.show.scene import DASH_DOT, SOLID, Drawing
 from crankwork.show.scene import Style as Dashes
 
@@ -40,6 +37,8 @@ _TALLEST = 560.0
 # points whose places have the numbers of the plans; of more nobody could tell which number is whose
 _NUMBERED = 6
 _THIN, _BLOCK, WHITE = "#8c8c8c", "#d9d9d9", "#ffffff"
+# size of the numbers beside guides, and places so near that their numbers stand together [pt]
+_NUMBER, _TOGETHER = 8.0, 2.5
 # parts are drawn smaller than on a screen: units of the picture in a point of the paper
 _UNITS = 1.5
 
@@ -54,12 +53,12 @@ class _Sheet(NamedTuple):
 
 
 def position_plans(
-    mechanism: Mechanism, ends: tuple[float, float] | None = None, main: int = 1, style: Style = PLAIN
+    mechanism: Mechanism, ends: tuple[float, float] | None = None, worked: float = _APART, style: Style = PLAIN
 ) -> Drawing:
     """Return the position plans of a linkage over each other, numbered from 0.
 
-    `ends`: crank angles between which a crank swings that does not turn fully [deg]; `main`: the plan that is drawn
-    bold, with names of points.
+    `ends`: crank angles between which a crank swings that does not turn fully [deg]; `worked`: near what crank angle
+    the plan is that is drawn bold, with names of points [deg].
     """
     shape = skeleton(mechanism, style.links)
     first, last = ends or (0.0, mechanism.period)
@@ -67,13 +66,13 @@ def position_plans(
     degrees = step * np.arange(math.ceil(first / step), math.ceil(last / step))
     if not degrees.size:
         degrees = np.array([(first + last) / 2])
-    main = min(main, degrees.size - 1)
+    main = int(np.argmin(np.abs(degrees - worked)))
     moved = moving(mechanism, np.union1d(np.append(np.arange(first, last, _STEP), last), degrees))
     plans = [int(np.argmin(np.abs(moved.degrees - one))) for one in degrees]
-    room = _UNITS * (WIDTH - 2 * _MARGIN)
+    room = _UNITS * (here().width - 2 * _MARGIN)
     drawn, scale = scene(shape, moved, room)
     paper = round_scale(_least_scale(drawn, scale))
-    drawn, _ = scene(shape, moved, room * _UNITS * POINTS_PER_MM * 1e3 / paper / scale)
+    drawn, _ = scene(shape, moved, room * _UNITS * points_per_mm() * 1e3 / paper / scale)
     sheet = _sheet(drawn, plans, main, style)
     _ground(sheet)
     for plan in plans:
@@ -81,7 +80,7 @@ def position_plans(
             _plan(sheet, plan, is_main=False)
     _paths(sheet, shape.coupler_points)
     _plan(sheet, plans[main], is_main=True)
-    _texts(sheet)
+    _texts(sheet, [rail.name for rail in drawn.rails if _number_guide(sheet, rail)])
     foot, hand = sheet.graph.box.height - 20, sheet.graph.paper
     hand.text(0.03 * hand.width, foot, scale_text("μ_l", paper, "mm", style.language))
     shown = f"{position_sign(style, f'_{main}')} = {position_text(float(degrees[main]), style)}"
@@ -94,18 +93,19 @@ def _sheet(drawn: Scene, plans: list[int], main: int, style: Style) -> _Sheet:
     """Return an empty sheet that holds the linkage at all angles, with a foot for the scale."""
     places = corners(drawn)
     (left, bottom), (right, top) = places.min(axis=0) - _MARGIN, places.max(axis=0) + _MARGIN
-    spare = max(0.0, _UNITS * WIDTH - (right - left)) / 2
+    spare = max(0.0, _UNITS * here().width - (right - left)) / 2
     left, right, bottom = left - spare, right + spare, bottom - _FOOT
     box = Box(0.0, 0.0, (right - left) / _UNITS, (top - bottom) / _UNITS)
     paper = Paper(box.width, box.height)
-    return _Sheet(Graph(paper, box, (left, right), (bottom, top), style.language), drawn, plans, main)
+    graph = Graph(paper, box, (left, right), (bottom, top), style.language, to_scale=False)
+    return _Sheet(graph, drawn, plans, main)
 
 
 def _least_scale(drawn: Scene, scale: float) -> float:
     """Return how many millimetres of the linkage a millimetre of paper must take at least."""
     width, height = np.ptp(corners(drawn), axis=0)
-    fit = min((WIDTH - 2 * _MARGIN) / width, _TALLEST / height)
-    return float(POINTS_PER_MM * 1e3 / (scale * fit))
+    fit = min((here().width - 2 * _MARGIN) / width, tall(_TALLEST) / height)
+    return float(points_per_mm() * 1e3 / (scale * fit))
 
 
 def _ground(sheet: _Sheet) -> None:
@@ -133,9 +133,9 @@ def _hatched(graph: Graph, start: Array, end: Array) -> None:
     """Draw a wall, hatched on the left of the way from start to end."""
     length = float(np.hypot(*(end - start)))
     ahead = (end - start) / length
-    slant = parts.HATCH * (np.array([-ahead[1], ahead[0]]) - ahead)
+    slant = HATCH * (np.array([-ahead[1], ahead[0]]) - ahead)
     _line_of(graph, np.array([start, end]), width=1.0)
-    feet = start + np.arange(parts.HATCH, length + 0.1, parts.HATCH)[:, None] * ahead
+    feet = start + np.arange(HATCH, length + 0.1, HATCH)[:, None] * ahead
     ends = [side(one[:, axis]) for one in (feet, feet + slant) for axis, side in ((0, graph.across), (1, graph.down))]
     graph.paper.segments(np.column_stack(ends), width=0.5)
 
@@ -177,53 +177,79 @@ def _paths(sheet: _Sheet, names: Sequence[str]) -> None:
         _line_of(sheet.graph, sheet.drawn.points[name], width=0.6, style=DASH_DOT)
 
 
-def _texts(sheet: _Sheet) -> None:
+def _number_guide(sheet: _Sheet, rail: Rail) -> bool:
+    """Write the numbers of the plans beside a fixed guide, those of the way there on one side, of the way back on one.
+
+    Numbers of places that fall together stand together. Return whether what slides there has a point to number.
+    """
+    member = sheet.drawn.skeleton.member(rail.name)
+    if not member.points or member.has_rod:
+        return False
+    track = rail.line.seen(sheet.drawn.points[member.points[0]])[:, 0]
+    seen, ahead = track[sheet.plans], np.gradient(track)[sheet.plans] > 0
+    for side, chosen in ((1, ahead), (-1, ~ahead)):
+        together: list[list[int]] = []
+        for at in sorted(np.flatnonzero(chosen).tolist(), key=lambda one: float(seen[one])):
+            if together and seen[at] - seen[together[-1][0]] < _TOGETHER * _UNITS:
+                together[-1].append(at)
+            else:
+                together.append([at])
+        numbers = [(", ".join(map(str, sorted(some))), float(seen[some[0]])) for some in together]
+        _write_beside(sheet, rail, side, numbers)
+    return True
+
+
+def _write_beside(sheet: _Sheet, rail: Rail, side: int, numbers: Sequence[tuple[str, float]]) -> None:
+    """Write numbers in a row along a guide, each with a line from the wall at its place on the guide."""
+    x, y = rail.line.along[0]
+    wide = max((text_width(one, _NUMBER) for one, _ in numbers), default=0.0) + 3.0
+    apart = min(wide / max(abs(x), 1e-9), 1.15 * letters(_NUMBER) / max(abs(y), 1e-9)) * _UNITS
+    wall = rail.half + HATCH
+    out = wall + _UNITS * (8.0 + abs(y) * wide / 2 + abs(x) * 0.5 * letters(_NUMBER))
+    for (text, at), place in zip(numbers, _spread([one for _, one in numbers], apart), strict=True):
+        ends = [rail.line.place(*one)[0] for one in ((at, side * wall), (place, side * (0.6 * wall + 0.4 * out)))]
+        sheet.graph.paper.line(*np.array([sheet.graph.point(*one) for one in ends]).T, width=0.4, colour=_THIN)
+        middle = sheet.graph.point(*rail.line.place(place, side * out)[0])
+        sheet.graph.boxed(middle[0], middle[1] + 0.35 * letters(_NUMBER), text, "middle", _NUMBER)
+
+
+def _spread(places: Sequence[float], apart: float) -> list[float]:
+    """Return places in order moved no nearer than a distance, as little as can be."""
+    groups = [[one, 1] for one in places]
+    # groups that touch become one about their common middle
+    at = 0
+    while at + 1 < len(groups):
+        (first, count), (second, others) = groups[at], groups[at + 1]
+        if second - first < apart * (count + others) / 2:
+            groups[at : at + 2] = [[(first * count + second * others) / (count + others), count + others]]
+            at = max(at - 1, 0)
+        else:
+            at += 1
+    return [middle + (one - (count - 1) / 2) * apart for middle, count in groups for one in range(int(count))]
+
+
+def _texts(sheet: _Sheet, numbered_guides: Container[str]) -> None:
     """Write names of points at the bold plan, and the numbers of the plans at points that show the motion."""
     drawn, plans = sheet.drawn, sheet.plans
     at = plans[sheet.main]
-    named = [one for one in labels(_at(drawn, at), every=1) if not one.is_number]
-    lines: list[Line] = []
-    for one in named:
-        x, y = one.places[0]
-        across, down = sheet.graph.point(float(x), float(y))
-        sheet.graph.paper.text(across, down + 3, _slanted(one.text), anchor="middle")
-        lines += [([x - one.half[0], x + one.half[0]], [y + side, y + side]) for side in (-3.0, 3.0)]
-    for bar in drawn.bars:
-        nodes = np.array([node[at] for node in (*bar.nodes, bar.nodes[0])])
-        lines.append((nodes[:, 0], nodes[:, 1]))
-    lines += [_line(*wall) for rail in drawn.rails for wall in walls(rail)]
-    lines += [_line(*wall) for rail in drawn.rails for wall in walls(rail._replace(half=rail.half + 5))]
+    named = {letter: drawn.points[name][at] for name, letter in reversed([*drawn.skeleton.letters.items()])
+             if name in drawn.points}  # fmt: skip
+    marks = [(_slanted(letter), *sheet.graph.point(*place)) for letter, place in named.items()]
+    label_marks(sheet.graph.paper, marks, size=9.0, dot=0.0)
     numbered = [drawn.skeleton.driven] if drawn.skeleton.driven else []
-    numbered += [one.points[0] for one in drawn.skeleton.members if one.guide and not one.guide.link and one.points]
-    numbered += drawn.skeleton.coupler_points[: max(_NUMBERED - len(numbered), 0)]
+    slides = [one for one in drawn.skeleton.members if one.guide and not one.guide.link and one.points]
+    numbered += [one.points[0] for one in slides if one.name not in numbered_guides]
+    # what is on a sliding piece goes as its joint does
+    couplers = [name for name in drawn.skeleton.coupler_points if not any(name in one.points for one in slides)]
+    numbered += couplers[: max(_NUMBERED - len(numbered), 0)]
     points = [
         (str(count), float(drawn.points[name][plan, 0]), float(drawn.points[name][plan, 1]))
         for name in dict.fromkeys(numbered)
         for count, plan in enumerate(plans)
     ]
-    label_points(sheet.graph, points, *lines)
+    label_points(sheet.graph, points)
 
 
 def _slanted(name: str) -> str:
     """Return the name of a point in slanted letters, where none of them would mark something."""
     return f"${name}$" if name.isalnum() else plain(name)
-
-
-def _line(start: Array, end: Array) -> Line:
-    return [start[0], end[0]], [start[1], end[1]]
-
-
-def _at(drawn: Scene, at: int) -> Scene:
-    """Return the parts at one crank angle."""
-    one = slice(at, at + 1)
-
-    def pose(whole: Pose) -> Pose:
-        return Pose(whole.origin[one], whole.along[one])
-
-    return drawn._replace(
-        points={name: place[one] for name, place in drawn.points.items()},
-        bars=[bar._replace(nodes=tuple(node[one] for node in bar.nodes)) for bar in drawn.bars],
-        slots=[slot._replace(line=pose(slot.line)) for slot in drawn.slots],
-        blocks=[block._replace(pose=pose(block.pose)) for block in drawn.blocks],
-        rails=[rail._replace(line=pose(rail.line)) for rail in drawn.rails],
-    )

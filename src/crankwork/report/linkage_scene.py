@@ -9,6 +9,7 @@ import numpy as np
 from crankwork.analysis import Array
 from crankwork.analysis.moving import Moving
 from crankwork.analysis.skeleton import Member, Pose, Skeleton, guide_pose, tracks
+from crankwork.mechanism.driver import rod_name
 
 BLOCK = (14.0, 8.0)
 RAM = (22.0, 13.0)
@@ -43,11 +44,13 @@ class Block(NamedTuple):
     pose: Pose
     half: tuple[float, float]
     is_still: bool
+    kind: str = "block"
 
 
 class Rail(NamedTuple):
-    """A fixed guide: two walls beside what slides in it, from `start` to `end` along its line."""
+    """A fixed guide: two walls beside what slides in it, by its name, from `start` to `end` along its line."""
 
+    name: str
     line: Pose
     start: float
     end: float
@@ -80,7 +83,7 @@ def scene(shape: Skeleton, moving: Moving, size: float) -> tuple[Scene, float]:
     points = {name: place * scale for name, place in metres.items()}
     drawn = Scene(shape, points, [], [], [], [])
     for one in shape.members:
-        if one.is_cylinder:
+        if one.rod:
             drawn.bars.extend(_cylinder(one.name, points[one.points[0]], points[one.points[1]]))
         elif not one.guide:
             drawn.bars.extend(_bars(one.name, [points[name] for name in one.points]))
@@ -98,7 +101,7 @@ def _cylinder(name: str, barrel: Array, rod: Array) -> list[Bar]:
     inside = _IN_BARREL * float(length.min())
     along = way / length
     reach = min(float(length.max()) - inside + _SPARE_OF_BARREL * float(length.min()), float(length.min()))
-    return [Bar(f"{name}_rod", (rod - inside * along, rod)), Bar(name, (barrel, barrel + reach * along))]
+    return [Bar(rod_name(name), (rod - inside * along, rod)), Bar(name, (barrel, barrel + reach * along))]
 
 
 class _Slide(NamedTuple):
@@ -182,7 +185,7 @@ def _add_rails(drawn: Scene, slides: list[_Slide]) -> None:
             half_along = RAM[0]
             drawn.blocks.append(Block(one.member.name, Pose(one.anchor, one.line.along), RAM, is_still=True))
             spare = half_along + _RAIL_SPARE
-            drawn.rails.append(Rail(one.line, low - spare, high + spare, RAM[1] + _GAP))
+            drawn.rails.append(Rail(one.member.name, one.line, low - spare, high + spare, RAM[1] + _GAP))
             continue
         clear = _BUSHING_CLEAR + _slot_reach(drawn, one)
         near = (high if one.side > 0 else low) + one.side * clear
@@ -190,7 +193,7 @@ def _add_rails(drawn: Scene, slides: list[_Slide]) -> None:
         start = low if one.side > 0 else high
         tip = one.anchor + (far + one.side * _ROD_SPARE - start) * one.line.along
         drawn.bars.append(Bar(one.member.name, (one.anchor, tip)))
-        drawn.rails.append(Rail(one.line, min(near, far), max(near, far), 5.0))
+        drawn.rails.append(Rail(one.member.name, one.line, min(near, far), max(near, far), 5.0))
 
 
 def _slot_reach(drawn: Scene, one: _Slide) -> float:

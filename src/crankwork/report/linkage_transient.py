@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+
 import numpy as np
 
 from crankwork.analysis.results import Results
@@ -13,7 +16,7 @@ from crankwork.show.scene import Drawing
 _PANELS = (("crank_angle",), ("crank_speed",), ("kinetic_energy", "potential_energy"), ("driving_torque",))
 
 
-def transient_figures(results: Results, style: Style) -> dict[str, Drawing]:
+def transient_figures(results: Results, style: Style) -> dict[str, Callable[[], Drawing]]:
     """Return crank angle, speed, energies and torque since a machine was let go; none where it was not."""
     if "transient" not in results.listings:
         return {}
@@ -23,4 +26,4 @@ def transient_figures(results: Results, style: Style) -> dict[str, Drawing]:
     in_time = style._replace(period=float(time[-1]))
     shown = [panel for panel in panels if panel]
     title = say("tables.transient", style.language)
-    return {"transient": curves(360.0 * time / time[-1], columns, shown, title, in_time)}
+    return {"transient": partial(curves, 360.0 * time / time[-1], columns, shown, title, in_time)}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import contextlib
 import difflib
 import html
 from dataclasses import dataclass, field, replace
@@ -12,14 +11,15 @@ from pathlib import Path, PurePath
 from crankwork import files
 from crankwork.analysis import Results
 from crankwork.analysis.rounding import summary_without_rounding
-from crankwork.errors import CrankworkError, GeometryError, UnknownKeyError
+from crankwork.errors import CrankworkError, UnknownKeyError
 from crankwork.locale import Refusal, say
 from crankwork.locale.numbers import number
 from crankwork.quantities import Language
-from crankwork.report.drawing import moving_drawing
+from crankwork.report.drawing import film_of
 from crankwork.report.language import displayed, in_own_units, key_unit, label, symbol
 from crankwork.report.summary import results_method
 from crankwork.show.formats import FORMATS
+from crankwork.show.moving_svg import moving_svg
 from crankwork.show.scene import Drawing
 from crankwork.show.svg import svg
 from crankwork.show.theme import THEMES, Theme
@@ -95,12 +95,10 @@ def page(results: Results, language: Language = "en") -> str:
         for key, value in kept.items()
     ]
     table = "".join(f"<tr>{''.join(f'<td>{html.escape(one)}</td>' for one in row)}</tr>" for row in rows)
-    drawn = ""
-    if machine.transfer is None:
-        # what cannot turn is not shown turning
-        with contextlib.suppress(GeometryError):
-            data = base64.b64encode(moving_drawing(machine, language=language).encode()).decode()
-            drawn = f'<img alt="{html.escape(machine.title)}" width="400" src="data:image/svg+xml;base64,{data}">'
+    drawn, film = "", film_of(results, language=language, frames=48)
+    if film is not None:
+        data = base64.b64encode(moving_svg(film, "colour")).decode()
+        drawn = f'<img alt="{html.escape(machine.title)}" width="400" src="data:image/svg+xml;base64,{data}">'
     method = html.escape(results_method(results, language))
     return (
         f"<div><p><b>{html.escape(machine.title)}</b><br>{method}</p>{drawn}"

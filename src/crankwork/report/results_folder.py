@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
 from collections.abc import Iterator, Sequence
 
 from crankwork.analysis import Results
 from crankwork.analysis.moving import free_course
-from crankwork.errors import GeometryError, MissingExtraError, missing_extras
+from crankwork.errors import MissingExtraError, missing_extras
 from crankwork.locale import Refusal
 from crankwork.quantities import Language
-from crankwork.report.drawing import moving_drawing
+from crankwork.report.drawing import film_of, moving_drawing
 from crankwork.report.figures import drawings
 from crankwork.report.summary import summary_data
-from crankwork.report.tables import csv_of_sheet, sheets, workbook
+from crankwork.report.tables import csv_of_sheet, sheets
+from crankwork.report.workbook import workbook
 from crankwork.show.formats import FORMATS
+from crankwork.show.moving_svg import moving_svg
 from crankwork.show.theme import Theme
 
 # What some files of the folder need that the base installation lacks: extra by module.
@@ -50,13 +51,14 @@ def results_folder(
     }
     if not missing_extras(_WORKBOOK):
         yield {"tables.xlsx": workbook(results, language=language, per_area=per_area)}
-    if results.machine.transfer is None and results.machine.turning is None:
-        # a linkage that cannot turn fully has a notice that says so, and no moving drawing
-        with contextlib.suppress(GeometryError):
-            yield {"machine.svg": moving_drawing(results.machine, language=language).encode()}
+    # nobody prints what moves
+    on_screen: Theme = "dark" if theme == "dark" else "colour"
+    film = film_of(results, language=language)
+    if film is not None:
+        yield {"machine.svg": moving_svg(film, on_screen)}
     free = free_course(results)
     if free is not None:
-        yield {"transient.svg": moving_drawing(results.machine, language=language, free=free).encode()}
+        yield {"transient.svg": moving_svg(moving_drawing(results, language=language, way=free), on_screen)}
     if formats:
         drawn = drawings(results, language=language, per_area=per_area)
         for one in formats:

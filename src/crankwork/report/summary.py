@@ -95,7 +95,7 @@ def summary_text(results: Results, *, language: Language = "en", per_area: bool 
         lines += ["", say("report.checks", language)]
         lines += aligned(
             [
-                (say(f"report.{key}", language), "", number(value, language, digits=2), _met(results, key, language))
+                (say(f"report.{key}", language), "", number(value, language, digits=2), met(results, key, language))
                 for key, value in results.checks.items()
             ]
         )
@@ -119,7 +119,7 @@ def by_subject(results: Results) -> dict[str, dict[str, float]]:
     return {name: some for name, some in found.items() if some}
 
 
-def _met(results: Results, key: str, language: Language) -> str:
+def met(results: Results, key: str, language: Language) -> str:
     """Return what is to be said of a check: that it is not met, or that an approximate method explains its residual."""
     if key in results.unmet:
         return say("report.not_met", language)

@@ -83,7 +83,9 @@ def _rows(results: Results, language: Language) -> list[Row]:
 
 
 def _torques(paper: Paper, box: Box, drawn: TurningDiagram, language: Language) -> None:
-    graph = Graph(paper, box, (0.0, float(drawn.degrees[-1])), limits(drawn.torque, drawn.load), language)
+    graph = Graph(
+        paper, box, (0.0, float(drawn.degrees[-1])), limits(drawn.torque, drawn.load), language, "crank_angle"
+    )
     over = drawn.torque > drawn.load
     # what is more than the load is shaded, what is less is hatched
     for where, fill in ((over, graph.shade), (~over, graph.hatch)):
@@ -112,7 +114,7 @@ def _work(work: float, language: Language, *, signed: bool = False) -> str:
 
 def _energy(paper: Paper, box: Box, results: Results, drawn: TurningDiagram, language: Language) -> None:
     row = QUANTITIES["kinetic_energy_change"]
-    graph = Graph(paper, box, (0.0, float(drawn.degrees[-1])), limits(drawn.energy), language)
+    graph = Graph(paper, box, (0.0, float(drawn.degrees[-1])), limits(drawn.energy), language, "crank_angle")
     _frame(graph, is_last=True)
     graph.curve("kinetic_energy_change", drawn.degrees, drawn.energy)
     columns = results.listings["energy_extremes"].columns
@@ -143,7 +145,7 @@ def _loops(energy: Array, style: Style) -> Drawing:
     graph.frame(count[:: max(1, math.ceil(count.size / _MOST_TICKS))], round_ticks(*y))
     graph.curve("kinetic_energy_change", count, values)
     names = [(number(y, language, digits=4), x, y) for x, y in zip(count.tolist(), values.tolist(), strict=True)]
-    label_points(graph, names, (count, values))
+    label_points(graph, names)
     graph.x_title(axis_title(QUANTITIES["loop_number"], language))
     graph.y_title(axis_title(row, language))
     sign(paper, style.method)

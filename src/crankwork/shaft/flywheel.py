@@ -27,6 +27,12 @@ def inertia_on_other_shaft(J_f: Value, i_g: Value) -> Value:
     return J_f * i_g**2
 
 
+@formula("wittenbauer_slope", "artobolevsky_1988, ch. 16", unit="J/(kg*m2)")
+def slope_of_mean_speed(w: Value) -> Value:
+    """Slope of both tangents of the mass-energy curve where the speed is taken to be its mean."""
+    return w**2 / 2
+
+
 @formula("wittenbauer_slope", "wittenbauer_1923", unit="J/(kg*m2)")
 def wittenbauer_slope_largest(w: Value, delta: Value) -> Value:
     """Slope of the upper tangent of the mass-energy curve, with the square of delta left out."""
@@ -162,7 +168,7 @@ def _slopes(way: Way, w: float, delta: float) -> tuple[float, float]:
     """Return half the squares of greatest and least speed as each way takes them."""
     match way:
         case "mertsalov":
-            return w**2 / 2, w**2 / 2
+            return float(slope_of_mean_speed(w)), float(slope_of_mean_speed(w))
         case "wittenbauer":
             return float(wittenbauer_slope_largest(w, delta)), float(wittenbauer_slope_least(w, delta))
         case _:

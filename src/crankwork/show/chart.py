@@ -12,16 +12,20 @@ from numpy.typing import NDArray
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale.numbers import number
 from crankwork.quantities import Language
-from crankwork.show.paper import BLACK, GREY, LIGHT, Paper, fitted_lines, text_width
+from crankwork.show import scene
+from crankwork.show.paper import BLACK, GREY, LIGHT, WIDER, Paper, fitted_lines, marked, text_width
+from crankwork.show.place import here, points_per_mm, round_scale, tall
 from crankwork.show.scene import DASH_DOT, SOLID, Anchor, Style
 
-WIDTH = 460.8
-LEFT, RIGHT, BOTTOM, TOP = 70.6, 18.0, 45.0, 10.0
+BOTTOM, TOP = 45.0, 10.0
 LEGEND_ROW = 13.4
 _TICK, _SMALL, _LEGEND = 8.5, 7.5, 8.5
 _FOOT_ROW = 9.0
-# The style of a row of a legend that explains an open circle.
+# largest numbers of axes that need no power of ten
+_SHORT = 0.01, 1e5
+# The styles of rows of a legend that explain an open circle, and an arrow.
 CIRCLE: Style = (0.0,)
+ARROW: Style = (-1.0,)
 
 
 class Box(NamedTuple):
@@ -34,7 +38,7 @@ class Box(NamedTuple):
 
 
 class Row(NamedTuple):
-    """A row of a legend: text, line style or `CIRCLE`, width of the line [pt] or 0 for none, its colour."""
+    """A row of a legend: text, line style, `CIRCLE` or `ARROW`, width of the line [pt] or 0 for none, its colour."""
 
     text: str
     style: Style = SOLID
@@ -60,14 +64,57 @@ def stretches(where: NDArray[np.bool_]) -> list[slice]:
     return [slice(int(start), int(end)) for start, end in ends.reshape(-1, 2)]
 
 
-class Graph:
-    """Axes on paper with scales that are set once: x from left to right, y from the lower to the upper edge."""
+def _rounded(length: float, ends: tuple[float, float]) -> float:
+    """Return the greatest length no longer than this at which a millimetre is a round number. [pt]"""
+    span = abs(ends[1] - ends[0])
+    return span / round_scale(span * points_per_mm() / length) * points_per_mm()
 
-    def __init__(
-        self, paper: Paper, box: Box, x: tuple[float, float], y: tuple[float, float], language: Language
+
+def _power(ends: tuple[float, float]) -> int:
+    """Return the power of ten, of three, that numbers of an axis are short without; none for those that are short."""
+    most = max(abs(one) for one in ends)
+    return 0 if _SHORT[0] <= most < _SHORT[1] else 3 * math.floor(math.log10(2 * most) / 3)
+
+
+class Graph:
+    """Axes on paper with scales that are set once: x from left to right, y from the lower to the upper edge.
+
+    `over`: key of the quantity across, where that is what tables go by; `to_scale`: on a sheet the graph is made
+    smaller until a millimetre is a round number of its units.
+    """
+
+    def __init__(  # noqa: PLR0913 - where, both scales, and what they are of
+        self,
+        paper: Paper,
+        box: Box,
+        x: tuple[float, float],
+        y: tuple[float, float],
+        language: Language,
+        over: str = "",
+        *,
+        to_scale: bool = True,
     ) -> None:
+        if here().is_sheet and to_scale:
+            box = box._replace(width=_rounded(box.width, x), height=_rounded(box.height, y))
         self.paper, self.box, self.x, self.y, self.language = paper, box, x, y, language
         self.curves: dict[str, tuple[Array, Array]] = {}
+        self._angles: dict[str, Array] = {}
+        self._titles: dict[str, str] = {}
+        titles = self._titles if to_scale or not here().is_sheet else {}
+        paper.plot(scene.Plot(scene.Box(*box), x, y, over, self._angles, self.curves, titles))
+
+    @property
+    def powers(self) -> tuple[int, int]:
+        """Powers of ten that the numbers of its axes are told without, and their titles with."""
+        if here().is_sheet:
+            return 0, 0
+        return _power(self.x), _power(self.y)
+
+    @property
+    def up_ticks(self) -> Array:
+        """Round numbers on the vertical axis, as many as have room for their letters. [its unit]"""
+        most = max(4, round(self.box.height / 24))
+        return round_ticks(*self.y, max(1, min(most, int(self.box.height / 13))) if here().is_sheet else most)
 
     def across(self, x: float | Array) -> Array:
         """Return where values of x stand on the paper. [pt]"""
@@ -83,7 +130,7 @@ class Graph:
         """Return where a point stands on the paper. [pt]"""
         return float(self.across(x)), float(self.down(y))
 
-    def curve(
+    def curve(  # noqa: PLR0913 - values, how they are drawn, and where they stand
         self,
         name: str,
         x: Sequence[float] | Array,
@@ -92,10 +139,13 @@ class Graph:
         *,
         width: float = 1.2,
         colour: str = BLACK,
+        angles: Array | None = None,
     ) -> None:
-        """Draw a curve that can be found again by its name."""
+        """Draw a curve that can be found again by its name; `angles`: those of its points over something else. [deg]"""
         x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
         self.curves[name] = (x, y)
+        if angles is not None:
+            self._angles[name] = angles
         # gaps where there is no value
         for part in stretches(np.isfinite(x + y)):
             self.paper.line(
@@ -125,34 +175,50 @@ class Graph:
         self.paper.segments(np.array([(left, top, left, bottom), (left, level, right, level), *marks]), width=0.8)
         if labels[0]:
             for value, at in zip(x_ticks, across, strict=True):
-                self.paper.text(at, bottom + 12.5, number(value, self.language), size=_TICK, anchor="middle")
+                self.paper.text(at, bottom + 12.5, self._number(value, 0), size=_TICK, anchor="middle")
         if labels[1]:
             for value, at in zip(y_ticks, down, strict=True):
-                self.paper.text(left - 6, at + 3, number(value, self.language), size=_TICK, anchor="end")
+                self.paper.text(left - 6, at + 3, self._number(value, 1), size=_TICK, anchor="end")
+
+    def told(self, value: float) -> str:
+        """Return a value as the numbers of the vertical axis are told, to four digits."""
+        return self._number(float(f"{value:.4g}"), 1)
+
+    def _number(self, value: float, axis: int) -> str:
+        return number(float(f"{value / 10.0 ** self.powers[axis]:.10g}"), self.language)
+
+    def _titled(self, text: str, axis: int) -> str:
+        """Return the title of an axis with the power of ten that its numbers lack before its unit."""
+        power = self.powers[axis]
+        if not power:
+            return text
+        name, comma, unit = text.rpartition(", ")
+        factor = f"10^{{{power}}}".replace("-", "−")
+        return f"{name}{comma}{factor} {unit}" if comma else f"{text}, {factor}"
+
+    def shows(self, y: str) -> None:
+        """Say what stands over the vertical axis where its title is written elsewhere."""
+        self._titles["y"] = marked(y)
 
     def x_title(self, text: str) -> None:
         """Write the title of the horizontal axis under its numbers."""
+        self._titles["x"], text = marked(text), self._titled(text, 0)
         self.paper.text(self.box.left + self.box.width / 2, self.box.top + self.box.height + 26, text, anchor="middle")
 
     def y_title(self, text: str, offset: float = 44.0) -> None:
         """Write the title of the vertical axis, on two lines if it is long; `offset` is its distance. [pt]"""
-        size = 9.0
+        self._titles["y"] = marked(text)
+        size, text = 9.0, self._titled(text, 1)
         lines = fitted_lines(text, size, self.box.height + 10)
-        if len(lines) > 2:
+        if len(lines) > 2 and here().is_sheet and "$" in text:
+            # a sheet has no smaller letters for it; the symbol is explained above
+            lines = fitted_lines(text[text.index("$") :], size, self.box.height + 10)
+        elif len(lines) > 2:
             size = 7.5
             lines = fitted_lines(text, size, self.box.height + 16)
         for at, one in enumerate(reversed(lines)):
             x = self.box.left - offset - 11 * at
             self.paper.upward_text(x, self.box.top + self.box.height / 2, one, size=size)
-
-    def mark(self, name: str, x: float, y: float, text: str, *, below: bool = False) -> None:
-        """Mark a point of a curve with a dot and a text over or under it, inside the edges of the graph."""
-        self.curves[name] = np.array([x]), np.array([y])
-        at, level = self.point(x, y)
-        self.paper.dot(at, level, 2.0)
-        half = text_width(text, 8.0) / 2
-        at = min(max(at, self.box.left + half + 3), self.box.left + self.box.width - half)
-        self.paper.text(at, level + (11.0 if below else -5.0), text, size=8.0, anchor="middle")
 
     def boxed(self, x: float, y: float, text: str, anchor: Anchor = "start", size: float = 8.5) -> None:
         """Write a text on white, so that no line of the graph runs through it. [pt]"""
@@ -172,7 +238,7 @@ def _legend_lines(rows: Sequence[Row]) -> list[tuple[Row | None, str]]:
     """Return the lines of a legend; a text too long goes on without a sample of its line."""
     lines: list[tuple[Row | None, str]] = []
     for row in rows:
-        first, *others = fitted_lines(row.text, _LEGEND, WIDTH - LEFT - RIGHT - 30)
+        first, *others = fitted_lines(row.text, _LEGEND, (here().width - here().left - 38) / WIDER)
         lines += [(row, first), *((None, one) for one in others)]
     return lines
 
@@ -185,9 +251,11 @@ def legend_height(rows: Sequence[Row]) -> float:
 def legend(paper: Paper, rows: Sequence[Row], top: float) -> None:
     """Draw a legend at the left edge of a graph, from `top` downward. [pt]"""
     for at, (row, text) in enumerate(_legend_lines(rows)):
-        left, level = LEFT + 8, top + LEGEND_ROW * at
+        left, level = here().left + 8, top + LEGEND_ROW * at
         if row is not None and row.style == CIRCLE:
             paper.dot(left + 10, level + 6, 2.6, fill="#ffffff", width=1.0)
+        elif row is not None and row.style == ARROW:
+            paper.arrow((left, level + 6), (left + 20, level + 6), width=row.width)
         elif row is not None and row.width:
             paper.line(
                 [left, left + 20], [level + 6] * 2, style=row.style, width=row.width, colour=row.colour, name="legend"
@@ -195,12 +263,17 @@ def legend(paper: Paper, rows: Sequence[Row], top: float) -> None:
         paper.text(left + 27, level + 9, text, size=_LEGEND)
 
 
-def limits(*values: Array, margin: float = 0.06) -> tuple[float, float]:
+def limits(*values: Array, margin: float = 0.06, is_place: bool = False) -> tuple[float, float]:
     """Return ends of a scale that holds zero and all values. [its unit]
 
-    `margin`: room beyond the largest and the least, as a share of the range.
+    `margin`: room beyond the largest and the least, as a share of the range; `is_place`: what tells where something is
+    does not hold zero if that is further away than the range is wide.
     """
-    known = np.concatenate([[0.0], *(np.ravel(one)[np.isfinite(np.ravel(one))] for one in values)])
+    known = np.concatenate([np.ravel(one)[np.isfinite(np.ravel(one))] for one in values])
+    if is_place and known.size and 0 < np.ptp(known) < np.min(np.abs(known)):
+        room = margin * float(np.ptp(known))
+        return float(np.min(known)) - room, float(np.max(known)) + room
+    known = np.append(known, 0.0)
     low, high = float(np.min(known)), float(np.max(known))
     room = margin * (high - low) or 1.0
     return (low - room if low < 0 else 0.0), (high + room if high > 0 or low == 0 else 0.0)
@@ -213,25 +286,33 @@ def over_cycle(
 
     `cycle`: end of the crank angle [deg].
     """
-    graph = Graph(paper, box, (0.0, cycle), y, language)
-    ticks = np.arange(0.0, cycle + 1, 90.0 if cycle > 360 else 30.0)
-    graph.frame(ticks, round_ticks(*y, max(4, round(box.height / 24))), labels=(numbers, True))
+    graph = Graph(paper, box, (0.0, cycle), y, language, "crank_angle")
+    ticks = np.arange(0.0, cycle + 1, 30.0 if graph.box.width * 30.0 > 22.0 * cycle else 90.0)
+    graph.frame(ticks, graph.up_ticks, labels=(numbers, True))
     return graph
 
 
 def sheet(height: float, rows: Sequence[Row] = (), *, below: float = BOTTOM) -> tuple[Paper, Box]:
     """Return paper with a legend on it, and the place for a graph below the legend. [pt]"""
     above = legend_height(rows)
-    paper = Paper(WIDTH, TOP + above + height + below)
+    at, height = here(), tall(height)
+    paper = Paper(at.width, TOP + above + height + below)
     legend(paper, rows, TOP - 4)
-    return paper, Box(LEFT, TOP + above, WIDTH - LEFT - RIGHT, height)
+    return paper, Box(at.left, TOP + above, at.inner, height)
 
 
 def sign(paper: Paper, method: str, remark: str = "") -> None:
     """Write how the numbers were made at the lower right, and a remark at the lower left, or above it."""
+    if here().is_sheet:
+        # a sheet says once how its numbers were made
+        if remark:
+            middle, foot = here().left + here().inner / 2, max(one[4] for one in paper.texts) + 13
+            for at, row in enumerate(fitted_lines(remark, 8, here().width / WIDER)):
+                paper.text(middle, foot + 12 * at, row, size=8, anchor="middle")
+        return
     size = 7.0
     foot = paper.height - 6
-    if text_width(method, size) + text_width(remark, size) > 0.94 * paper.width:
+    if WIDER * (text_width(method, size) + text_width(remark, size)) > 0.94 * paper.width:
         paper.height += _FOOT_ROW
     paper.text(paper.width * 0.985, paper.height - 6, method, size=size, anchor="end", colour=GREY)
     if remark:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import io
+import re
 from typing import Any
 
 import numpy as np
 
 from crankwork.errors import MissingExtraError
+from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Refusal
 from crankwork.show.scene import (
     PENS,
@@ -19,10 +21,13 @@ from crankwork.show.scene import (
     LineKind,
     Pen,
     Polyline,
+    Run,
     Text,
+    arc_points,
     hatch_lines,
     pen_of,
     runs,
+    shade_of,
     text_width,
 )
 from crankwork.show.theme import Theme
@@ -37,6 +42,12 @@ _MTEXT_MIDDLE = {"start": 4, "middle": 5, "end": 6}
 _THROUGH_CORNERS = 128
 # how much wider letters of another font may be
 _SPARE = 1.5
+# lines lighter than this are not black, and lighter than that the palest; dashes shorter than this are dots
+_LIGHT, _PALER, _DOT = 0.3, 0.8, 2.0
+# of slanted letters [deg]
+_SLANT = 15.0
+# what would be read as a code in a text with codes
+_CODES = re.compile(r"[\\{}]")
 
 
 def dxf(drawing: Drawing, _: Theme = "print") -> bytes:
@@ -60,7 +71,7 @@ def _written(document: Any, drawing: Drawing) -> bytes:  # noqa: ANN401 - a docu
     _prepare(document, drawing)
     space = document.modelspace()
     for item in drawing.items:
-        _add(space, item)
+        _add(space, item, drawing.width)
     width, height = drawing.width, drawing.height
     document.set_modelspace_vport(height, center=(width / 2, height / 2))
     document.header["$EXTMIN"], document.header["$EXTMAX"] = (0, 0, 0), (width, height, 0)
@@ -76,78 +87,109 @@ def _prepare(document: Any, drawing: Drawing) -> None:  # noqa: ANN401 - a docum
     document.styles.add(_STYLE, font=_FONT)
     for kind, pen in PENS.items():
         color = _BLACK if not pen.grey else _GREY if kind == "net" else _PALE
-        weight = _WEIGHTS[int(np.argmin(np.abs(np.array(_WEIGHTS) - 100 * pen.width)))]
         kind_of_line = "CONTINUOUS"
         if pen.dashes:
             kind_of_line = _layer(kind)
             signed = [one if count % 2 == 0 else -one for count, one in enumerate(pen.dashes)]
             document.linetypes.add(kind_of_line, [sum(pen.dashes), *signed], description=kind.replace("_", " "))
-        document.layers.add(_layer(kind), color=color, lineweight=weight, linetype=kind_of_line)
+        document.layers.add(_layer(kind), color=color, lineweight=_weight(pen.width), linetype=kind_of_line)
     document.layers.add("TEXT", color=_BLACK, lineweight=25)
     document.layers.add("HATCH", color=_BLACK, lineweight=25)
+    document.layers.add("CLEARED", color=_BLACK)
+    document.set_wipeout_variables(frame=0)
 
 
 def _layer(kind: LineKind | Pen) -> str:
     """Return the layer of a kind of line, and of a pen that of the kind that looks most like it."""
     if not isinstance(kind, Pen):
         return kind.upper()
+    if (shade := shade_of(kind)) > _LIGHT:
+        return "GRID_BOLD" if shade > _PALER else "NET"
+    if len(kind.dashes) == 2:
+        return "DOTTED" if kind.dashes[0] < _DOT * kind.width else "DASHED"
     alike = min(PENS.items(), key=lambda one: (len(one[1].dashes) != len(kind.dashes), abs(one[1].width - kind.width)))
     return alike[0].upper()
 
 
-def _add(space: Any, item: Item) -> None:  # noqa: ANN401 - a layout of ezdxf
+def _weight(width: float) -> int:
+    """Return the weight of a line that the format knows. [mm/100]"""
+    return _WEIGHTS[int(np.argmin(np.abs(np.array(_WEIGHTS) - 100 * width)))]
+
+
+def _as_drawn(kind: LineKind | Pen) -> dict[str, Any]:
+    """Return layer and weight of a line."""
+    found: dict[str, Any] = {"layer": _layer(kind)}
+    return found | {"lineweight": _weight(kind.width)} if isinstance(kind, Pen) else found
+
+
+def _add(space: Any, item: Item, edge: float) -> None:  # noqa: ANN401 - a layout of ezdxf
     match item:
         case Text():
-            _add_text(space, item)
+            _add_text(space, item, edge)
         case Circle():
-            attributes = {"layer": _layer(item.kind)}
-            if item.fill is not None and item.fill < 1:
-                filled = space.add_hatch(color=_shade(item.fill), dxfattribs={"layer": "HATCH"})
-                filled.paths.add_edge_path().add_arc(item.centre, item.radius, 0, 360)
-            space.add_circle(item.centre, item.radius, dxfattribs=attributes)
+            around = arc_points(Arc(item.centre, item.radius, 0.0, 360.0))
+            _add_fill(space, item.fill, around)
+            if pen_of(item.kind).width:
+                space.add_circle(item.centre, item.radius, dxfattribs=_as_drawn(item.kind))
         case Arc():
             space.add_arc(item.centre, item.radius, item.start, item.end, dxfattribs={"layer": _layer(item.kind)})
         case Hatch():
             for one in hatch_lines(item):
                 space.add_line(tuple(one[0]), tuple(one[1]), dxfattribs={"layer": "HATCH"})
         case Polyline():
-            _add_polyline(space, item)
+            _add_fill(space, item.fill, item.points)
+            points = [(float(x), float(y)) for x, y in item.points]
+            dashed = {"flags": _THROUGH_CORNERS if pen_of(item.kind).dashes else 0}
+            if pen_of(item.kind).width:
+                space.add_lwpolyline(points, close=item.closed, dxfattribs=_as_drawn(item.kind) | dashed)
 
 
-def _add_polyline(space: Any, item: Polyline) -> None:  # noqa: ANN401 - a layout of ezdxf
-    points = [(float(x), float(y)) for x, y in item.points]
-    if item.fill is not None and item.fill < 1:
-        filled = space.add_hatch(color=_shade(item.fill), dxfattribs={"layer": "HATCH"})
+def _add_fill(space: Any, fill: float | None, around: Array) -> None:  # noqa: ANN401 - a layout of ezdxf
+    """Fill an area: what is white hides what is beneath it."""
+    points = [(float(x), float(y)) for x, y in around]
+    if fill is not None and fill < 1:
+        filled = space.add_hatch(color=_shade(fill), dxfattribs={"layer": "HATCH"})
         filled.paths.add_polyline_path(points, is_closed=True)
-    attributes = {"layer": _layer(item.kind), "flags": _THROUGH_CORNERS if pen_of(item.kind).dashes else 0}
-    space.add_lwpolyline(points, close=item.closed, dxfattribs=attributes)
+    elif fill is not None:
+        space.add_wipeout(points, dxfattribs={"layer": "CLEARED"})
 
 
-def _add_text(space: Any, item: Text) -> None:  # noqa: ANN401 - a layout of ezdxf
-    """Add a text: plain text as TEXT on its baseline, text with an index as MTEXT around its middle."""
+def _add_text(space: Any, item: Text, edge: float) -> None:  # noqa: ANN401 - a layout of ezdxf
+    """Add a text: plain text as TEXT on its baseline, text with an index as MTEXT around its middle.
+
+    `edge`: of the paper, which letters of another font are not given room beyond [mm].
+    """
     parts = runs(item.text)
     attributes = {"layer": "TEXT", "style": _STYLE, "rotation": item.angle}
-    if all(not one.shift for one in parts):
+    if not any(one.shift or one.is_slanted for one in parts):
         attributes |= {"insert": item.place, "align_point": item.place, "halign": _HALIGN[item.anchor]}
-        # two per cent signs begin a code
-        space.add_text(item.text.replace("%%", "% %"), height=item.height, dxfattribs=attributes)
+        attributes["width"] = item.wide
+        # two per cent signs begin a code, and so does a caret that no space follows
+        space.add_text(
+            "".join(one.text for one in parts).replace("%%", "% %").replace("^", "^ "),
+            height=item.height,
+            dxfattribs=attributes,
+        )
         return
-    coded = "".join(_coded(one.text, one.shift) for one in parts)
+    coded = "".join(_coded(one) for one in parts)
     place = (item.place[0], item.place[1] + item.height / 2)
     # readers break lines at the width, and those without one at every space
-    width = _SPARE * text_width(item.text, item.height)
+    width = text_width(item.text, item.height)
+    beyond = {"start": edge - item.place[0], "middle": 2 * (edge - item.place[0]), "end": edge}[item.anchor]
+    width = max(width, min(_SPARE * width + 2.0 * item.height, beyond))
     attributes |= {"char_height": item.height, "attachment_point": _MTEXT_MIDDLE[item.anchor], "insert": place}
     attributes["width"] = width
     space.add_mtext(coded, dxfattribs=attributes)
 
 
-def _coded(text: str, shift: int) -> str:
+def _coded(run: Run) -> str:
     r"""Return a part of a text as MTEXT writes it, an index as a fraction `\S^ index;` without numerator."""
-    text = text.replace("\\", "\\\\").replace("^", "\\^")
-    if not shift:
-        return text
-    text = text.replace(";", "\\;").replace("/", "\\/").replace("#", "\\#")
-    return rf"{{\H{0.7:g}x;\S^ {text};}}" if shift < 0 else rf"{{\H{0.7:g}x;\S{text}^ ;}}"
+    text = _CODES.sub(r"\\\g<0>", run.text)
+    if not run.shift:
+        text = text.replace("^", "^ ")
+        return rf"{{\Q{_SLANT:g};{text}}}" if run.is_slanted else text
+    text = text.replace("^", "\\^").replace(";", "\\;").replace("/", "\\/").replace("#", "\\#")
+    return rf"{{\H{0.7:g}x;\S^ {text};}}" if run.shift < 0 else rf"{{\H{0.7:g}x;\S{text}^ ;}}"
 
 
 def _shade(fill: float) -> int:

@@ -7,14 +7,17 @@ import re
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Language
 from crankwork.show import scene
-from crankwork.show.scene import CAP_HEIGHT, SOLID, Circle, Drawing, Hatch, Item, Pen, Polyline, Style, Text
+from crankwork.show.place import LARGER, MM, here, letters
+from crankwork.show.scene import CAP_HEIGHT, SOLID, Circle, Drawing, Hatch, Item, Pen, Plot, Polyline, Style, Text
 
 BLACK, GREY, LIGHT = "#000000", "#737373", "#e0e0e0"
-MM = 25.4 / 72
+# letters of a reader may be wider than our table has them
+WIDER = 1.1
 _SYMBOL = re.compile(r"(?<!\\)\$((?:[^$\\]|\\.)*)\$")
 # what stands upright in a symbol
 _UPRIGHT = ("sin", "cos", "tan", "tg")
@@ -28,7 +31,7 @@ def plain(text: str) -> str:
     >>> print(plain("force at the joint, $x^$"))
     force at the joint, \$x^\$
     """
-    return text.replace("$", r"\$")
+    return scene.literal(text).replace("$", r"\$")
 
 
 def marked(text: str) -> str:
@@ -53,7 +56,7 @@ def _symbol(symbol: str) -> str:
 
 def text_width(text: str, size: float) -> float:
     """Return about how wide a text is, rather too much. [pt]"""
-    return scene.text_width(marked(text), size * CAP_HEIGHT)
+    return scene.text_width(marked(text), letters(size) * CAP_HEIGHT)
 
 
 def fitted_lines(text: str, size: float, width: float) -> tuple[str, ...]:
@@ -78,7 +81,17 @@ class Paper:
     def __init__(self, width: float, height: float) -> None:
         self.width, self.height = width, height
         self.texts: list[tuple[str, float, float, float, float]] = []
-        self._items: list[Item] = []
+        self.items: list[Item] = []
+        self._plots: list[Plot] = []
+        # where lines go, of as many items as were looked at when names were placed
+        self.sampled: NDArray[np.int64] = np.zeros((0, 3), dtype=np.int64)
+        self.looked_at = 0
+
+    def plot(self, plot: Plot) -> None:
+        """Say where a graph stands, left, upper edge, width and height in points, and what its scales are."""
+        box = plot.box
+        place = scene.Box(box.left * MM, -(box.bottom + box.height) * MM, box.width * MM, box.height * MM)
+        self._plots.append(plot._replace(box=place))
 
     def line(
         self,
@@ -95,17 +108,17 @@ class Paper:
         `name`: by which the line is found again in the file.
         """
         dashes = tuple(one * width * MM for one in style)
-        self._items.append(Polyline(_places(x, y), Pen(width * MM, dashes, colour=colour), name=name))
+        self.items.append(Polyline(_places(x, y), Pen(width * MM, dashes, colour=colour), name=name))
 
     def area(
         self, x: Sequence[float] | Array, y: Sequence[float] | Array, *, fill: str = "#ffffff", width: float = 0.0
     ) -> None:
         """Fill an area, with a black outline if it has a width."""
-        self._items.append(Polyline(_places(x, y), Pen(width * MM), closed=True, fill=_grey(fill)))
+        self.items.append(Polyline(_places(x, y), Pen(width * MM), closed=True, fill=_grey(fill)))
 
     def hatch(self, x: Sequence[float] | Array, y: Sequence[float] | Array, spacing: float = 5.0) -> None:
         """Hatch an area with slanted lines at a distance. [pt]"""
-        self._items.append(Hatch(_places(x, y), spacing * MM))
+        self.items.append(Hatch(_places(x, y), spacing * MM))
 
     def segments(self, ends: Array, *, width: float = 0.5, colour: str = BLACK) -> None:
         """Draw many straight lines at once, such as hatching.
@@ -113,11 +126,11 @@ class Paper:
         `ends`: x and y of the start, x and y of the end of each [pt], shape (n, 4).
         """
         pen = Pen(width * MM, colour=colour)
-        self._items += [Polyline(_places((a, c), (b, d)), pen) for a, b, c, d in np.asarray(ends).tolist()]
+        self.items += [Polyline(_places((a, c), (b, d)), pen) for a, b, c, d in np.asarray(ends).tolist()]
 
     def dot(self, x: float, y: float, radius: float = 1.5, *, fill: str = BLACK, width: float = 0.0) -> None:
         """Draw a dot, or a circle."""
-        self._items.append(Circle((x * MM, -y * MM), radius * MM, Pen(width * MM), _grey(fill)))
+        self.items.append(Circle((x * MM, -y * MM), radius * MM, Pen(width * MM), _grey(fill)))
 
     def arrow(
         self,
@@ -149,14 +162,14 @@ class Paper:
         `x` and `y`: where its base line begins, ends or has its middle [pt]; `anchor`: start, middle or end: which
         point of the text stands at x, y.
         """
-        width = text_width(text, size)
+        width, size = text_width(text, size), letters(size)
         left = x - {"start": 0.0, "middle": width / 2, "end": width}[anchor]
         self.texts.append((text, left, y - 0.75 * size, left + width, y + 0.25 * size))
         self._write((x, y), text, size, anchor, grey=_grey(colour))
 
     def upward_text(self, x: float, y: float, text: str, *, size: float = 9.0) -> None:
         """Write a text that runs upward."""
-        half = text_width(text, size) / 2
+        half, size = text_width(text, size) / 2, letters(size)
         self.texts.append((text, x - 0.75 * size, y - half, x + 0.25 * size, y + half))
         self._write((x, y), text, size, "middle", angle=90.0)
 
@@ -171,22 +184,16 @@ class Paper:
         grey: float = 0.0,
     ) -> None:
         at = place[0] * MM, -place[1] * MM
-        self._items.append(Text(at, marked(text), size * MM * CAP_HEIGHT, anchor, angle, grey))
+        self.items.append(Text(at, marked(text), letters(size) * MM * CAP_HEIGHT, anchor, angle, grey))
 
     def drawing(self, title: str, language: Language = "en") -> Drawing:
         """Return what was drawn, on a paper whose origin is its lower left corner."""
-        height = self.height * MM
-        return Drawing(title, language, self.width * MM, height, tuple(_raised(one, height) for one in self._items))
+        larger = LARGER if here().is_sheet else 1.0
+        width, height = self.width * MM * larger, self.height * MM * larger
+        items = tuple(scene.moved(one, 0.0, height, larger) for one in self.items)
+        plots = tuple(scene.moved_plot(one, 0.0, height, larger) for one in self._plots)
+        return Drawing(title, language, width, height, items, plots)
 
 
 def _places(x: Sequence[float] | Array, y: Sequence[float] | Array) -> Array:
     return np.column_stack([np.asarray(x, dtype=float), -np.asarray(y, dtype=float)]) * MM
-
-
-def _raised(item: Item, by: float) -> Item:
-    match item:
-        case Text():
-            return item._replace(place=(item.place[0], item.place[1] + by))
-        case Circle() | scene.Arc():
-            return item._replace(centre=(item.centre[0], item.centre[1] + by))
-    return item._replace(points=item.points + np.array([0.0, by]))

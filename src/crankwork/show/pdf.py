@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from crankwork.errors import MissingExtraError
 from crankwork.locale import Refusal
+from crankwork.show.alt import described
 from crankwork.show.scene import Drawing
 from crankwork.show.svg import svg
 from crankwork.show.theme import Theme
@@ -14,30 +16,46 @@ _PAGE = """#let data = sys.inputs
 #set document(title: data.title, date: none)
 #set page(width: float(data.width) * 1mm, height: float(data.height) * 1mm, margin: 0mm)
 #set text(lang: data.language)
-#image(bytes(data.drawing), format: "svg", width: 100%, height: 100%, alt: data.title)
+#for at in range(int(data.count)) {
+  page(image(bytes(data.at(str(at))), format: "svg", width: 100%, height: 100%, alt: data.described))
+}
 """
 
 
 def pdf(drawing: Drawing, theme: Theme = "print") -> bytes:
     """Return a drawing as PDF, in true millimetres, the same bytes every time."""
-    return _placed(drawing, theme, "PDF", format="pdf")
+    return _placed([drawing], theme, "PDF", format="pdf")[0]
 
 
 def png(drawing: Drawing, theme: Theme = "print", pixels_per_inch: float = 200.0) -> bytes:
     """Return a drawing as a picture of pixels."""
-    return _placed(drawing, theme, "PNG", format="png", ppi=pixels_per_inch)
+    return pngs([drawing], theme, pixels_per_inch)[0]
 
 
-def _placed(drawing: Drawing, theme: Theme, name: str, **how: Any) -> bytes:  # noqa: ANN401 - what typst takes
+def pngs(drawings: Sequence[Drawing], theme: Theme, pixels_per_inch: float, drawn: Sequence[bytes] = ()) -> list[bytes]:
+    """Return drawings of one size as pictures of pixels, sooner than one by one; `drawn`: they as SVG, if made."""
+    return _placed(drawings, theme, "PNG", drawn, format="png", ppi=pixels_per_inch)
+
+
+def _placed(
+    drawings: Sequence[Drawing],
+    theme: Theme,
+    name: str,
+    drawn: Sequence[bytes] = (),
+    **how: Any,  # noqa: ANN401 - what typst takes
+) -> list[bytes]:
     try:
         import typst  # noqa: PLC0415 - an optional part
     except ImportError:
         raise MissingExtraError(Refusal("extra_writing", names=name), "report") from None
+    first = drawings[0]
     inputs = {
-        "title": drawing.title,
-        "language": drawing.language,
-        "width": f"{drawing.width:g}",
-        "height": f"{drawing.height:g}",
-        "drawing": svg(drawing, theme).decode(),
-    }
-    return bytes(typst.compile(_PAGE.encode(), sys_inputs=inputs, ignore_system_fonts=True, **how))
+        "title": first.title,
+        "described": described(first),
+        "language": first.language,
+        "width": f"{first.width:g}",
+        "height": f"{first.height:g}",
+        "count": str(len(drawings)),
+    } | {str(at): one.decode() for at, one in enumerate(drawn or [svg(one, theme) for one in drawings])}
+    made = typst.compile(_PAGE.encode(), sys_inputs=inputs, ignore_system_fonts=True, **how)
+    return [bytes(one) for one in made] if isinstance(made, list) else [bytes(made)]

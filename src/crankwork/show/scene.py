@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import re
+from collections.abc import Mapping, Sequence
 from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Language
@@ -44,6 +46,9 @@ PENS: dict[LineKind, Pen] = {
 }
 
 
+# widths of lines after ISO 128
+_WIDTHS = (0.13, 0.18, 0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0)
+
 # dashes and gaps of the lines of a chart, in widths of the line
 Style = tuple[float, ...]
 SOLID: Style = ()
@@ -55,6 +60,11 @@ DOTTED: Style = (1.2, 1.6)
 def pen_of(kind: LineKind | Pen) -> Pen:
     """Return how a line is drawn that has a kind or a pen of its own."""
     return kind if isinstance(kind, Pen) else PENS[kind]
+
+
+def shade_of(pen: Pen) -> float:
+    """Return how light a line is, from ink 0 to paper 1; a colour by its red."""
+    return int(pen.colour[1:3], 16) / 255 if pen.colour else pen.grey
 
 
 class Box(NamedTuple):
@@ -115,7 +125,8 @@ class Arc(NamedTuple):
 class Text(NamedTuple):
     """A line of text upon its baseline, capitals `height` tall, turned by an angle [deg].
 
-    `M_{i}` sets an index, `10^{3}` an exponent, `/{M}` slanted letters; `grey` as of a `Pen`.
+    `M_{i}` sets an index, `10^{3}` an exponent, `/{M}` slanted letters; `grey` as of a `Pen`, `halo` clears what is
+    beneath its edges; letters are as `wide` as the font has them, or narrower.
     """
 
     place: tuple[float, float]
@@ -124,6 +135,8 @@ class Text(NamedTuple):
     anchor: Anchor = "start"
     angle: float = 0.0
     grey: float = 0.0
+    halo: bool = False
+    wide: float = 1.0
 
 
 class Hatch(NamedTuple):
@@ -136,14 +149,32 @@ class Hatch(NamedTuple):
 Item = Polyline | Circle | Arc | Text | Hatch
 
 
+class Plot(NamedTuple):
+    """Where a graph stands on its drawing, and what its scales say.
+
+    `over`: key of the quantity across, if that is what tables go by; `angles`: crank angles [deg] of the points of
+    curves that stand over something else, by the names of their lines; `curves`: what they show, in the units of the
+    scales, by the same names; `titles`: of the axes, by `x` and `y`.
+    """
+
+    box: Box
+    x: tuple[float, float]
+    y: tuple[float, float]
+    over: str
+    angles: Mapping[str, Array]
+    curves: Mapping[str, tuple[Array, Array]]
+    titles: Mapping[str, str]
+
+
 class Drawing(NamedTuple):
-    """A scene on its paper, which is white."""
+    """A scene on its paper, which is white, and the graphs that are on it."""
 
     title: str
     language: Language
     width: float
     height: float
     items: tuple[Item, ...]
+    plots: tuple[Plot, ...] = ()
 
 
 def line(start: ArrayLike, end: ArrayLike, kind: LineKind = "thin") -> Polyline:
@@ -179,6 +210,9 @@ class Run(NamedTuple):
 
 
 _MARKED = re.compile(r"([_^/])\{([^{}]*)\}")
+# braces of names of users, which mark nothing, on their way through texts with marks: characters that nothing prints
+_BRACES = str.maketrans("{}", "\uf07b\uf07d")
+_AS_WRITTEN = str.maketrans("\uf07b\uf07d", "{}")
 _SHIFTS = {"_": -1, "^": 1, "/": 0}
 
 
@@ -195,7 +229,18 @@ def runs(text: str) -> list[Run]:
         found += [Run(text[last : one.start()], 0), Run(one[2], _SHIFTS[one[1]], one[1] == "/")]
         last = one.end()
     found.append(Run(text[last:], 0))
-    return [one for one in found if one.text]
+    return [one._replace(text=one.text.translate(_AS_WRITTEN)) for one in found if one.text]
+
+
+def literal(name: str) -> str:
+    """Return a name of the user's own in which no mark is read.
+
+    Examples
+    --------
+    >>> [one.text for one in runs(f"point {literal('P_{1}')}")]
+    ['point P_{1}']
+    """
+    return name.translate(_BRACES)
 
 
 def indexed(symbol: str) -> str:
@@ -211,9 +256,9 @@ def indexed(symbol: str) -> str:
 
 
 def printable(name: str, longest: int = 24) -> str:
-    """Return a name from outside with a box for what cannot be printed, shortened, and without marks of an index."""
+    """Return a name from outside with a box for what cannot be printed, and shortened."""
     name = name if len(name) <= longest else f"{name[: longest - 1]}…"
-    return "".join(one if one.isprintable() else "□" for one in name).replace("{", "(").replace("}", ")")
+    return "".join(one if one.isprintable() else "□" for one in name)
 
 
 _NARROW, _WIDE = frozenset(" .,:;|!'′ijltfrI()[]/°·"), frozenset("mwMWШЩЖЮФМшщжюфыЫЪм@—…%ωφψΣΦΩ")
@@ -234,11 +279,60 @@ def text_width(text: str, height: float = TEXT) -> float:
     return width * height / CAP_HEIGHT
 
 
+def moved(item: Item, right: float, up: float, larger: float = 1.0) -> Item:
+    """Return an item elsewhere, enlarged before about the origin. [mm]"""
+    by = np.array([right, up])
+    match item:
+        case Text():
+            x, y = item.place
+            return item._replace(place=(larger * x + right, larger * y + up), height=larger * item.height)
+        case Circle() | Arc():
+            x, y = item.centre
+            centre, radius = (larger * x + right, larger * y + up), larger * item.radius
+            if isinstance(item, Arc):
+                return item._replace(centre=centre, radius=radius)
+            return item._replace(centre=centre, radius=radius, kind=_broader(item.kind, larger))
+        case Hatch():
+            return Hatch(larger * item.points + by, larger * item.spacing)
+    return item._replace(points=larger * item.points + by, kind=_broader(item.kind, larger))
+
+
+def placed(item: Item, shift: ArrayLike, turn: float = 0.0, stretch: float = 1.0) -> Item:
+    """Return an item stretched along x, turned anticlockwise about the origin and shifted; circles stay round. [deg]"""
+    cos, sin = np.cos(np.radians(turn)), np.sin(np.radians(turn))
+    way = np.array([[stretch * cos, stretch * sin], [-sin, cos]])
+    match item:
+        case Text():
+            x, y = np.array(item.place) @ way
+            item = item._replace(place=(float(x), float(y)), angle=item.angle + turn)
+        case Circle() | Arc():
+            x, y = np.array(item.centre) @ way
+            item = item._replace(centre=(float(x), float(y)))
+            item = item._replace(start=item.start + turn, end=item.end + turn) if isinstance(item, Arc) else item
+        case _:
+            item = item._replace(points=item.points @ way)
+    return moved(item, *np.asarray(shift, dtype=float).tolist())
+
+
+def moved_plot(plot: Plot, right: float, up: float, larger: float = 1.0) -> Plot:
+    """Return a graph elsewhere, enlarged before about the origin. [mm]"""
+    left, bottom, width, height = (larger * one for one in plot.box)
+    return plot._replace(box=Box(left + right, bottom + up, width, height))
+
+
+def _broader(kind: LineKind | Pen, larger: float) -> LineKind | Pen:
+    """Return the pen of an enlarged line, of a width that pens have."""
+    if larger == 1.0 or not isinstance(kind, Pen) or not kind.width:
+        return kind
+    width = min(_WIDTHS, key=lambda one: abs(math.log(one / (larger * kind.width))))
+    return kind._replace(width=width, dashes=tuple(larger * one for one in kind.dashes))
+
+
 def extent(item: Item) -> Box:
     """Return what an item covers, letters about. [mm]"""
     match item:
         case Text():
-            width = text_width(item.text, item.height)
+            width = item.wide * text_width(item.text, item.height)
             left = {"start": 0.0, "middle": -width / 2, "end": -width}[item.anchor]
             low = -0.35 * item.height
             turn = np.radians(item.angle)
@@ -256,31 +350,49 @@ def extent(item: Item) -> Box:
 
 
 # of a line, what nobody sees [mm]
-_UNSEEN = 0.01
+UNSEEN = 0.01
 
 
-def thinned(points: Array, within: float = _UNSEEN) -> Array:
-    """Return the points of a line without those that lie as near as that to the line that is left. [mm]
+def thinned(points: Array, within: float = UNSEEN) -> Array:
+    """Return the points of a line without those that lie as near as that to the line that is left. [mm]"""
+    return points[seen(points, within)] if len(points) > 2 else points
+
+
+def seen(points: Array, within: float) -> NDArray[np.bool_]:
+    """Return which points of a line do not lie as near as that to the line through the others. [mm]"""
+    return seen_of_each([points], within)[0]
+
+
+def seen_of_each(lines: Sequence[Array], within: float) -> list[NDArray[np.bool_]]:
+    """Return which points of each line are seen, of all lines at once. [mm]
 
     By Douglas and Peucker.
     """
-    kept = np.zeros(len(points), dtype=bool)
-    kept[[0, -1]] = True
-    open_parts = [(0, len(points) - 1)]
-    while open_parts:
-        first, last = open_parts.pop()
-        if last - first < 2:
-            continue
-        way, inner = points[last] - points[first], points[first + 1 : last] - points[first]
+    ends = np.cumsum([len(one) for one in lines])
+    kept = np.zeros(ends[-1] if len(lines) else 0, dtype=bool)
+    kept[ends - 1] = kept[ends[:-1]] = True
+    kept[:1] = True
+    across, up = np.vstack([*lines, np.zeros((0, 2))]).T.copy()
+    unknown = np.flatnonzero(~kept)
+    while unknown.size:
+        # all parts between points that are kept at once
+        known = np.flatnonzero(kept)
+        part = np.cumsum(kept)[unknown] - 1
+        start, end = known[part], known[part + 1]
+        way_x, way_y = across[end] - across[start], up[end] - up[start]
+        off_x, off_y = across[unknown] - across[start], up[unknown] - up[start]
         # nearest point between the ends, because a line may turn back
-        shares = np.clip(inner @ way / max(float(way @ way), 1e-30), 0.0, 1.0)
-        apart = np.hypot(inner[:, 0] - shares * way[0], inner[:, 1] - shares * way[1])
-        farthest = int(np.argmax(apart))
-        if apart[farthest] > within:
-            middle = first + 1 + farthest
-            kept[middle] = True
-            open_parts += [(first, middle), (middle, last)]
-    return points[kept]
+        along = (off_x * way_x + off_y * way_y) / np.maximum(way_x * way_x + way_y * way_y, 1e-30)
+        shares = np.clip(along, 0.0, 1.0)
+        apart = np.hypot(off_x - shares * way_x, off_y - shares * way_y)
+        begins = np.append(True, part[1:] != part[:-1])
+        farthest = np.maximum.reduceat(apart, np.flatnonzero(begins))[np.cumsum(begins) - 1]
+        is_seen = farthest > within
+        ways = np.flatnonzero(is_seen & (apart == farthest))
+        # of those as far away the first
+        kept[unknown[ways[np.append(True, part[ways[1:]] != part[ways[:-1]])[: ways.size]]]] = True
+        unknown = unknown[is_seen & ~kept[unknown]]
+    return np.split(kept, ends[:-1])
 
 
 def arc_points(item: Arc) -> Array:

@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Iterator
+import re
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 
+import numpy as np
+from numpy.typing import NDArray
+
 from crankwork.kinematics.crank_grid import Array
+from crankwork.show.alt import described
 from crankwork.show.scene import (
     CAP_HEIGHT,
     INDEX,
+    UNSEEN,
     Arc,
     Circle,
     Drawing,
@@ -23,39 +29,59 @@ from crankwork.show.scene import (
     hatch_lines,
     pen_of,
     runs,
+    seen_of_each,
     thinned,
 )
 from crankwork.show.theme import Look, Theme, look_of, themed
 
+_BLACK = "#000000"
+# what is written as nothing, and the zeros that end a number of three places
+_ZERO, _ENDS = 5e-4, re.compile(r"\.?0+(?=[ L]|$)")
+_NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 FONTS = "Libertinus Serif, Times New Roman, Liberation Serif, DejaVu Serif, serif"
 
 
 def svg(drawing: Drawing, theme: Theme = "print") -> bytes:
     """Return a drawing as SVG whose user unit is a millimetre of the paper."""
     look = look_of(theme)
-    drawing = themed(drawing, theme)
+    return page(drawing, look, SvgWriter(drawing.height, look).written(themed(drawing, theme).items))
+
+
+def page(drawing: Drawing, look: Look, written: Iterable[str], about: str = "") -> bytes:
+    """Return what is written as SVG upon the ground of a drawing; `about`: what it shows, in words."""
     width, height = (_number(one) for one in (drawing.width, drawing.height))
     size = f'width="{width}mm" height="{height}mm" viewBox="0 0 {width} {height}"'
-    inked = "" if theme == "print" else f' fill="{look.ink}"'
+    inked = "" if look.ink == _BLACK else f' fill="{look.ink}"'
     head = f'<svg xmlns="http://www.w3.org/2000/svg" {size} font-family="{FONTS}" lang="{drawing.language}"{inked}>'
-    title = f"<title>{html.escape(drawing.title)}</title>"
+    told = f"<title>{clean(drawing.title)}</title><desc>{clean(about or described(drawing))}</desc>"
     ground = f'<rect width="{width}" height="{height}" fill="{look.ground}"/>'
-    written = _Writer(drawing.height, look).written(drawing.items)
-    return "\n".join([head, title, ground, *written, "</svg>", ""]).encode()
+    return "\n".join([head, told, ground, *written, "</svg>", ""]).encode()
+
+
+def clean(text: str) -> str:
+    """Return a text as SVG holds it, without what XML cannot."""
+    return html.escape(_NOT_XML.sub("", text))
 
 
 def _number(value: float) -> str:
-    return f"{value:.3f}".rstrip("0").rstrip(".") if abs(value) >= 5e-4 else "0"
+    return f"{value:.3f}".rstrip("0").rstrip(".") if abs(value) >= _ZERO else "0"
 
 
-class _Writer:
+class SvgWriter:
     """Items as SVG, which counts downward from the top of the paper."""
+
+    _SPACES = ' xml:space="preserve"'
+    _SLANTED = ' font-style="italic"'
+    _JOIN = ' stroke-linejoin="round"'
 
     def __init__(self, height: float, look: Look) -> None:
         self._height, self._look = height, look
+        self._kept: dict[int, NDArray[np.bool_]] = {}
 
     def written(self, items: tuple[Item, ...]) -> Iterator[str]:
-        for (_, is_plain), group in groupby(items, _joined):
+        """Yield the elements of items, lines of one kind that follow one another as one."""
+        self._look_through([one for one in items if isinstance(one, Polyline) and len(one.points) > 2])
+        for (_, is_plain), group in groupby(_sorted(items), _joined):
             some = list(group)
             if is_plain:
                 yield self._path([one for one in some if isinstance(one, Polyline)])
@@ -63,10 +89,24 @@ class _Writer:
                 for one in some:
                     yield self._one(one)
 
+    def _look_through(self, lines: Sequence[Polyline]) -> None:
+        """Find which points of lines are seen, of all that are as fine at once."""
+        for within in sorted({self._unseen(one) for one in lines}):
+            places = [one.points for one in lines if self._unseen(one) == within]
+            kept = seen_of_each(places, within)
+            self._kept |= {id(one): which for one, which in zip(places, kept, strict=True)}
+
+    def _unseen(self, _item: Polyline) -> float:
+        """Return what nobody sees of a line. [mm]"""
+        return UNSEEN
+
+    def _thinned(self, item: Polyline) -> Array:
+        return item.points[self._kept[id(item.points)]] if len(item.points) > 2 else item.points
+
     def _path(self, lines: list[Polyline]) -> str:
         """Return lines of one kind as one path."""
-        d = "".join(self._steps(one.points, closed=one.closed) for one in lines)
-        return f'<path d="{d}" fill="none" {self._stroke(lines[0].kind)}/>'
+        d = "".join(self._steps(self._thinned(one), closed=one.closed) for one in lines)
+        return f'<path d="{d}"{self._drawn_as(lines[0].kind, lines[0].fill)}/>'
 
     def _one(self, item: Item) -> str:
         match item:
@@ -74,67 +114,110 @@ class _Writer:
                 return self._text(item)
             case Circle():
                 x, y = self._at(*item.centre)
-                style = self._stroke(item.kind)
-                return f'<circle cx="{x}" cy="{y}" r="{_number(item.radius)}" fill="{self._fill(item.fill)}" {style}/>'
+                return (
+                    f'<circle cx="{x}" cy="{y}" r="{self._number(item.radius)}"{self._drawn_as(item.kind, item.fill)}/>'
+                )
             case Arc():
-                return f'<path d="{self._steps(arc_points(item))}" fill="none" {self._stroke(item.kind)}/>'
+                d = self._steps(thinned(arc_points(item)))
+                return f'<path d="{d}"{self._drawn_as(item.kind)}/>'
             case Hatch():
                 strokes = "".join(self._steps(one) for one in hatch_lines(item))
-                return f'<path d="{strokes}" fill="none" {self._stroke("thin")}/>'
+                return f'<path d="{strokes}"{self._drawn_as("thin")}/>'
             case _:
-                name = f' class="{html.escape(item.name)}"' if item.name else ""
-                d = self._steps(item.points, closed=item.closed)
-                return f'<path{name} d="{d}" fill="{self._fill(item.fill)}" {self._stroke(item.kind)}/>'
+                return self._line(item)
+
+    def _line(self, item: Polyline) -> str:
+        name = f' class="{clean(item.name)}"' if item.name else ""
+        d = self._steps(self._thinned(item), closed=item.closed)
+        return f'<path{name} d="{d}"{self._drawn_as(item.kind, item.fill)}/>'
 
     def _text(self, item: Text) -> str:
         x, y = self._at(*item.place)
-        turn = f' transform="rotate({_number(-item.angle)} {x} {y})"' if item.angle else ""
+        moves = [f"rotate({self._number(-item.angle)} {x} {y})"] if item.angle else []
+        if item.wide != 1:
+            moves, x, y = [*moves, f"translate({x} {y}) scale({self._number(item.wide)} 1)"], "0", "0"
+        turn = f' transform="{" ".join(moves)}"' if moves else ""
         size = item.height / CAP_HEIGHT
-        anchor = f' text-anchor="{item.anchor}"' if item.anchor != "start" else ""
-        anchor += f' fill="{self._shade(item.grey)}"' if item.grey else ""
         body, below = "", 0.0
         for run in runs(item.text):
             wanted = {-1: 0.3 * item.height, 0: 0.0, 1: -0.5 * item.height}[run.shift]
-            text = html.escape(run.text)
+            text = clean(run.text)
             if run.shift or below or run.is_slanted:
-                look = f' dy="{_number(wanted - below)}"' if wanted != below else ""
-                look += f' font-size="{_number(INDEX * size)}"' if run.shift else ""
-                look += ' font-style="italic"' if run.is_slanted else ""
+                look = f' dy="{self._number(wanted - below)}"' if wanted != below else ""
+                look += f' font-size="{self._number(INDEX * size)}"' if run.shift else ""
+                look += self._SLANTED if run.is_slanted else ""
                 text = f"<tspan{look}>{text}</tspan>"
             body, below = body + text, wanted
-        return f'<text x="{x}" y="{y}" font-size="{_number(size)}"{anchor}{turn} xml:space="preserve">{body}</text>'
+        return f'<text x="{x}" y="{y}"{self._sized(size)}{self._lettered(item)}{turn}{self._SPACES}>{body}</text>'
+
+    def _sized(self, size: float) -> str:
+        return f' font-size="{self._number(size)}"'
+
+    def _lettered(self, item: Text) -> str:
+        """Return how the letters of a text stand and look."""
+        anchor = f' text-anchor="{item.anchor}"' if item.anchor != "start" else ""
+        anchor += self._filled(item.grey) if item.grey else ""
+        halo = f'stroke-width="{self._number(0.3 * item.height)}"{self._JOIN} paint-order="stroke"'
+        return f"{anchor}{self._drawn(self._look.ground)} {halo}" if item.halo else anchor
 
     def _at(self, x: float, y: float) -> tuple[str, str]:
-        return _number(x), _number(self._height - y)
+        return self._number(x), self._number(self._height - y)
 
     def _steps(self, points: Array, *, closed: bool = False) -> str:
-        places = [" ".join(self._at(x, y)) for x, y in thinned(points).tolist()]
-        return "M" + "L".join(places) + ("z" if closed else "")
+        places = (points * (1, -1) + (0, self._height)).ravel()
+        places[np.abs(places) < _ZERO] = 0.0
+        written = "L".join(["%.3f %.3f"] * len(points)) % tuple(places.tolist())
+        return "M" + _ENDS.sub("", written) + ("z" if closed else "")
 
-    def _stroke(self, kind: LineKind | Pen) -> str:
+    def _drawn_as(self, kind: LineKind | Pen, fill: float | None = None) -> str:
+        """Return how a line is drawn, and what it surrounds."""
         pen = pen_of(kind)
+        return self._filled(fill, pen.colour) + self._stroke(pen)
+
+    def _stroke(self, pen: Pen) -> str:
         if not pen.width:
-            return 'stroke="none"'
-        dashes = f' stroke-dasharray="{" ".join(_number(one) for one in pen.dashes)}"' if pen.dashes else ""
+            return self._drawn("none")
+        dashes = f' stroke-dasharray="{" ".join(self._number(one) for one in pen.dashes)}"' if pen.dashes else ""
         colour = self._coloured(pen.colour) if pen.colour else self._shade(pen.grey)
-        return f'stroke="{colour}" stroke-width="{_number(pen.width)}" stroke-linejoin="round"{dashes}'
+        return f'{self._drawn(colour)} stroke-width="{self._number(pen.width)}"{self._JOIN}{dashes}'
+
+    def _number(self, value: float) -> str:
+        return _number(value)
+
+    def _drawn(self, colour: str) -> str:
+        return f' stroke="{colour}"'
+
+    def _filled(self, fill: float | None, colour: str = "") -> str:
+        return f' fill="{"none" if fill is None else self._shade(fill, colour)}"'
 
     def _coloured(self, colour: str) -> str:
         """Return a colour, a grey one between ink and ground."""
         red, green, blue = (colour[at : at + 2] for at in (1, 3, 5))
         return self._shade(int(red, 16) / 255) if red == green == blue else colour
 
-    def _fill(self, fill: float | None) -> str:
-        return "none" if fill is None else self._shade(fill)
-
-    def _shade(self, grey: float) -> str:
-        """Return a shade from ink 0 to ground 1."""
-        ends = [[int(one[at : at + 2], 16) for at in (1, 3, 5)] for one in (self._look.ink, self._look.ground)]
+    def _shade(self, grey: float, colour: str = "") -> str:
+        """Return a shade from ink 0, or a colour, to ground 1."""
+        first = colour or self._look.ink
+        ends = [[int(one[at : at + 2], 16) for at in (1, 3, 5)] for one in (first, self._look.ground)]
         return "#" + "".join(f"{round(ink + grey * (ground - ink)):02x}" for ink, ground in zip(*ends, strict=True))
 
 
 def _joined(item: Item) -> tuple[object, bool]:
-    """Return what items must share to be written as one path."""
-    if isinstance(item, Polyline) and item.fill is None and not item.name:
-        return item.kind, True
+    """Return what items must share to be written as one path; an outline is hidden by what is filled upon it."""
+    if isinstance(item, Polyline) and not item.name and (item.fill is None or not pen_of(item.kind).width):
+        return (item.kind, item.fill), True
     return id(item), False
+
+
+def _sorted(items: tuple[Item, ...]) -> Iterator[Item]:
+    """Yield items in their order, but those together that look alike where what lies above does not matter: in ink."""
+    for is_ink, group in groupby(items, _is_ink):
+        some = list(group)
+        yield from sorted(some, key=lambda item: repr(_joined(item))) if is_ink else some
+
+
+def _is_ink(item: Item) -> bool:
+    if not isinstance(item, Polyline) or item.name or item.fill not in (None, 0):
+        return False
+    pen = pen_of(item.kind)
+    return not pen.grey and pen.colour in ("", _BLACK)

@@ -11,20 +11,31 @@ THEMES: tuple[Theme, ...] = get_args(Theme)
 
 
 class Look(NamedTuple):
-    """Colours of ground and letters, and of curves by how many dashes and gaps their lines have."""
+    """Colours of ground and letters, and of curves by how their lines are dashed; others have that of letters."""
 
     ground: str
     ink: str
-    curves: dict[int, str]
+    curves: dict[str, str]
 
 
 # colours that those who confuse red and green tell apart (Okabe and Ito); curves keep their dashes
 _LOOKS: dict[Theme, Look] = {
     "print": Look("#ffffff", "#000000", {}),
-    "colour": Look("#ffffff", "#000000", {0: "#0072b2", 2: "#d55e00", 4: "#009e73"}),
-    "dark": Look("#14171c", "#e8e8e8", {0: "#56b4e9", 2: "#e69f00", 4: "#2fc79a"}),
+    "colour": Look(
+        "#ffffff", "#000000", {"solid": "#0072b2", "dashed": "#d55e00", "dash-dot": "#009e73", "dotted": "#a6548a"}
+    ),
+    "dark": Look(
+        "#14171c", "#e8e8e8", {"solid": "#56b4e9", "dashed": "#e69f00", "dash-dot": "#2fc79a", "dotted": "#dd9fc4"}
+    ),
 }
-_DOTTED: dict[Theme, str] = {"colour": "#a6548a", "dark": "#dd9fc4"}
+_DASHED = {0: "solid", 2: "dashed", 4: "dash-dot"}
+KINDS = (*_DASHED.values(), "dotted")
+# what is filled with a colour
+_FILLS: dict[str, dict[Theme, str]] = {
+    "gas": {"colour": "#0072b2", "dark": "#56b4e9"},
+    "flash": {"colour": "#e69f00", "dark": "#f0e442"},
+    "force": {"colour": "#d55e00", "dark": "#e69f00"},
+}
 # a dash shorter than this is a dot, in widths of its line
 _DOT = 1.5
 _BLACK = "#000000"
@@ -39,15 +50,30 @@ def themed(drawing: Drawing, theme: Theme) -> Drawing:
     """Return a drawing in the colours of a theme: curves by their dashes, all else between ground and ink."""
     if theme == "print":
         return drawing
-    return drawing._replace(items=tuple(_item(one, theme) for one in drawing.items))
+    return drawing._replace(items=tuple(themed_item(one, theme) for one in drawing.items))
 
 
-def _item(item: Item, theme: Theme) -> Item:
-    if not isinstance(item, Polyline) or not item.name or item.fill is not None:
+def fill_colours(theme: Theme) -> dict[str, str]:
+    """Return the colours of what is filled with one, by what it is."""
+    return {name: colours.get(theme, _BLACK) for name, colours in _FILLS.items()}
+
+
+def curve_kind(item: Polyline) -> str:
+    """Return how the line of a curve is dashed, which is what its colour goes by; empty for what has no such colour."""
+    pen = pen_of(item.kind)
+    if not item.name or item.fill is not None or not pen.width or pen.colour not in ("", _BLACK):
+        return ""
+    is_dotted = len(pen.dashes) == 2 and pen.dashes[0] < _DOT * pen.width
+    return "dotted" if is_dotted else _DASHED.get(len(pen.dashes), "")
+
+
+def themed_item(item: Item, theme: Theme) -> Item:
+    """Return an item in the colours of a theme."""
+    if theme == "print" or not isinstance(item, Polyline):
         return item
     pen = pen_of(item.kind)
-    if pen.colour not in ("", _BLACK):
-        return item
-    is_dotted = len(pen.dashes) == 2 and pen.dashes[0] < _DOT * pen.width
-    colour = _DOTTED[theme] if is_dotted else _LOOKS[theme].curves.get(len(pen.dashes), _BLACK)
-    return item._replace(kind=pen._replace(colour=colour))
+    if item.fill is not None:
+        filled = _FILLS.get(item.name) if pen.colour in ("", _BLACK) else None
+        return item if filled is None else item._replace(kind=pen._replace(colour=filled[theme]))
+    kind = curve_kind(item)
+    return item._replace(kind=pen._replace(colour=_LOOKS[theme].curves[kind])) if kind else item

@@ -48,18 +48,26 @@ class Places(NamedTuple):
     is_stated: bool  # Whether somebody has said so; by the number of the file or its limits otherwise
 
 
-def sought_number(values: dict[str, Any], key: str) -> Sought:
-    """Return the number of a machine file that a key means; it must be one that could be between two others."""
+def kind_of(values: dict[str, Any], key: str) -> Any:  # noqa: ANN401 - each kind has its own type
+    """Return the kind of what a key of a machine file means; the refusal does not name the key."""
     kind: Any = file_keys(values)
     for step in steps_of(key):
         around, kind = kind, entry_at(kind, step)
         if kind is None:
-            raise _unknown(key, around, step)
+            raise UnknownKeyError(_unknown(key, around, step))
+    return kind
+
+
+def sought_number(values: dict[str, Any], key: str) -> Sought:
+    """Return the number of a machine file that a key means; it must be one that could be between two others."""
+    try:
+        kind = kind_of(values, key)
+    except UnknownKeyError as error:
+        mistake = error.args[0]
+        told = mistake if mistake.name == "key_form" else Refusal("option_key_wrong", key=key[:60], mistake=mistake)
+        raise UnknownKeyError(told) from None
     now = stated_value(values, key)
-    if isinstance(kind, NameOr):
-        kind = kind.other
-    if isinstance(kind, NumberOr):
-        kind = kind.quantity if isinstance(now, str) else kind.number
+    kind = single_kind(kind, now)
     match kind:
         case Quantity(dimensions, low, high):
             read = None if now is None else kind.read(now, key, Reader(decimal_comma=True))
@@ -74,19 +82,27 @@ def sought_number(values: dict[str, Any], key: str) -> Sought:
     raise CrankworkError(Refusal("sought_no_number", key=key))
 
 
-def _unknown(key: str, around: object, step: str | int) -> CrankworkError:
+def single_kind(kind: Any, now: object) -> Any:  # noqa: ANN401 - each kind has its own type
+    """Return the kind of numbers that a field holds where it may hold something else too."""
+    if isinstance(kind, NameOr):
+        kind = kind.other
+    if isinstance(kind, NumberOr):
+        return kind.quantity if isinstance(now, str) else kind.number
+    return kind
+
+
+def _unknown(key: str, around: object, step: str | int) -> Refusal:
     """Return the refusal of a key that no file has."""
     if isinstance(around, Table) and isinstance(step, str):
         nearest = nearest_name(step, tuple(around.keys))
         told = Refusal("unknown_key_near", nearest=nearest) if nearest else None
-        told = told or Refusal("unknown_key", known=", ".join(around.keys))
-        return UnknownKeyError(Refusal("option_key_wrong", key=key[:60], mistake=told))
-    return UnknownKeyError(Refusal("key_form", key=key[:60]))
+        return told or Refusal("unknown_key", known=", ".join(around.keys))
+    return Refusal("key_form", key=key[:60])
 
 
 def places(sought: Sought, start: str | float | None, end: str | float | None, steps: int) -> Places:
     """Return where a number is looked for: from and to what is stated, or else around what it is now."""
-    low, high = (_limit(sought, one, told) for one, told in ((start, "--from"), (end, "--to")))
+    low, high = (limit(sought, one, told) for one, told in ((start, "--from"), (end, "--to")))
     own = None if low is not None and high is not None else _own_range(sought)
     if own is None and (low is None or high is None):
         missing = "--from" if low is None else "--to"
@@ -103,7 +119,7 @@ def places(sought: Sought, start: str | float | None, end: str | float | None, s
     return Places(at, is_even, is_stated)
 
 
-def _limit(sought: Sought, written: str | float | None, option: str) -> float | None:
+def limit(sought: Sought, written: str | float | None, option: str) -> float | None:
     """Return an end of the range in SI; a number without a unit is in that of the file."""
     if written is None:
         return None

@@ -63,7 +63,7 @@ def wanted(parts: Written, results: Results) -> Wanted:
     # refuses an angle outside the cycle
     results.value(key, at)
     with shown_in(results.machine.units):
-        return Wanted(key, at, _level(key, right))
+        return Wanted(key, at, level(key, right))
 
 
 def _place(text: str, *, is_time: bool) -> float:
@@ -75,7 +75,7 @@ def _place(text: str, *, is_time: bool) -> float:
     return value if is_time else round(math.degrees(value), 9)
 
 
-def _level(key: str, text: str) -> float:
+def level(key: str, text: str) -> float:
     """Return what a value is to be; a bare number is in the unit in which tables show it. [SI]"""
     unit = key_unit(key)
     try:

@@ -1,28 +1,45 @@
-"""A sheet of paper: its size, millimetre grid, frame, title block, and the graphs on it."""
+"""A sheet of paper: its format, millimetre grid, frame, title block, and the figures on it."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Literal, NamedTuple
+import itertools
+import math
+from collections.abc import Iterator, Sequence
+from functools import partial
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 
 from crankwork.errors import CrankworkError
-from crankwork.note.sheets.graph import Graph
-from crankwork.note.sheets.title_block import BLOCK, TitleBlock, corner_cell, title_block
-from crankwork.note.sheets.words import Words
+from crankwork.locale import say
+from crankwork.note.sheets.packing import Fit, Layout, Picture, packed
+from crankwork.note.sheets.text import text_block
+from crankwork.note.sheets.title_block import TitleBlock, corner_cell, size_of_block, size_of_corner, title_block
 from crankwork.quantities import Language
+from crankwork.show.place import Place, placed
 from crankwork.show.scene import Box, Drawing, Item, Polyline, rectangle
 
-Size = Literal["A1", "A0"]
-SIZES: dict[Size, tuple[float, float]] = {"A1": (841.0, 594.0), "A0": (1189.0, 841.0)}
+Size = Literal["A0", "A1", "A2", "A3"]
+SIZES: tuple[Size, ...] = get_args(Size)
+_LENGTHS: dict[Size, tuple[float, float]] = {
+    "A0": (1189.0, 841.0), "A1": (841.0, 594.0), "A2": (594.0, 420.0), "A3": (420.0, 297.0)
+}  # fmt: skip
+# shares of the width that columns of figures have, and how many figures a sheet holds
+_LAYOUTS: dict[Size, tuple[Layout, ...]] = {
+    "A0": ((1 / 3,) * 3, (1 / 2, 1 / 2), (1.0,)),
+    "A1": ((1 / 2, 1 / 2), (1 / 3,) * 3, (1.0,)),
+    # one that is too tall to stand above the title block stands beside it
+    "A2": ((1 / 2, 1 / 2), (1.0,), (0.65,)),
+    "A3": ((1.0,), (1 / 2, 1 / 2), (0.52,)),
+}
+_MOST: dict[Size, int] = {"A0": 12, "A1": 8, "A2": 4, "A3": 2}
+# how tall graphs are at least, against those of a text
+_LEAST: dict[Size, float] = {"A0": 0.6, "A1": 0.6, "A2": 0.4, "A3": 0.3}
 _BINDING, _EDGE = 20.0, 5.0
-# layouts are laid out on the field of A1 between its margins
-_FIELD = (816.0, 580.0)
 
 
 class Paper(NamedTuple):
-    """What sheets are drawn on: `A1` or `A0`, millimetre grid, frame, and the title block if they have one."""
+    """What sheets are drawn on: format `A0` to `A3`, millimetre grid, frame, and the title block if they have one."""
 
     size: Size = "A1"
     has_grid: bool = False
@@ -32,9 +49,7 @@ class Paper(NamedTuple):
     @property
     def box(self) -> Box:
         """The whole paper. [mm]"""
-        if self.size not in SIZES:
-            raise CrankworkError(f"no paper of size {self.size} is known; take {' or '.join(SIZES)}")
-        return Box(0.0, 0.0, *SIZES[self.size])
+        return Box(0.0, 0.0, *_LENGTHS[self.size])
 
     @property
     def frame(self) -> Box:
@@ -42,60 +57,101 @@ class Paper(NamedTuple):
         return self.box.inset(_BINDING, _EDGE, _EDGE, _EDGE)
 
     @property
+    def corner(self) -> Box:
+        """Where the cell in the upper left corner is. [mm]"""
+        width, height = size_of_corner(self.block) if self.block is not None else (0.0, 0.0)
+        return Box(self.frame.left, self.frame.top - height, width, height)
+
+    @property
     def reserved(self) -> Box:
         """Where the title block is. [mm]"""
-        return Box(self.frame.right - BLOCK.width, self.frame.bottom, BLOCK.width, BLOCK.height)
-
-    def part(self, left: float, bottom: float, width: float, height: float) -> Box:
-        """Return a box of a layout.
-
-        `left`, `bottom`, `width` and `height`: on a field of 816 x 580 mm, which A1 has; larger paper stretches it
-        [mm].
-        """
-        x, y = self.frame.width / _FIELD[0], (self.frame.height - 4.0) / _FIELD[1]
-        return Box(self.frame.left + x * left, self.frame.bottom + y * bottom, x * width, y * height).inset(1, 1, 1, 1)
+        width, height = size_of_block(self.block) if self.block is not None else (0.0, 0.0)
+        return Box(self.frame.right - width, self.frame.bottom, width, height)
 
 
 class Sheet(NamedTuple):
-    """A sheet: name for its file, title, language, paper, graphs, and what else is drawn on it."""
+    """A sheet: name for its file, title, language, paper, and the figures on it."""
 
     name: str
     title: str
     language: Language
     paper: Paper
-    graphs: tuple[Graph, ...]
-    more: tuple[Item, ...] = ()
+    figures: tuple[Fit, ...]
 
     @property
     def items(self) -> tuple[Item, ...]:
         """All that is drawn, from the ground up."""
         paper = self.paper
         drawn: list[Item] = _millimetres(paper.frame) if paper.has_grid else []
-        for one in self.graphs:
-            drawn.extend(one.items)
-        drawn.extend(self.more)
+        for one in self.figures:
+            drawn.extend(one.drawing.items)
         if paper.has_frame:
             drawn += [rectangle(paper.box, "net"), rectangle(paper.frame, "thick")]
             if paper.block is not None:
-                drawn += corner_cell(paper.block, paper.frame)
+                drawn += corner_cell(paper.block, paper.corner)
         if paper.block is not None:
-            drawn += title_block(paper.block, self.title, paper.reserved, Words(self.language))
+            drawn += title_block(paper.block, self.title, paper.size, paper.reserved)
         return tuple(drawn)
 
     @property
     def drawing(self) -> Drawing:
         """The sheet as what is written."""
         box = self.paper.box
-        return Drawing(self.title, self.language, box.width, box.height, self.items)
+        plots = tuple(plot for one in self.figures for plot in one.drawing.plots)
+        return Drawing(self.title, self.language, box.width, box.height, self.items, plots)
 
-    def graph(self, name: str) -> Graph:
-        """Return a graph by its name."""
-        found = next((one for one in self.graphs if one.name == name), None)
+    @property
+    def filled(self) -> float:
+        """Which share of the paper in the frame, but for the title block, figures cover."""
+        field, block = self.paper.frame, self.paper.reserved
+        covered = sum(one.ink.width * one.ink.height for one in self.figures)
+        return covered / (field.width * field.height - block.width * block.height)
+
+    def figure(self, name: str) -> Fit:
+        """Return a figure by its name."""
+        found = next((one for one in self.figures if one.name == name), None)
         if found is None:
             raise CrankworkError(
-                f"there is no graph {name} on this sheet; there is {', '.join(one.name for one in self.graphs)}"
+                f"there is no figure {name} on this sheet; there is {', '.join(one.name for one in self.figures)}"
             )
         return found
+
+
+def sheets_with(
+    name: str, title: str, pictures: Sequence[Picture], paper: Paper, language: Language
+) -> Iterator[Sheet]:
+    """Yield the sheets that pictures need on a paper, each with about as many."""
+    if paper.size not in SIZES:
+        raise CrankworkError(f"no paper of size {paper.size} is known; take {', '.join(SIZES)}")
+    count = math.ceil(len(pictures) / _MOST[paper.size])
+    while count and count <= len(pictures):
+        ends = [len(pictures) * at // count for at in range(count + 1)]
+        parts = [pictures[start:end] for start, end in itertools.pairwise(ends)]
+        found = [_packed(some, paper) for some in parts]
+        if all(found):
+            for figures in found:
+                yield Sheet(name, title, language, paper, tuple(figures))
+            return
+        if count == len(pictures):
+            # what has no room even alone is named where it would stand
+            alone = zip(pictures, found, strict=True)
+            some = [one if figures else _without_room(one, paper, language) for one, figures in alone]
+            yield from sheets_with(name, title, some, paper, language)
+            return
+        count += 1
+
+
+def _without_room(picture: Picture, paper: Paper, language: Language) -> Picture:
+    """Return a sentence that says which figure a paper is too small for."""
+    with placed(Place(is_rough=True)):
+        title = picture.draw().title
+    told = say("sheets.no_room", language, title=title, size=paper.size)
+    return Picture(picture.name, partial(text_block, [told], title, language), has_title=False)
+
+
+def _packed(pictures: Sequence[Picture], paper: Paper) -> list[Fit]:
+    field = paper.frame.inset(2, 2, 2, 2)
+    return packed(pictures, field, (paper.corner, paper.reserved), _LAYOUTS[paper.size], _LEAST[paper.size])
 
 
 def numbered(sheets: Sequence[Sheet], paper: Paper) -> tuple[Sheet, ...]:

@@ -1,137 +1,263 @@
-"""The title block of GOST 2.104, form 1: 185 x 55 mm in the lower right corner."""
+"""Title blocks in the lower right corner: form 1 of GOST 2.104, a student's of TCVN 3821, and that of ISO 7200."""
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Iterator
 from typing import NamedTuple
 
-from crankwork.note.sheets.words import Words
-from crankwork.show.scene import SMALL, TEXT, TITLE, Box, Item, Text, line, printable, rectangle, text_width
+from crankwork.locale import Language, say
+from crankwork.machine import Document
+from crankwork.note.captions import printed_date
+from crankwork.show.scene import SMALL, TEXT, TITLE, Box, Item, Text, line, literal, printable, rectangle, text_width
 
-BLOCK = Box(0.0, 0.0, 185.0, 55.0)
-_COLUMNS = (7.0, 17.0, 40.0, 55.0, 65.0)
-_ROLES = ("drawn", "checked", "technology", "", "standards", "approved")
-_HEADS = ("change", "sheet", "document", "signature", "date")
-_LONGEST = 80
+_SIZES: dict[Language, tuple[float, float]] = {"ru": (185.0, 55.0), "vi": (185.0, 55.0), "en": (180.0, 36.0)}
+_HEIGHTS = (10.0, 7.0, TITLE, TEXT, SMALL)
+_LONGEST = 300
+# letters of a reader may be wider than our table has them; letters may be set narrower; from row to row, in heights
+_READERS, _NARROWEST, _STEP = 1.15, 0.55, 1.6
 
 
 class TitleBlock(NamedTuple):
-    """What the title block says; what is empty is left to be filled in by hand.
+    """What the title block says, in the form of a language; what is empty is left to be filled in by hand.
 
-    `designation` is the number of the document, `name` replaces the title of the sheet, `scale` and `mass` stand as
-    they are written.
+    `title` replaces that of the sheet, `designation` is the number of the document; `scale`, `mass` and `date` stand
+    as they are written.
     """
 
+    form: Language = "en"
+    title: str = ""
     designation: str = ""
-    name: str = ""
-    organisation: str = ""
-    material: str = ""
-    drawn_by: str = ""
+    institution: str = ""
+    department: str = ""
+    group: str = ""
+    subject: str = ""
+    author: str = ""
+    supervisor: str = ""
     checked_by: str = ""
     standards_by: str = ""
     approved_by: str = ""
+    date: str = ""
     scale: str = ""
     mass: str = ""
-    letter: str = ""
     sheet: int = 1
     sheets: int = 1
 
 
-def title_block(block: TitleBlock, title: str, place: Box, words: Words) -> list[Item]:
+def block_of(document: Document, form: Language, author: str = "") -> TitleBlock:
+    """Return what a document says of itself in a title block; `author`: in the place of its own."""
+    date = printed_date(document.date, form) if document.date is not None else str(document.year or "")
+    return TitleBlock(
+        form=form,
+        designation=document.designation,
+        institution=document.institution,
+        department=", ".join(filter(None, (document.faculty, document.department))),
+        group=document.group,
+        subject=". ".join(filter(None, (document.work, document.subject))),
+        author=author or ", ".join(document.author),
+        supervisor=document.supervisor,
+        checked_by=document.checked_by,
+        standards_by=document.standards_by,
+        approved_by=document.approved_by,
+        date=date,
+    )
+
+
+class _Cell(NamedTuple):
+    """A cell: left, bottom, width and height [mm], what it is, what it says, height of its letters at most [mm]."""
+
+    left: float
+    bottom: float
+    width: float
+    height: float
+    label: str = ""
+    text: str = ""
+    most: float = TEXT
+
+
+def size_of_block(block: TitleBlock) -> tuple[float, float]:
+    """Return width and height of a title block. [mm]"""
+    return _SIZES[block.form]
+
+
+def title_block(block: TitleBlock, title: str, paper: str, place: Box) -> list[Item]:
     """Return the title block.
 
-    `title`: what the sheet shows, where the block has no name of its own.
+    `title`: what the sheet shows, where the block has no title of its own; `paper`: its format.
     """
-    items = [rectangle(place, "thick", 1.0), *_lines(place), *_people(block, place, words)]
-    right = [
-        (125.0, 47.5, 60.0, 15.0, block.designation, TITLE + 2),
-        (100.0, 27.5, 35.0, 25.0, block.name or title, TITLE),
-        (100.0, 7.5, 35.0, 15.0, block.material, TEXT),
-        (160.0, 7.5, 25.0, 15.0, block.organisation, TEXT),
-        (142.5, 37.5, 7.5, 5.0, words.say("letter"), SMALL),
-        (158.5, 37.5, 8.5, 5.0, words.say("mass"), SMALL),
-        (176.0, 37.5, 9.0, 5.0, words.say("scale"), SMALL),
-        (142.5, 27.5, 7.5, 15.0, block.letter, TEXT),
-        (158.5, 27.5, 8.5, 15.0, block.mass, TEXT),
-        (176.0, 27.5, 9.0, 15.0, block.scale, TEXT),
-        (145.0, 17.5, 10.0, 5.0, f"{words.say('sheet')} {block.sheet}", SMALL),
-        (170.0, 17.5, 15.0, 5.0, f"{words.say('sheets')} {block.sheets}", SMALL),
-    ]
-    for x, y, half, tall, text, height in right:
-        items += _written((place.left + x, place.bottom + y), printable(text, _LONGEST), 2 * half - 2, tall, height)
-    return items
-
-
-def corner_cell(block: TitleBlock, frame: Box) -> list[Item]:
-    """Return the cell in the upper left corner, 70 x 14 mm, with the designation upside down."""
-    cell = Box(frame.left, frame.top - 14.0, 70.0, 14.0)
-    text = printable(block.designation, _LONGEST)
-    height = _fitting(text, cell.width - 4, TITLE)
-    return [
-        rectangle(cell, "thick", 1.0),
-        Text((cell.left + cell.width / 2, cell.bottom + 7 + height / 2), text, height, "middle", 180.0),
-    ]
-
-
-def _lines(place: Box) -> list[Item]:
-    """Return the lines of the form: thick around the fields, thin between empty rows."""
-    x, y = place.left, place.bottom
-    items: list[Item] = [line((x + at, y), (x + at, y + 55), "thick") for at in (17.0, 40.0, 55.0, 65.0)]
-    items.append(line((x + 7, y + 30), (x + 7, y + 55), "thick"))
-    for row in range(1, 11):
-        kind = "thick" if row in (6, 7) else "thin"
-        items.append(line((x, y + 5 * row), (x + 65, y + 5 * row), "thick" if kind == "thick" else "thin"))
-    for start, end in (
-        ((65, 40), (185, 40)), ((65, 15), (185, 15)), ((135, 0), (135, 40)), ((135, 35), (185, 35)),
-        ((135, 20), (185, 20)), ((150, 20), (150, 40)), ((167, 20), (167, 40)), ((155, 15), (155, 20)),
-    ):  # fmt: skip
-        items.append(line((x + start[0], y + start[1]), (x + end[0], y + end[1]), "thick"))
-    items += [line((x + at, y + 20), (x + at, y + 35)) for at in (140.0, 145.0)]
-    return items
-
-
-def _people(block: TitleBlock, place: Box, words: Words) -> list[Item]:
-    """Return the heads of the columns to the left, and who did what."""
+    block = block._replace(title=block.title or title)
+    cells = _iso(block, paper) if block.form == "en" else _form_1(block)
     items: list[Item] = []
-    lefts = (0.0, *_COLUMNS[:-1])
-    for key, left, right in zip(_HEADS, lefts, _COLUMNS, strict=True):
-        middle = (place.left + (left + right) / 2, place.bottom + 32.5)
-        items += _written(middle, words.say(key), right - left - 0.6, 5.0, SMALL)
-    names = (block.drawn_by, block.checked_by, "", "", block.standards_by, block.approved_by)
-    for count, (role, name) in enumerate(zip(_ROLES, names, strict=True)):
-        foot = place.bottom + 25 - 5 * count + 1.25
-        if role:
-            text = words.say(role)
-            items.append(Text((place.left + 0.8, foot), text, _fitting(text, 15.6, SMALL)))
-        if name:
-            text = printable(name, _LONGEST)
-            items.append(Text((place.left + 17.8, foot), text, _fitting(text, 21.6, SMALL)))
+    for one in cells:
+        box = Box(place.left + one.left, place.bottom + one.bottom, one.width, one.height)
+        # rows that are filled in by hand are parted by thin lines
+        items.append(rectangle(box, "thin" if one.left < 65 and block.form != "en" else "thick"))
+        items += _labelled(one, box) if block.form == "en" else _written(one.label or one.text, box, one.most)
+    for left in _UPRIGHT if block.form != "en" else ():
+        foot = place.left + left, place.bottom
+        items.append(line(foot, (foot[0], foot[1] + _FOOT[block.form]), "thick"))
+    items.append(rectangle(place, "thick"))
     return items
 
 
-def _fitting(text: str, room: float, height: float) -> float:
-    """Return a height of letters at which a text fits into a room."""
-    return min(height, height * room / max(text_width(text, height), 1e-9))
+# thick lines between the columns of those who sign, and how far up they go
+_UPRIGHT = (17.0, 40.0, 55.0, 65.0)
+_FOOT: dict[Language, float] = {"ru": 55.0, "vi": 35.0}
+_ROLES: dict[Language, tuple[str, ...]] = {
+    "ru": ("drawn", "checked", "technology", "", "standards", "approved"),
+    "vi": ("designed", "guided", "checked", "", "standards", "approved"),
+}
 
 
-def _written(middle: tuple[float, float], text: str, room: float, tall: float, height: float) -> list[Item]:
-    """Return a text around a middle, in as many rows as the field has room for, smaller if it is long."""
+def _form_1(block: TitleBlock) -> Iterator[_Cell]:
+    """Yield the cells of form 1, 185 x 55 mm; a student's of Vietnam names the project where changes are noted."""
+    language = block.form
+    names = {
+        "drawn": block.author, "designed": block.author, "guided": block.supervisor,
+        "checked": block.checked_by or (block.supervisor if language == "ru" else ""),
+        "standards": block.standards_by, "approved": block.approved_by,
+    }  # fmt: skip
+    heads = ("change", "sheet", "document", "signature", "date") if language == "ru" else (
+        "function", "", "full_name", "signature", "date")  # fmt: skip
+    lefts = (0.0, 7.0, 17.0, 40.0, 55.0, 65.0)
+    if language == "ru":
+        for row in range(4):
+            for left, right in itertools.pairwise(lefts):
+                yield _Cell(left, 35 + 5.0 * row, right - left, 5)
+    else:
+        yield _Cell(0, 35, 65, 20, text=block.subject)
+        lefts = (0.0, 17.0, 17.0, 40.0, 55.0, 65.0)
+    for key, (left, right) in zip(heads, itertools.pairwise(lefts), strict=True):
+        if right > left:
+            yield _Cell(left, 30, right - left, 5, _say(key, language), most=SMALL)
+    for row, role in enumerate(_ROLES[language]):
+        foot = 25 - 5.0 * row
+        yield _Cell(0, foot, 17, 5, _say(role, language), most=SMALL)
+        yield _Cell(17, foot, 23, 5, text=names.get(role, ""), most=SMALL)
+        yield _Cell(40, foot, 15, 5)
+        yield _Cell(55, foot, 10, 5, text=block.date if row == 0 else "", most=SMALL)
+    yield _Cell(65, 40, 120, 15, text=block.designation, most=7.0)
+    yield _Cell(65, 15, 70, 25, text=block.title, most=7.0)
+    yield _Cell(65, 0, 70, 15, text=block.subject if language == "ru" else block.department, most=TEXT)
+    for left, width, key, text in (
+        (135.0, 15.0, "letter", ""), (150.0, 17.0, "mass", block.mass), (167.0, 18.0, "scale", block.scale)
+    ):  # fmt: skip
+        yield _Cell(left, 35, width, 5, _say(key, language), most=SMALL)
+        if key == "letter":
+            for at in range(3):
+                yield _Cell(left + 5 * at, 20, 5, 15)
+        else:
+            yield _Cell(left, 20, width, 15, text=text)
+    yield _Cell(135, 15, 20, 5, f"{_say('sheet', language)} {block.sheet}", most=SMALL)
+    yield _Cell(155, 15, 30, 5, f"{_say('sheets', language)} {block.sheets}", most=SMALL)
+    yield _Cell(135, 0, 50, 15, text=", ".join(one for one in (block.institution, block.group) if one))
+
+
+def _iso(block: TitleBlock, paper: str) -> Iterator[_Cell]:
+    """Yield the cells of ISO 7200, 180 x 36 mm."""
+    rows = (
+        (27.0, ((60.0, 44.0, "department", block.department), (104.0, 38.0, "supervisor", block.supervisor),
+                (142.0, 38.0, "course", block.subject))),
+        (18.0, ((60.0, 44.0, "creator", block.author), (104.0, 38.0, "note.cover_approved_by", block.approved_by),
+                (142.0, 38.0, "group", block.group))),
+        (9.0, ((100.0, 60.0, "number", block.designation), (160.0, 20.0, "format", paper))),
+        (0.0, ((100.0, 15.0, "change", ""), (115.0, 30.0, "issued", block.date), (145.0, 15.0, "language", "en"),
+               (160.0, 20.0, "sheet", f"{block.sheet}/{block.sheets}"))),
+    )  # fmt: skip
+    yield _Cell(0, 18, 60, 18, _say("owner", "en"), block.institution)
+    yield _Cell(0, 0, 100, 18, _say("title", "en"), block.title, 7.0)
+    for foot, cells in rows:
+        for left, width, key, text in cells:
+            yield _Cell(left, foot, width, 9, _say(key, "en"), text)
+
+
+def _say(key: str, language: Language) -> str:
+    return say(key if "." in key else f"sheets.{key}", language) if key else ""
+
+
+def size_of_corner(block: TitleBlock) -> tuple[float, float]:
+    """Return width and height of the cell in the upper left corner, that only GOST asks for. [mm]"""
+    return (70.0, 14.0) if block.form == "ru" else (0.0, 0.0)
+
+
+def corner_cell(block: TitleBlock, place: Box) -> list[Item]:
+    """Return the cell in the upper left corner, with the designation upside down, where there is one."""
+    if not place.width:
+        return []
+    return [rectangle(place, "thick", 1.0), *_written(block.designation, place, 7.0, angle=180.0)]
+
+
+def _labelled(cell: _Cell, box: Box) -> list[Item]:
+    """Return the label of a cell in its upper left corner, and under it what it says."""
+    wide = min(1.0, (box.width - 2) / max(_width(cell.label, SMALL), 1e-9))
+    label = Text((box.left + 1, box.top - 1 - SMALL), cell.label, SMALL, wide=wide)
+    return [label, *_written(cell.text, box.inset(0, 0, 0, 4.0), cell.most)]
+
+
+def _written(text: str, box: Box, most: float, angle: float = 0.0) -> list[Item]:
+    """Return a text in the middle of a box, as large as there is room for, on more rows and narrower if it is long."""
+    text = literal(" ".join(printable(text, _LONGEST).split()))
     if not text:
         return []
-    rows = [text]
-    while tall >= 10 and len(rows) < 3 and max(text_width(one, height) for one in rows) > room:
-        rows = _broken(text, len(rows) + 1)
-    height = min(tall / (1.75 * len(rows)), *(_fitting(one, room, height) for one in rows))
-    step = 1.7 * height
-    top = middle[1] + step * (len(rows) - 1) / 2 - height / 2
-    return [Text((middle[0], top - step * count), one, height, "middle") for count, one in enumerate(rows)]
+    room, high = box.width - 0.8, box.height - 0.6
+    # what is turned stands on one row
+    high = min(high, 1.3 * most) if angle else high
+    tried = (
+        (one, wide)
+        for one in _HEIGHTS
+        if one <= most
+        for wide in (1.0, 0.8, *((0.65, _NARROWEST) if one == SMALL else ()))
+    )
+    broken = ((one, wide, _broken(text, room / wide, one)) for one, wide in tried)
+    height, wide, rows = next(
+        (found for found in broken if found[2] and _tall(found[2], found[0]) <= high),
+        (SMALL, _NARROWEST, _cut(text, room / _NARROWEST, high)),
+    )
+    step, middle = _STEP * height, box.left + box.width / 2
+    foot = box.bottom + box.height / 2 + step * (len(rows) - 1) / 2 - height / 2
+    if angle:
+        place = middle, box.bottom + box.height / 2 + height / 2
+        return [Text(place, rows[0], height, "middle", angle, wide=wide)]
+    return [Text((middle, foot - step * count), one, height, "middle", wide=wide) for count, one in enumerate(rows)]
 
 
-def _broken(text: str, count: int) -> list[str]:
-    """Return a text in a number of rows of about equal length, broken between words."""
-    rows, length = [""], text_width(text) / count
+def _width(text: str, height: float) -> float:
+    """Return how wide a text is at most in the letters of a reader. [mm]"""
+    return _READERS * text_width(text, height)
+
+
+def _tall(rows: list[str], height: float) -> float:
+    return _STEP * height * (len(rows) - 1) + 1.3 * height
+
+
+def _broken(text: str, room: float, height: float) -> list[str]:
+    """Return a text on rows that fit, none where a word does not."""
+    rows = [""]
     for word in text.split():
-        if rows[-1] and len(rows) < count and text_width(f"{rows[-1]} {word}") > 1.08 * length:
+        joined = f"{rows[-1]} {word}".strip()
+        if _width(joined, height) <= room:
+            rows[-1] = joined
+        elif rows[-1] and _width(word, height) <= room:
             rows.append(word)
         else:
-            rows[-1] = f"{rows[-1]} {word}".strip()
+            return []
+    return rows
+
+
+def _cut(text: str, room: float, high: float) -> list[str]:
+    """Return as much of a text as fits in the smallest letters, broken anywhere."""
+    most = max(1, int((high - 1.3 * SMALL) / (_STEP * SMALL)) + 1)
+    rows: list[str] = []
+    while text and len(rows) < most:
+        fits = next((end for end in range(len(text), 1, -1) if _width(text[:end], SMALL) <= room), 1)
+        # between words where there is one
+        blank = text.rfind(" ", 0, fits + 1)
+        fits = blank if blank > 0 and fits < len(text) and len(rows) < most - 1 else fits
+        rows.append(text[:fits].strip())
+        text = text[fits:].strip()
+    if text:
+        last = rows[-1]
+        while last and _width(f"{last}…", SMALL) > room:
+            last = last[:-1]
+        rows[-1] = f"{last}…"
     return rows

@@ -1,0 +1,175 @@
+// The machine as it moves, by the cursor or by itself.
+/** @typedef {import("./cursor.js").Cursor} Cursor */
+
+/**
+ * A movement: a value for each frame, or one for all of them; as SVG counts, downward and clockwise.
+ * @typedef {number | number[]} Track
+ */
+
+/** @typedef {{x: Track, y: Track, turn?: Track, stretch?: Track, tint?: Track}} Tracks */
+
+/**
+ * A film: crank angle of each frame, how many degrees a unit of the cursor is, whether the crank turns fully; values of
+ * parts, or in brackets the number of a track: hundredths by their second differences.
+ * @typedef {{angles: number[], degrees: number, turns: boolean, seconds: number, tracks: string[],
+ *   parts: Record<string, Record<string, number | [number]>>}} FilmData
+ */
+
+export class Film {
+  /**
+   * @param {SVGSVGElement} svg
+   * @param {FilmData} data
+   * @param {Cursor} cursor
+   */
+  constructor(svg, data, cursor) {
+    this.data = data;
+    this.svg = svg;
+    const known = data.tracks.map(smooth);
+    this.parts = Object.entries(data.parts).flatMap(([name, own]) => {
+      const values = Object.entries(own).map(([key, one]) => [key, Array.isArray(one) ? known[one[0]] : one]);
+      const tracks = /** @type {Tracks} */ (Object.fromEntries(values));
+      const group = svg.querySelector(`[data-part="${CSS.escape(name)}"]`);
+      return group && Object.values(tracks).some(Array.isArray) ? [{ name, group, tracks }] : [];
+    });
+    cursor.follow(() => this.draw(this.frame(cursor.at * data.degrees)));
+  }
+
+  /**
+   * Return which frame shows a crank angle, the part of one after it as a fraction.
+   * @param {number} angle
+   */
+  frame(angle) {
+    const angles = this.data.angles;
+    const last = this.data.turns ? angles.length - 1 : angles.indexOf(Math.max(...angles));
+    const step = angles.findIndex((one, k) => k > 0 && k <= last && one >= angle);
+    if (step < 0) return last;
+    return step - 1 + Math.max(0, (angle - angles[step - 1]) / (angles[step] - angles[step - 1] || 1));
+  }
+
+  /** Draw the paths of joints; of an engine those of piston pins and of the middles of rods. */
+  trace() {
+    const place = (/** @type {Tracks} */ { x, y }, /** @type {number} */ k) => [x, y].map((one) => (Array.isArray(one) ? one[k] : one));
+    const frames = this.data.angles.map((_, k) => k);
+    this.traces = document.createElementNS("http://www.w3.org/2000/svg", "g");
+    this.traces.classList.add("traces");
+    for (const { name, tracks } of this.parts) {
+      const pin = this.parts.find((one) => name.startsWith("side.rod.") && one.name === name.replace("rod", "piston"));
+      if (!pin && !name.startsWith("joint.")) continue;
+      const ways = pin ? [[tracks, pin.tracks], [pin.tracks, pin.tracks]] : [[tracks, tracks]];
+      for (const [one, other] of ways) {
+        const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
+        const points = frames.map((k) => place(one, k).map((at, side) => ((at + place(other, k)[side]) / 2).toFixed(2)).join(" "));
+        path.setAttribute("d", `M${points.join("L")}`);
+        this.traces.append(path);
+      }
+    }
+    this.svg.append(this.traces);
+  }
+
+  /** @param {number} frame */
+  draw(frame) {
+    const first = Math.floor(frame);
+    const share = frame - first;
+    const at = (/** @type {Track | undefined} */ track, /** @type {number} */ usual) => {
+      if (!Array.isArray(track)) return track ?? usual;
+      const next = track[Math.min(first + 1, track.length - 1)];
+      return track[first] + share * (next - track[first]);
+    };
+    for (const { group, tracks } of this.parts) {
+      const [x, y, turn, stretch] = [at(tracks.x, 0), at(tracks.y, 0), at(tracks.turn, 0), at(tracks.stretch, 1)];
+      group.setAttribute("transform", `translate(${x} ${y})rotate(${turn})scale(${stretch} 1)`);
+      if (tracks.tint !== undefined) group.setAttribute("opacity", String(at(tracks.tint, 1)));
+    }
+  }
+}
+
+/**
+ * Return the values of a track.
+ * @param {string} packed
+ */
+function smooth(packed) {
+  let [step, sum] = [0, 0];
+  return packed.split(" ").map((one) => (sum += step += Number(one)) / 100);
+}
+
+/**
+ * Bind what stands beneath the machine: which view and which forces are seen, how fast it runs, paths of points.
+ * @param {Film} film
+ * @param {Motion} motion
+ */
+export function choose(film, motion) {
+  const { svg } = film;
+  const room = svg.parentElement?.querySelector(".controls");
+  for (const box of /** @type {NodeListOf<HTMLInputElement>} */ (room?.querySelectorAll("[data-choice]") ?? [])) {
+    const own = svg.querySelectorAll(`[data-part^="${box.dataset.choice}"]`);
+    const show = () => own.forEach((one) => one.classList.toggle("on", box.checked));
+    box.addEventListener("change", show);
+    show();
+  }
+  const [view, rate] = ["view", "rate"].map((id) => /** @type {HTMLSelectElement | null} */ (document.getElementById(id)));
+  const see = () => view && svg.setAttribute("viewBox", view.value);
+  view?.addEventListener("change", see);
+  see();
+  const run = () => (motion.rate = Number(rate?.value ?? 1));
+  rate?.addEventListener("change", run);
+  run();
+  const traces = /** @type {HTMLInputElement | null} */ (document.getElementById("traces"));
+  const trace = () => {
+    if (!film.traces) film.trace();
+    film.traces?.toggleAttribute("hidden", !traces?.checked);
+  };
+  traces?.addEventListener("change", trace);
+  if (traces?.checked) trace();
+}
+
+/** Let the cursor run, round and round or to and fro, in so many seconds from end to end, until it is stopped. */
+export class Motion {
+  /**
+   * @param {Cursor} cursor
+   * @param {HTMLButtonElement} button
+   * @param {number} seconds
+   * @param {boolean} turns
+   */
+  constructor(cursor, button, seconds, turns) {
+    this.cursor = cursor;
+    this.button = button;
+    this.seconds = seconds;
+    this.turns = turns;
+    this.last = 0;
+    this.rate = 1;
+    this.way = 1;
+    cursor.stop = () => this.stop();
+    button.addEventListener("click", () => (cursor.runs ? this.stop() : this.start()));
+  }
+
+  start() {
+    this.cursor.runs = true;
+    this.button.setAttribute("aria-pressed", "true");
+    requestAnimationFrame((time) => {
+      this.last = time;
+      this.frame(time);
+    });
+  }
+
+  stop() {
+    this.cursor.runs = false;
+    this.button.setAttribute("aria-pressed", "false");
+    this.cursor.snap(this.cursor.at);
+  }
+
+  /** @param {number} time */
+  frame(time) {
+    if (!this.cursor.runs) return;
+    const { rows, at } = this.cursor;
+    const [start, end] = [rows[0], rows[rows.length - 1]];
+    const next = at + (this.way * (end - start) * Math.min(time - this.last, 100) * this.rate) / 1000 / this.seconds;
+    this.last = time;
+    if (next >= start && next <= end) this.cursor.move(next);
+    else if (this.turns) this.cursor.move(start + ((next - start) % (end - start)));
+    else {
+      this.way = -this.way;
+      this.cursor.move(next > end ? end : start);
+    }
+    requestAnimationFrame((later) => this.frame(later));
+  }
+}

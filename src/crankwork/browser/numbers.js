@@ -1,0 +1,80 @@
+// Numbers as the tables of the page have them.
+
+/**
+ * A column: symbol and name, unit, decimals, and its values as whole numbers, each as what it adds to the one before.
+ * @typedef {{s: string, n: string, u: string, d: number, v: string}} Packed
+ */
+
+/** @typedef {{symbol: string, name: string, unit: string, decimals: number, values: number[]}} Column */
+
+/**
+ * Return a column with its values; one that is not known is not a number.
+ * @param {Packed} packed
+ * @returns {Column}
+ */
+export function unpacked(packed) {
+  const scale = 10 ** packed.d;
+  let sum = 0;
+  const values = packed.v.split(" ").map((step) => (step === "x" ? NaN : (sum += Number(step)) / scale));
+  return { symbol: packed.s, name: packed.n, unit: packed.u, decimals: packed.d, values };
+}
+
+/**
+ * Return a number with a fixed count of decimals, as the language of the page writes it.
+ * @param {number} value
+ * @param {number} decimals
+ */
+export function fixed(value, decimals) {
+  if (Number.isNaN(value)) return "–";
+  const comma = document.documentElement.lang === "en" ? "." : ",";
+  const digits = Math.abs(value).toFixed(decimals);
+  return (value < 0 && Number(digits) !== 0 ? "−" : "") + digits.replace(".", comma);
+}
+
+/**
+ * Return the number of a column in a row, with its unit.
+ * @param {Column} column
+ * @param {number} row
+ */
+export function told({ values, decimals, unit }, row) {
+  const gap = unit === "" || unit === "°" || unit === "%" ? "" : "\u00a0";
+  return fixed(values[row], decimals) + gap + unit;
+}
+
+/**
+ * Return a number with some significant digits.
+ * @param {number} value
+ * @param {number} digits
+ */
+export function significant(value, digits = 4) {
+  const power = value ? Math.floor(Math.log10(Math.abs(value))) : 0;
+  return fixed(value, Math.max(0, digits - 1 - power));
+}
+
+/**
+ * Return the place of the number that lies nearest among rising ones.
+ * @param {number[]} rising
+ * @param {number} value
+ */
+export function nearest(rising, value) {
+  const after = firstFrom(rising, value);
+  if (after === 0) return 0;
+  if (after === rising.length) return rising.length - 1;
+  return value - rising[after - 1] < rising[after] - value ? after - 1 : after;
+}
+
+/**
+ * Return the place of the first of rising numbers that is not less than a value.
+ * @param {ArrayLike<number>} rising
+ * @param {number} value
+ */
+export function firstFrom(rising, value) {
+  let low = 0;
+  let high = rising.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (rising[middle] < value) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}

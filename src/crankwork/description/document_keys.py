@@ -1,0 +1,104 @@
+"""The keys of `[document]`: what a note and its sheets say of themselves, and which sections the note has."""
+
+from __future__ import annotations
+
+import datetime as dt
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from crankwork.description.kinds import Number, Reader, Text, shown
+from crankwork.description.schema import Key, OneOrMore, Table, nearest_name
+from crankwork.locale import Language, Refusal
+from crankwork.machine import Document
+
+# sections of notes in the order that most schools have
+_ENGINE = (
+    "preface", "data", "method", "cycle", "indicator", "kinematics", "displacement", "velocity", "acceleration",
+    "dynamics", "inertia", "piston_forces", "crank_forces", "torque", "crankpin", "polar", "unrolled", "big_end",
+    "wear", "mains", "balance", "evenness", "comparison", "checks", "conclusion", "sources", "appendix",
+)  # fmt: skip
+_LINKAGE = (
+    "task", "structure", "kinematics", "quality", "chambers", "forces", "balance", "reduction", "torques", "friction",
+    "motor", "flywheel", "law_of_motion", "transient", "comparison", "checks", "conclusion", "sources", "appendix",
+)  # fmt: skip
+_TRANSFER = ("task", "static", "dynamic", "driving", "comparison", "checks", "conclusion", "sources")
+_TURNING = (
+    "task", "moments", "energy", "flywheel", "law_of_motion", "comparison", "checks", "conclusion", "sources",
+)  # fmt: skip
+_WORDS = Text(300)
+
+
+class Day(NamedTuple):
+    """A day: a date of TOML, or the same as text."""
+
+    def read(self, value: object, key: str, reader: Reader) -> dt.date | None:
+        """Return the day."""
+        if isinstance(value, dt.date) and not isinstance(value, dt.datetime):
+            return value
+        try:
+            return dt.date.fromisoformat(value if isinstance(value, str) and len(value) == len("2026-05-31") else "")
+        except ValueError:
+            reader.complain(key, Refusal("no_day", value=shown(value)))
+            return None
+
+    def schema(self, _: Language, /) -> dict[str, Any]:
+        """Return the schema of a day."""
+        return {"type": "string", "format": "date", "examples": ["2026-05-31"]}
+
+
+class Section(NamedTuple):
+    """The name of a section of a note."""
+
+    options: tuple[str, ...]
+
+    def read(self, value: object, key: str, reader: Reader) -> str | None:
+        """Return the name."""
+        if isinstance(value, str) and value in self.options:
+            return value
+        nearest = nearest_name(value, self.options) if isinstance(value, str) else ""
+        known = nearest or ", ".join(self.options)
+        reader.complain(key, Refusal("no_section_near" if nearest else "no_section", value=shown(value), known=known))
+        return None
+
+    def schema(self, _: Language, /) -> dict[str, Any]:
+        """Return the schema of an enumeration."""
+        return {"enum": list(self.options)}
+
+
+def document_key(sections: tuple[str, ...]) -> Key:
+    """Return the key of the table for machines whose notes have these sections."""
+    return Key(
+        Table("document", {
+            "ministry": Key(_WORDS),
+            "institution": Key(_WORDS),
+            "faculty": Key(_WORDS),
+            "department": Key(_WORDS),
+            "work": Key(_WORDS),
+            "subject": Key(_WORDS),
+            "subtitle": Key(_WORDS),
+            "variant": Key(_WORDS),
+            "designation": Key(_WORDS),
+            "author": Key(OneOrMore(_WORDS, most=12)),
+            "student_number": Key(OneOrMore(_WORDS, most=12)),
+            "group": Key(_WORDS),
+            "supervisor": Key(_WORDS),
+            "checked_by": Key(_WORDS),
+            "standards_by": Key(_WORDS),
+            "approved_by": Key(_WORDS),
+            "city": Key(_WORDS),
+            "year": Key(Number(1900, 2200, whole=True), instead_of=("date",)),
+            "date": Key(Day(), instead_of=("year",)),
+            "sections": Key(OneOrMore(Section(sections), most=40)),
+        })
+    )  # fmt: skip
+
+
+ENGINE, LINKAGE = document_key(_ENGINE), document_key(_LINKAGE)
+TRANSFER, TURNING = document_key(_TRANSFER), document_key(_TURNING)
+
+
+def stated_document(values: Mapping[str, Any]) -> Document:
+    """Return what the table states, text without blanks around it."""
+    stated: Mapping[str, Any] = values.get("document") or {}
+    found: dict[str, Any] = {key: one.strip() if isinstance(one, str) else one for key, one in stated.items()}
+    return Document(**found | {"year": int(found.get("year", 0))})

@@ -1,0 +1,1 @@
+"""A remembered calculation compiled for many designs."""

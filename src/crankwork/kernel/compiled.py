@@ -1,0 +1,154 @@
+"""A calculation compiled: many designs in, single values of each out."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+import inspect
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from types import ModuleType
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from crankwork import files
+from crankwork.formula.known import Delayed, Found, Known, breaks_of, in_order
+from crankwork.kernel.arrays import Arrays
+from crankwork.kernel.graph import number
+from crankwork.kernel.grid import between, even, lobatto, shared
+from crankwork.kernel.plan import Plan
+from crankwork.kernel.reduced import Reduced
+from crankwork.kernel.reductions import Even, Exact
+from crankwork.kernel.slopes import apart, in_part, slopes_of
+from crankwork.kernel.source import LANES, RUNNING, Source
+from crankwork.kernel.trace import Designs, Trace
+
+Array = NDArray[np.float64]
+
+
+# widths of panels that are tried, and what polynomials may leave out of a column to be taken for it
+_WIDTHS = (30.0, 15.0, 7.5, 3.75)
+CONVERGED = 1e-12
+# breaks of laws and of those of other cylinders that a grid may have
+_MOST_BREAKS = 400
+_POLYNOMIALS = lobatto(16)
+
+
+class Bulk(NamedTuple):
+    """Single values of designs, shape (keys, n) [SI], and what polynomials left out of columns, shape (n,)."""
+
+    values: Array
+    left_out: Array
+
+
+class Kernel:
+    """Single values of many designs, calculated by the operations that one analysis remembers.
+
+    `memories` are that of the stated design, then two for each field, of a smaller and a larger value of it alone, and
+    others; `fields` what the fields are in each, shape (memories, fields) [SI]. With `steps` so many evenly spaced
+    crank angles are looked at; otherwise extremes and integrals are those of polynomials between the breaks of laws, as
+    in an analysis. With `is_sloped` derivatives by the fields are found too, with `parts` largest and least values in
+    so many parts of the cycle; `is_for_few`: carried out with arrays, where compiling takes longer than the few designs
+    that are asked for. `NotCompiledError` says why a calculation cannot be compiled.
+    """
+
+    def __init__(  # noqa: PLR0913 - designs, what is wanted of them, and where it is looked at
+        self,
+        memories: Sequence[Mapping[str, Known]],
+        fields: Array,
+        keys: Sequence[str],
+        angles_at: Callable[[Any], Any],
+        *,
+        cycle: float,
+        start: float = 0.0,
+        steps: int | None = None,
+        is_sloped: bool = False,
+        parts: int = 0,
+        is_for_few: bool = False,
+    ) -> None:
+        designs = Designs(memories, fields, keys)
+        self.fields = fields.shape[1]
+        wanted = {key: memories[0][key] for key in keys}
+        every = list(in_order(wanted.values()))
+        columns = [of for one in every if isinstance(one.node, Found) for of in one.node.operands if of.varies]
+        delays = sorted({one.node.by for one in every if isinstance(one.node, Delayed)})
+        breaks = breaks_of(columns, cycle, start)
+        compiles = _compiles() and not is_for_few
+        widths = [one for one in _WIDTHS if one * parts <= cycle] or _WIDTHS[-1:]
+        for width in (cycle,) if steps else widths:
+            grid = even(breaks, steps) if steps else between(shared(breaks, delays, width, _MOST_BREAKS), _POLYNOMIALS)
+            trace = Trace(designs, angles_at, grid.degrees, is_shifted=any(grid.earlier(one) is None for one in delays))
+            outputs = {key: trace.value(one) for key, one in wanted.items()}
+            if parts:
+                outputs |= {in_part(key, at): of for key in keys for at, of in enumerate(apart(outputs[key], parts))}
+            if is_sloped:
+                outputs |= slopes_of(outputs, self.fields)
+            self.plan = Plan(outputs, grid, self.fields, angles_at)
+            is_running = all(one.detail in RUNNING for level in self.plan.levels for one in level.reductions)
+            self.source = Source(self.plan, is_reduced=compiles and steps is not None and is_running)
+            earlier = [grid.earlier(by) for by in self.source.delays.of]
+            places = np.array(earlier, dtype=np.intp).reshape(len(earlier), grid.degrees.size)
+            self._given = self.plan.table, places, self.source.order, grid.weights, grid.degrees
+            self._module, self._arrays = None, Arrays(self.source, places)
+            self._reduced = Reduced(self.source, Even(grid) if steps else Exact(grid, _POLYNOMIALS), parts)
+            self.keys = tuple(outputs)
+            # looked at with arrays, so that only what is taken is compiled
+            if steps or float(np.max(self(fields.T).left_out)) <= CONVERGED:
+                break
+        self._module = compiled(self.source.text) if compiles else None
+
+    def __call__(self, designs: Array) -> Bulk:
+        """Return the single values of designs, shape (fields, n). [SI]"""
+        designs = np.ascontiguousarray(designs, dtype=float)
+        found = Bulk(np.empty((len(self.keys), designs.shape[1])), np.zeros(designs.shape[1]))
+        self.run(designs, found, 0, designs.shape[1])
+        return found
+
+    def run(self, designs: Array, found: Bulk, first: int, last: int) -> None:
+        """Put the single values of some designs where they belong; threads may do so at the same time."""
+        if self.source.is_reduced and self._module is not None:
+            self._module.run(designs, found.values, *self._given, first, last)
+            return
+        lanes = LANES if self._module is not None else min(LANES, last - first)
+        store = np.empty((len(self.source.rows.of), lanes))
+        kept = np.empty((len(self.source.columns.of), self.plan.grid.degrees.size, lanes))
+        for start in range(first, last, lanes):
+            end = min(start + lanes, last)
+            store[: len(designs)] = designs[:, np.minimum(np.arange(start, start + lanes), last - 1)]
+            left_out = np.zeros(lanes)
+            for at, level in enumerate(self.plan.levels):
+                if self._module is not None:
+                    getattr(self._module, f"level_{at}")(store.reshape(-1), kept, *self._given)
+                else:
+                    self._arrays.level(at, store, kept)
+                left_out = np.maximum(left_out, self._reduced(level, store, kept))
+            for row, value in enumerate(self.plan.outputs.values()):
+                of = number(value) if value.is_constant else store[self.source.rows(self.source.place(value))]
+                found.values[row, start:end] = of[: end - start] if isinstance(of, np.ndarray) else of
+            found.left_out[start:end] = left_out[: end - start]
+
+
+def _compiles() -> bool:
+    """Return whether Numba is there."""
+    return importlib.util.find_spec("numba") is not None
+
+
+def compiled(text: str) -> ModuleType:
+    """Return the module of a kernel's source, compiled once for this machine: Numba keeps what stands in a file."""
+    from crankwork.kernel import elementary  # noqa: PLC0415 - Numba is an optional part
+
+    name = f"kernel_{hashlib.sha256((inspect.getsource(elementary) + text).encode()).hexdigest()[:24]}"
+    path = files.kept(f"kernels/{name}.py", text)
+    if path is None:
+        # nothing can be kept: compiled from memory, for this run
+        module = ModuleType(name)
+        exec(compile(text.replace("@compiled", "@once"), name, "exec"), vars(module))  # noqa: S102 - written above
+        return module
+    spec = importlib.util.spec_from_file_location(f"crankwork_{name}", path)
+    assert spec is not None and spec.loader is not None  # noqa: S101, PT018 - of a file that is there
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[module.__name__] = module
+    spec.loader.exec_module(module)
+    return module

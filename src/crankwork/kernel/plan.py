@@ -1,0 +1,176 @@
+"""What is calculated when: once for a crank angle, once for a design, and for every design at every angle."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from crankwork.kernel.graph import COMPUTE, Value, in_order, number
+from crankwork.kernel.grid import Grid
+
+Array = NDArray[np.float64]
+
+
+class Loop(NamedTuple):
+    """What is done at the angles where the same laws hold: values in order, and where those that are kept go."""
+
+    angles: NDArray[np.intp]
+    values: tuple[Value, ...]
+    columns: tuple[Value, ...]  # In the order of `Level.columns`
+
+
+class Level(NamedTuple):
+    """What can be calculated when the reductions of lower levels are known.
+
+    `designs` are values of each design in order, `columns` what of the angles is reduced or read at other angles.
+    """
+
+    designs: tuple[Value, ...]
+    columns: tuple[Value, ...]
+    loops: tuple[Loop, ...]
+    reductions: tuple[Value, ...]
+    delayed: tuple[Value, ...]
+
+
+class Plan:
+    """The order of a calculation: `outputs` are wanted of each design, `inputs` how many things it states."""
+
+    def __init__(self, outputs: Mapping[str, Value], grid: Grid, inputs: int, angles_at: Callable[[Any], Any]) -> None:
+        self.outputs, self.grid, self.inputs = dict(outputs), grid, inputs
+        self._angles_at = angles_at
+        self.row_of_angle: dict[int, int] = {}
+        self._rows: list[Array] = []
+        needed = list(in_order(outputs.values()))
+        levels = max((one.level for one in needed), default=0)
+        made: set[int] = set()
+        self.levels = tuple(self._level(at, needed, made) for at in range(levels + 1))
+
+    @property
+    def table(self) -> Array:
+        """What depends on the crank angle alone, shape (rows, angles)."""
+        return np.array(self._rows).reshape(len(self._rows), self.grid.degrees.size)
+
+    def _level(self, level: int, needed: list[Value], made: set[int]) -> Level:
+        above = [one for one in needed if one.kind in ("reduction", "delayed") and one.level == level + 1]
+        columns = tuple({one.at: one for reduced in above for one in reduced.operands}.values())
+        loops = tuple(self._loops(columns))
+        # with its laws chosen a product of a law and an area, say, is one of designs
+        hoisted = [other for loop in loops for one in loop.values for other in one.operands if not other.by_angle]
+        hoisted += [one for loop in loops for one in loop.columns if not one.by_angle]
+        wanted = [one for one in needed if one.level == level and not one.by_angle]
+        designs = [
+            one
+            for one in in_order([*wanted, *hoisted], into=lambda one: one.kind != "reduction")
+            if one.kind not in ("constant", "reduction") and one.at not in made
+        ]
+        made.update(one.at for one in designs)
+        reductions = tuple(one for one in above if one.kind == "reduction")
+        delayed = tuple(one for one in above if one.kind == "delayed")
+        return Level(tuple(designs), columns, loops, reductions, delayed)
+
+    def _loops(self, columns: tuple[Value, ...]) -> Iterable[Loop]:
+        """Yield the loops over angles, one for each choice of laws that these columns follow."""
+        if not columns:
+            return
+        used = [one for one in in_order(columns, into=_at_this_angle) if one.kind == "pieces"]
+        panels: dict[tuple[int, ...], list[int]] = {}
+        for panel, middle in enumerate(self.grid.middles):
+            panels.setdefault(tuple(self._law_at(one, middle) for one in used), []).append(panel)
+        for laws, of in panels.items():
+            angles = np.flatnonzero(np.isin(self.grid.panel, of))
+            chosen = {one.at: law for one, law in zip(used, laws, strict=True)}
+            resolved = self._with_laws(columns, chosen)
+            roots = _with_few_divisions([resolved[one.at] for one in columns])
+            every = list(in_order(roots, into=lambda one: one.by_design and _at_this_angle(one)))
+            for one in every:
+                if one.by_angle and not one.by_design and one.kind != "delayed":
+                    self._put_in_table(one, angles)
+            values = [one for one in every if one.by_angle and one.by_design]
+            yield Loop(angles, tuple(values), tuple(roots))
+
+    def _law_at(self, value: Value, middle: float) -> int:
+        ends, shift = value.detail
+        at = (middle + shift - self.grid.start) % self.grid.cycle + self.grid.start if shift else middle
+        return min(int(np.searchsorted(ends, at, side="left")), len(ends) - 1)
+
+    def _with_laws(self, columns: Iterable[Value], chosen: Mapping[int, int]) -> dict[int, Value]:
+        """Return values by what they stand for, with the law of a panel in the place of pieces."""
+        made: dict[int, Value] = {}
+        for one in in_order(columns, into=_at_this_angle):
+            if one.kind == "pieces":
+                made[one.at] = made[one.operands[chosen[one.at]].at]
+            elif one.by_angle and one.kind not in ("angle", "delayed"):
+                operands = [made[other.at] for other in one.operands]
+                made[one.at] = one.graph.apply(one.kind, *operands)
+            else:
+                made[one.at] = one
+        return made
+
+    def _put_in_table(self, value: Value, angles: NDArray[np.intp]) -> None:
+        row = self.row_of_angle.get(value.at)
+        if row is None:
+            row = self.row_of_angle[value.at] = len(self._rows)
+            self._rows.append(np.zeros(self.grid.degrees.size))
+        made: dict[int, Any] = {}
+        for one in in_order([value]):
+            if one.kind == "constant":
+                made[one.at] = number(one)
+            elif one.kind == "angle":
+                made[one.at] = self._of_angle(one, angles)
+            else:
+                with np.errstate(all="ignore"):
+                    made[one.at] = COMPUTE[one.kind](*(made[other.at] for other in one.operands))
+        self._rows[row][angles] = made[value.at]
+
+    def _of_angle(self, value: Value, angles: NDArray[np.intp]) -> Array:
+        function, multiple, shift = value.detail
+        degrees = self.grid.degrees[angles]
+        if function != "reading":
+            column: Array = getattr(self._angles_at(degrees).multiple(multiple).shifted(shift), function)
+            return column
+        if shift:
+            degrees = np.mod(degrees + shift - self.grid.start, self.grid.cycle) + self.grid.start
+        return np.asarray(value.graph.functions[multiple](degrees), dtype=float)
+
+
+def _at_this_angle(value: Value) -> bool:
+    """Return whether what a value is made of is wanted at the same crank angle."""
+    return value.by_angle and value.kind != "delayed"
+
+
+def _with_few_divisions(roots: list[Value]) -> list[Value]:
+    """Return values in which reciprocals that do not wait for each other come from one division.
+
+    1 / a and 1 / b are b and a times 1 / (a b): a division takes as long as a dozen products.
+    """
+    while True:
+        every = [one for one in in_order(roots, into=_at_this_angle) if one.by_angle and one.by_design]
+        divided = [one for one in every if one.kind == "div"]
+        pair = next(
+            ((one, other) for at, one in enumerate(divided) for other in divided[at + 1 :] if not _needs(other, one)),
+            None,
+        )
+        if pair is None:
+            return roots
+        (one, a), (other, b) = ((each, each.operands[1]) for each in pair)
+        both = one.graph.apply("div", 1.0, a * b)
+        roots = _replaced(roots, {one.at: b * both, other.at: a * both})
+
+
+def _needs(value: Value, other: Value) -> bool:
+    return any(one is other for one in in_order([value], into=_at_this_angle))
+
+
+def _replaced(roots: list[Value], by: dict[int, Value]) -> list[Value]:
+    """Return values with others in the place of some."""
+    made = dict(by)
+    for one in in_order(roots, into=lambda one: one.at not in by and _at_this_angle(one)):
+        if one.at not in made:
+            is_made_anew = _at_this_angle(one) and any(made[other.at] is not other for other in one.operands)
+            made[one.at] = (
+                one.graph.apply(one.kind, *(made[other.at] for other in one.operands)) if is_made_anew else one
+            )
+    return [made[one.at] for one in roots]

@@ -1,0 +1,221 @@
+"""Reductions of columns: at evenly spaced angles, or of polynomials between the breaks of laws."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial import legendre
+from numpy.typing import NDArray
+
+from crankwork.formula.over_cycle import integrals_of_roots
+from crankwork.kernel.grid import Grid, Polynomials
+
+Array = NDArray[np.float64]
+
+# how near to the top a place must be to be followed to its peak, of what a column spans
+_NEAR_TOP = 0.05
+# of equal values, whatever rounding says, the first counts
+_PLATEAU = 1e-13
+_STEPS = 8
+_EQUAL = 8 * float(np.finfo(float).eps)
+# of the size of a column, what the mean of a root may miss
+_ROUNDING = 1e-12
+
+
+# of a change of a polynomial over its panel, what is no longer level
+_LEVEL = 1e-6
+
+
+class Peaks(NamedTuple):
+    """The largest of columns, the crank angles where they stand [rad], and in which panel where from -1 to 1.
+
+    Shape (columns, lanes); over evenly spaced angles each is a panel.
+    """
+
+    value: Array
+    angle: Array
+    panel: NDArray[np.intp]
+    u: Array
+
+    def part(self, part: int) -> Peaks:
+        """Return those of one part, of those of several, shape (columns, parts, lanes)."""
+        return Peaks(self.value[:, part], self.angle[:, part], self.panel[:, part], self.u[:, part])
+
+    def of(self, column: int) -> Peaks:
+        """Return those of one column, still in its shape."""
+        return Peaks(self.value[[column]], self.angle[[column]], self.panel[[column]], self.u[[column]])
+
+
+class Even:
+    """Reductions over evenly spaced crank angles, of columns of shape (columns, angles, lanes)."""
+
+    def __init__(self, grid: Grid) -> None:
+        self._grid = grid
+
+    @property
+    def count(self) -> int:
+        """How many angles there are."""
+        return int(self._grid.degrees.size)
+
+    def left_out(self, columns: Array) -> Array:
+        """Return nothing: what lies between the angles is not looked at, shape (columns, lanes)."""
+        return np.zeros((columns.shape[0], columns.shape[2]))
+
+    def integrals(self, columns: Array) -> Array:
+        """Return the integrals of columns over the crank angle, shape (columns, lanes)."""
+        return np.asarray(np.matmul(self._grid.weights, columns))
+
+    def of_roots(self, squares: Array) -> Array:
+        """Return the integrals of the roots of columns, shape (columns, lanes)."""
+        return self.integrals(np.sqrt(squares))
+
+    def running(self, columns: Array) -> Array:
+        """Return the integrals of columns from the start of the cycle to each angle, in their shape."""
+        steps = (columns + np.roll(columns, -1, axis=1)) / 2 * self._grid.weights[:, None]
+        return np.asarray(np.cumsum(steps, axis=1))
+
+    def largest(self, columns: Array) -> Peaks:
+        """Return the largest of columns at the angles, the first of equal ones."""
+        return self.largest_in(columns, (0,)).part(0)
+
+    def largest_in(self, columns: Array, starts: Sequence[int]) -> Peaks:
+        """Return the largest of columns at the angles of each part that starts at one of them."""
+        parts = np.split(columns, starts[1:], axis=1)
+        place = np.stack([one.argmax(axis=1) + start for one, start in zip(parts, starts, strict=True)], axis=1)
+        value = np.take_along_axis(columns, place, axis=1)
+        return Peaks(value, np.radians(self._grid.degrees)[place], place, 0.0 * value)
+
+    def at(self, columns: Array, peaks: Peaks) -> Array:
+        """Return columns where the largest of others stand, shape (columns, lanes)."""
+        return np.asarray(np.take_along_axis(columns, peaks.panel[:, None], axis=1)[:, 0])
+
+    def moved(self, _columns: Array, _slopes: Array, peaks: Peaks) -> Array:
+        """Return nothing of how the angles of the largest change, which are always those of the grid."""
+        return np.full(peaks.value.shape, np.nan)
+
+
+class Exact:
+    """Reductions over the nodes of polynomials, of columns of shape (columns, angles, lanes)."""
+
+    def __init__(self, grid: Grid, polynomials: Polynomials) -> None:
+        self._grid = grid
+        count = polynomials.nodes.size
+        self._nodes, self._to_coefficients = polynomials.nodes, polynomials.coefficients
+        self._half = np.radians(np.diff(grid.edges)) / 2
+        self._middle = np.radians(grid.edges[1:] + grid.edges[:-1]) / 2
+        # integral from the left end of a panel to each node, of values at the nodes
+        integrals = [legendre.legint(one, lbnd=-1) for one in np.eye(count)]
+        self._to_integrals = (
+            legendre.legvander(polynomials.nodes, count) @ np.array(integrals).T @ self._to_coefficients
+        )
+        derivative = np.pad(legendre.legder(np.eye(count)), ((0, 1), (0, 0)))
+        self._slope = derivative
+        self._bend = derivative @ derivative
+
+    def panels(self, columns: Array) -> Array:
+        """Return columns with their panels apart, shape (columns, panels, nodes, lanes)."""
+        return columns.reshape(len(columns), -1, self._nodes.size, columns.shape[-1])
+
+    def left_out(self, columns: Array) -> Array:
+        """Return the last coefficients of columns beside their size, shape (columns, lanes)."""
+        values = self.panels(columns)
+        last = np.abs(np.matmul(self._to_coefficients[-2:], values)).sum(axis=2)
+        size = np.maximum(np.abs(columns).max(axis=1), np.finfo(float).tiny)
+        return np.asarray(last.max(axis=1) / size)
+
+    def integrals(self, columns: Array) -> Array:
+        """Return the integrals of columns over the crank angle, shape (columns, lanes)."""
+        return np.asarray(np.matmul(self._grid.weights, columns))
+
+    def of_roots(self, squares: Array) -> Array:
+        """Return the integrals of the roots of columns, shape (columns, lanes)."""
+        values = self.panels(squares)
+        coefficients = np.moveaxis(np.matmul(self._to_coefficients, values), 2, 3)
+        limits = np.broadcast_to(
+            _ROUNDING * np.sqrt(np.abs(squares).max(axis=1))[:, None], coefficients.shape[:3]
+        )  # fmt: skip
+        found = integrals_of_roots(coefficients.reshape(-1, self._nodes.size), limits.reshape(-1))
+        return np.asarray(2 * np.matmul(self._half, found.reshape(coefficients.shape[:3])))
+
+    def running(self, columns: Array) -> Array:
+        """Return the integrals of columns from the start of the cycle to each angle, in their shape."""
+        values = self.panels(columns)
+        within = np.matmul(self._to_integrals, values) * self._half[:, None, None]
+        before = np.cumsum(within[:, :, -1], axis=1) - within[:, :, -1]
+        return np.asarray((within + before[:, :, None]).reshape(columns.shape))
+
+    @property
+    def count(self) -> int:
+        """How many panels there are."""
+        return int(self._half.size)
+
+    def largest(self, columns: Array) -> Peaks:
+        """Return the largest of columns: at an angle, or on the polynomial beside it."""
+        return self.largest_in(columns, (0,)).part(0)
+
+    def largest_in(self, columns: Array, starts: Sequence[int]) -> Peaks:
+        """Return the largest of columns in each part that starts at a panel, shape (columns, parts, lanes)."""
+        values = self.panels(columns)
+        top = np.maximum.reduceat(values.max(axis=2), starts, axis=1)
+        least = np.minimum.reduceat(values.min(axis=2), starts, axis=1)
+        part_of = np.repeat(np.arange(len(starts)), np.diff([*starts, self.count]))
+        inner = np.pad(values, ((0, 0), (0, 0), (1, 1), (0, 0)), constant_values=-np.inf)
+        is_peak = (values >= inner[:, :, :-2]) & (values >= inner[:, :, 2:])
+        is_peak &= values >= (top - _NEAR_TOP * (top - least))[:, part_of, None]
+        column, panel, node, lane = np.nonzero(is_peak)
+        low = self._nodes[np.maximum(node - 1, 0)]
+        high = self._nodes[np.minimum(node + 1, self._nodes.size - 1)]
+        coefficients = self._to_coefficients @ values[column, panel, :, lane].T
+        slopes = np.stack([self._slope @ coefficients, self._bend @ coefficients], axis=1)
+        u = self._nodes[node]
+        for _ in range(_STEPS):
+            slope, bend = legendre.legval(u, slopes, tensor=False)
+            low, high = np.where(slope > 0, u, low), np.where(slope > 0, high, u)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                moved = u - slope / bend
+            u = np.where(
+                (bend < 0) & (moved >= low) & (moved <= high), moved, np.where(slope == 0, u, (low + high) / 2)
+            )
+        at_node, at_peak = values[column, panel, node, lane], legendre.legval(u, coefficients, tensor=False)
+        # at the end of a panel the column itself counts, and where only rounding tells a peak from it
+        of = column, part_of[panel], lane
+        is_node = at_node >= at_peak - _EQUAL * np.maximum(np.abs(top), np.abs(least))[of]
+        found, u = np.where(is_node, at_node, at_peak), np.where(is_node, self._nodes[node], u)
+        best = np.full(top.shape, -np.inf)
+        np.maximum.at(best, of, found)
+        angle = self._middle[panel] + self._half[panel] * u
+        with np.errstate(invalid="ignore"):
+            is_best = found >= (best - _PLATEAU * (np.abs(best) + best - least))[of]
+        first = np.full(top.shape, np.inf)
+        np.minimum.at(first, tuple(one[is_best] for one in of), angle[is_best])
+        is_first = is_best & (angle == first[of])
+        place = tuple(one[is_first] for one in of)
+        inside, at = np.zeros(top.shape, dtype=np.intp), np.zeros(top.shape)
+        inside[place], at[place] = panel[is_first], u[is_first]
+        value, angle = (np.where(np.isfinite(top), one, np.nan) for one in (best, first))
+        return Peaks(value, angle, inside, at)
+
+    def at(self, columns: Array, peaks: Peaks) -> Array:
+        """Return columns where the largest of others stand, shape (columns, lanes)."""
+        return np.asarray(legendre.legval(peaks.u, self._coefficients(columns, peaks), tensor=False))
+
+    def moved(self, columns: Array, slopes: Array, peaks: Peaks) -> Array:
+        """Return how the angles of the largest change where columns do with these slopes [rad].
+
+        An extreme where a law breaks stays there; the slope by the angle vanishes at any other.
+        """
+        own, change = self._coefficients(columns, peaks), self._coefficients(slopes, peaks)
+        slope, bend = (
+            legendre.legval(peaks.u, np.tensordot(one, own, 1), tensor=False) for one in (self._slope, self._bend)
+        )
+        by_field = legendre.legval(peaks.u, np.tensordot(self._slope, change, 1), tensor=False)
+        is_corner = np.abs(slope) > _LEVEL * np.abs(own[1:]).sum(axis=0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(is_corner, 0.0, -by_field / bend * self._half[peaks.panel])
+
+    def _coefficients(self, columns: Array, peaks: Peaks) -> Array:
+        """Return polynomials where the largest stand, shape (degrees, columns, lanes)."""
+        values = np.take_along_axis(self.panels(columns), peaks.panel[:, None, None], axis=1)[:, 0]
+        return np.moveaxis(np.matmul(self._to_coefficients, values), 1, 0)

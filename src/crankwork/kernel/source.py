@@ -1,0 +1,264 @@
+"""The source of a kernel: straight lines of operations in loops over crank angles and designs.
+
+Everything of a design stands in one store of rows, one lane for each design of a block, so that what a row holds can
+be told from every other row and a loop over lanes becomes operations on several at once. Two lanes are written side by
+side: what one waits for leaves room for the other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterable, Iterator
+from typing import Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from crankwork.kernel.graph import Value, number
+from crankwork.kernel.plan import Level, Loop, Plan
+
+LANES = 64
+_INFIX = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
+_CALLED = {
+    "sqrt": "math.sqrt", "exp": "exp", "log": "log", "log_ratio": "log_ratio", "sin": "math.sin", "cos": "math.cos",
+    "tan": "math.tan", "arcsin": "math.asin", "arccos": "math.acos", "arctan": "math.atan", "half_turns": "half_turns",
+}  # fmt: skip
+_HEAD = """import math
+
+import numpy as np
+
+from crankwork.kernel.elementary import compiled, exp, half_turns, log, log_ratio, once
+"""
+_RUN = """
+
+@compiled
+def run(designs, results, t, p, order, weights, degrees, first, last):
+    s = np.empty({rows} * {lanes})
+    b = np.empty(({columns}, {angles}, {lanes}))
+    for start in range(first, last, {lanes}):
+        for row in range(designs.shape[0]):
+            for l in range({lanes}):
+                s[row * {lanes} + l] = designs[row, min(start + l, last - 1)]
+{levels}
+        for l in range(min({lanes}, last - start)):
+{outputs}
+"""
+_ARGUMENTS = "s, b, t, p, order, weights, degrees"
+# what a reduction is before the first angle
+_START = {"max": "-math.inf", "min": "math.inf"}
+
+
+Thing = TypeVar("Thing", bound=Hashable)
+# reductions that can be done as the angles go by
+RUNNING = ("max", "min", "max_angle", "min_angle", "mean", "integral", "range")
+# Under what a value of a design is stored: a reduction of columns, an input, any other by its place in the graph.
+Place = tuple[str, *tuple[int, ...]] | int
+
+
+class Rows(Generic[Thing]):
+    """Which row of a store each thing has."""
+
+    def __init__(self) -> None:
+        self.of: dict[Thing, int] = {}
+
+    def __call__(self, key: Thing) -> int:
+        """Return the row of something, a new one where it has none."""
+        return self.of.setdefault(key, len(self.of))
+
+
+class Source:
+    """A plan written out: a function for each level, and one that runs them for many designs.
+
+    `rows` are those of the store of a block of designs, `columns` those of what is kept at each angle, `delays` those
+    of the places of earlier angles, `order` the places of angles loop by loop, `used` what of designs is stored.
+    With `is_reduced` reductions are done as the angles go by; otherwise their columns are kept, and something else
+    reduces them.
+    """
+
+    def __init__(self, plan: Plan, *, is_reduced: bool) -> None:
+        self.plan, self.is_reduced = plan, is_reduced
+        self.rows, self.columns, self.delays = Rows[Place](), Rows[int](), Rows[float]()
+        self.order: NDArray[np.intp] = np.zeros(0, dtype=np.intp)
+        for at in range(plan.inputs):
+            self.rows(("input", at))
+        for one in (one for level in plan.levels for one in (*level.delayed, *level.reductions)):
+            if one.kind == "reduction":
+                self.rows(self.place(one))
+            if not is_reduced or one.kind == "delayed" or one.detail == "range":
+                for column in one.operands:
+                    self.columns(column.at)
+        self.used = self._used_elsewhere()
+        levels = ("\n".join(self._level(at, one)) for at, one in enumerate(plan.levels))
+        self.text = "\n\n\n".join([_HEAD, *levels]) + (self._run() if is_reduced else "\n")
+
+    def place(self, value: Value) -> Place:
+        """Return under what a value of a design is stored."""
+        match value.kind:
+            case "reduction":
+                return value.detail, *(one.at for one in value.operands)
+            case "input":
+                return "input", value.detail
+        return value.at
+
+    def _used_elsewhere(self) -> set[int]:
+        """Return which values of designs are used outside the lines that make them."""
+        used = {one.at for one in self.plan.outputs.values()}
+        for level in self.plan.levels:
+            used.update(other.at for other in _taken(level.designs))
+            used.update(other.at for loop in level.loops for other in _taken(loop.values, loop.columns))
+        return used
+
+    def _stored(self, key: Place, lane: str = "l") -> str:
+        return f"s[{self.rows(key) * LANES} + {lane}]"
+
+    def _run(self) -> str:
+        levels = [f"        level_{at}({_ARGUMENTS})" for at in range(len(self.plan.levels))]
+        outputs = []
+        for at, value in enumerate(self.plan.outputs.values()):
+            shown = _name(value, "") if value.is_constant else self._stored(self.place(value))
+            outputs.append(f"            results[{at}, start + l] = {shown}")
+        angles = self.plan.grid.degrees.size if self.columns.of else 1
+        sizes = {"rows": len(self.rows.of), "columns": max(len(self.columns.of), 1), "angles": angles, "lanes": LANES}
+        return _RUN.format(levels="\n".join(levels), outputs="\n".join(outputs), **sizes)
+
+    def _level(self, at: int, level: Level) -> Iterator[str]:
+        running = self._running(level) if self.is_reduced else []
+        for part, loop in enumerate(level.loops):
+            # a function of its own: names that had a meaning in each loop would be told apart one by one
+            yield f"@compiled\ndef loop_{at}_{part}({_ARGUMENTS}):"
+            yield from self._loop(level, loop, running)
+            yield "\n"
+        yield f"@compiled\ndef level_{at}({_ARGUMENTS}):"
+        if level.designs:
+            yield from self._over_lanes(4, lambda lane: self._designs(level, lane))
+        if running:
+            yield from self._over_lanes(
+                4,
+                lambda lane: [f"{self._stored(place, lane)} = {_START.get(word, '0.0')}" for place, word, _ in running],
+            )
+        yield from (f"    loop_{at}_{part}({_ARGUMENTS})" for part in range(len(level.loops)))
+        for place, word, _ in running:
+            yield from self._finished(place, word)
+        for one in level.reductions if self.is_reduced else ():
+            if one.detail == "range":
+                yield from self._range(one)
+        yield "    return"
+
+    def _designs(self, level: Level, lane: str) -> Iterator[str]:
+        yield from self._taken_lines(_taken(level.designs), lane)
+        for one in level.designs:
+            made = self._stored(self.place(one), lane) if one.kind == "input" else self._expression(one, lane)
+            yield f"{lane}{one.at} = {made}"
+            if one.at in self.used and one.kind != "input":
+                yield f"{self._stored(one.at, lane)} = {lane}{one.at}"
+
+    def _taken_lines(self, values: Iterable[Value], lane: str) -> Iterator[str]:
+        for one in values:
+            if not one.by_angle:
+                yield f"{lane}{one.at} = {self._stored(self.place(one), lane)}"
+
+    def _running(self, level: Level) -> list[tuple[tuple[str, int], str, Value]]:
+        """Return what reductions keep while the angles go by: where, what, of which column.
+
+        A place stands before its value: where it is decided whether the place changes the value must be the old one.
+        """
+        found: dict[tuple[str, int], tuple[str, Value]] = {}
+        for one in level.reductions:
+            column, word = one.operands[0], one.detail
+            if word.endswith("_angle"):
+                found[word, column.at] = word, column
+                word = word.removesuffix("_angle")
+            elif word == "range":
+                word = "mean"
+            found[word, column.at] = word, column
+        every = ((place, word, column) for place, (word, column) in found.items())
+        return sorted(every, key=lambda one: not one[1].endswith("_angle"))
+
+    def _loop(self, level: Level, loop: Loop, running: list[tuple[tuple[str, int], str, Value]]) -> Iterator[str]:
+        start = self.order.size
+        self.order = np.concatenate([self.order, loop.angles])
+        yield f"    for i in range({start}, {self.order.size}):"
+        yield "        j = order[i]"
+        if any(word in ("mean", "integral") for _, word, _ in running):
+            yield "        weight = weights[j]"
+        taken = _taken(loop.values, loop.columns)
+        for one in taken:
+            if one.by_angle and not one.by_design:
+                yield f"        t{one.at} = t[{self.plan.row_of_angle[one.at]}, j]"
+        for one in (one for one in loop.values if one.kind == "delayed"):
+            yield f"        b{one.at} = b[{self.columns(one.operands[0].at)}, p[{self.delays(one.detail)}, j]]"
+        value_of = dict(zip((one.at for one in level.columns), loop.columns, strict=True))
+        kept = [at for at in value_of if at in self.columns.of]
+        for at in kept:
+            yield f"        c{at} = b[{self.columns(at)}, j]"
+
+        def lines(lane: str) -> Iterator[str]:
+            yield from self._taken_lines(taken, lane)
+            for one in loop.values:
+                made = f"b{one.at}[{lane}]" if one.kind == "delayed" else self._expression(one, lane)
+                yield f"{lane}{one.at} = {made}"
+            for at in kept:
+                yield f"c{at}[{lane}] = {_name(value_of[at], lane)}"
+            for place, word, column in running:
+                yield self._step(place, word, _name(value_of[column.at], lane), lane)
+
+        yield from self._over_lanes(8, lines)
+
+    def _step(self, place: tuple[str, int], word: str, value: str, lane: str) -> str:
+        """Return how a reduction goes on with the value at an angle."""
+        stored = self._stored(place, lane)
+        if word in ("mean", "integral"):
+            return f"{stored} += {value} * weight"
+        best, sign = self._stored((word.removesuffix("_angle"), place[1]), lane), ">" if word.startswith("max") else "<"
+        return f"{stored} = {'j' if word.endswith('_angle') else value} if {value} {sign} {best} else {stored}"
+
+    def _finished(self, place: tuple[str, int], word: str) -> Iterator[str]:
+        stored = self._stored(place)
+        if word == "mean":
+            yield f"    for l in range({LANES}):\n        {stored} /= {float(np.radians(self.plan.grid.cycle))!r}"
+        elif word.endswith("_angle"):
+            yield f"    for l in range({LANES}):\n        {stored} = math.radians(degrees[int({stored})])"
+
+    def _range(self, one: Value) -> Iterator[str]:
+        """Yield how far the integral of a column about its mean goes up and down."""
+        at, angles = one.operands[0].at, self.plan.grid.degrees.size
+        high, low, work, mean = (self._stored((word, at)) for word in ("range", "range_low", "range_work", "mean"))
+        yield f"    for l in range({LANES}):"
+        yield f"        {low} = {high} = {work} = 0.0"
+        yield f"    c = b[{self.columns(at)}]"
+        yield f"    for j in range({angles}):"
+        yield f"        before, after = c[j], c[(j + 1) % {angles}]"
+        yield f"        for l in range({LANES}):"
+        yield f"            {work} += ((before[l] + after[l]) / 2 - {mean}) * weights[j]"
+        yield f"            {low} = {work} if {work} < {low} else {low}"
+        yield f"            {high} = {work} if {work} > {high} else {high}"
+        yield f"    for l in range({LANES}):"
+        yield f"        {high} -= {low}"
+
+    def _over_lanes(self, indent: int, lines: Callable[[str], Iterable[str]]) -> Iterator[str]:
+        """Yield a loop over lanes, two of them side by side where every moment counts."""
+        space, lanes = " " * indent, ("l", "h") if self.is_reduced else ("l",)
+        yield f"{space}for l in range({LANES // len(lanes)}):"
+        if "h" in lanes:
+            yield f"{space}    h = l + {LANES // 2}"
+        for together in zip(*map(lines, lanes), strict=True):
+            yield from (f"{space}    {line}" for line in together)
+
+    def _expression(self, one: Value, lane: str) -> str:
+        operands = [_name(other, lane) for other in one.operands]
+        if one.kind in _INFIX:
+            return f"{operands[0]} {_INFIX[one.kind]} {operands[1]}"
+        return f"-{operands[0]}" if one.kind == "neg" else f"{_CALLED[one.kind]}({', '.join(operands)})"
+
+
+def _taken(values: Iterable[Value], others: Iterable[Value] = ()) -> list[Value]:
+    """Return what values, and others beside them, are made of that is made elsewhere."""
+    made = {one.at for one in values}
+    operands = [other for one in values if one.kind not in ("delayed", "input") for other in one.operands]
+    taken = {one.at: one for one in (*operands, *others) if one.at not in made and not one.is_constant}
+    return list(taken.values())
+
+
+def _name(value: Value, lane: str) -> str:
+    if value.is_constant:
+        return repr(number(value)).replace("inf", "math.inf").replace("nan", "math.nan")
+    return f"t{value.at}" if value.by_angle and not value.by_design else f"{lane}{value.at}"

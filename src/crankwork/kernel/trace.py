@@ -1,0 +1,300 @@
+"""From memories to a graph: formulas opened, and of what is given that which designs differ in made an input.
+
+The memories of some designs are walked side by side. They must be made the same way; numbers given that differ are
+followed to the fields that are varied, and whatever else differs cannot be compiled.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+import operator
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from crankwork.errors import CrankworkError
+from crankwork.formula.known import (
+    Arithmetic,
+    Component,
+    Delayed,
+    Found,
+    Given,
+    HalfTurns,
+    Known,
+    Node,
+    OfAngle,
+    Pieces,
+    Root,
+    Table,
+    Total,
+    Use,
+    in_order,
+)
+from crankwork.formula.replay import Angles
+from crankwork.kernel.derivative import Derivatives
+from crankwork.kernel.graph import Graph, Value
+
+Array = NDArray[np.float64]
+
+# How far a number given may be from what follows of a field, of its size.
+_SAME = 1e-12
+# How far a direction may be from that of the stated design for its half turns to be the same. [rad]
+_NEAR_DIRECTION = 1.0
+
+
+# Why a calculation is not compiled.
+Reason = Literal[
+    "absent",
+    "ways",
+    "several_fields",
+    "curved_field",
+    "table",
+    "direction",
+    "solved",
+    "procedure",
+    "partial",
+    "differs",
+]
+
+
+class NotCompiledError(CrankworkError):
+    """A calculation that cannot be compiled: why, and the key at which that shows."""
+
+    def __init__(self, reason: Reason, key: str) -> None:
+        super().__init__(f"{reason}: {key}")
+        self.reason, self.key = reason, key
+
+
+class Designs:
+    """The memories of some designs side by side: which numbers differ, and how they follow from the varied fields.
+
+    `memories` and `fields` as a `Kernel` takes them.
+    """
+
+    def __init__(self, memories: Sequence[Mapping[str, Known]], fields: Array, keys: Iterable[str]) -> None:
+        self.memories, self.fields = memories, fields
+        self._alike: dict[int, tuple[Node, ...]] = {}
+        self.differs: dict[int, bool] = {}
+        for key in keys:
+            missing = [at for at, one in enumerate(memories) if key not in one]
+            if missing:
+                raise NotCompiledError("absent", key)
+            self._walk(key, tuple(one[key] for one in memories))
+
+    def _walk(self, key: str, knowns: tuple[Known, ...]) -> None:
+        stack = [(tuple(one.node for one in knowns), key)]
+        while stack:
+            nodes, name = stack.pop()
+            first = nodes[0]
+            if id(first) in self._alike:
+                continue
+            self._alike[id(first)] = nodes
+            for other in nodes[1:]:
+                if not _are_alike(first, other):
+                    raise NotCompiledError("ways", name)
+            stack += [
+                (tuple(one.node for one in operands), operands[0].key or name)
+                for operands in zip(*(one.operands for one in nodes), strict=True)
+            ]
+        for known in in_order(knowns[:1]):
+            node = known.node
+            if id(node) not in self.differs:
+                below = any(self.differs[id(one.node)] for one in node.operands)
+                self.differs[id(node)] = below or len({one.value for one in self._alike[id(node)]}) > 1
+
+    def twins(self, node: Node) -> tuple[Node, ...]:
+        """Return a node of the stated design and what stands in its place in the others."""
+        return self._alike[id(node)]
+
+    def followed(self, node: Given, graph: Graph) -> Value:
+        """Return how a number that is given follows from the one field that moves it, which must be a straight line."""
+        values = np.array([one.value for one in self.twins(node)], dtype=float)
+        moved = [
+            field
+            for field in range(self.fields.shape[1])
+            if len({values[0], values[1 + 2 * field], values[2 + 2 * field]}) > 1
+        ]
+        if len(moved) != 1:
+            raise NotCompiledError("several_fields", node.path)
+        x = self.fields[:, moved[0]]
+        low, high = 1 + 2 * moved[0], 2 + 2 * moved[0]
+        slope = (values[high] - values[low]) / (x[high] - x[low])
+        offset = values[0] - slope * x[0]
+        size = float(np.max(np.abs(values)))
+        if np.max(np.abs(slope * x + offset - values)) > _SAME * size:
+            raise NotCompiledError("curved_field", node.path)
+        if abs(offset) <= _SAME * size:
+            # the slope of a factor of units, found again to the last digit
+            slope, offset = values[0] / x[0] if x[0] else slope, 0.0
+        return graph.input(moved[0]) * float(slope) + float(offset)
+
+
+def _are_alike(one: Node, other: Node) -> bool:
+    """Return whether two nodes are made the same way of what may differ."""
+    if type(one) is not type(other) or len(one.operands) != len(other.operands):
+        return False
+    match one, other:
+        case Given(is_absent=a), Given(is_absent=b):
+            return a == b
+        case (Use(formula=f, inputs=i), Use(formula=g, inputs=j)) | (
+            Arithmetic(function=f, inputs=i),
+            Arithmetic(function=g, inputs=j),
+        ):
+            return f is g and _plain(i) == _plain(j)
+        case OfAngle(), OfAngle():
+            return (one.function, one.multiple, one.shift) == (other.function, other.multiple, other.shift)
+        case Delayed(by=a, cycle=c), Delayed(by=b, cycle=d):
+            return (a, c) == (b, d)
+        case Pieces(ends=a), Pieces(ends=b):
+            return np.array_equal(a, b)
+        case (Component(at=a), Component(at=b)) | (Found(word=a), Found(word=b)):
+            return bool(a == b)
+    return True
+
+
+def _plain(inputs: Iterable[Known | float]) -> list[float | None]:
+    return [None if isinstance(one, Known) else float(one) for one in inputs]
+
+
+class Trace:
+    """Values of a graph for what is remembered.
+
+    `looked`: crank angles at which tables of designs are compared [deg]; `is_shifted`: whether columns of other
+    cylinders are calculated again at their own angle, not read from where they stand.
+    """
+
+    def __init__(
+        self, designs: Designs, angles_at: Callable[[Any], Angles], looked: Array, *, is_shifted: bool
+    ) -> None:
+        self.graph, self._looked = Graph(), looked
+        self._designs, self._angles_at, self._is_shifted = designs, angles_at, is_shifted
+        self._made: dict[tuple[int, float | None, float], Value] = {}
+        self._by_angle = Derivatives(self.graph, "angle")
+
+    def value(self, known: Known, *, shift: float = 0.0, fixed: float | None = None) -> Value:
+        """Return the value of what is remembered, at angles larger by some degrees or at one angle. [deg]"""
+        for one in in_order([known], into=self._into):
+            self._once(one, shift, fixed)
+        return self._made[id(known.node), fixed, shift]
+
+    def _into(self, node: Node) -> Sequence[Known]:
+        """Return what is to be made at the same angle before a node is."""
+        if node.value is not None and not self._designs.differs[id(node)]:
+            return ()
+        return () if isinstance(node, Delayed | Found) else node.operands
+
+    def _once(self, known: Known, shift: float, fixed: float | None) -> None:
+        node = known.node
+        key = id(node), fixed, shift
+        if key in self._made:
+            return
+        if node.value is not None and not self._designs.differs[id(node)]:
+            self._made[key] = self.graph.constant(node.value)
+            return
+
+        def of(one: Known | float) -> Value | float:
+            return self._made[id(one.node), fixed, shift] if isinstance(one, Known) else float(one)
+
+        self._made[key] = self._value(known, of, shift, fixed)
+
+    def _value(self, known: Known, of: Any, shift: float, fixed: float | None) -> Value:  # noqa: ANN401
+        node = known.node
+        match node:
+            case Given():
+                return self._designs.followed(node, self.graph)
+            case Use() | Arithmetic():
+                function = node.formula.function if isinstance(node, Use) else node.function
+                return self._as_value(function(*map(of, node.inputs)))
+            case Total():
+                return self._as_value(functools.reduce(operator.add, map(of, node.operands)))
+            case Found():
+                return self._found(known, node)
+            case Root() | Component():
+                raise NotCompiledError("solved", known.key)
+        return self._of_angles(known, of, shift, fixed)
+
+    def _of_angles(self, known: Known, of: Any, shift: float, fixed: float | None) -> Value:  # noqa: ANN401
+        """Return what is another at every crank angle."""
+        node = known.node
+        match node:
+            case OfAngle():
+                return self._of_angle(node, shift, fixed)
+            case Delayed():
+                return self._delayed(node, shift, fixed)
+            case Pieces():
+                return self._pieces(node, of, shift, fixed)
+            case Table() if fixed is None:
+                return self._table(node, shift)
+            case HalfTurns() if fixed is None:
+                return self._half_turns(node, of, shift)
+        raise NotCompiledError("table", known.key)
+
+    def _as_value(self, result: Any) -> Value:  # noqa: ANN401
+        return result if isinstance(result, Value) else self.graph.constant(float(result))
+
+    def _of_angle(self, node: OfAngle, shift: float, fixed: float | None) -> Value:
+        if fixed is None:
+            return self.graph.angle(node.function, node.multiple, node.shift + node.multiple * shift)
+        angles: Angles = self._angles_at([fixed])
+        column = getattr(angles.multiple(node.multiple).shifted(node.shift), node.function)
+        return self.graph.constant(float(column[0]))
+
+    def _delayed(self, node: Delayed, shift: float, fixed: float | None) -> Value:
+        if fixed is not None:
+            return self.value(node.of, fixed=(fixed - node.by) % node.cycle)
+        if self._is_shifted:
+            return self.value(node.of, shift=shift - node.by)
+        return self.graph.delayed(self.value(node.of, shift=shift), node.by)
+
+    def _pieces(self, node: Pieces, of: Any, shift: float, fixed: float | None) -> Value:  # noqa: ANN401
+        laws = tuple(self._as_value(of(one)) for one in node.operands)
+        if fixed is not None:
+            return laws[min(int(np.searchsorted(node.ends, fixed, side="left")), len(laws) - 1)]
+        return self.graph.pieces(tuple(node.ends.tolist()), laws, shift)
+
+    def _table(self, node: Table, shift: float) -> Value:
+        """Return what is read at the crank angle from a table that is the same for all designs."""
+        if node.by is not None or not self._are_near(node, lambda one: one.function, 0.0):
+            raise NotCompiledError("table", node.word)
+        return self.graph.reading(node.function, shift)
+
+    def _half_turns(self, node: HalfTurns, of: Any, shift: float) -> Value:  # noqa: ANN401
+        """Return the half turns of a direction, which is roughly that of the stated design."""
+        if not self._are_near(node, lambda one: one.near, _NEAR_DIRECTION):
+            raise NotCompiledError("direction", node.operands[0].key)
+        sin, cos = map(of, node.operands)
+        near = self.graph.reading(node.near, shift)
+        return self.graph.apply("half_turns", near, self.graph.apply("arctan", sin / cos))
+
+    def _are_near(self, node: Node, function: Callable[[Any], Callable[[Array], Array]], limit: float) -> bool:
+        """Return whether functions of the crank angle of all designs are as good as that of the stated one."""
+        stated, *others = (np.asarray(function(one)(self._looked)) for one in self._designs.twins(node))
+        return all(bool(np.all(np.abs(one - stated) <= limit)) for one in others)
+
+    def _found(self, known: Known, node: Found) -> Value:
+        match node.word:
+            case "at":
+                return self.value(node.operands[0], fixed=node.at)
+            case "sine" | "cosine":
+                return self.graph.apply("sin" if node.word == "sine" else "cos", self.value(node.operands[0]))
+            case "mean" | "range" | "max" | "min" | "max_angle" | "min_angle" if node.operands[0].varies:
+                return self.graph.reduction(node.word, self.value(node.operands[0]))
+            case "time_ratio":
+                return self._time_ratio(*map(self.value, node.operands))
+            case "harmonic_mean":
+                return 1.0 / self.graph.reduction("mean", 1.0 / self.value(node.operands[0]))
+            case "tangents":
+                return self.graph.reduction(node.word, *map(self.value, node.operands))
+            case "work":
+                pressure, volume = map(self.value, node.operands)
+                return self.graph.reduction("integral", pressure * self._by_angle.of(volume))
+        raise NotCompiledError("procedure", known.key or node.word)
+
+    def _time_ratio(self, high: Value, low: Value) -> Value:
+        """Return the slower way between two crank angles over the faster one, whichever turns they stand in."""
+        half = self.graph.apply("tan", (high - low) / 2.0)
+        fast = self.graph.apply("arctan", self.graph.apply("sqrt", half * half)) * 2.0
+        return (2 * math.pi - fast) / fast

@@ -1,0 +1,161 @@
+"""What is alive in a web page of results: colours, the store of data, the bar of the cursor."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import html
+import json
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from crankwork.analysis import Array, Results
+from crankwork.analysis.rounding import without_rounding
+from crankwork.locale import capital, say
+from crankwork.locale.numbers import unit_name
+from crankwork.note.equations import value_symbol
+from crankwork.quantities import Language
+from crankwork.report.language import displayed_column, in_own_units, key_unit, label
+from crankwork.show.inline import STYLE, colours, figure_data, html_symbol
+from crankwork.show.moving import MovingDrawing
+from crankwork.show.moving import data as moving_data
+from crankwork.show.scene import Box, Drawing
+
+_ENDLESS = 1e15
+# how fast a film may run
+_RATES = {"0.1": "1/10", "0.25": "1/4", "0.5": "1/2", "1": "1", "2": "2"}
+
+
+# signs of names, which mark nothing
+_SIGNS = "^{}"
+_HIDDEN = {ord(sign): 0xE000 + k for k, sign in enumerate(_SIGNS)}
+_SHOWN = {code: chr(sign) for sign, code in _HIDDEN.items()}
+
+
+def symbol_html(symbol: str) -> str:
+    """Return a symbol `base_index` as HTML, signs of names in it as they are."""
+    return html_symbol(symbol.translate(_HIDDEN)).translate(_SHOWN)
+
+
+def words(key: str, language: Language) -> str:
+    """Return a text of the page as HTML."""
+    return html.escape(say(f"page.{key}", language))
+
+
+def look() -> str:
+    """Return the colours of a page: those of the screen of the reader, others by choice, and black on paper."""
+    dark = colours("dark")
+    return (
+        f":root{{color-scheme:light dark;{colours('colour')}}}"
+        f"@media(prefers-color-scheme:dark){{:root:not([data-look=light]){{{dark}}}}}"
+        f":root[data-look=dark]{{{dark}}}@media print{{:root:root:root{{{colours('print')}}}}}{STYLE}"
+    )
+
+
+def stored(data: dict[str, Any]) -> str:
+    """Return data as an element of a page, compressed."""
+    text = json.dumps(data, ensure_ascii=False, separators=(",", ":")).encode()
+    return f'<script type="text/plain" id="data">{base64.b64encode(gzip.compress(text, mtime=0)).decode()}</script>'
+
+
+def packed(values: Array, digits: int = 5) -> dict[str, Any]:
+    """Return numbers of a column with as many decimals as give the largest that many digits.
+
+    Whole numbers of the last decimal, each as what it adds to the one before; `x` where there is none.
+    """
+    values = np.asarray(values, dtype=float)
+    # what is divided by the rest of a difference is no number either
+    known = np.abs(values) < _ENDLESS
+    largest = float(np.max(np.abs(values[known]), initial=0.0))
+    is_whole = bool(np.all(values[known] == np.rint(values[known]))) and largest < 10.0**digits
+    power = int(f"{largest:.0e}".partition("e")[2]) if largest and not is_whole else digits - 1
+    decimals = min(max(digits - 1 - power, 0), 12)
+    counts = np.rint(values[known] * 10.0**decimals).astype(np.int64)
+    while decimals and not np.any(counts % 10):
+        counts, decimals = counts // 10, decimals - 1
+    steps = iter(np.diff(counts, prepend=0).tolist())
+    return {"d": decimals, "v": " ".join(str(next(steps)) if one else "x" for one in known.tolist())}
+
+
+def unpacked(column: Mapping[str, Any]) -> Array:
+    """Return the numbers of a packed column; not a number where there is none."""
+    steps = column["v"].split(" ")
+    known = np.array([one != "x" for one in steps])
+    values = np.full(len(steps), np.nan)
+    values[known] = np.cumsum([int(one) for one in steps if one != "x"]) / 10.0 ** column["d"]
+    return values
+
+
+@in_own_units
+def page_data(
+    results: Results, drawn: Mapping[str, Drawing], film: MovingDrawing | None, language: Language
+) -> dict[str, Any]:
+    """Return what a page keeps of results: columns at the rows of the tables, graphs of figures, the film."""
+    columns = without_rounding(results.columns, results.machine.speed)
+    axis = "time" if results.period else "crank_angle"
+    known = {key: displayed_column(key, one) for key, one in columns.items() if key != "crank_angle"}
+    rows = known.pop("time") if results.period else results.grid.degrees
+    return {
+        "axis": axis,
+        "rows": _column(axis, rows, language),
+        "columns": {key: _column(key, one, language) for key, one in known.items()},
+        "figures": {name: figure_data(one) for name, one in drawn.items()},
+        **({} if film is None else {"film": _film_data(film, results.period)}),
+    }
+
+
+def _column(key: str, values: Array, language: Language) -> dict[str, Any]:
+    symbol, unit = symbol_html(value_symbol(key, language)), html.escape(unit_name(key_unit(key), language))
+    return {"s": symbol, "n": html.escape(label(key, language)), "u": unit, **packed(values)}
+
+
+def _film_data(film: MovingDrawing, period: float) -> dict[str, Any]:
+    """Return a film for a page; `period` of the law that drives, where tables go by time. [s]"""
+    told, tracks = moving_data(film), dict[str, int]()
+    parts = {
+        name: {
+            key: [tracks.setdefault(_steps(one), len(tracks))] if isinstance(one, list) else one
+            for key, one in own.items()
+        }
+        for name, own in told["parts"].items()
+    }
+    kept = {key: told[key] for key in ("angles", "seconds", "turns")}
+    return kept | {"parts": parts, "tracks": list(tracks), "degrees": 360.0 / period if period else 1.0}
+
+
+def _steps(track: list[float]) -> str:
+    """Return hundredths by their second differences, which are small where a motion is smooth."""
+    counts = np.rint(100 * np.array(track)).astype(np.int64)
+    return " ".join(map(str, np.diff(np.diff(counts, prepend=0), prepend=0).tolist()))
+
+
+def controls(film: MovingDrawing, language: Language) -> list[str]:
+    """Return the elements that choose what of a film is seen, and how fast it runs."""
+    rates = "".join(
+        f'<option value="{rate}"{" selected" if rate == "1" else ""}>{shown}×' for rate, shown in _RATES.items()
+    )
+    parts = ['<details class="controls">', f"<summary>{words('controls', language)}</summary>"]
+    if film.views:
+        boxes = [(say("page.every_view", language), Box(0, 0, film.ground.width, film.ground.height)), *film.views]
+        listed = "".join(
+            f'<option value="{" ".join(f"{side:.1f}" for side in box)}">{html.escape(name)}' for name, box in boxes
+        )
+        parts.append(f'<label>{words("view", language)} <select id="view">{listed}</select></label>')
+    parts.append(f'<label>{words("rate", language)} <select id="rate">{rates}</select></label>')
+    parts += [
+        f'<label><input type="checkbox" data-choice="{html.escape(start)}"> {html.escape(capital(name))}</label>'
+        for start, name in film.choices.items()
+    ]
+    return [*parts, f'<label><input type="checkbox" id="traces"> {words("traces", language)}</label></details>']
+
+
+def bar(language: Language) -> list[str]:
+    """Return the elements that move the cursor."""
+    return [
+        f'<div class="bar" role="region" aria-label="{words("cursor", language)}">',
+        f'<button id="play" aria-pressed="false" aria-label="{words("play", language)}"></button>',
+        f'<input id="slider" type="range" min="0" value="0" aria-label="{words("slider", language)}">',
+        f'<output id="shown"></output><button id="look">{words("look", language)}</button></div>',
+    ]

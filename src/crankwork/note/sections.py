@@ -1,0 +1,66 @@
+"""A note put together of its sections: those of its school, or those that its document names."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
+from typing import Protocol, TypeVar
+
+from crankwork.machine import Machine
+from crankwork.note.cover import cover
+from crankwork.note.document import Block, Contents, ItemList, Note, Paragraph, Reference
+from crankwork.note.legends import explained
+from crankwork.note.options import NoteOptions
+
+
+class _Material(Protocol):
+    @property
+    def machine(self) -> Machine: ...
+    @property
+    def options(self) -> NoteOptions: ...
+
+
+M = TypeVar("M", bound=_Material)
+
+
+def note_of_sections(
+    material: M,
+    sections: Mapping[str, Callable[[M], Iterator[Block]]],
+    order: tuple[str, ...],
+    title: str,
+    subtitle: str,
+    *,
+    with_results: bool = False,
+) -> Note:
+    """Return the note of some of these sections behind its cover and contents.
+
+    `order`: those of the school. What a note cites stands in its list of sources, which is always there.
+    """
+    options, document = material.options, material.machine.document
+    if options.author.strip():
+        document = replace(document, author=(options.author,))
+    chosen = document.sections
+    if chosen and "sources" not in chosen:
+        chosen = (*chosen, "sources")
+    written = itertools.chain.from_iterable(sections[name](material) for name in chosen or order)
+    blocks = explained(written, options.language, with_results=with_results)
+    front = (cover(document, options.language, subtitle), Contents())
+    return Note(
+        options.title or material.machine.title or title,
+        options.language,
+        (*front, *(_complete(blocks) if chosen else blocks)),
+        tuple(one for one in document.author if one.strip()),
+        document.date,
+    )
+
+
+def _complete(blocks: Iterable[Block]) -> Iterator[Block]:
+    """Yield blocks without the paragraphs that refer to what stands in none of the sections that were chosen."""
+    kept = list(blocks)
+    labels = {getattr(one, "label", "") for one in kept}
+    for block in kept:
+        parts = (block.runs,) if isinstance(block, Paragraph) else block.items if isinstance(block, ItemList) else ()
+        asked = {run.label for runs in parts for run in runs if isinstance(run, Reference)}
+        if asked <= labels:
+            yield block

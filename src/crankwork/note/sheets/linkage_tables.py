@@ -1,0 +1,207 @@
+"""What sheets of a linkage say in words and tables: structure, speed, motion, scales, what plans give, reactions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.analysis import Array, Results
+from crankwork.analysis.rounding import without_rounding
+from crankwork.analysis.skeleton import Skeleton, numbered
+from crankwork.locale import say
+from crankwork.locale.numbers import number, unit_name
+from crankwork.mechanism.structure import Structure
+from crankwork.note.sheets.table import Column, numbers, table
+from crankwork.note.sheets.text import text_block
+from crankwork.quantities import Language
+from crankwork.report.language import symbol
+from crankwork.report.linkage_look import Style, displayed_values, math_symbol, position_text, quantity_of
+from crankwork.report.linkage_plan_figures import node_name
+from crankwork.report.summary import results_method
+from crankwork.report.tables import any_nonzero
+from crankwork.show.paper import plain
+from crankwork.show.scene import Drawing
+
+_CLASSES = ("", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
+# points whose plans are compared, and what a reading on paper is rounded to [mm]
+_MOST_COMPARED, _READING = 3, 1
+
+Draw = Callable[[], Drawing]
+
+
+class Positions(NamedTuple):
+    """Where a linkage is shown: results there by key, crank angles [deg], and the links as they are drawn."""
+
+    results: Results
+    columns: Mapping[str, Array]
+    degrees: Array
+    shape: Skeleton
+    style: Style
+
+    @property
+    def language(self) -> Language:
+        """The language of its texts."""
+        return self.style.language
+
+    def first(self, some: Sequence[int]) -> list[Column]:
+        """Return the columns that say which positions these are."""
+        places = [position_text(float(self.degrees[at]), self.style) for at in some]
+        drive = symbol("time" if self.style.period else "crank_angle", self.language)
+        return [
+            Column(say("columns.position", self.language), [str(at) for at in some]), Column(f"${drive}$", places)
+        ]  # fmt: skip
+
+    def column(self, key: str, sign: str = "") -> Column:
+        """Return a column of a quantity at all positions."""
+        row, language = quantity_of(key), self.language
+        head = f"{sign or math_symbol(row.symbol(language))}, {unit_name(row.unit, language)}"
+        values = displayed_values(row, self.columns[key])
+        return Column(head, numbers(values.tolist(), language))
+
+    def number_of(self, link: str) -> str:
+        """Return the number of a link, or its name where it has none."""
+        found = next((one.number for one in self.shape.members if one.name == link), 0)
+        return str(found) if found else plain(link)
+
+
+def positions(results: Results, degrees: Array, shape: Skeleton, style: Style) -> Positions:
+    """Return a linkage at crank angles. [deg]"""
+    columns = without_rounding(results.columns_at(degrees), results.solved.speed)
+    return Positions(results, columns, degrees, shape, style)
+
+
+def structure_block(at: Positions, found: Structure) -> Drawing:
+    """Draw what the linkage is made of: mobility, formula of structure and class, links, speed and method."""
+    language, results = at.language, at.results
+    count, low, high = len(found.links), found.joints, found.meshes
+    sum_ = f"3·{count} − 2·{low}" + (f" − {high}" if high else "")
+    entries = [
+        f"${symbol('mobility', language)}$ = 3$n$ − 2$p_5$ − $p_4$ = {sum_} = {found.mobility}",
+        f"{found.formula.replace('->', '→')}",
+        f"{say('columns.class', language)}: {_CLASSES[min(found.number, len(_CLASSES) - 1)]}",
+    ]
+    speed = results.solved.speed
+    if speed and not at.style.period:
+        row = quantity_of("rotational_speed")
+        turns = number(float(displayed_values(row, np.asarray(speed))), language)
+        entries.append(f"${row.symbol(language)}$ = {turns} {unit_name(row.unit, language)}")
+        told = number(float(f"{speed:.6g}"), language)
+        entries.append(f"${symbol('speed', language)}_1$ = {told} {unit_name('rad/s', language)}")
+    entries.append(f"{say('report.method', language)}: {results_method(results, language)}")
+    links = [f"{number} – {plain(name.replace('_', ' '))}" for number, name in numbered(at.shape) if number]
+    if any(not one.endswith(f" {one.partition(' ')[0]}") for one in links):
+        entries.append(f"{say('columns.members', language)}: {', '.join(links)}")
+    return text_block(entries, say("headings.structure", language), language)
+
+
+def motion_tables(at: Positions) -> dict[str, Draw]:
+    """Return what draws the tables of velocities and of accelerations at all positions."""
+    found: dict[str, Draw] = {}
+    kinds = {
+        "velocities": ("point_velocity", "slider_velocity", "link_angular_velocity"),
+        "accelerations": ("point_acceleration", "slider_acceleration", "link_angular_acceleration"),
+    }
+    for name, (points, sliders, links) in kinds.items():
+        columns = [at.column(f"{points}.{joint}") for joint in _joints(at, points)]
+        columns += [at.column(key) for key in _named(at.columns, sliders)]
+        mark = symbol("speed" if name == "velocities" else "angular_acceleration", at.language)
+        for key in _named(at.columns, links):
+            columns.append(at.column(key, f"${mark}_{at.number_of(key.partition('.')[2])}$"))
+        if columns:
+            title = say(f"captions.{name}", at.language)
+            found[name] = partial(table, at.first(range(len(at.degrees))), columns, title, at.language)
+    return found
+
+
+def _joints(at: Positions, kind: str) -> list[str]:
+    """Return the points that are joints or draw a path, and of which results have a column."""
+    shape = at.shape
+    return [name for name in shape.letters if f"{kind}.{name}" in at.columns and name not in shape.centres]
+
+
+def _named(columns: Iterable[str], kind: str) -> list[str]:
+    return [key for key in columns if key.startswith(f"{kind}.")]
+
+
+def reactions_table(at: Positions) -> dict[str, Draw]:
+    """Return what draws the table of forces in joints and guides, and of what balances them."""
+    kinds = ("joint_force", "normal_force", "balancing_torque", "driver_force")
+    keys = [key for key in at.columns if key.partition(".")[0] in kinds]
+    keys = any_nonzero(keys, at.columns)
+    if not any("." in key for key in keys):
+        return {}
+    columns = [at.column(key) for key in keys]
+    title = say("sheets.reactions", at.language)
+    return {"reactions": partial(table, at.first(range(len(at.degrees))), columns, title, at.language)}
+
+
+class Scales:
+    """The scales of plans, as they were last drawn, by kind and position. [unit/mm]"""
+
+    def __init__(self) -> None:
+        self._found: dict[tuple[str, int], float] = {}
+
+    def kept(self, sign: str, position: int, drawing: Drawing) -> Drawing:
+        """Return a plan, and keep its scale."""
+        (plot,) = drawing.plots
+        self._found[sign, position] = (plot.x[1] - plot.x[0]) / plot.box.width
+        return drawing
+
+    def differ(self, sign: str) -> bool:
+        """Return whether plans of a kind have scales of their own."""
+        return len({f"{scale:.5g}" for (kind, _), scale in self._found.items() if kind == sign}) > 1
+
+    def of(self, sign: str, position: int) -> float:
+        """Return the scale of a plan, not a number where there is none."""
+        return self._found.get((sign, position), float("nan"))
+
+
+def scales_table(at: Positions, scales: Scales, seen: Mapping[str, Sequence[int]]) -> Drawing:
+    """Draw the scales of the plans at all positions; `seen`: which positions have a plan that shows anything."""
+    language, rows, columns = at.language, list[str](), list[list[str]]([] for _ in at.degrees)
+    for sign, unit in (("v", "m/s"), ("a", "m/s2")):
+        rows.append(f"$μ_{sign}$, ({unit_name(unit, language)})/{unit_name('mm', language)}")
+        for position, column in enumerate(columns):
+            is_seen = position in seen[sign]
+            column.append(number(float(f"{scales.of(sign, position):.4g}"), language) if is_seen else "–")
+    before = Column(say("columns.position", language), rows)
+    positions_ = [Column(str(position), column) for position, column in enumerate(columns)]
+    return table([before], positions_, say("sheets.scales", language), language)
+
+
+def compared_table(at: Positions, scales: Scales, some: Sequence[int]) -> Drawing:
+    """Draw what is measured on the plans at some positions beside what is calculated, and the difference."""
+    language, pin = at.language, at.shape.pin
+    points = [one for one in _joints(at, "point_velocity") if one != pin][:_MOST_COMPARED]
+    lines = [(position, name) for position in some for name in points]
+    found: list[Column] = []
+    for sign, key, unit in (("v", "point_velocity", "m/s"), ("a", "point_acceleration", "m/s2")):
+        exact = [float(at.columns[f"{key}.{name}"][position]) for position, name in lines]
+        ends = [_read(value, scales.of(sign, position)) for value, (position, _) in zip(exact, lines, strict=True)]
+        plans = [end * scales.of(sign, position) for end, (position, _) in zip(ends, lines, strict=True)]
+        off = [100 * (one - other) / other if other else 0.0 for one, other in zip(plans, exact, strict=True)]
+        per, mm = unit_name(unit, language), unit_name("mm", language)
+        found += [
+            Column(f"${sign}$ {say('sheets.on_plan', language)}, {mm}", [number(one, language) for one in ends]),
+            Column(f"${sign}$ {say('sheets.graphic', language)}, {per}", numbers(plans, language)),
+            Column(f"${sign}$ {say('sheets.analytic', language)}, {per}", numbers(exact, language)),
+            Column(f"Δ${sign}$, %", [number(float(f"{one:.2g}"), language) for one in off]),
+        ]
+    before = [
+        *at.first([position for position, _ in lines]),
+        Column(say("columns.point", language), [node_name(plain(at.shape.letters[name])) for _, name in lines]),
+    ]
+    return table(before, found, say("sheets.compared", language), language)
+
+
+def _read(value: float, scale: float) -> float:
+    """Return the length of a vector as it is read on paper. [mm]"""
+    return round(value / scale, _READING) if scale == scale else 0.0  # noqa: PLR0124 - not a number
+
+
+def comparable(at: Positions) -> bool:
+    """Return whether there is a point whose velocities can be read on plans."""
+    return any(one != at.shape.pin for one in _joints(at, "point_velocity"))

@@ -1,0 +1,270 @@
+"""How figures share a sheet: in columns, each as large as round scales let it be."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import re
+from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.locale import capital
+from crankwork.locale.numbers import number, unit_name
+from crankwork.show.paper import WIDER
+from crankwork.show.place import LARGER, MM, Place, placed
+from crankwork.show.scene import (
+    TEXT,
+    TITLE,
+    Box,
+    Drawing,
+    Item,
+    Plot,
+    Polyline,
+    Text,
+    extent,
+    moved,
+    moved_plot,
+    text_width,
+)
+
+_TITLE_ROW, _ROW = 8.5, 6.0
+_LEFT, _RIGHT = 35.0, 7.0
+# how much taller than in a text the graphs of a figure are tried
+_TALLS = tuple(0.3 * 1.16**at for at in range(21))
+# how much higher than in a text it is, for its width, and still looks as it should
+_HIGHEST = 1.6
+_GAP, _FEW = 7.0, 2
+_SYMBOL = re.compile(r"/\{([^{}]+)\}")
+
+
+class Picture(NamedTuple):
+    """What draws something where it is placed, its name, and whether its title is written above it."""
+
+    name: str
+    draw: Callable[[], Drawing]
+    has_title: bool = True
+
+
+class Fit(NamedTuple):
+    """A picture of one size: what draws it where, as drawn with its heading, and what it covers. [mm]"""
+
+    picture: Picture
+    place: Place
+    drawing: Drawing
+    ink: Box
+
+    @property
+    def name(self) -> str:
+        """The name of its figure."""
+        return self.picture.name
+
+
+Layout = tuple[float, ...]
+Sizes = dict[tuple[str, float], list[Fit]]
+
+
+def packed(
+    pictures: Sequence[Picture], field: Box, taken: tuple[Box, Box], layouts: Sequence[Layout], least: float
+) -> list[Fit]:
+    """Return pictures placed in columns in their order, so that they fill as much of the field as they can.
+
+    `taken`: what is left free at the upper left and at the lower right of the field [mm]; `layouts`: shares of the
+    width of columns; `least`: how tall graphs are at least, against those of a text.
+    """
+    sizes: Sizes = {}
+    best, most = list[Fit](), -math.inf
+    for layout in layouts:
+        # of many pictures none is as wide as the sheet
+        if len(layout) > len(pictures) or (best and len(layout) == 1 and len(pictures) > _FEW):
+            continue
+        boxes = list(_columns(field, taken, layout))
+        for ends in itertools.combinations(range(1, len(pictures)), len(layout) - 1):
+            parts = [pictures[start:end] for start, end in itertools.pairwise((0, *ends, len(pictures)))]
+            found = [_stacked(some, box, (field.height, least), sizes) for some, box in zip(parts, boxes, strict=True)]
+            if any(one is None for one in found):
+                continue
+            placed_ones = [one for some in found for one in some or ()]
+            score = math.fsum(map(_worth, placed_ones))
+            if score > most:
+                best, most = placed_ones, score
+    return [_finished(one, field) for one in best]
+
+
+def _finished(fit: Fit, field: Box) -> Fit:
+    """Return a picture drawn whole where its rough drawing is, in the field."""
+    with placed(fit.place._replace(is_rough=False)):
+        whole = headed(fit.picture, fit.picture.draw(), fit.place.width * MM * LARGER, fit.place)
+    left = fit.ink.left + (fit.ink.width - whole.ink.width) / 2
+    top = max(fit.ink.top, field.bottom + whole.ink.height)
+    return _at(whole, min(max(left, field.left), field.right - whole.ink.width), top)
+
+
+def _columns(field: Box, taken: tuple[Box, Box], layout: Layout) -> Iterator[Box]:
+    """Yield columns from left to right, shorter where something is taken."""
+    left, (corner, block) = field.left, taken
+    for share in layout:
+        width = share * (field.width + _GAP) - _GAP
+        foot = block.top + _GAP - field.bottom if block.width and left + width > block.left else 0.0
+        head = max(field.top - corner.bottom, 0.0) if left < corner.right else 0.0
+        yield Box(left, field.bottom + foot, width, field.height - foot - head)
+        left += width + _GAP
+
+
+def _stacked(pictures: Sequence[Picture], box: Box, limits: tuple[float, float], sizes: Sizes) -> list[Fit] | None:
+    """Return pictures one below the other in a column, or None if it has no room for them."""
+    choices = []
+    for one in pictures:
+        key = one.name, box.width
+        if key not in sizes:
+            sizes[key] = _sizes(one, box.width, limits)
+        choices.append([fit for fit in sizes[key] if fit.ink.height <= box.height])
+    room = int(box.height - _GAP * (len(pictures) - 1))
+    # what is worth most and fits, by what is used [mm]
+    best: dict[int, tuple[float, tuple[Fit, ...]]] = {0: (0.0, ())}
+    for some in choices:
+        further: dict[int, tuple[float, tuple[Fit, ...]]] = {}
+        for (used, (score, chosen)), fit in itertools.product(best.items(), some):
+            total = used + math.ceil(fit.ink.height)
+            value = score + _worth(fit)
+            if total <= room and value > further.get(total, (-math.inf, ()))[0]:
+                further[total] = value, (*chosen, fit)
+        best = further
+    if not best:
+        return None
+    used, (_, chosen) = max(best.items(), key=lambda one: one[1][0])
+    spare, top, result = (room - used) / len(chosen), box.top, []
+    for fit in chosen:
+        top -= spare / 2
+        result.append(_at(fit, box.left + (box.width - fit.ink.width) / 2, top))
+        top -= fit.ink.height + spare / 2 + _GAP
+    return result
+
+
+def _worth(fit: Fit) -> float:
+    """Return what the size of a picture is worth: none is left small to make another one large."""
+    # titles and legends beside a small graph make it no larger
+    area = fit.ink.width * fit.ink.height
+    seen = sum(one.box.width * one.box.height for one in fit.drawing.plots) or area
+    return -1.0 / math.sqrt(math.sqrt(seen * area))
+
+
+def _at(fit: Fit, left: float, top: float) -> Fit:
+    """Return a picture with its upper left corner at a place, its first graph on the lines of millimetre paper."""
+    right, up = left - fit.ink.left, top - fit.ink.top
+    if fit.drawing.plots:
+        first = fit.drawing.plots[0].box
+        right, up = round(first.left + right) - first.left, math.ceil(first.bottom + up - 0.5) - first.bottom
+    ink = fit.ink._replace(left=fit.ink.left + right, bottom=fit.ink.bottom + up)
+    items = tuple(moved(one, right, up) for one in fit.drawing.items)
+    plots = tuple(moved_plot(one, right, up) for one in fit.drawing.plots)
+    return fit._replace(drawing=fit.drawing._replace(items=items, plots=plots), ink=ink)
+
+
+def _sizes(picture: Picture, width: float, limits: tuple[float, float]) -> list[Fit]:
+    """Return a picture in every height that it has at a width, from low to high. [mm]
+
+    `limits`: of what use a height is at most [mm], and how tall graphs are at least.
+    """
+    limit, least = limits
+    talls = [one for one in _TALLS if one >= least]
+    with placed(Place(is_rough=True)):
+        in_text = picture.draw()
+    highest, point = _HIGHEST * in_text.height / in_text.width, MM * LARGER
+
+    def fit(at: int) -> Fit:
+        place = Place(width / point, _LEFT / point, _RIGHT / point, talls[at], is_sheet=True, is_rough=True)
+        with placed(place):
+            return headed(picture, picture.draw(), width, place)
+
+    found = {0: fit(0), len(talls) - 1: fit(len(talls) - 1)}
+    parts = [(0, len(talls) - 1)]
+    while parts:
+        first, last = parts.pop()
+        low, high = found[first].ink, found[last].ink
+        # between two of about one height there is no other, and no need of higher ones
+        useful = min(highest * low.width, limit)
+        if last - first > 1 and high.height > low.height + 1 and low.height < useful:
+            middle = (first + last) // 2
+            found[middle] = fit(middle)
+            parts += [(first, middle), (middle, last)]
+    result: list[Fit] = []
+    for _, one in sorted(found.items()):
+        if result and one.ink.height > highest * one.ink.width:
+            break
+        if one.ink.width <= width + _GAP / 2 and (not result or one.ink.height > result[-1].ink.height + 1):
+            result.append(one)
+    return result
+
+
+def headed(picture: Picture, drawing: Drawing, width: float, place: Place) -> Fit:
+    """Return a drawing with its title and its scales over it, and what they cover."""
+    ink = covered(drawing.items)
+    if not picture.has_title:
+        return Fit(picture, place, drawing, ink)
+    middle, top = ink.left + ink.width / 2, ink.top + 2.0
+    rows = [(one, TEXT) for one in flowed(scales(drawing), ";  ", width)]
+    rows = [*((one, TITLE) for one in flowed(capital(drawing.title).split(" "), " ", 0.7 * width)), *rows]
+    items: list[Item] = []
+    for text, height in reversed(rows):
+        items.append(Text((middle, top + 1.5), text, height, "middle"))
+        top += _TITLE_ROW if height == TITLE else _ROW
+    drawing = drawing._replace(items=(*drawing.items, *items))
+    return Fit(picture, place, drawing, covered(drawing.items))
+
+
+def covered(items: Sequence[Item]) -> Box:
+    """Return what items cover, letters as wide as a reader may have them. [mm]"""
+    wide = (one._replace(wide=WIDER * one.wide) if isinstance(one, Text) else one for one in items)
+    boxes = [extent(one) for one in wide if not isinstance(one, Polyline)]
+    corners = [(one.left, one.bottom) for one in boxes] + [(one.right, one.top) for one in boxes]
+    found = np.concatenate(
+        [np.array(corners).reshape(-1, 2), *(one.points for one in items if isinstance(one, Polyline))]
+    )
+    (left, bottom), (right, top) = found.min(axis=0), found.max(axis=0)
+    return Box(float(left), float(bottom), float(right - left), float(top - bottom))
+
+
+def scales(drawing: Drawing) -> list[str]:
+    """Return the scales of the graphs of a drawing, `μ_p = 0.02 MPa/mm`, each once."""
+    found = [
+        _scale(drawing, title, (ends[1] - ends[0]) / length)
+        for plot in drawing.plots
+        for title, ends, length in _axes(plot)
+    ]
+    return list(dict.fromkeys(one for one in found if one))
+
+
+def _axes(plot: Plot) -> Iterator[tuple[str, tuple[float, float], float]]:
+    yield plot.titles.get("y", ""), plot.y, plot.box.height
+    yield plot.titles.get("x", ""), plot.x, plot.box.width
+
+
+def _scale(drawing: Drawing, title: str, value: float) -> str:
+    """Return a scale by the title of its axis, that has symbols and a unit; nothing where it has neither."""
+    symbols = list(dict.fromkeys(_SYMBOL.findall(title)))
+    if not symbols:
+        return ""
+    unit, millimetre = _unit(title), unit_name("mm", drawing.language)
+    shown = number(float(f"{abs(value):.5g}"), drawing.language, digits=7)
+    head = f"μ_{{{','.join(symbols)}}} = {shown}"
+    return f"{head} {f'({unit})' if '/' in unit else unit}/{millimetre}" if unit else f"{head} {millimetre}⁻¹"
+
+
+def _unit(title: str) -> str:
+    """Return what stands after the last comma of a title, if no symbol does."""
+    last = title.rpartition(", ")[2]
+    return "" if "/{" in last or last == title else last
+
+
+def flowed(texts: Sequence[str], between: str, room: float, width: Callable[[str], float] = text_width) -> list[str]:
+    """Return texts joined to rows that fit into a room."""
+    rows: list[str] = []
+    for one in texts:
+        joined = f"{rows[-1]}{between}{one}" if rows else one
+        if rows and width(joined) <= room:
+            rows[-1] = joined
+        else:
+            rows.append(one)
+    return rows

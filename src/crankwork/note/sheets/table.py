@@ -1,0 +1,94 @@
+"""Tables of a sheet: columns as wide as what they say, in parts below each other where they are too many."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.locale import decimal
+from crankwork.quantities import Language
+from crankwork.show.paper import WIDER, Paper, text_width
+from crankwork.show.place import here
+from crankwork.show.scene import Drawing
+
+_ROW, _PAD, _BETWEEN, _DIGITS = 13.0, 4.0, 8.0, 4
+_THICK, _THIN = 1.0, 0.4
+# how much wider and taller than what it says a table is at most, to fill its place
+_WIDEST, _TALLEST = 1.7, 1.5
+# letters, and smaller ones where a column would not fit
+_SIZES = (8.5, 7.5)
+
+
+class Column(NamedTuple):
+    """A column of a table: what stands over it, and what it says."""
+
+    head: str
+    cells: Sequence[str]
+
+
+def numbers(values: Sequence[float], language: Language, digits: int = _DIGITS) -> list[str]:
+    """Return numbers with as many decimals as give the largest that many digits, a dash for none."""
+    largest = max((abs(one) for one in values if math.isfinite(one)), default=0.0)
+    places = max(0, digits - 1 - math.floor(math.log10(largest))) if largest else 0
+    shown = [f"{one:.{places}f}" if math.isfinite(one) else "–" for one in values]
+    shown = ["0" if not one.strip("-0.") else one for one in shown]
+    return [decimal(one, language).replace("-", "−") for one in shown]
+
+
+def table(first: Sequence[Column], columns: Sequence[Column], title: str, language: Language) -> Drawing:
+    """Draw a table; `first`: the columns that every part of it begins with."""
+    parts, size = next((found for one in _SIZES if (found := _parts(first, columns, one))), None) or (
+        [[*first, one] for one in columns], _SIZES[-1]
+    )  # fmt: skip
+    widths = np.array([sum(_width(one, size) for one in part) for part in parts])
+    # as wide as what stands above and below it, if that is not much wider, and with rows as tall
+    wider = float(np.clip(here().width / widths.max(), 1.0, _WIDEST))
+    row, rows = _ROW * min(max(here().tall, 1.0), _TALLEST), len(first[0].cells) + 1
+    hand = Paper(wider * float(widths.max()), len(parts) * (row * rows + _BETWEEN) - _BETWEEN)
+    for at, part in enumerate(parts):
+        _draw(hand, part, [wider * _width(one, size) for one in part], (at * (row * rows + _BETWEEN), row), size)
+    return hand.drawing(title, language)
+
+
+def _parts(first: Sequence[Column], columns: Sequence[Column], size: float) -> tuple[list[list[Column]], float] | None:
+    """Return columns in parts that fit, about as many in each, or nothing where one does not."""
+    room = here().width - sum(_width(one, size) for one in first)
+    if max(_width(one, size) for one in columns) > room:
+        return None
+    count = next(at for at in range(1, len(columns) + 1) if all(
+        sum(_width(one, size) for one in part) <= room for part in _divided(columns, at)
+    ))  # fmt: skip
+    return [[*first, *part] for part in _divided(columns, count)], size
+
+
+def _divided(columns: Sequence[Column], count: int) -> Iterator[Sequence[Column]]:
+    ends = [round(len(columns) * at / count) for at in range(count + 1)]
+    yield from (columns[start:end] for start, end in itertools.pairwise(ends))
+
+
+def _width(column: Column, size: float) -> float:
+    return WIDER * max(text_width(one, size) for one in (column.head, *column.cells)) + 2 * _PAD
+
+
+def _draw(
+    hand: Paper, columns: Sequence[Column], widths: Sequence[float], place: tuple[float, float], size: float
+) -> None:
+    """Draw a part of a table: thick lines around it and under its head, thin ones between rows.
+
+    `place`: its upper edge, and the height of its rows.
+    """
+    top, row = place
+    rows, right = len(columns[0].cells) + 1, sum(widths)
+    sides = np.concatenate([[0.0], np.cumsum(widths)])
+    foot = top + row * rows
+    levels = top + row * np.arange(rows + 1)
+    thick = [(x, top, x, foot) for x in sides] + [(0.0, y, right, y) for y in levels[[0, 1, -1]]]
+    hand.segments(np.array([(0.0, y, right, y) for y in levels[2:-1]]).reshape(-1, 4), width=_THIN)
+    hand.segments(np.array(thick), width=_THICK)
+    for column, left, width in zip(columns, sides, widths, strict=False):
+        for at, text in enumerate((column.head, *column.cells)):
+            hand.text(left + width / 2, levels[at] + row / 2 + 0.22 * _ROW, text, size=size, anchor="middle")

@@ -1,0 +1,70 @@
+"""About how wide a table prints, and in which size of letters it fits on a page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from crankwork.note.document import Cell, Math, Runs, cell_length
+from crankwork.note.layout import width
+from crankwork.note.symbols import symbol_box
+from crankwork.show.scene import CAP_HEIGHT, text_width
+
+# of the text on a page upright and on its side, and beside the text of each column [pt]
+PAGE, WIDE_PAGE, _SIDES = 480.0, 725.0, 8.0
+# of letters of tables [pt]
+SIZES = (10.0, 9.0, 8.0)
+# of a digit, a letter of a word and a space [em]
+_DIGIT, _LETTER, _SPACE = 0.5, 0.52, 0.3
+
+
+def fits(headings: Sequence[Runs], rows: Sequence[Sequence[Cell]], size: float, *, wide: bool = False) -> bool:
+    """Return whether a table fits on a page with letters of a size, no word of it divided."""
+    columns = list(zip(*rows, strict=True)) or [()] * len(headings)
+    ems = sum(
+        max(*_parts(runs), *(_cell(one) for one in column), 0.0) for runs, column in zip(headings, columns, strict=True)
+    )
+    return ems * size + _SIDES * len(headings) <= (WIDE_PAGE if wide else PAGE)
+
+
+def one_line_widths(
+    headings: Sequence[Runs], rows: Sequence[Sequence[Cell]], size: float, *, wide: bool = False
+) -> list[float]:
+    """Return how wide columns are in which every entry is one line, none if they are too wide together. [pt]
+
+    Headings stand in one line too where there is room for all of them.
+    """
+    entries = [max(map(_line, column), default=0.0) for column in zip(*rows, strict=True)] or [0.0] * len(headings)
+    page = WIDE_PAGE if wide else PAGE
+    parts = [_parts(runs) for runs in headings]
+    for words in ([sum(some) + _SPACE * (len(some) - 1) for some in parts], [max(some) for some in parts]):
+        ems = [max(entry, word) for entry, word in zip(entries, words, strict=True)]
+        widths = [one * size + _SIDES for one in ems]
+        if sum(widths) <= page:
+            return widths
+    return []
+
+
+def _line(cell: Cell) -> float:
+    """Return how wide a cell is in one line. [em]"""
+    if isinstance(cell, Math):
+        return width(symbol_box(cell.content)) if isinstance(cell.content, str) else cell_length(cell) * _DIGIT
+    return _DIGIT * len(cell) if not any(map(str.isalpha, cell)) else text_width(cell, CAP_HEIGHT)
+
+
+def _cell(cell: Cell) -> float:
+    if isinstance(cell, Math):
+        return _DIGIT * cell_length(cell)
+    return _DIGIT * len(cell) if not any(map(str.isalpha, cell)) else _LETTER * max(map(len, cell.split()), default=0)
+
+
+def _parts(runs: Runs) -> list[float]:
+    """Return how wide the parts of a heading are that stand between spaces. [em]"""
+    parts = [0.0]
+    for run in runs:
+        if isinstance(run, Math):
+            parts[-1] += width(symbol_box(run.content)) if isinstance(run.content, str) else 0.0
+        elif isinstance(run, str):
+            first, *others = (_LETTER * len(one) for one in run.split(" "))
+            parts[-1] += first
+            parts += others
+    return parts

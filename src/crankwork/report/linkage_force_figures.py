@@ -1,0 +1,137 @@
+"""Force plans as a figure: the forces on each group of a linkage end to end, to scale, and what each of them is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+
+from crankwork.analysis import Array, Results
+from crankwork.analysis.force_plans import ForcePlan, PlanForce, force_plans
+from crankwork.analysis.skeleton import skeleton
+from crankwork.locale import say
+from crankwork.locale.numbers import number, unit_name
+from crankwork.quantities import QUANTITIES, Language
+from crankwork.report.figure_data import figure_title
+from crankwork.report.linkage_look import Style, displayed_values, math_symbol, position_sign, position_text, scale_text
+from crankwork.show.chart import TOP, Box, Graph, sign
+from crankwork.show.labels import label_marks
+from crankwork.show.paper import GREY, Paper, plain
+from crankwork.show.place import here, points_per_mm, round_scale, tall
+from crankwork.show.scene import SOLID, Drawing
+
+_HIGH, _HEAD, _MARGIN, _LIST, _ROW, _FOOT = 150.0, 16.0, 22.0, 150.0, 13.5, 34.0
+# a paper wider than this has two plans side by side [pt]
+_TWO = 560.0
+# how far apart forces are drawn that lie along each other, and what is as near as that [pt]
+_LANE, _NEAR, _LANES = 6.0, 4.0, (0, 1, -1, 2, -2, 3, -3)
+_LOAD, _REACTION = 0.9, 1.6
+# a group of fewer forces has no plan, only two that are equal
+_FEWEST, _MOST = 3, 4
+
+
+def force_figure(results: Results, degrees: float, style: Style) -> dict[str, Callable[[], Drawing]]:
+    """Return what draws the force plans at a crank angle [deg]; nothing where no group has more than two forces."""
+    plans = [one for one in force_plans(results, degrees) if len(one.forces) >= _FEWEST][:_MOST]
+    if not plans:
+        return {}
+    numbers = {one.name: one.number for one in skeleton(results.machine.mechanism, style.links).members}
+    return {"force_plans": partial(_figure, plans, numbers, degrees, style)}
+
+
+def _figure(plans: list[ForcePlan], numbers: dict[str, int], degrees: float, style: Style) -> Drawing:
+    title, spans = figure_title("force_plans", style.language), [np.ptp(_ends(one), axis=0) for one in plans]
+    # upright ones side by side where there is room
+    upright = sum(bool(high > wide) for wide, high in spans)
+    columns = 2 if here().width > _TWO and upright > max(1, len(plans) / 2) else 1
+    rows = [plans[start : start + columns] for start in range(0, len(plans), columns)]
+    heights = [max(tall(columns * _HIGH), _ROW * max(len(one.forces) for one in row) + _HEAD) for row in rows]
+    paper = Paper(here().width, TOP + sum(heights) + _HEAD * len(rows) + _FOOT)
+    top, wide, scales = TOP, here().width / columns, set[float]()
+    for row, height in zip(rows, heights, strict=True):
+        for at, plan in enumerate(row):
+            scales.add(_plan(paper, plan, Box(at * wide, top, wide, height), numbers, style.language))
+        top += height + _HEAD
+    shown = f"{position_sign(style)} = {position_text(degrees, style)}"
+    paper.text(here().width - 14, paper.height - 20, shown, anchor="end")
+    remarks = ["force_plan", *(["own_scales"] if len(scales) > 1 else [])]
+    sign(paper, style.method, "; ".join(say(f"drawing.{one}", style.language) for one in remarks))
+    return paper.drawing(f"{title}, {position_text(degrees, style)}", style.language)
+
+
+def _plan(paper: Paper, plan: ForcePlan, place: Box, numbers: dict[str, int], language: Language) -> float:
+    """Draw the polygon of a group to its own scale, which is returned, and its forces beside it."""
+    left, top, width, height = place
+    width -= _LIST
+    row, ends = QUANTITIES["joint_force"], _ends(plan)
+    room = np.array([width - 2 * _MARGIN, height - 2 * _MARGIN])
+    scale = round_scale(float(points_per_mm() * np.max(np.ptp(ends, axis=0) / room)))
+    unit = points_per_mm() / scale
+    middle = (ends.min(axis=0) + ends.max(axis=0)) / 2 * unit
+    x, y = (middle[0] - width / 2, middle[0] + width / 2), (middle[1] - height / 2, middle[1] + height / 2)
+    graph = Graph(paper, Box(left, top + _HEAD, width, height), x, y, language, to_scale=False)
+    marks = []
+    corners = np.array([graph.point(*(one * unit)) for one in ends])
+    sides = _beside_each_other(corners)
+    for at, one in enumerate(plan.forces):
+        start, end = sides[at]
+        for corner, moved in zip(corners[at : at + 2], sides[at], strict=True):
+            if np.any(corner != moved):
+                paper.line([corner[0], moved[0]], [corner[1], moved[1]], width=0.4, colour=GREY)
+        paper.arrow(start, end, width=_REACTION if one.kind != "load" else _LOAD, style=SOLID)
+        marks.append((_symbol(one, numbers, language), (start[0] + end[0]) / 2, (start[1] + end[1]) / 2))
+    label_marks(paper, marks, dot=0.0)
+    links = ", ".join(str(numbers.get(link, link)) for link in plan.links)
+    head = say("drawing.links" if len(plan.links) > 1 else "drawing.link", language, links=links)
+    paper.text(left + 14, top + 10, f"{head}: {scale_text('μ_F', scale, row.unit, language)}")
+    for count, one in enumerate(plan.forces):
+        shown = number(float(f"{_size(one):.4g}"), language)
+        text = f"{_symbol(one, numbers, language)} = {shown} {unit_name(row.unit, language)}"
+        paper.text(left + width, top + _HEAD + 12 + _ROW * count, text, size=8.5)
+    return scale
+
+
+def _ends(plan: ForcePlan) -> Array:
+    """Return the corners of the polygon of a group, shape (n, 2). [displayed unit]"""
+    ends = np.vstack([np.zeros(2), np.cumsum([(one.x, one.y) for one in plan.forces], axis=0)])
+    return displayed_values(QUANTITIES["joint_force"], ends)
+
+
+def _beside_each_other(corners: Array) -> list[Array]:
+    """Return the sides of a polygon, those that would lie over others shifted across. [pt]"""
+    placed: list[Array] = []
+    for start, end in pairwise(corners):
+        way = end - start
+        across = np.array([-way[1], way[0]]) / max(float(np.hypot(*way)), 1e-9)
+        lanes = [np.array([start, end]) + lane * _LANE * across for lane in _LANES]
+        free = [one for one in lanes if not any(_lie_over(one, other) for other in placed)]
+        placed.append((free or lanes)[0])
+    return placed
+
+
+def _lie_over(one: Array, other: Array) -> bool:
+    """Return whether two sides lie along each other."""
+    way, length = one[1] - one[0], float(np.hypot(*(one[1] - one[0])))
+    if length < _LANE:
+        return False
+    off = other - one[0]
+    along, apart = off @ way / length, np.abs(off @ np.array([-way[1], way[0]])) / length
+    return bool(np.all(apart < _NEAR)) and min(along.max(), length) - max(along.min(), 0.0) > _LANE
+
+
+def _size(one: PlanForce) -> float:
+    values: Array = displayed_values(QUANTITIES["joint_force"], np.array(one.size))
+    return float(values)
+
+
+def _symbol(one: PlanForce, numbers: dict[str, int], language: Language) -> str:
+    """Return the symbol of a force: that of its joint, of its guide, of the loads on its link, or of the driver."""
+    if one.kind == "driver":
+        return math_symbol(QUANTITIES["driver_force"].symbol(language))
+    if one.kind == "load":
+        return math_symbol(f"F_{numbers.get(one.name, plain(one.name))}")
+    if one.kind == "guide":
+        return math_symbol(f"N_{numbers.get(one.name, plain(one.name))}")
+    return math_symbol(QUANTITIES["joint_force"]._replace(key=f"joint_force.{one.name}").symbol(language))

@@ -1,0 +1,179 @@
+"""Zhukovsky's lever as a figure: the turned velocity plan with forces and their arms, and the sum of moments."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.analysis import Array, Results
+from crankwork.analysis.lever import Lever, LeverForce, LeverTorque, zhukovsky_lever
+from crankwork.analysis.skeleton import skeleton
+from crankwork.locale import say
+from crankwork.locale.numbers import number, unit_name
+from crankwork.quantities import QUANTITIES, Language
+from crankwork.report.figure_data import figure_title
+from crankwork.report.language import displayed, key_unit, symbol
+from crankwork.report.linkage_look import Style, math_symbol, position_text, scale_text
+from crankwork.report.linkage_plan_figures import draw_vectors, node_name
+from crankwork.show.chart import Box, Graph, sign
+from crankwork.show.labels import label_marks
+from crankwork.show.paper import GREY, WIDER, Paper, fitted_lines, plain, text_width
+from crankwork.show.place import here, points_per_mm, round_scale, tall
+from crankwork.show.scene import DASH_DOT, DASHED, Drawing
+
+_TALL, _MARGIN, _ROW, _FOOT = 300.0, 30.0, 14.0, 14.0
+# length of the arrow of a force, which is not to scale
+_FORCE, _PRIME = 40.0, "′"
+# width of the lines of the plan, of those in a plan without forces
+_THIN = 0.5
+# height of the plan at least
+_LOWEST = 60.0
+_BLANK, _BETWEEN = "\u00a0", 14.0
+
+
+class _Named(NamedTuple):
+    """A force on the lever with its symbol and that of its arm."""
+
+    force: LeverForce
+    symbol: str
+    arm: str
+
+
+def lever_figure(results: Results, degrees: float, style: Style) -> dict[str, Callable[[], Drawing]]:
+    """Return what draws Zhukovsky's lever at a crank angle [deg]; nothing where nothing acts."""
+    lever = zhukovsky_lever(results, degrees, style.links)
+    if lever is None:
+        return {}
+    numbers = {one.name: one.number for one in skeleton(results.machine.mechanism, style.links).members}
+    return {"zhukovsky_lever": partial(_figure, lever, numbers, degrees, style)}
+
+
+def _figure(lever: Lever, numbers: dict[str, int], degrees: float, style: Style) -> Drawing:
+    language = style.language
+    forces = _named(lever, numbers, language)
+    places = np.vstack([np.zeros(2), *lever.plan.nodes.values(), *(one.force.foot for one in forces)])
+    (left, bottom), (right, top) = places.min(axis=0), places.max(axis=0)
+    room = np.maximum(np.array([here().width, tall(_TALL)]) - 2 * (_MARGIN + _FORCE), _LOWEST)
+    scale = round_scale(float(points_per_mm() * max((right - left) / room[0], (top - bottom) / room[1])))
+    unit = points_per_mm() / scale
+    high = (top - bottom) * unit + 2 * (_MARGIN + _FORCE)
+    rows = _rows(lever, forces, numbers, scale, language)
+    paper = Paper(here().width, high + _ROW * (len(rows) + 1) + _FOOT)
+    low, wide = bottom - (_MARGIN + _FORCE) / unit, here().width / unit
+    x, y = ((left + right - wide) / 2, (left + right + wide) / 2), (low, low + high / unit)
+    graph = Graph(paper, Box(0.0, 0.0, here().width, high), x, y, language, to_scale=False)
+    _arms(graph, forces)
+    draw_vectors(graph, lever.plan.vectors, unit, _THIN)
+    _forces(graph, forces, unit)
+    _names(graph, lever, forces, unit)
+    paper.text(14, high + 4, scale_text("μ_v", scale, "m/s", language))
+    for at, row in enumerate(rows):
+        paper.text(14, high + 4 + _ROW * (at + 1), row)
+    sign(paper, style.method, say("drawing.lever", language))
+    title = f"{figure_title('zhukovsky_lever', language)}, {position_text(degrees, style)}"
+    return paper.drawing(title, language)
+
+
+def _named(lever: Lever, numbers: dict[str, int], language: Language) -> list[_Named]:
+    """Return the forces with their symbols, that which balances last."""
+    seen: Counter[str] = Counter()
+    found = []
+    for at, one in enumerate(lever.forces, 1):
+        base = "F_" if one.kind == "load" else f"{symbol('link_inertia_force', language)},"
+        name = f"{base}{numbers.get(one.link, one.link)}"
+        letter, _, index = name.partition("_")
+        found.append(_Named(one, math_symbol(f"{letter}{_PRIME * seen[name]}_{index}"), f"$h_{at}$"))
+        seen[name] += 1
+    end = next((name for name, at in lever.plan.nodes.items() if np.allclose(at, lever.balancing.end)), "a")
+    index = symbol("balancing_torque", language).partition("_")[2]
+    arm = f"{_pole(lever)}{node_name(end)}"
+    return [*found, _Named(lever.balancing, f"$F_{index}$", f"${arm}$" if arm.isalnum() else plain(arm))]
+
+
+def _pole(lever: Lever) -> str:
+    """Return the letter of the pole, which no point has."""
+    taken = {node_name(name) for name in lever.plan.nodes}
+    return next(one for one in ("p", "o", "p₀") if one not in taken)
+
+
+def _arms(graph: Graph, forces: Sequence[_Named]) -> None:
+    """Draw the lines of the forces up to their arms, and the arms from the pole."""
+    for one in forces:
+        end, foot = one.force.end, one.force.foot
+        for line, style in (((end, foot), DASH_DOT), (((0.0, 0.0), foot), DASHED)):
+            (a, b), (p, q) = (graph.point(*place) for place in line)
+            graph.paper.line([a, p], [b, q], style=style, width=0.5, colour=GREY)
+
+
+def _forces(graph: Graph, forces: Sequence[_Named], unit: float) -> None:
+    for one in forces:
+        if one.force.size:
+            start, end = (graph.point(*place) for place in _arrow(one.force, unit))
+            graph.paper.arrow(start, end, width=1.6)
+
+
+def _arrow(force: LeverForce, unit: float) -> tuple[Array, Array]:
+    return force.end, force.end + force.force / force.size * _FORCE / unit
+
+
+def _names(graph: Graph, lever: Lever, forces: Sequence[_Named], unit: float) -> None:
+    """Name the nodes of the plan, the forces at their tips, and the arms."""
+    marks = [(_pole(lever), *graph.point(0.0, 0.0))]
+    marks += [
+        (plain(node_name(name)), *graph.point(*at))
+        for name, at in lever.plan.nodes.items() if np.hypot(*at) * unit > 1.0
+    ]  # fmt: skip
+    label_marks(graph.paper, marks, dot=1.3, frame=graph.box)
+    marks = [(one.symbol, *graph.point(*_arrow(one.force, unit)[1])) for one in forces if one.force.size]
+    marks += [(one.arm, *graph.point(*(one.force.foot / 2))) for one in forces[:-1]]
+    label_marks(graph.paper, marks, dot=0.0, frame=graph.box)
+
+
+def _rows(
+    lever: Lever, forces: Sequence[_Named], numbers: dict[str, int], scale: float, language: Language
+) -> list[str]:
+    """Return forces with their arms on paper, torques with the turning of their links, and the equation of moments."""
+    millimetre, per = unit_name("mm", language), unit_name("rad/s", language)
+    entries, terms = list[str](), list[str]()
+    for one in forces:
+        arm = number(float(f"{one.force.arm / scale:.4g}"), language)
+        entries.append(
+            f"{one.symbol} = {_told('joint_force', one.force.size, language)}, {one.arm} = {arm} {millimetre}"
+        )
+        terms.append(f"{'−' if one.force.moment < 0 else '+'}{_BLANK}{one.symbol}{_BLANK}{one.arm}")
+    for other in lever.torques:
+        own, turning = _torque(other, numbers, language)
+        size = _told("balancing_torque", other.torque, language)
+        entries.append(f"{own} = {size}, {turning} = {number(other.turning, language, digits=4)} {per}")
+        # with the signs of torque and turning it stands in the sum as it is
+        terms.append(f"+{_BLANK}{own}{_BLANK}{turning}/$μ_v$")
+    first, *others = terms
+    first = first.removeprefix(f"+{_BLANK}").replace(f"−{_BLANK}", "−")
+    equation = f"Σ$M_{_pole(lever)}$ = {' '.join([first, *others])}{_BLANK}={_BLANK}0"
+    last, force = symbol("balancing_torque", language), forces[-1].symbol
+    radius = (
+        f"{number(displayed('crank_radius', lever.radius), language)} {unit_name(key_unit('crank_radius'), language)}"
+    )
+    torque = _told("balancing_torque", lever.torque, language)
+    found = f"${last}$ = {'−' if lever.torque < 0 else ''}{force} $r$ = {torque};   $r$ = {radius}"
+    width = (here().width - 28) / WIDER
+    columns = max(1, int((width + _BETWEEN) / (max(text_width(one, 9.0) for one in entries) + _BETWEEN)))
+    rows = [";   ".join(entries[start : start + columns]) for start in range(0, len(entries), columns)]
+    return [*rows, *fitted_lines(equation, 9.0, width), found]
+
+
+def _torque(one: LeverTorque, numbers: dict[str, int], language: Language) -> tuple[str, str]:
+    """Return the symbols of a torque on a link and of its turning."""
+    link = numbers.get(one.link, one.link)
+    base = "M_" if one.kind == "load" else f"{symbol('link_inertia_torque', language)},"
+    return math_symbol(f"{base}{link}"), math_symbol(f"{symbol('speed', language)}_{link}")
+
+
+def _told(key: str, value: float, language: Language) -> str:
+    """Return a value with its unit, to five digits."""
+    unit = unit_name(QUANTITIES[key].unit, language)
+    return f"{number(float(f'{displayed(key, value):.5g}'), language)} {unit}"

@@ -1,0 +1,60 @@
+"""Maps over numbers of a file: values where they stand, and what does not depend on a number."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+
+import pytest
+
+from crankwork.description.machine_file import template
+
+OVER = ("--over", "crank.speed=1000..3000rpm:2")
+WRONG = {
+    "no range": (("--over", "crank.speed=1000rpm"), "--over crank.speed=1000rpm: write a key and a range, like --over"),
+    "unknown field": (("--over", "crank.sped=1..2rpm"), "--over crank.sped: unknown key; did you mean speed?"),
+    "a word": (("--over", "gas.pressures=1..2"), "gas.pressures: is not a single number of the file"),
+    "another unit": (("--over", "crank.speed=1..2kg"), 'unit "kg" measures mass; speed is wanted'),
+    "three axes": (OVER * 3, "--over: a map has one or two numbers"),
+    "one twice": (OVER * 2, "--over crank.speed: stands twice; keep one of them"),
+    "no steps": (("--over", "crank.speed=1..2rpm:0"), "--over: take from 1 to 200 steps"),
+    "turned round": (("--over", "crank.speed=2..1rpm"), "the range from 2rpm to 1rpm is empty"),
+    "no machine": (("--over", "rod.length=1..2mm"), "there is no machine anywhere in the range: the rod"),
+    "no axis": ((), "--over: is missing; write --over KEY=FROM..TO"),
+}
+
+
+@pytest.fixture
+def machine(tmp_path):
+    (tmp_path / "engine.toml").write_text(template("engine"), encoding="utf-8")
+    return "engine.toml"
+
+
+@pytest.mark.elsewhere
+def test_inertia_grows_with_the_square_of_the_speed_and_work_does_not(crankwork, machine, tmp_path):
+    answer = crankwork("map", machine, *OVER, "--over", "cylinder.bore=80..90mm:1", "-o", "out")
+    assert answer.code == 0, answer.err
+    with (tmp_path / "out" / "tables" / "map.csv").open(newline="") as file:
+        rows = [{key: float(one) for key, one in row.items()} for row in csv.DictReader(file)]
+    assert [(round(row["crank.speed [rpm]"], 9), row["cylinder.bore [mm]"]) for row in rows] == [
+        (speed, bore) for speed in (1000, 2000, 3000) for bore in (80, 90)
+    ]
+    for row in rows:
+        # r w^2 (1 + lambda) at the top dead centre, (1 - 1/9) of a volume with each bore
+        top = 0.045 * (row["crank.speed [rpm]"] * math.pi / 30) ** 2 * (1 + 45 / 160)
+        assert row["piston_acceleration_max [m/s2]"] == pytest.approx(top, rel=1e-9)
+        assert row["swept_volume [cm3]"] == pytest.approx(math.pi / 4 * (row["cylinder.bore [mm]"] / 10) ** 2 * 9)
+    found = json.loads((tmp_path / "out" / "summary.json").read_text("utf-8"))
+    by_speed, by_bore = (set(found["independent"][key]) for key in ("crank.speed", "cylinder.bore"))
+    assert {"indicated_work", "mean_torque", "gas_pressure_max", "stroke"} <= by_speed
+    assert "piston_acceleration_max" in by_bore - by_speed
+    assert "indicated_work" not in by_bore
+    assert "Do not depend on crank.speed" in answer.out
+
+
+@pytest.mark.parametrize(("options", "answered"), WRONG.values(), ids=WRONG)
+def test_a_wrong_axis_is_named_with_what_to_write(crankwork, machine, options, answered):
+    answer = crankwork("map", machine, *options)
+    assert (answer.code, answer.out) == (2, "")
+    assert answered in answer.err

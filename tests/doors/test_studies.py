@@ -1,0 +1,106 @@
+"""Studies on the command line: what is found, and what is refused."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from crankwork.description.machine_file import template
+
+pytest.importorskip("pyarrow")
+pytest.importorskip("scipy")
+
+STUDY = """\
+machine = "machine.toml"
+values = "stroke"
+[designs]
+drawing = "sobol"
+count = 64
+[vary]
+crank.radius = { from = "40 mm", to = "50 mm" }
+"rod.ratio" = "0.25 ± 0.01"
+[objectives]
+piston_velocity_max = "minimise"
+piston_acceleration_max = "maximise"
+[limits]
+piston_velocity_max = { at_most = "14 m/s" }
+"""
+WRONG = {
+    "unknown field": ("crank.radius = {", "crank.raduis = {", ":7: vary.crank.raduis: unknown key; did you mean"),
+    "unknown table": ("crank.radius = {", "crnak.radius = {", ":7: vary.crnak: unknown key; did you mean crank?"),
+    "range turned round": ('to = "50 mm"', 'to = "30 mm"', ':7: vary.crank.radius.to: "30 mm" is not above "40 mm"'),
+    "range without end": (', to = "50 mm"', "", ":7: vary.crank.radius.to: is missing; write to = ..."),
+    "range in another unit": ('to = "50 mm"', 'to = "50 kg"', ':7: vary.crank.radius.to: unit "kg" measures mass'),
+    "range outside": ('to = "50 mm"', 'to = "500 m"', ':7: vary.crank.radius.to: "500 m" is out of range; write at'),
+    "steps of a draw": (', to = "50 mm"', ', to = "50 mm", steps = 4', ":7: vary.crank.radius: a range says nothing"),
+    "no deviation": ("0.25 ± 0.01", "0.25", ':8: vary.rod.ratio: "0.25" must be a plain number'),
+    "no list of words": (
+        '"0.25 ± 0.01"', '0.25\nrod.ratio_definition = "r/l"',
+        ":9: vary.rod.ratio_definition: holds words or counts, and there is nothing between them; write a list",
+    ),
+    "unknown drawing": ('"sobol"', '"sobel"', ':4: designs.drawing: "sobel" is not possible here; write "grid"'),
+    "a grid of draws": ('"sobol"\ncount = 64', '"grid"', ":6: vary.crank.radius: a grid needs to know how finely"),
+    "many designs": ("64", "1_000_000_000_000_000", ":5: designs.count: 1000000000000000 designs are wanted, more"),
+    "designs of zero": ("64", "0", ":5: designs.count: 0 is not possible here; write a whole number from 1 to"),
+    "unknown value": ('"stroke"', '["stroke", "stroek"]', ":2: values[2]: there is no result stroek; did you mean"),
+    "value that varies": ('"stroke"', '"piston_velocity"', ":2: values[1]: piston_velocity varies with the crank"),
+    "no direction": ('"minimise"', '"small"', ':10: objectives.piston_velocity_max: "small" is not possible here'),
+    "limit in another unit": ("14 m/s", "14 kg", ':13: limits.piston_velocity_max.at_most: unit "kg" measures mass'),
+    "limits that leave nothing": (
+        "at_most", 'at_least = "15 m/s", at_most', ":13: limits.piston_velocity_max: at_least is above at_most",
+    ),
+    "no machine": ("machine.toml", "nothing.toml", ":1: machine: "),
+}  # fmt: skip
+
+
+@pytest.fixture
+def study(tmp_path):
+    """Write a study and its machine."""
+    (tmp_path / "machine.toml").write_text(template("slider-crank"), encoding="utf-8")
+
+    def write(text: str = STUDY) -> str:
+        (tmp_path / "study.toml").write_text(text, encoding="utf-8")
+        return "study.toml"
+
+    return write
+
+
+@pytest.mark.parametrize(("old", "new", "answered"), WRONG.values(), ids=WRONG)
+def test_a_mistake_is_told_on_its_line(crankwork, study, old, new, answered):
+    assert old in STUDY
+    answer = crankwork("sweep", study(STUDY.replace(old, new, 1)), "-o", "out")
+    assert answer.code == 2
+    assert f"study.toml{answered}" in answer.err
+
+
+def test_all_mistakes_are_told_at_once(crankwork, study):
+    text = STUDY
+    for old, new, _ in (WRONG["unknown field"], WRONG["many designs"], WRONG["unknown value"], WRONG["no direction"]):
+        text = text.replace(old, new, 1)
+    answer = crankwork("sweep", study(text), "-o", "out")
+    assert [line.split(":")[1] for line in answer.mistakes] == ["2", "5", "7", "10"]
+
+
+def test_a_grid_of_too_many_designs_is_refused_with_their_number(crankwork, study):
+    ranges = "".join(
+        f'{key} = {{ from = "1 mm", to = "2 mm", steps = 999 }}\n' for key in ("crank.radius", "rod.length")
+    )
+    ranges += 'crank.speed = { from = "1 rpm", to = "2 rpm", steps = 9999 }\n'
+    text = STUDY.replace('"sobol"\ncount = 64', '"grid"')
+    text = f"{text[: text.index('crank.radius')]}{ranges}{text[text.index('[objectives]') :]}"
+    answer = crankwork("sweep", study(text), "-o", "out")
+    assert ":5: vary: 10000000000 designs are wanted" in answer.err
+
+
+def test_a_study_writes_what_it_found(crankwork, study, tmp_path):
+    answer = crankwork("sweep", study(), "-o", "out", "--workers", "1")
+    assert answer.code == 0, answer.err
+    assert "64 designs" in answer.out
+    found = json.loads((tmp_path / "out" / "summary.json").read_text(encoding="utf-8"))
+    assert found["values"]["stroke"]["least"] >= 80
+    assert found["values"]["stroke"]["largest"] <= 100
+    best = found["best"]["piston_velocity_max"]
+    assert [one["piston_velocity_max"] for one in best] == sorted(one["piston_velocity_max"] for one in best)
+    assert all(one["piston_velocity_max"] <= 14 for one in found["pareto"])
+    assert (tmp_path / "out" / "tables" / "pareto.csv").exists()

@@ -1,0 +1,236 @@
+"""Compares compiled calculations with analyses, for machine files and for machines drawn by chance.
+
+Some numbers of each machine are varied; every single value that compiles is compared at designs between those that
+were traced. `test_campaign.py` runs a few; `python tests/kernel/campaign.py --count 1000` many.
+"""
+
+from __future__ import annotations
+
+import argparse
+import collections
+import math
+import random
+import runpy
+import signal
+import sys
+import time
+import warnings
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from crankwork.analysis import Results, analyse
+from crankwork.description.document import Description
+from crankwork.description.machine_file import Setting
+from crankwork.errors import CrankworkError
+from crankwork.kernel import compiled
+from crankwork.kernel.compiled import CONVERGED, Kernel
+from crankwork.kernel.trace import Designs, NotCompiledError, Trace
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.study.sought import Sought, sought_number
+
+plausible_file = runpy.run_path(str(Path(__file__).parents[1] / "doors" / "plausible.py"))["plausible_file"]
+# how many numbers are varied, by how much of what they are, and how many designs are compared
+FIELDS, PART, COMPARED = 2, 0.01, 3
+# How far values, sums over the cycle and angles of extremes or their ratios may be apart: beside their size, in rad.
+LIMITS = {"value": 1e-12, "integral": 1e-10, "angle": 1e-7}
+_INTEGRALS = ("flywheel", "excess", "energy", "rim", "whole_inertia", "work", "reduced_inertia_mean")
+_SECONDS = 120
+
+
+class Comparison(NamedTuple):
+    """A machine compared: how many values compile, the worst of each kind, why the others do not."""
+
+    name: str
+    compiled: int = 0
+    worst: Mapping[str, tuple[float, str]] = {}
+    left_out: int = 0
+    reasons: Mapping[str, str] = {}
+    absent: str = ""
+
+    @property
+    def is_same(self) -> bool:
+        """Whether all values are near enough."""
+        return all(apart <= LIMITS[kind] for kind, (apart, _) in self.worst.items())
+
+
+def numbers(description: Description) -> Iterator[tuple[str, Sought]]:
+    """Yield the numbers of a machine file that may vary, by their keys."""
+
+    def leaves(of: Any, key: str) -> Iterator[str]:
+        if isinstance(of, dict):
+            for name, one in of.items():
+                yield from leaves(one, f"{key}.{name}" if key else name)
+        elif not isinstance(of, list):
+            yield key
+
+    values = description.values_with(())
+    for key in leaves(values, ""):
+        try:
+            found = sought_number(values, key)
+        except (CrankworkError, ValueError):
+            continue
+        if found.now:
+            yield key, found
+
+
+class Machine:
+    """A machine and some of its numbers that vary."""
+
+    def __init__(self, description: Description, draw: random.Random) -> None:
+        self.description = description
+        self.stated = analyse(description.machine())
+        self.fields: dict[str, Sought] = {}
+        self.traced = [self.stated]
+        every = list(numbers(description))
+        draw.shuffle(every)
+        for key, number in every:
+            self.fields[key] = number
+            try:
+                self.traced += [self.results({key: (number.now or 0) * (1 + sign * PART)}) for sign in (-1, 1)]
+            except CrankworkError:
+                del self.fields[key]
+            if len(self.fields) == FIELDS:
+                break
+        self.now = np.array([one.now for one in self.fields.values()])
+
+    def results(self, design: Mapping[str, float]) -> Results:
+        """Return what an analysis gives for a design."""
+        settings = [Setting(key, key, self.fields[key].written(value)) for key, value in design.items()]
+        return analyse(self.description.machine(settings))
+
+    @property
+    def rows(self) -> np.ndarray[Any, np.dtype[np.float64]]:
+        """What the numbers are in each design that is traced."""
+        moved = [self.now * (1 + sign * PART * one) for one in np.eye(self.now.size) for sign in (-1, 1)]
+        return np.array([self.now, *moved])
+
+
+def compared(name: str, text: str, seed: int = 1) -> Comparison:
+    """Compare what is compiled of a machine with analyses."""
+    try:
+        machine = Machine(Description(text), random.Random(f"{name}:{seed}"))  # noqa: S311 - the same every time
+    except CrankworkError as error:
+        return Comparison(name, absent=str(error).splitlines()[0])
+    if not machine.fields:
+        return Comparison(name, absent="no number that may vary")
+    if any("crank_range" in one.summary for one in machine.traced):
+        return Comparison(name, absent="turns back")
+    memories, reasons = [one.memory for one in machine.traced], dict[str, str]()
+    cycle, looked = machine.stated.machine.cycle, np.arange(0.5, 360, 7.0)
+    for key in machine.stated.summary:
+        try:
+            designs = Designs(memories, machine.rows, [key])
+            Trace(designs, CrankGrid.from_degrees, looked, is_shifted=True).value(memories[0][key])
+        except NotCompiledError as error:
+            reasons[key] = f"{error.reason}: {error.key}"
+    keys = [key for key in machine.stated.summary if key not in reasons]
+    if not keys:
+        return Comparison(name, reasons=reasons)
+    kernel = Kernel(memories, machine.rows, keys, CrankGrid.from_degrees, cycle=cycle)
+    return _worst(Comparison(name, len(keys), reasons=reasons), machine, kernel, np.random.default_rng(seed))
+
+
+def _worst(found: Comparison, machine: Machine, kernel: Kernel, draw: np.random.Generator) -> Comparison:
+    """Return how far designs between those traced are apart at most."""
+    designs = machine.now * (1 + PART * draw.uniform(-1, 1, (COMPARED, machine.now.size)))
+    bulk, worst, left_out = kernel(designs.T), dict[str, tuple[float, str]](), 0
+    for at, design in enumerate(designs):
+        if bulk.left_out[at] > CONVERGED or not np.isfinite(bulk.values[:, at]).all():
+            left_out += 1
+            continue
+        try:
+            results = machine.results(dict(zip(machine.fields, design.tolist(), strict=True)))
+        except CrankworkError:
+            continue
+        for key, value in zip(kernel.keys, bulk.values[:, at].tolist(), strict=True):
+            kind, summary = _kind(key), results.summary
+            apart = abs(value - summary.get(key, np.nan)) / _size(key, summary)
+            if kind == "angle" and "ratio" not in key and not apart <= LIMITS[kind]:
+                apart = _missed(key, value, results)
+            if not apart <= worst.get(kind, (-1.0, ""))[0]:
+                worst[kind] = apart, f"{key}: {summary.get(key)!r} and {value!r}"
+    return found._replace(worst=worst, left_out=left_out)
+
+
+def _kind(key: str) -> str:
+    word = key.partition(".")[0]
+    if word.endswith(("_max_angle", "_min_angle", "time_ratio")):
+        return "angle"
+    return "integral" if word.startswith(_INTEGRALS) else "value"
+
+
+def _size(key: str, summary: Mapping[str, float]) -> float:
+    """Return the size of a value: that of the column whose largest or least it is."""
+    if _kind(key) == "angle":
+        return 1.0
+    word, dot, name = key.partition(".")
+    ends = [word.removesuffix(one) for one in ("_max", "_min") if word.endswith(one)]
+    both = [f"{one}_{end}{dot}{name}" for one in ends for end in ("max", "min")]
+    return max((abs(summary[one]) for one in (*both, key) if one in summary), default=0.0) or 1.0
+
+
+def _missed(key: str, angle: float, results: Results) -> float:
+    """Return how far the largest of a column is from what stands at another angle, where it may be as large."""
+    word, dot, name = key.partition(".")
+    word = word.removesuffix("_angle")
+    end, extreme = word.rpartition("_")[0], f"{word}{dot}{name}"
+    return abs(results.value(f"{end}{dot}{name}", math.degrees(angle)) - results.summary[extreme]) / _size(
+        extreme, results.summary
+    )
+
+
+def told(*what: object) -> None:
+    """Write a line, at once."""
+    sys.stdout.write(" ".join(map(str, what)) + "\n")
+    sys.stdout.flush()
+
+
+def _late(*_: object) -> None:
+    raise TimeoutError
+
+
+def main() -> int:
+    """Compare many, print what is apart, and return how many are."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("files", nargs="*")
+    parser.add_argument("--count", type=int, default=0)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--arrays", action="store_true", help="do not compile the loops")
+    parser.add_argument("--reasons", action="store_true", help="print why values are not compiled")
+    asked = parser.parse_args()
+    if asked.arrays:
+        compiled._compiles = lambda: False
+    jobs: list[tuple[str, Callable[[], str]]] = [(one, Path(one).read_text) for one in asked.files]
+    jobs += [
+        (f"{asked.seed}:{at}", lambda at=at: plausible_file(asked.seed, at).text)  # type: ignore[misc]
+        for at in range(asked.count)
+    ]
+    counted, reasons, apart = collections.Counter[str](), collections.Counter[str](), 0
+    warnings.simplefilter("ignore")
+    signal.signal(signal.SIGALRM, _late)
+    began = time.monotonic()
+    for name, text in jobs:
+        signal.alarm(_SECONDS)
+        try:
+            found = compared(name, text(), asked.seed)
+        except (Exception, TimeoutError) as error:  # noqa: BLE001 - counted and told
+            found = Comparison(name, worst={"value": (np.inf, f"{type(error).__name__}: {error}")})
+        signal.alarm(0)
+        counted["absent" if found.absent else "compiled" if found.compiled else "not compiled"] += 1
+        counted.update({"values": found.compiled, "other values": len(found.reasons), "left out": found.left_out})
+        reasons.update({one.partition(":")[0] for one in found.reasons.values()})
+        if not found.is_same or asked.files:
+            apart += not found.is_same
+            told(name, found.absent, found.compiled, len(found.reasons), dict(found.worst))
+        if asked.reasons:
+            for key, reason in found.reasons.items():
+                told("   ", key, reason)
+    told(f"{len(jobs)} machines in {time.monotonic() - began:.0f} s, {apart} apart; {dict(counted)}; {dict(reasons)}")
+    return min(apart, 100)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,34 @@
+"""A small part of the campaign, and faults that it found."""
+
+from __future__ import annotations
+
+import runpy
+from pathlib import Path
+
+import pytest
+
+from crankwork.kernel import compiled
+
+CAMPAIGN = runpy.run_path(str(Path(__file__).with_name("campaign.py")))
+compared, plausible_file = CAMPAIGN["compared"], CAMPAIGN["plausible_file"]
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+@pytest.fixture(autouse=True)
+def by_arrays(monkeypatch):
+    monkeypatch.setattr(compiled, "_compiles", lambda: False)
+
+
+# flywheels by tangents (16, 47), a column of the angle alone read at other angles (59)
+@pytest.mark.parametrize("number", [5, 16, 47, 59])
+def test_machines_drawn_by_chance_are_compiled_to_what_analyses_give(number):
+    found = compared(f"5:{number}", plausible_file(5, number).text, 5)
+    assert found.compiled > 20, found
+    assert found.is_same, found.worst
+
+
+@pytest.mark.parametrize("name", ["beta-stirling", "press-geometry", "double-acting-steam", "andrews-squeezer"])
+def test_examples_are_compiled_to_what_analyses_give(name):
+    found = compared(name, (EXAMPLES / f"{name}.toml").read_text(encoding="utf-8"))
+    assert found.compiled > 40, found
+    assert found.is_same, found.worst

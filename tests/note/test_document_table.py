@@ -1,0 +1,165 @@
+"""The table [document] of a machine file: the cover of a note, and the sections that it has."""
+
+import re
+import shutil
+import subprocess
+
+import pytest
+
+import crankwork
+from crankwork.description.document import Description
+from crankwork.description.keys import MACHINE_FILE
+from crankwork.description.linkage_keys import LINKAGE_FILE, TRANSFER_FILE
+from crankwork.description.machine_file import read_machine, template
+from crankwork.description.turning_keys import TURNING_FILE
+from crankwork.errors import InputError
+from crankwork.note import engine_note, linkage_note, turning_note
+from crankwork.note.contents import note_of, written_note
+from crankwork.note.document import Heading, TitlePage
+from crankwork.note.numbering import numbering
+from crankwork.note.options import NoteOptions
+
+MACHINE = template("slider-crank")
+FULL = """
+[document]
+ministry = "Министерство образования"
+institution = "Казанский университет"
+faculty = "Факультет двигателей"
+department = "Кафедра теории механизмов и машин"
+work = "Курсовой проект"
+subject = "Теория механизмов и машин"
+variant = "5"
+designation = "ТММ.01.05.00.000 ПЗ"
+author = ["Иванов И. И.", "Nguyễn Văn An"]
+student_number = "103210001"
+group = "3142"
+supervisor = "Петров П. П."
+checked_by = "Сидоров С. С."
+standards_by = "Козлов К. К."
+approved_by = "Волков В. В."
+city = "Казань"
+year = 2026
+"""
+
+
+def _note(document: str, language: str = "ru", source: str = MACHINE):
+    results = crankwork.analyse(read_machine(f"{source}\n{document}"))
+    return note_of(results, NoteOptions(language=language, figures=False))
+
+
+def _plain(data: bytes) -> str:
+    return re.sub(r"<[^>]*>", " ", data.decode("utf-8"))
+
+
+@pytest.mark.parametrize("language", ["en", "ru", "vi"])
+def test_what_the_table_says_stands_on_the_cover(language):
+    one = _note(FULL, language)
+    assert one.authors == ("Иванов И. И.", "Nguyễn Văn An")
+    shown = _plain(written_note(one, "a.html")).partition(one.title)
+    for stated in re.findall(r'"([^"]*)"', FULL):
+        assert stated in shown[0] + shown[2].partition("cover")[0]
+    people = next(block for block in one.blocks if isinstance(block, TitlePage)).people
+    assert people[0].names == (("Петров П. П.",) if language == "vi" else ("Иванов И. И.", "Nguyễn Văn An"))
+    assert {person.signs for person in people} == ({True, False} if language == "ru" else {False})
+
+
+def test_a_cover_without_a_table_says_what_the_note_is():
+    page = next(block for block in _note("").blocks if isinstance(block, TitlePage))
+    assert page == TitlePage(below=("Кинематический и динамический расчёт. Расчётно-пояснительная записка",))
+
+
+def test_an_option_goes_before_the_author_of_the_file():
+    results = crankwork.analyse(read_machine(MACHINE + FULL))
+    assert note_of(results, NoteOptions(author="Another", figures=False)).authors == ("Another",)
+
+
+@pytest.mark.parametrize(
+    ("language", "place"), [("en", "Hanoi, 2026-05-31"), ("ru", "Hanoi 2026"), ("vi", "Hanoi, 2026")]
+)
+def test_a_day_gives_the_year(language, place):
+    for written in ("2026-05-31", '"2026-05-31"'):
+        found = _note(f'[document]\ncity = "Hanoi"\ndate = {written}', language)
+        assert next(block for block in found.blocks if isinstance(block, TitlePage)).place == place
+        assert str(found.date) == "2026-05-31"
+
+
+REFUSED = {
+    'sections = ["kinematic"]': 'sections[1]: "kinematic" is no section of this note; write "kinematics"',
+    'sections = ["qq"]': '"qq" is no section of this note; write one of preface, data',
+    "sections = []": "sections: has 0 entries",
+    'date = "31.05.2026"': 'date: "31.05.2026" is no day; write year, month and day, "2026-05-31"',
+    "date = 2026-05-31T10:00:00": "date: 2026-05-31 10:00:00 is no day",
+    "date = 2026-05-31\nyear = 2026": "document.year: says the same as date",
+    "year = 2026.5": "year: 2026.5",
+    "author = 3": "author: 3 must be text in quotes",
+    'author = ["a", "b\\nc"]': "author[2]: ",
+    f'institution = "{"ы" * 301}"': "is too long, 301 characters; write at most 300",
+    'departmant = "x"': "departmant: unknown key; did you mean department?",
+}
+
+
+@pytest.mark.parametrize("stated", REFUSED)
+def test_what_no_cover_can_say_is_refused_on_its_line(stated):
+    with pytest.raises(InputError, match=re.escape(REFUSED[stated])) as refusal:
+        read_machine(f"{MACHINE}\n[document]\n{stated}\n")
+    assert refusal.value.places == [f"text:{len(MACHINE.splitlines()) + 3 + stated.count(chr(10))}"]
+
+
+@pytest.mark.parametrize("ending", [".pdf", ".docx", ".html"])
+def test_long_fields_wrap_and_stay_on_the_cover(ending, tmp_path):
+    pytest.importorskip("typst")
+    pytest.importorskip("docx")
+    if shutil.which("pdftotext") is None:
+        pytest.skip("pdftotext is not installed")
+    words = " ".join(["слово"] * 50)
+    assert len(words) == 299
+    fields = [one for one in MACHINE_FILE.keys["document"].kind.keys if one not in ("year", "date", "sections")]
+    text = "[document]\nsections = 'data'\n" + "\n".join(f'{one} = "{words}"' for one in fields)
+    data = written_note(_note(text), f"a{ending}")
+    assert data
+    if ending == ".pdf":
+        path = tmp_path / "note.pdf"
+        path.write_bytes(data)
+        first, second = (
+            subprocess.run(["pdftotext", *page, str(path), "-"], capture_output=True, text=True, check=True).stdout
+            for page in (("-l", "1"), ("-f", "2"))
+        )
+        assert first.count("слово") == 17 * 50
+        assert "слово" not in second
+
+
+SECTIONS = {
+    "engine": (MACHINE_FILE, engine_note._SECTIONS),
+    "linkage": (LINKAGE_FILE, linkage_note._SECTIONS),
+    "table": (TRANSFER_FILE, linkage_note._OF_TABLE),
+    "shaft": (TURNING_FILE, turning_note._SECTIONS),
+}
+
+
+@pytest.mark.parametrize("kind", SECTIONS)
+def test_sections_that_a_file_may_name_are_those_of_its_note(kind):
+    file, known = SECTIONS[kind]
+    assert set(file.keys["document"].kind.keys["sections"].kind.entry.options) == set(known)
+
+
+def test_sections_stand_in_the_order_in_which_they_are_named():
+    one = _note('[document]\nsections = ["checks", "kinematics", "data"]', "en")
+    assert [block.text for block in one.blocks if isinstance(block, Heading) and block.level == 1] == [
+        "Checks", "Kinematics of the crank gear", "Input data", "References",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["engine", "four-bar", "turning-moment", "slider-crank"])
+def test_every_section_stands_alone(name):
+    source = template(name)
+    values = Description(source)
+    results = crankwork.analyse(read_machine(source))
+    file = next(one for one in (MACHINE_FILE, LINKAGE_FILE, TURNING_FILE) if set(values.values) <= set(one.keys))
+    for section in file.keys["document"].kind.keys["sections"].kind.entry.options:
+        values["document.sections"] = [section]
+        machine = values.machine()
+        found = note_of(crankwork.analyse(machine), NoteOptions(figures=False))
+        numbers = numbering(found)
+        assert written_note(found, "a.html")
+        assert len(found.blocks) >= len(numbers.labels)
+    assert results.machine.document != values.machine().document

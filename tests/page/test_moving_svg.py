@@ -1,0 +1,144 @@
+"""The moving drawing in a browser: it plays, stops, is turned by keys, rests where motion is unwanted, and is dark."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from crankwork import analyse
+from crankwork.description.machine_file import read
+from crankwork.report.drawing import moving_drawing
+from crankwork.show.moving_svg import moving_svg
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+EXAMPLES = Path(__file__).parents[2] / "examples"
+# where the origin of a part stands on the paper, in millimetres
+_PLACE = """name => {
+  const group = document.querySelector(`[data-part="${name}"]`), svg = document.documentElement;
+  const inner = group.querySelector(":scope > .moves") || group;
+  const on = svg.getScreenCTM().inverse().multiply(inner.getScreenCTM());
+  return [on.e, on.f, Math.atan2(on.b, on.a) * 180 / Math.PI];
+}"""
+_STANDS = "document.getAnimations().every(one => one.playState === 'paused')"
+
+
+@pytest.fixture(scope="module", name="film")
+def _film():
+    return moving_drawing(analyse(read(EXAMPLES / "radial-five.toml")))
+
+
+@pytest.fixture(name="shown")
+def _shown(browser, film, tmp_path):
+    """Open the drawing, on dark ground or with reduced motion where asked."""
+    (tmp_path / "machine.svg").write_bytes(moving_svg(film, "colour"))
+    (tmp_path / "img.html").write_text('<body><img src="machine.svg" width="600">', "utf-8")
+    contexts = []
+
+    def shown(name="machine.svg", **look):
+        contexts.append(browser.new_context(**look))
+        page = contexts[-1].new_page()
+        page.goto((tmp_path / name).as_uri())
+        return page
+
+    yield shown
+    for one in contexts:
+        one.close()
+
+
+def _wanted(film, name, frame):
+    (one,) = (part for part in film.parts if part.name == name)
+    x, y = one.shift[frame % film.frames if len(one.shift) > 1 else 0]
+    return x, film.ground.height - y, -one.turn[frame % film.frames]
+
+
+def _compared(page, film, frame):
+    for name in ("side.piston.3", "side.rod.1", "side.rod.4", "side.crank.1", "row.1.piston.1"):
+        x, y, turn = page.evaluate(_PLACE, name)
+        wanted = _wanted(film, name, frame)
+        assert np.hypot(x - wanted[0], y - wanted[1]) < 0.1, (name, frame)
+        assert abs((turn - wanted[2] + 180) % 360 - 180) < 0.2, (name, frame)
+
+
+def test_it_plays_and_a_click_stops_it(shown, film):
+    page = shown()
+    first = page.evaluate(_PLACE, "side.crank.1")
+    page.wait_for_timeout(300)
+    assert page.evaluate(_PLACE, "side.crank.1") != first
+    page.mouse.click(200, 200)
+    assert page.evaluate(_STANDS)
+    stood = page.evaluate(_PLACE, "side.crank.1")
+    page.wait_for_timeout(200)
+    assert page.evaluate(_PLACE, "side.crank.1") == stood
+    page.keyboard.press(" ")
+    page.wait_for_timeout(200)
+    assert page.evaluate(_PLACE, "side.crank.1") != stood
+
+
+def test_it_rests_where_motion_is_unwanted_and_keys_turn_it_frame_by_frame(shown, film):
+    page = shown(reduced_motion="reduce")
+    assert page.evaluate(_STANDS)
+    _compared(page, film, film.rest)
+    frame = film.rest
+    for key, by in (("ArrowRight", 1), ("ArrowUp", 10), ("ArrowUp", 10), ("ArrowLeft", -1), *[("ArrowDown", -10)] * 4):
+        page.keyboard.press(key)
+        frame += by
+        _compared(page, film, frame)
+    page.keyboard.press(" ")
+    page.wait_for_timeout(200)
+    assert not page.evaluate(_STANDS)
+
+
+def test_opened_alone_it_has_a_bar_that_turns_it_and_a_button_that_stops_it(shown, film):
+    """A pull to a quarter of the bar shows the frame at a quarter of the cycle; the knob stands there."""
+    page = shown()
+    bar = page.locator("#slide").bounding_box()
+    middle = bar["y"] + bar["height"] / 2
+    page.mouse.move(bar["x"] + 0.7 * bar["width"], middle)
+    page.mouse.down()
+    page.mouse.move(bar["x"] + 0.25 * bar["width"], middle)
+    page.mouse.up()
+    assert page.evaluate(_STANDS)
+    _compared(page, film, round(0.25 * film.frames))
+    page.wait_for_timeout(100)
+    knob = page.locator("circle").last.bounding_box()
+    assert abs(knob["x"] + knob["width"] / 2 - bar["x"] - 0.25 * bar["width"]) < 2
+    for stands in (False, True):
+        button = page.locator("#play").bounding_box()
+        page.mouse.click(button["x"] + button["width"] / 2, button["y"] + button["height"] / 2)
+        assert page.evaluate(_STANDS) == stands
+
+
+def test_its_ground_is_dark_where_the_reader_prefers_it(shown):
+    grounds = {
+        scheme: shown(color_scheme=scheme).evaluate("getComputedStyle(document.querySelector('rect')).fill")
+        for scheme in ("light", "dark")
+    }
+    assert grounds == {"light": "rgb(255, 255, 255)", "dark": "rgb(20, 23, 28)"}
+
+
+def _moves(page):
+    """Return whether a page looks otherwise after a while."""
+    session = page.context.new_cdp_session(page)
+    first = session.send("Page.captureScreenshot", {"format": "png"})["data"]
+    page.wait_for_timeout(400)
+    return session.send("Page.captureScreenshot", {"format": "png"})["data"] != first
+
+
+def test_a_picture_of_it_moves_where_no_script_runs(shown):
+    assert _moves(shown("img.html", java_script_enabled=False))
+
+
+def test_a_picture_of_it_rests_where_the_system_wants_no_motion(browser, film, tmp_path):
+    (tmp_path / "machine.svg").write_bytes(moving_svg(film))
+    (tmp_path / "img.html").write_text('<body><img src="machine.svg" width="600">', "utf-8")
+    program = next(path for name in BROWSERS if (path := shutil.which(name)))
+    calm = browser.browser_type.launch(
+        executable_path=program, args=["--no-sandbox", "--force-prefers-reduced-motion"]
+    )  # fmt: skip
+    page = calm.new_page()
+    page.goto((tmp_path / "img.html").as_uri())
+    assert not _moves(page)
+    calm.close()

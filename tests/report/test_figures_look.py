@@ -1,0 +1,142 @@
+"""What every figure looks like, told from its scene: where letters stand, and what runs through them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from crankwork.analysis import analyse
+from crankwork.description.machine_file import read, read_machine
+from crankwork.note.sheets import drawn_sheets
+from crankwork.quantities import LANGUAGES
+from crankwork.report.drawing import film_of
+from crankwork.report.figures import drawings
+from crankwork.show.chart import Graph, round_ticks, sheet
+from crankwork.show.labels import mark
+from crankwork.show.place import Place, placed
+from crankwork.show.scene import Box, Drawing, Pen, Text, line, rectangle, runs
+from looks import box_of, faults
+
+ROOT = Path(__file__).parents[2]
+TEMPLATES = ROOT / "src" / "crankwork" / "description" / "templates"
+FILES = [*sorted((ROOT / "examples").glob("*.toml")), *sorted(TEMPLATES.glob("*.toml"))]
+
+
+def _name(path: Path) -> str:
+    return f"{path.parent.name}-{path.stem}"
+
+
+@pytest.mark.parametrize("path", FILES, ids=_name)
+def test_letters_stand_on_their_paper_clear_of_lines_and_of_each_other(path):
+    results = analyse(read(path))
+    found = {
+        f"{_name(path)}.{language}.{name}": wrong
+        for language in LANGUAGES
+        for name, one in drawings(results, language=language).items()
+        if (wrong := faults(one))
+    }
+    assert found == {}
+
+
+def test_faults_are_seen():
+    def kinds(*items):
+        return [one.kind for one in faults(Drawing("t", "en", 100.0, 50.0, items))]
+
+    over, under = line((0.0, 11.0), (60.0, 12.0), "medium"), Text((10.0, 10.0), "word")
+    ground = rectangle(Box(8.0, 8.0, 20.0, 8.0), Pen(0.0), fill=1.0)
+    assert kinds(under) == []
+    assert kinds(over, under) == kinds(under, over) == ["crossed"]
+    assert kinds(over, ground, under) == []
+    assert kinds(ground, over, under) == ["crossed"]
+    assert kinds(under, Text((12.0, 11.0), "other")) == ["overlap"]
+    assert kinds(Text((95.0, 10.0), "word")) == kinds(Text((5.0, 48.0), "word", angle=90.0)) == ["outside"]
+    assert kinds(Text((10.0, 10.0), "J_S^2")) == ["mark"]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_letters_stand_clear_where_forces_are_per_area(language):
+    """Footers tell the frame of the vectors, the method and the area."""
+    results = analyse(read(ROOT / "examples" / "v8-diesel.toml"))
+    found = drawings(results, language=language, per_area=True)
+    assert {name: wrong for name, one in found.items() if (wrong := faults(one))} == {}
+
+
+NAMED = """
+format = 2
+[fixed_points]
+O = ["0 mm", "0 mm"]
+[crank]
+pivot = "O"
+pin = "P^{2}"
+radius = "50 mm"
+speed = "1000 rpm"
+[links."r/{d}"]
+joins = ["P^{2}", "B"]
+length = "200 mm"
+mass = "2 kg"
+inertia = "0.01 kg*m2"
+centre = ["80 mm", "0 mm"]
+points = { "c_{1}" = ["100 mm", "40 mm"] }
+[guides]
+g = { through = "O" }
+[sliders]
+"s$l{i}" = { guide = "g", pin = "B", mass = "1 kg" }
+[chambers."h^{a}"]
+slider = "s$l{i}"
+bore = "80 mm"
+sense = -1
+clearance_volume = "60 cm3"
+ambient = "0.1 MPa"
+pressures = "absolute"
+pieces = [{ law = "rounded", points = ["a", "b"] }, { law = "rounded", points = ["b", "c"] }]
+[chambers."h^{a}".points]
+a = { stroke = 0.0, pressure = "0.8 MPa" }
+b = { stroke = 1.0, pressure = "0.1 MPa" }
+c = { stroke = 0.0, pressure = "0.8 MPa" }
+"""
+
+
+def test_names_are_printed_as_they_are_written():
+    """Signs that mark an index, an exponent or slanted letters in our texts mark nothing in names of users."""
+    results = analyse(read_machine(NAMED))
+    scenes = {**drawings(results), "film": film_of(results).still(0)}
+    scenes |= {sheet.name: sheet.drawing for sheet in drawn_sheets(results)}
+    said = {
+        name: " ".join("".join(run.text for run in runs(item.text)) for item in one.items if isinstance(item, Text))
+        for name, one in scenes.items()
+    }
+    for name, wanted in {
+        "position_plans": ("P^{2}", "c_{1}"), "velocity_plan": ("v P^{2} =", "v c_{1}P^{2} ="),
+        "force_plans": ("R P^{2} =",), "joint_forces": ("R P^{2}, ",), "film": ("P^{2}", "c_{1}"),
+        "sliders": ("acceleration of a slider, s$l{i}",), "links": ("of a link, r/{d}",),
+        "chambers": ("gas force, h^{a}",), "centrodes": ("P^{2}", "centrode of r/{d}"),
+        "zhukovsky_lever": ("pP^{2} = ",),
+        "linkage-kinematics": ("2 – r/{d}", "c_{1}"), "linkage-forces": ("R P^{2}, ",),
+    }.items():  # fmt: skip
+        for one in wanted:
+            assert one in said[name], (name, one, said[name][:2000])
+    assert not [one for text in said.values() for one in text if 0xE000 <= ord(one) < 0xF900]
+
+
+@pytest.mark.parametrize("is_sheet", [False, True])
+def test_numbers_of_axes_stand_clear_where_an_axis_goes_through_zero(is_sheet):
+    """Below and left of the graph, not at the axis in its middle, where curves would run through them."""
+    with placed(Place(is_sheet=is_sheet)):
+        paper, box = sheet(200.0)
+        graph = Graph(paper, box, (-3.0, 3.0), (-2.0, 5.0), "en", to_scale=False)
+        graph.frame(round_ticks(*graph.x), graph.up_ticks)
+        x = np.linspace(-3.0, 3.0, 50)
+        for at in np.linspace(-2.0, 5.0, 40):
+            graph.curve(f"c{at}", x, np.full(50, at))
+        graph.curve("upright", [0.0, 0.0], [-2.0, 5.0])
+        mark(graph, "zero", 0.0, 0.0, "zero")
+        drawing = paper.drawing("t")
+    assert faults(drawing) == []
+    (plot,) = drawing.plots
+    numbers = [one for one in drawing.items if isinstance(one, Text) and one.text.lstrip("−").isdecimal()]
+    assert {"0", "−2", "4"} <= {one.text for one in numbers}
+    for one in numbers:
+        box = box_of(one)
+        assert box.right < plot.box.left or box.top < plot.box.bottom

@@ -1,0 +1,92 @@
+"""Many designs of one file: values as analyses give them, what is refused counted, what does not compile told."""
+
+import numpy as np
+import pytest
+
+import crankwork
+from crankwork.errors import CrankworkError
+from crankwork.kernel import compiled as compiled_kernels
+
+FOUR_BAR = crankwork.template("four-bar")
+
+
+@pytest.fixture(autouse=True)
+def by_arrays(monkeypatch):
+    monkeypatch.setattr(compiled_kernels, "_compiles", lambda: False)
+
+
+def test_values_are_those_of_single_analyses():
+    d = crankwork.Description(crankwork.template("slider-crank"))
+    radii = ["40 mm", "45 mm", "50 mm", "55 mm"]
+    found = crankwork.sweep(d, {"crank.radius": radii}, ["stroke", "piston_acceleration_max"])
+    assert found.one_by_one == 0
+    assert not found.reason
+    assert len(found) == 4
+    for at, radius in enumerate(radii):
+        d["crank.radius"] = radius
+        one = crankwork.analyse(d)
+        for key, values in found.values.items():
+            assert values[at] == pytest.approx(one.summary[key], rel=1e-12)
+
+
+def test_designs_that_cannot_be_assembled_are_counted_by_reason():
+    d = crankwork.Description(FOUR_BAR)
+    lengths = [0.05, 0.06, 0.16, 0.17, 0.18, 0.19, 0.2]
+    found = crankwork.sweep(d, {"links.coupler.length": lengths}, ["joint_force_max.B"])
+    refused = sum(found.refused.values())
+    assert refused == 2
+    assert np.isnan(found.values["joint_force_max.B"]).sum() == refused
+    assert all("joint_force_max.B" in reason or "; " in reason for reason in found.refused)
+
+
+def test_what_does_not_compile_is_analysed_one_by_one():
+    d = crankwork.Description(FOUR_BAR)
+    found = crankwork.sweep(d, {"crank.radius": ["60 mm", "62 mm"]}, ["free_force.1"])
+    assert found.reason == "procedure"
+    assert found.one_by_one == 2
+    for radius, value in zip(("60 mm", "62 mm"), found.values["free_force.1"], strict=True):
+        d["crank.radius"] = radius
+        assert value == crankwork.analyse(d).summary["free_force.1"]
+
+
+@pytest.mark.parametrize("steps", [None, 72])
+def test_a_kernel_that_says_something_else_than_analyses_is_not_believed(monkeypatch, steps):
+    d = crankwork.Description(FOUR_BAR)
+    asked = {"crank.radius": ["60 mm", "61 mm", "62 mm"]}, ["joint_force_max.B", "joint_force_max_angle.B"]
+    assert not crankwork.sweep(d, *asked, steps=steps).reason
+    run = compiled_kernels.Kernel.run
+
+    def wrong(kernel, designs, found, first, last):
+        run(kernel, designs, found, first, last)
+        found.values[0, first:last] *= 1.2
+
+    monkeypatch.setattr(compiled_kernels.Kernel, "run", wrong)
+    found = crankwork.sweep(d, *asked, steps=steps)
+    assert (found.reason, found.one_by_one) == ("differs", 3)
+
+
+def test_several_threads_give_the_same(monkeypatch):
+    monkeypatch.setattr("crankwork.study.machines._TOGETHER", 8)
+    d = crankwork.Description(crankwork.template("slider-crank"))
+    asked = {"crank.radius": np.linspace(0.03, 0.05, 50), "crank.speed": np.linspace(200, 300, 50)}
+    one, two = (crankwork.sweep(d, asked, ["piston_velocity_max"], workers=count) for count in (1, 3))
+    np.testing.assert_array_equal(one.values["piston_velocity_max"], two.values["piston_velocity_max"])
+    frame = one.to_dataframe()
+    assert list(frame.columns) == ["crank.radius", "crank.speed", "piston_velocity_max"]
+
+
+@pytest.mark.parametrize(
+    ("designs", "keys", "told"),
+    [
+        ({"crank.radius": ["1 mm", "2 mm"], "crank.speed": ["9 rpm"]}, ["stroke"], "different numbers of values"),
+        ({"crank.raduis": ["1 mm"]}, ["stroke"], "radius"),
+        ({"crank.radius": ["1 kg"]}, ["stroke"], "crank.radius"),
+        ({"crank.radius": ["50 mm"]}, ["stroek"], "stroke"),
+        ({"crank.radius": ["50 mm"]}, ["piston_velocity"], "piston_velocity_max"),
+        ({"crank.radius": []}, ["stroke"], "different numbers of values"),
+    ],
+)
+def test_what_cannot_be_asked_is_refused(designs, keys, told):
+    d = crankwork.Description(crankwork.template("slider-crank"))
+    with pytest.raises(CrankworkError, match=told):
+        crankwork.sweep(d, designs, keys)
