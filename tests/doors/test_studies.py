@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 
 import pytest
 
@@ -104,3 +105,75 @@ def test_a_study_writes_what_it_found(crankwork, study, tmp_path):
     assert [one["piston_velocity_max"] for one in best] == sorted(one["piston_velocity_max"] for one in best)
     assert all(one["piston_velocity_max"] <= 14 for one in found["pareto"])
     assert (tmp_path / "out" / "tables" / "pareto.csv").exists()
+
+
+SEARCH = """\
+machine = "machine.toml"
+[vary]
+crank.radius = { from = "30 mm", to = "60 mm" }
+rod.length = { uniform = "185 ± 35 mm" }
+[objectives]
+piston_acceleration_max = "minimise"
+[limits]
+stroke = { at_least = "90 mm" }
+[search]
+starts = 2
+"""
+WRONG_SEARCH = {
+    "a list": ('{ from = "30 mm", to = "60 mm" }', '["30 mm", "60 mm"]', ":3: vary.crank.radius: is no range, and"),
+    "a distribution": ('{ uniform = "185 ± 35 mm" }', '"185 ± 35 mm"', ":4: vary.rod.length: is no range, and"),
+    "unknown field": ("rod.length", "rod.lenth", ":4: vary.rod.lenth: unknown key; did you mean length?"),
+    "nothing varies": (SEARCH[SEARCH.index("crank.r") : SEARCH.index("[obj")], "", ":2: vary: is empty; name what"),
+    "no objective": ('piston_acceleration_max = "minimise"\n', "", ":5: objectives: is missing; name the value that"),
+    "objectives": ('"minimise"', '"minimise"\nstroke = "maximise"', ":5: objectives: are several, piston_accel"),
+    "without reduction": ("acceleration_max", "acceleration", ":6: objectives.piston_acceleration: piston_accel"),
+    "unknown way": ("starts = 2", 'way = "luck"', ':10: search.way: "luck" is not possible here; write "slsqp"'),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("old", "new", "answered"), WRONG_SEARCH.values(), ids=WRONG_SEARCH)
+def test_a_mistake_in_a_search_is_told_on_its_line(crankwork, study, old, new, answered):
+    assert old in SEARCH
+    answer = crankwork("optimise", study(SEARCH.replace(old, new, 1)), "-o", "out")
+    assert answer.code == 2
+    assert f"study.toml{answered}" in answer.err
+
+
+@pytest.mark.elsewhere
+def test_the_best_design_is_a_machine_file_with_its_comments(crankwork, study, tmp_path):
+    """The acceleration at top dead centre, r w^2 (1 + r/l), is least with the longest rod and the shortest crank."""
+    answer = crankwork("optimise", study(SEARCH), "-o", "out", "--set", "crank.speed=3000 rpm")
+    assert answer.code == 0, answer.err
+    file = (tmp_path / "out" / "machine.toml").read_text(encoding="utf-8")
+    stated = (tmp_path / "machine.toml").read_text(encoding="utf-8")
+    for before, after in (('radius = "50 mm"', 'radius = "45 mm"'), ('length = "200 mm"', 'length = "220 mm"'),
+                          ('"1500 rpm"', '"3000 rpm"')):  # fmt: skip
+        assert before in stated
+        stated = stated.replace(before, after, 1)
+    assert file == stated
+    found = json.loads((tmp_path / "out" / "summary.json").read_text(encoding="utf-8"))
+    speed = 3000 * math.pi / 30
+    assert found["values"]["piston_acceleration_max"] == pytest.approx(0.045 * speed**2 * (1 + 45 / 220), rel=1e-8)
+    held = {one["key"]: (one["sense"], one["level"], one["price"]) for one in found["holding"]}
+    # by a millimetre of each
+    assert held["stroke"] == (">=", 90, pytest.approx(speed**2 / 2 * (1 + 2 * 45 / 220) / 1000, rel=1e-7))
+    assert held["rod.length"] == ("<=", 220, pytest.approx(-((0.045 * speed / 0.22) ** 2) / 1000, rel=1e-7))
+    course = (tmp_path / "out" / "tables" / "course.csv").read_text(encoding="utf-8").splitlines()
+    assert len(course) == found["designs"] + 1
+    again = crankwork("check", "out/machine.toml")
+    assert again.code == 0, again.err
+
+
+def test_tables_of_the_best_machine_are_found_from_its_folder(crankwork, study, tmp_path):
+    name = study(SEARCH.replace("stroke = { at_least", "swept_volume = { at_least").replace("90 mm", "600 cm3"))
+    engine = template("engine")
+    measured = '[gas.measured]\nfile = "pressure.csv"\npressure_unit = "bar"\nshift = "0 deg"\n\n'
+    engine = engine[: engine.index("[gas.points]")] + measured + engine[engine.index("[method]") :]
+    (tmp_path / "machine.toml").write_text(engine, encoding="utf-8")
+    samples = "".join(f"{at},{1 + at % 360 / 100}\n" for at in range(0, 721, 5))
+    (tmp_path / "pressure.csv").write_text(samples, encoding="utf-8")
+    answer = crankwork("optimise", name, "-o", "a/out")
+    assert answer.code == 0, answer.err
+    assert 'file = "../../pressure.csv"' in (tmp_path / "a" / "out" / "machine.toml").read_text(encoding="utf-8")
+    again = crankwork("check", "a/out/machine.toml")
+    assert again.code == 0, again.err

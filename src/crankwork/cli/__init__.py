@@ -25,7 +25,7 @@ from crankwork.cli.asked import (
 from crankwork.cli.documents import draw, page, report
 from crankwork.cli.options import COMPARE, JSON, LANG, METHOD, NO_FIGURES, OVERWRITE, PER_AREA, SET, STEP, SYSTEM
 from crankwork.cli.spoken import SpokenGroup, language_asked, placeholder
-from crankwork.cli.studies import map_, sweep
+from crankwork.cli.studies import map_, optimise, sweep
 from crankwork.errors import CrankworkError, DoubtfulError, InputError
 from crankwork.locale import Language, Refusal, say, told
 from crankwork.progress import bar, with_progress
@@ -281,7 +281,7 @@ def run(  # noqa: PLR0913 - one argument per option of the command
     doubt(file, results, language)
 
 
-for one in (report, page, draw, sweep, map_):
+for one in (report, page, draw, sweep, optimise, map_):
     commands.add_command(one)
 
 

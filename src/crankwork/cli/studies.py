@@ -65,6 +65,41 @@ def sweep(  # noqa: PLR0913 - one argument per option of the command
     click.echo(say("study.rate", language, seconds=f"{passed:.1f}", rate=f"{found.designs / passed:.0f}"), err=True)
 
 
+@click.command(cls=SpokenCommand)
+@click.argument("study")
+@click.option("-o", "--output", metavar="DIR", required=True)
+@LANG
+@SET
+@JSON
+@OVERWRITE
+def optimise(
+    study: str,
+    output: str,
+    language: Language,
+    settings: tuple[str, ...],
+    *,
+    as_json: bool,
+    overwrite: bool,
+) -> None:
+    """Find the best design of a study: the machine file of it, what holds it, and the way there."""
+    from crankwork import files
+    from crankwork.study.optimise import best_of
+    from crankwork.study.optimum_text import optimum_data, optimum_files, optimum_text
+    from crankwork.study.study_file import load_study
+
+    asked = load_study(study, settings, is_search=True)
+    files.check_folder(output, overwrite=overwrite)
+    with bar() as telling:
+        found = best_of(asked, telling)
+    contents = optimum_files(asked, found, output)
+    if as_json:
+        click.echo(json.dumps(optimum_data(asked, found), ensure_ascii=False, indent=1))
+    else:
+        click.echo(optimum_text(asked, found, language))
+    files.write_folder(output, contents, overwrite=overwrite)
+    click.echo(f"\n{say('report.written', language)} {output}", err=as_json)
+
+
 @click.command(name="map", cls=SpokenCommand)
 @click.argument("file")
 @click.option("--over", multiple=True, required=True, metavar="KEY=FROM..TO")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from crankwork.locale import Language, decimal, texts
 
 _RAISED = str.maketrans("0123456789-−", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻")
@@ -24,3 +26,9 @@ def number(value: float, language: Language, *, digits: int = 6) -> str:
         text = f"{mantissa[:-1]}10" if mantissa in ("1", "-1") else f"{mantissa}·10"
         text += str(int(exponent)).translate(_RAISED)
     return decimal(text, language).replace("-", "−")
+
+
+def aligned(rows: Sequence[Sequence[str]]) -> list[str]:
+    """Return cells in columns, a little to the right."""
+    width = [max(len(row[at]) for row in rows) for at in range(len(rows[0]))] if rows else []
+    return ["  " + "  ".join(cell.ljust(size) for cell, size in zip(row, width, strict=True)).rstrip() for row in rows]

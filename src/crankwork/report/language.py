@@ -109,6 +109,12 @@ def displayed_column(key: str, values: Array, *, per_area: float | None = None) 
     return np.asarray(from_si(values, key_unit(key, per_area=per_area is not None)) + 0.0)
 
 
+def displayed_size(key: str, size: float) -> float:
+    """Return a difference in the display unit of a key, whose zero does not count."""
+    unit = key_unit(key)
+    return float(from_si(size, unit) - from_si(0.0, unit)) if unit else size
+
+
 def is_per_area(key: str) -> bool:
     """Return whether a quantity may be given by the piston area."""
     return not _is_angle(key) and not _is_time(key) and bool(QUANTITIES[base_key(key)].per_area_unit)
@@ -183,3 +189,10 @@ def method_name(kinematics: str, order: int, rod: str, language: Language) -> st
 def rounded(value: float, digits: int = 15) -> float:
     """Return a number without the noise of its last bit, for printing as data."""
     return float(f"{value:.{digits}g}") if math.isfinite(value) else value
+
+
+def plain(value: object) -> object:
+    """Return a value for data: a number rounded, None where it is none."""
+    if isinstance(value, float):
+        return rounded(value) if math.isfinite(value) else None
+    return value

@@ -18,7 +18,7 @@ from crankwork.kernel.trace import NotCompiledError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Refusal
 from crankwork.study.machines import Machines, threaded
-from crankwork.study.sought import limit, sought_number
+from crankwork.study.sought import Sought, limit, sought_number
 from crankwork.units import System
 
 # parts of the cycle in each of which an extreme is followed for itself
@@ -47,6 +47,11 @@ class Near(NamedTuple):
     parts: tuple[Array, Array] | None
 
 
+def _in_si(number: Sought, stated: float | str) -> float | None:
+    """Return a bound in SI, as numbers are; a text without a unit is in that of the file."""
+    return limit(number, stated if isinstance(stated, str) else str(number.written(float(stated))), number.key)
+
+
 class Box:
     """Designs between bounds. A place is 0 at the lower bound of a field and 1 at the upper one.
 
@@ -67,12 +72,12 @@ class Box:
         values = description.values_with(overrides)
         numbers = {key: sought_number(values, key) for key in (*bounds, *start)}
         self.low, self.high = (
-            np.array([limit(numbers[key], of[end], key) for key, of in bounds.items()], dtype=float) for end in (0, 1)
+            np.array([_in_si(numbers[key], of[end]) for key, of in bounds.items()], dtype=float) for end in (0, 1)
         )
         for key, of, low, high in zip(bounds, bounds.values(), self.low, self.high, strict=True):
             if not low < high:
                 raise CrankworkError(Refusal("bounds_empty", key=key, low=str(of[0]), high=str(of[1])))
-        stated = {key: limit(numbers[key], of, key) for key, of in start.items()}
+        stated = {key: _in_si(numbers[key], of) for key, of in start.items()}
         for key, low, high in zip(bounds, self.low, self.high, strict=True):
             if not low <= stated.get(key, low) <= high:
                 ends = {"low": str(bounds[key][0]), "high": str(bounds[key][1])}

@@ -11,8 +11,8 @@ import numpy as np
 
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Language, capital, say, told
-from crankwork.locale.numbers import number, unit_name
-from crankwork.report.language import displayed, displayed_column, key_unit, label, rounded
+from crankwork.locale.numbers import aligned, number, unit_name
+from crankwork.report.language import displayed, displayed_column, displayed_size, key_unit, label, plain
 from crankwork.report.tables import Sheet, csv_of_sheet
 from crankwork.study.chunks import NUMBER, Reduced, ranks, within
 from crankwork.study.ranking import Index, Moments
@@ -49,43 +49,31 @@ def _lines(study: Study, found: Reduced, language: Language) -> Iterator[str]:
     for count, reason in found.refused.values():
         yield say("study.refused", language, count=_count(count), reason=told(reason, language))
     yield from ("", say("study.values", language))
-    yield from _aligned([_moments(key, one, language) for key, one in found.moments.items()])
+    yield from aligned([_moments(key, one, language) for key, one in found.moments.items()])
     ranked, pareto = _ranked(study, found)
     for key, rows in ranked.items():
         word = "study.ascending" if study.objectives[key] > 0 else "study.descending"
         yield from ("", f"{capital(label(key, language))}, {say(word, language)}")
-        yield from _aligned([_design(study, found, at, key, language) for at in rows[:_SHOWN]])
+        yield from aligned([_design(study, found, at, key, language) for at in rows[:_SHOWN]])
     if len(study.objectives) > 1:
         name = "study.pareto_thinned" if found.is_thinned else "study.pareto"
         yield from ("", say(name, language, count=_count(len(pareto))))
     if any(one.indices() for one in found.shares.values()):
         yield from ("", say("study.indices", language))
-        yield from _aligned(list(_causes(study, found, language)))
+        yield from aligned(list(_causes(study, found, language)))
 
 
 def _count(count: int) -> str:
     return f"{count:,}".replace(",", " ")
 
 
-def _aligned(rows: list[tuple[str, ...]]) -> list[str]:
-    """Return cells in columns."""
-    width = [max(len(row[at]) for row in rows) for at in range(len(rows[0]))] if rows else []
-    return ["  " + "  ".join(cell.ljust(size) for cell, size in zip(row, width, strict=True)).rstrip() for row in rows]
-
-
 def _moments(key: str, one: Moments, language: Language) -> tuple[str, ...]:
     def shown(value: float) -> str:
         return number(displayed(key, value), language, digits=_DIGITS) if math.isfinite(value) else "-"
 
-    size = number(_size(key, one.deviation), language, digits=4) if one.count > 1 else "-"
+    size = number(displayed_size(key, one.deviation), language, digits=4) if one.count > 1 else "-"
     ends = f"{shown(one.low)} … {shown(one.high)}" if one.count else "-"
     return label(key, language), f"{shown(one.mean)} ± {size}", ends, unit_name(key_unit(key), language)
-
-
-def _size(key: str, deviation: float) -> float:
-    """Return a difference in the unit of a key, whose zero does not count."""
-    unit = key_unit(key)
-    return float(from_si(deviation, unit) - from_si(0.0, unit)) if unit else deviation
 
 
 def _design(study: Study, found: Reduced, at: int, key: str, language: Language) -> tuple[str, ...]:
@@ -153,7 +141,7 @@ def _rows(study: Study, found: Reduced, rows: Index) -> Sheet:
             columns[one.key] = np.array([str(one.values[int(at)]) for at in of[rows]], dtype=object)
         else:
             columns[one.key] = np.asarray(from_si(of[rows], one.number.unit))
-        units[one.key] = one.number.unit if one.number else ""
+        units[one.key] = one.unit
     for key, of in zip(study.keys, found.values, strict=True):
         columns[key], units[key] = displayed_column(key, of[rows]), key_unit(key)
     return Sheet(tuple(str(one) for one in found.numbers[rows]), columns, units)
@@ -170,7 +158,7 @@ def _data(study: Study, found: Reduced) -> dict[str, Any]:
 
     def designs(rows: Index) -> list[dict[str, Any]]:
         sheet = _rows(study, found, rows)
-        columns = [[_plain(one) for one in of.tolist()] for of in sheet.columns.values()]
+        columns = [[plain(one) for one in of.tolist()] for of in sheet.columns.values()]
         return [
             {NUMBER: int(name), **dict(zip(sheet.columns, row, strict=True))}
             for name, row in zip(sheet.names, zip(*columns, strict=True), strict=True)
@@ -191,10 +179,10 @@ def _data(study: Study, found: Reduced) -> dict[str, Any]:
         "values": {
             key: {
                 "count": one.count,
-                "mean": _plain(displayed(key, one.mean)),
-                "deviation": _plain(_size(key, one.deviation)),
-                "least": _plain(displayed(key, one.low)),
-                "largest": _plain(displayed(key, one.high)),
+                "mean": plain(displayed(key, one.mean)),
+                "deviation": plain(displayed_size(key, one.deviation)),
+                "least": plain(displayed(key, one.low)),
+                "largest": plain(displayed(key, one.high)),
             }
             for key, one in found.moments.items()
         },
@@ -203,17 +191,10 @@ def _data(study: Study, found: Reduced) -> dict[str, Any]:
         "pareto_thinned": found.is_thinned,
         "sensitivity": {
             key: {
-                one.key: dict(zip(_INDICES, map(_plain, row), strict=True))
+                one.key: dict(zip(_INDICES, map(plain, row), strict=True))
                 for one, row in zip(study.varied, np.array(indices).T.tolist(), strict=True)
             }
             for key, shares in found.shares.items()
             if (indices := shares.indices()) is not None
         },
     }
-
-
-def _plain(value: object) -> object:
-    """Return a number for data: None where there is none."""
-    if isinstance(value, float):
-        return rounded(value) if math.isfinite(value) else None
-    return value

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple, get_args
 
@@ -18,8 +18,9 @@ from crankwork.report.language import key_unit
 from crankwork.study.box import Box
 from crankwork.study.limits import written_limits
 from crankwork.study.search import REACHED, Place, Problem, Way, searched
+from crankwork.study.study_file import Study
 from crankwork.study.sweep import Swept
-from crankwork.units import from_si, shown_in
+from crankwork.units import coherent_unit, from_si, shown_in
 
 STARTS = 4
 _SAME = 1e-8
@@ -196,6 +197,26 @@ def optimise(  # noqa: PLR0913 - what is wanted of what, where, and how it is se
         ),
         way, seed, box.reason,
     )  # fmt: skip
+
+
+def best_of(study: Study, told: Callable[[float], None] | None = None) -> Optimum:
+    """Return the best design of a study that was read as a search for it."""
+    (objective, sign), *_ = study.objectives.items()
+    return optimise(
+        study.machine, objective, {one.key: one.ends for one in study.varied},
+        sense="least" if sign > 0 else "largest", limits=list(_limits_of(study)), way=study.search["way"],
+        starts=None if study.search["starts"] is None else int(study.search["starts"]), seed=study.seed,
+        overrides=study.overrides, told=told,
+    )  # fmt: skip
+
+
+def _limits_of(study: Study) -> Iterator[str]:
+    """Yield the limits of a study as they are written, in SI."""
+    for key, (low, high) in study.limits.items():
+        with shown_in("si"):
+            unit = coherent_unit(key_unit(key))
+        every = {"=": low} if low == high else {">=": low, "<=": high}
+        yield from (f"{key} {sense} {level!r} {unit}".rstrip() for sense, level in every.items() if np.isfinite(level))
 
 
 def _holding(problem: Problem, fields: Sequence[str], at: Array) -> tuple[tuple[Holding, ...], float]:

@@ -6,9 +6,9 @@ from typing import Any
 
 from crankwork.locale import Language, say
 from crankwork.locale.numbers import number, unit_name
-from crankwork.report.language import displayed, key_unit, label, rounded
+from crankwork.report.language import displayed, displayed_size, key_unit, label, rounded
 from crankwork.study.spread import Spreads
-from crankwork.units import from_si, shown_in
+from crankwork.units import shown_in
 
 # causes that bring less of the variance are not told
 _LEAST = 0.005
@@ -36,7 +36,7 @@ def _text(found: Spreads, language: Language) -> str:
             mean = number(displayed(key, one.mean), language, digits=4)
             causes = f"{say('study.mean', language, value=mean)}; {causes}"
         # draws tell no more digits
-        size = number(_size(key, one.deviation), language, digits=3 if one.is_sampled else 6)
+        size = number(displayed_size(key, one.deviation), language, digits=3 if one.is_sampled else 6)
         shown = [number(displayed(key, one.value), language), size]
         rows.append((label(key, language), " ± ".join(shown), unit_name(key_unit(key), language), causes, sign))
     wide = [max((len(row[at]) for row in rows), default=0) for at in range(4)]
@@ -44,12 +44,6 @@ def _text(found: Spreads, language: Language) -> str:
     if found.samples:
         lines += ["", say("study.samples", language, count=str(found.samples), sign=say("study.sampled", language))]
     return "\n".join(lines)
-
-
-def _size(key: str, deviation: float) -> float:
-    """Return a difference in the unit of a key, whose zero does not count."""
-    unit = key_unit(key)
-    return float(from_si(deviation, unit) - from_si(0.0, unit)) if unit else deviation
 
 
 def spread_data(found: Spreads) -> dict[str, Any]:
@@ -61,7 +55,7 @@ def spread_data(found: Spreads) -> dict[str, Any]:
             "spreads": {
                 key: {
                     "value": rounded(displayed(key, one.value)),
-                    "deviation": rounded(_size(key, one.deviation)),
+                    "deviation": rounded(displayed_size(key, one.deviation)),
                     "unit": key_unit(key),
                     "is_sampled": one.is_sampled,
                     "mean": None if one.mean is None else rounded(displayed(key, one.mean)),

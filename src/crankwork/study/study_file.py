@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
 from crankwork import __version__, files
 from crankwork.analysis import Results, analyse
@@ -20,6 +20,7 @@ from crankwork.errors import CrankworkError
 from crankwork.locale import Language, Refusal
 from crankwork.report.language import key_unit
 from crankwork.study.machines import check_single
+from crankwork.study.search import Way
 from crankwork.study.sought import Sought, kind_of, single_kind, sought_number
 from crankwork.study.varied import Varied
 from crankwork.units import System, parse_in, shown_in
@@ -78,16 +79,22 @@ _DESIGNS = Table("designs", {
     "rows": Key(Flag(), default=False),
     "chunk": Key(Number(1, 2**17, whole=True)),
 })  # fmt: skip
+_SEARCH = Table("search", {
+    "way": Key(Choice(get_args(Way)), default="slsqp"),
+    "starts": Key(Number(1, 1000, whole=True)),
+    "seed": Key(Number(0, 2**31, whole=True), default=0),
+})  # fmt: skip
 _OF_VALUE = Table("limits", {name: Key(As()) for name in _LIMITS})
 _KEY = Text(80)
 STUDY_FILE = Table("study", {
     "title": Key(Text()),
     "machine": Key(Text(), required=True),
-    "designs": Key(_DESIGNS, required=True),
+    "designs": Key(_DESIGNS),
     "vary": Key(Named(As(), most=_MOST_FIELDS), required=True),
     "objectives": Key(Named(Choice(tuple(_SIGNS)), most=8)),
     "limits": Key(Named(_OF_VALUE, most=_MOST_FIELDS)),
     "values": Key(OneOrMore(_KEY, most=100)),
+    "search": Key(_SEARCH),
 })  # fmt: skip
 
 
@@ -97,7 +104,7 @@ class Study:
 
     `objectives`: 1 for a value that is to be small, -1 for one that is to be large; `limits`: from and to; `keys`:
     every value that is calculated; `angles`: evenly spaced ones, None for exact extremes and integrals;
-    `stated`: values of the machine as its file states it.
+    `stated`: values of the machine as its file states it; `search`: what is said of how the best design is sought.
     """
 
     name: str
@@ -117,6 +124,7 @@ class Study:
     keys: tuple[str, ...]
     stated: Mapping[str, float]
     units: System
+    search: Mapping[str, Any]
     text: str = field(repr=False)
 
     @property
@@ -137,14 +145,24 @@ class Study:
         return hashlib.sha256(json.dumps(self.identity, sort_keys=True).encode()).hexdigest()
 
 
-def load_study(path: str | Path, overrides: Sequence[str | Setting] = ()) -> Study:
-    """Return the study that a file describes; an `InputError` tells every mistake of it, each on its line."""
+def load_study(path: str | Path, overrides: Sequence[str | Setting] = (), *, is_search: bool = False) -> Study:
+    """Return the study that a file describes; an `InputError` tells every mistake of it, each on its line.
+
+    `is_search`: the best design between two ends of each field is sought, and none are drawn.
+    """
     path = Path(path)
-    return read_study(files.read_text(path), str(path), overrides, folder=path.parent)
+    return read_study(files.read_text(path), str(path), overrides, folder=path.parent, is_search=is_search)
 
 
-def read_study(text: str, name: str, overrides: Sequence[str | Setting] = (), *, folder: Path | None = None) -> Study:
-    """Return the study that a text describes."""
+def read_study(
+    text: str,
+    name: str,
+    overrides: Sequence[str | Setting] = (),
+    *,
+    folder: Path | None = None,
+    is_search: bool = False,
+) -> Study:
+    """Return the study that a text describes, as `load_study` does."""
     values = parse(text, name)
     reader = Reader()
     machine = _machine(values, reader, folder or Path())
@@ -156,13 +174,17 @@ def read_study(text: str, name: str, overrides: Sequence[str | Setting] = (), *,
         if table in values:
             values[table] = _flat(values[table])
     read = STUDY_FILE.read(values, "", reader) or Values({}, STUDY_FILE)
-    varied = [] if machine is None else list(_varied(read, stated, reader))
+    if is_search:
+        _check_search(read, reader)
+    elif "designs" not in read and not reader.doubts("designs"):
+        reader.complain("designs", Refusal("missing", advice='drawing = "sobol"'))
+    varied = [] if machine is None else list(_varied(read, stated, reader, is_search=is_search))
     results = None if machine is None else _analysed(machine, overrides, reader)
     limits = {} if results is None else _wanted(read, results, reader)
-    count = _count(read, varied, reader)
+    count = 0 if is_search else _count(read, varied, reader)
     if reader.problems or machine is None or results is None:
         raise input_error(text, name, reader)
-    designs, objectives = read["designs"], read["objectives"]
+    designs, objectives = read["designs"] or Values({}, _DESIGNS), read["objectives"]
     keys = tuple(dict.fromkeys([*objectives, *limits, *(read["values"] or ())]))
     return Study(
         name=name,
@@ -170,9 +192,9 @@ def read_study(text: str, name: str, overrides: Sequence[str | Setting] = (), *,
         machine=machine,
         overrides=tuple(overrides),
         varied=tuple(varied),
-        drawing=designs["drawing"],
+        drawing="" if is_search else designs["drawing"],
         count=count,
-        seed=int(designs["seed"] or 0),
+        seed=int((read["search"] if is_search and "search" in read else designs)["seed"] or 0),
         angles=None if designs["angles"] is None else int(designs["angles"]),
         chunk=None if designs["chunk"] is None else int(designs["chunk"]),
         best=int(designs["best"]),
@@ -182,6 +204,7 @@ def read_study(text: str, name: str, overrides: Sequence[str | Setting] = (), *,
         keys=keys,
         stated={key: results.value(key) for key in keys},
         units=results.machine.units,
+        search=read["search"] or Values({}, _SEARCH),
         text=text,
     )
 
@@ -241,7 +264,16 @@ def _flat(table: object, path: str = "") -> Any:  # noqa: ANN401 - what the file
     return found
 
 
-def _varied(read: Values, stated: dict[str, Any], reader: Reader) -> Iterator[Varied]:
+def _check_search(read: Values, reader: Reader) -> None:
+    """Refuse a search for the best design that does not say by which one value."""
+    objectives = read["objectives"]
+    if len(objectives) > 1:
+        reader.complain("objectives", Refusal("objectives_several", keys=list(objectives)))
+    elif not objectives and not reader.doubts("objectives"):
+        reader.complain("objectives", Refusal("objective_none"))
+
+
+def _varied(read: Values, stated: dict[str, Any], reader: Reader, *, is_search: bool) -> Iterator[Varied]:
     """Yield the fields that vary, each read as the machine file reads it."""
     fields = read["vary"]
     if not fields and not reader.doubts("vary"):
@@ -253,8 +285,11 @@ def _varied(read: Values, stated: dict[str, Any], reader: Reader) -> Iterator[Va
         except CrankworkError as error:
             reader.complain(path, error.args[0])
             continue
-        one = _Field(key, path, kind, stated, reader).varied(written, read["designs"])
-        if one is not None:
+        designs = {"drawing": None} if is_search else read["designs"] or {}
+        one = _Field(key, path, kind, stated, reader).varied(written, designs)
+        if one is not None and is_search and one.law not in ("even", "ratios", "uniform"):
+            reader.complain(path, Refusal("vary_ends"))
+        elif one is not None:
             yield one
 
 
@@ -318,7 +353,7 @@ class _Field:
         if drawing == GRID and "steps" not in read:
             self._complain("", Refusal("vary_steps"))
             return None
-        if drawing == LIST or ("steps" in read and drawing != GRID):
+        if drawing == LIST or ("steps" in read and drawing in DRAWN):
             self._complain("", Refusal("vary_no_grid", drawing=shown(drawing)))
             return None
         return Varied(self._key, read["spacing"], self._number, (low, high), steps=int(read["steps"] or 0))

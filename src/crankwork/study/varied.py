@@ -34,6 +34,11 @@ class Varied:
     steps: int = 0
 
     @property
+    def unit(self) -> str:
+        """The unit that the file states it in."""
+        return self.number.unit if self.number else ""
+
+    @property
     def count(self) -> int:
         """How many values a grid has, 0 for any number."""
         return len(self.values) or (self.steps + 1 if self.steps else 0)
