@@ -48,7 +48,8 @@ def _machine(study: Study, found: Optimum, folder: str | PurePath) -> Descriptio
         for key in own
         if key.rpartition(".")[2] == "file" and isinstance(own[key], str)
     }
-    best.replace(settings | tables | _written(study, found))
+    for key, value in (settings | tables | _written(study, found)).items():
+        best[key] = value
     return best
 
 
