@@ -51,6 +51,8 @@ def test_inertia_grows_with_the_square_of_the_speed_and_work_does_not(crankwork,
     assert "piston_acceleration_max" in by_bore - by_speed
     assert "indicated_work" not in by_bore
     assert "Do not depend on crank.speed" in answer.out
+    figure = (tmp_path / "out" / "figures" / "map.indicated_work.svg").read_text("utf-8")
+    assert "the same at every crank.speed" in figure
 
 
 @pytest.mark.parametrize(("options", "answered"), WRONG.values(), ids=WRONG)

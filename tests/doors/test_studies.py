@@ -105,6 +105,11 @@ def test_a_study_writes_what_it_found(crankwork, study, tmp_path):
     assert [one["piston_velocity_max"] for one in best] == sorted(one["piston_velocity_max"] for one in best)
     assert all(one["piston_velocity_max"] <= 14 for one in found["pareto"])
     assert (tmp_path / "out" / "tables" / "pareto.csv").exists()
+    drawn = {one.name for one in (tmp_path / "out" / "figures").iterdir()}
+    assert {"pareto.svg", "histogram.stroke.svg", "parallel.piston_velocity_max.svg"} <= drawn
+    without = crankwork("sweep", "study.toml", "-o", "without", "--workers", "1", "--no-figures")
+    assert without.code == 0, without.err
+    assert not (tmp_path / "without" / "figures").exists()
 
 
 SEARCH = """\

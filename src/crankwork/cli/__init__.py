@@ -23,7 +23,20 @@ from crankwork.cli.asked import (
     place_of,
 )
 from crankwork.cli.documents import draw, page, report
-from crankwork.cli.options import COMPARE, JSON, LANG, METHOD, NO_FIGURES, OVERWRITE, PER_AREA, SET, STEP, SYSTEM
+from crankwork.cli.options import (
+    COMPARE,
+    FORMAT,
+    JSON,
+    LANG,
+    METHOD,
+    NO_FIGURES,
+    OVERWRITE,
+    PER_AREA,
+    SET,
+    STEP,
+    SYSTEM,
+    THEME,
+)
 from crankwork.cli.spoken import SpokenGroup, language_asked, placeholder
 from crankwork.cli.studies import map_, optimise, sweep
 from crankwork.errors import CrankworkError, DoubtfulError, InputError
@@ -225,8 +238,8 @@ def check(  # noqa: PLR0913 - one argument per option of the command
 @PER_AREA
 @JSON
 @NO_FIGURES
-@click.option("--format", "formats", default="svg", metavar="FORMATS")
-@click.option("--theme", type=click.Choice(["print", "colour", "dark"]), default="print")
+@FORMAT
+@THEME
 @click.option("--excel-csv", is_flag=True)
 @OVERWRITE
 def run(  # noqa: PLR0913 - one argument per option of the command

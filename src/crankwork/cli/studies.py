@@ -4,15 +4,21 @@ from __future__ import annotations
 
 import json
 import time
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import click
 
-from crankwork.cli.asked import laid_over
-from crankwork.cli.options import JSON, LANG, OVERWRITE, SET, SYSTEM
+from crankwork.cli.asked import formats_of, laid_over
+from crankwork.cli.options import FORMAT, JSON, LANG, NO_FIGURES, OVERWRITE, SET, SYSTEM, THEME
 from crankwork.cli.spoken import SpokenCommand
 from crankwork.errors import CrankworkError, MissingExtraError, missing_extras
 from crankwork.locale import Language, Refusal, say
 from crankwork.progress import bar, counting
+
+if TYPE_CHECKING:
+    from crankwork.show.scene import Drawing
+    from crankwork.show.theme import Theme
 
 _MOST_WORKERS = 1024
 _MODULES = {"pyarrow": "data", "scipy": "data"}
@@ -27,6 +33,9 @@ _MODULES = {"pyarrow": "data", "scipy": "data"}
 @LANG
 @SET
 @JSON
+@NO_FIGURES
+@FORMAT
+@THEME
 def sweep(  # noqa: PLR0913 - one argument per option of the command
     study: str,
     output: str,
@@ -34,17 +43,22 @@ def sweep(  # noqa: PLR0913 - one argument per option of the command
     scheduler: str | None,
     language: Language,
     settings: tuple[str, ...],
+    formats: str,
+    theme: Theme,
     *,
     resume: bool,
     as_json: bool,
+    no_figures: bool,
 ) -> None:
     """Calculate the designs of a study: the best, the Pareto set, histograms and what matters."""
     from crankwork import files
+    from crankwork.study.found_figures import found_drawings
     from crankwork.study.found_text import found_data, found_files, found_text
     from crankwork.study.running import Where, run_study
     from crankwork.study.study_file import load_study
 
     where = Where(_number_of(workers, scheduler), scheduler or "")
+    wanted = () if no_figures else formats_of(formats)
     asked = load_study(study, settings)
     if extras := missing_extras(_MODULES):
         raise MissingExtraError(Refusal("extra_study"), *extras)
@@ -55,7 +69,9 @@ def sweep(  # noqa: PLR0913 - one argument per option of the command
     except KeyboardInterrupt:
         click.echo(f"\n{say('study.stopped', language)}", err=True)
         raise
-    files.write_folder(output, found_files(asked, found), overwrite=True)
+    drawn = found_drawings(asked, found, language) if wanted else {}
+    contents = found_files(asked, found) | _figures(drawn, wanted, theme)
+    files.write_folder(output, contents, overwrite=True)
     if as_json:
         click.echo(json.dumps(found_data(asked, found), ensure_ascii=False, indent=1))
     else:
@@ -108,6 +124,9 @@ def optimise(
 @SYSTEM
 @SET
 @JSON
+@NO_FIGURES
+@FORMAT
+@THEME
 @OVERWRITE
 def map_(  # noqa: PLR0913 - one argument per option of the command
     file: str,
@@ -116,15 +135,20 @@ def map_(  # noqa: PLR0913 - one argument per option of the command
     language: Language,
     units: str | None,
     settings: tuple[str, ...],
+    formats: str,
+    theme: Theme,
     *,
     as_json: bool,
+    no_figures: bool,
     overwrite: bool,
 ) -> None:
     """Compute a machine over ranges of one or two numbers of its file."""
     from crankwork import files
     from crankwork.description.document import load
+    from crankwork.study.map_figures import map_drawings
     from crankwork.study.mapped import map_data, map_files, map_text, mapped
 
+    wanted = () if no_figures or output is None else formats_of(formats)
     if output is not None:
         files.check_folder(output, overwrite=overwrite)
     with bar() as telling:
@@ -134,8 +158,16 @@ def map_(  # noqa: PLR0913 - one argument per option of the command
     else:
         click.echo(map_text(found, language))
     if output is not None:
-        files.write_folder(output, map_files(found), overwrite=overwrite)
+        drawn = map_drawings(found, language) if wanted else {}
+        files.write_folder(output, map_files(found) | _figures(drawn, wanted, theme), overwrite=overwrite)
         click.echo(f"\n{say('report.written', language)} {output}", err=as_json)
+
+
+def _figures(drawn: Mapping[str, Drawing], formats: tuple[str, ...], theme: Theme) -> dict[str, bytes]:
+    """Return figures as files, by their names in a folder."""
+    from crankwork.show.formats import FORMATS
+
+    return {f"figures/{name}.{one}": FORMATS[one](drawing, theme) for one in formats for name, drawing in drawn.items()}
 
 
 def _number_of(workers: str | None, scheduler: str | None) -> int:

@@ -23,8 +23,9 @@ _TICK, _SMALL, _LEGEND = 8.5, 7.5, 8.5
 _FOOT_ROW = 9.0
 # largest numbers of axes that need no power of ten
 _SHORT = 0.01, 1e5
-# The styles of rows of a legend that explain an open circle, and an arrow.
+# The styles of rows of a legend that explain an open circle, a dot, and an arrow.
 CIRCLE: Style = (0.0,)
+DOT: Style = (-2.0,)
 ARROW: Style = (-1.0,)
 
 
@@ -38,7 +39,7 @@ class Box(NamedTuple):
 
 
 class Row(NamedTuple):
-    """A row of a legend: text, line style, `CIRCLE` or `ARROW`, width of the line [pt] or 0 for none, its colour."""
+    """A row of a legend: text, style (`CIRCLE`, `DOT`, `ARROW`), width of the line [pt] or 0 for none, its colour."""
 
     text: str
     style: Style = SOLID
@@ -254,6 +255,8 @@ def legend(paper: Paper, rows: Sequence[Row], top: float) -> None:
         left, level = here().left + 8, top + LEGEND_ROW * at
         if row is not None and row.style == CIRCLE:
             paper.dot(left + 10, level + 6, 2.6, fill="#ffffff", width=1.0)
+        elif row is not None and row.style == DOT:
+            paper.dot(left + 10, level + 6, 1.6, fill=row.colour)
         elif row is not None and row.style == ARROW:
             paper.arrow((left, level + 6), (left + 20, level + 6), width=row.width)
         elif row is not None and row.width:

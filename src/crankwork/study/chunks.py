@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import json
+import math
 import threading
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
@@ -26,6 +28,8 @@ _SAMPLED, _EXACT, _ALONE = 2**16, 2**12, 2**6
 _LOOKED_INTO = 32
 # designs that are calculated both ways before a kernel is believed
 _CHECKED = 4
+# how many designs stand for all of them in figures, about
+_SHOWN = 400
 # what stands in the metadata of a part
 META = b"crankwork"
 NUMBER = "design"
@@ -115,7 +119,7 @@ def opened(study: Study) -> Opened:
 
 @dataclass
 class Reduced:
-    """What is kept of designs, SI: counts and sums, and rows of the best ones and of the Pareto set.
+    """What is kept of designs, SI: counts and sums, and rows of the best ones, of the Pareto set and of some of all.
 
     `refused`: by the kind of reason how many designs have none of the values, and the reason of the first one.
     """
@@ -137,7 +141,7 @@ class Reduced:
         self.numbers = np.concatenate([self.numbers, other.numbers])
         self.fields = np.concatenate([self.fields, other.fields], axis=1)
         self.values = np.concatenate([self.values, other.values], axis=1)
-        rows, is_thinned = kept_of(study, self.values)
+        rows, is_thinned = kept_of(study, self.numbers, self.values)
         self.numbers, self.fields, self.values = self.numbers[rows], self.fields[:, rows], self.values[:, rows]
         self.is_thinned |= other.is_thinned or is_thinned
         self.designs += other.designs
@@ -196,12 +200,24 @@ def within(study: Study, values: Array) -> Index:
     return np.asarray(found & np.isfinite(objectives).all(axis=0))
 
 
-def kept_of(study: Study, values: Array) -> tuple[Index, bool]:
-    """Return which designs are among the best of an objective or in the Pareto set, and whether that was thinned."""
+def is_shown(study: Study, numbers: Index) -> Index:
+    """Return which designs stand for all of them in figures: those whose number is a multiple of a prime."""
+    every = max(study.count // _SHOWN, 1)
+    # of a grid no row or column has a divisor with it
+    every = next(one for one in itertools.count(every) if all(one % part for part in range(2, math.isqrt(one) + 1)))
+    return np.asarray(numbers % every == 0)
+
+
+def kept_of(study: Study, numbers: Index, values: Array) -> tuple[Index, bool]:
+    """Return which designs are kept, and whether their Pareto set was thinned.
+
+    That is the best of each objective, the Pareto set, and some of all.
+    """
     rows = np.flatnonzero(within(study, values))
     ranked, pareto, is_thinned = ranks(study, values[:, rows])
-    every = [*ranked.values(), pareto]
-    return rows[np.unique(np.concatenate(every))] if study.objectives else rows[:0], is_thinned
+    every = [rows[one] for one in (*ranked.values(), pareto)]
+    every.append(np.flatnonzero(is_shown(study, numbers)))
+    return np.unique(np.concatenate(every)) if study.objectives else rows[:0], is_thinned
 
 
 def ranks(study: Study, values: Array) -> tuple[dict[str, Index], Index, bool]:
@@ -231,7 +247,7 @@ def _count(refused: dict[str, tuple[int, str]], reason: str, count: int) -> None
 def part_of(study: Study, chunk: int) -> bytes:
     """Return the file of a chunk."""
     found = reduced(study, chunk)
-    kept, found.is_thinned = kept_of(study, found.values)
+    kept, found.is_thinned = kept_of(study, found.numbers, found.values)
     rows = np.arange(found.designs) if study.has_rows else kept
     meta = {
         "chunk": chunk,

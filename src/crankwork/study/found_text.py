@@ -50,8 +50,8 @@ def _lines(study: Study, found: Reduced, language: Language) -> Iterator[str]:
         yield say("study.refused", language, count=_count(count), reason=told(reason, language))
     yield from ("", say("study.values", language))
     yield from aligned([_moments(key, one, language) for key, one in found.moments.items()])
-    ranked, pareto = _ranked(study, found)
-    for key, rows in ranked.items():
+    best, pareto = ranked(study, found)
+    for key, rows in best.items():
         word = "study.ascending" if study.objectives[key] > 0 else "study.descending"
         yield from ("", f"{capital(label(key, language))}, {say(word, language)}")
         yield from aligned([_design(study, found, at, key, language) for at in rows[:_SHOWN]])
@@ -104,16 +104,17 @@ def _causes(study: Study, found: Reduced, language: Language) -> Iterator[tuple[
                 yield label(key, language), field.key, *shown
 
 
-def _ranked(study: Study, found: Reduced) -> tuple[dict[str, Index], Index]:
+def ranked(study: Study, found: Reduced) -> tuple[dict[str, Index], Index]:
+    """Return which of the designs that are kept are the best of each objective, and which are the Pareto set."""
     rows = np.flatnonzero(within(study, found.values))
-    ranked, pareto, _ = ranks(study, found.values[:, rows])
-    return {key: rows[at] for key, at in ranked.items()}, rows[pareto]
+    best, pareto, _ = ranks(study, found.values[:, rows])
+    return {key: rows[at] for key, at in best.items()}, rows[pareto]
 
 
 def _sheets(study: Study, found: Reduced) -> dict[str, Sheet]:
     """Return the tables of what is found."""
-    ranked, pareto = _ranked(study, found)
-    tables = {f"best.{key}": _rows(study, found, rows) for key, rows in ranked.items()}
+    best, pareto = ranked(study, found)
+    tables = {f"best.{key}": _rows(study, found, rows) for key, rows in best.items()}
     if len(study.objectives) > 1:
         tables["pareto"] = _rows(study, found, pareto)
     for key, one in found.histograms.items():
@@ -154,7 +155,7 @@ def found_data(study: Study, found: Reduced) -> dict[str, Any]:
 
 
 def _data(study: Study, found: Reduced) -> dict[str, Any]:
-    ranked, pareto = _ranked(study, found)
+    best, pareto = ranked(study, found)
 
     def designs(rows: Index) -> list[dict[str, Any]]:
         sheet = _rows(study, found, rows)
@@ -186,7 +187,7 @@ def _data(study: Study, found: Reduced) -> dict[str, Any]:
             }
             for key, one in found.moments.items()
         },
-        "best": {key: designs(rows) for key, rows in ranked.items()},
+        "best": {key: designs(rows) for key, rows in best.items()},
         "pareto": designs(pareto),
         "pareto_thinned": found.is_thinned,
         "sensitivity": {
