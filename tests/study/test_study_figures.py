@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from looks import faults
 
 from crankwork.description.document import Description
 from crankwork.description.machine_file import template
@@ -20,6 +19,7 @@ from crankwork.study.map_figures import map_drawings
 from crankwork.study.mapped import mapped
 from crankwork.study.running import Where, run_study
 from crankwork.study.study_file import load_study
+from looks import faults
 
 pytest.importorskip("pyarrow")
 pytest.importorskip("scipy")
