@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+
 from crankwork.analysis import origins
 from crankwork.analysis.motion import MovingCylinder
 from crankwork.analysis.solved import SolvedCylinder, WorkingSpace
@@ -43,7 +46,7 @@ def gas_memory(solved: SolvedCylinder, space: WorkingSpace, moving: MovingCylind
     memory = moving.memory
     area = memory["piston_area"]
     volume = gas.cylinder_volume(memory["clearance_volume"], area, memory["piston_displacement"])
-    read = remembered_pressure(space.diagram, volume, _path(solved))
+    read = remembered_pressure(space.diagram, volume, _path(solved), _retold(solved, volume))
     pressure = read.named("gas_pressure")
     if space.ambient:
         pressure = gauge_pressure(read, given("ambient_pressure", space.ambient, _ambient(solved)))
@@ -57,6 +60,13 @@ def gas_memory(solved: SolvedCylinder, space: WorkingSpace, moving: MovingCylind
         back = given("back_pressure", space.back_pressure, "gas.back_pressure")
     force = gas.gas_force(pressure, area, back, rod_area)
     return {one.key: one for one in (volume, read, pressure, force)} | _ends_of_polytropes(solved, space, volume)
+
+
+def _retold(solved: SolvedCylinder, volume: Known) -> Callable[[], Known] | None:
+    """Return what tells a calculated pressure in knowns alone, where there are formulas for it."""
+    calculated = solved.machine.gas.calculated if solved.machine.gas is not None else None
+    remembered = getattr(calculated, "remembered", None)
+    return None if remembered is None else partial(remembered, volume, solved.stroke[1:])
 
 
 def _ambient(solved: SolvedCylinder) -> str:

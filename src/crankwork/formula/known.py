@@ -92,18 +92,35 @@ class Delayed(Node):
         self.of, self.by, self.cycle = of, by, cycle
 
 
+class Chosen(Node):
+    """One of two values: the first where another is above zero, else the second."""
+
+    __slots__ = ()
+
+    def __init__(self, of: Known, first: Known, second: Known) -> None:
+        super().__init__((first if of.value > 0 else second).value, (of, first, second))
+
+
 class Pieces(Node):
     """Laws that follow one another over the crank angle; each owns its end and not its start. [deg]
 
     A law is a formula of columns that stand beside the pieces, a table, or a value. `knots` are further angles where
-    the column is not smooth.
+    the column is not smooth. An end may be a known. `retold` gives the same column made of nothing but knowns, where
+    laws are tables that an analysis worked out in numbers.
     """
 
-    __slots__ = ("ends", "knots")
+    __slots__ = ("ends", "knots", "places", "retold")
 
-    def __init__(self, ends: Iterable[float], laws: tuple[Known, ...], knots: Iterable[float] = ()) -> None:
+    def __init__(
+        self,
+        ends: Iterable[float | Known],
+        laws: tuple[Known, ...],
+        knots: Iterable[float] = (),
+        retold: Callable[[], Known] | None = None,
+    ) -> None:
         super().__init__(None, laws)
-        self.ends = np.array(list(ends), dtype=float)
+        self.places, self.retold = tuple(ends), retold
+        self.ends = np.array([plain(one) for one in self.places], dtype=float)
         self.knots = (*self.ends.tolist(), *knots)
 
 
@@ -171,14 +188,16 @@ class Found(Node):
     """A single value that a procedure found: the largest of a column, its mean, a root, an angle.
 
     `word` names the procedure, `operands` are what it was applied to, `at` is the crank angle where the value stands,
-    if it stands at one. [deg]
+    if it stands at one [deg]. `by` is that angle where it follows from other knowns, or what a column reaches.
     """
 
-    __slots__ = ("at", "word")
+    __slots__ = ("at", "by", "word")
 
-    def __init__(self, value: float, word: str, of: Iterable[Known] = (), at: float | None = None) -> None:
+    def __init__(
+        self, value: float, word: str, of: Iterable[Known] = (), at: float | None = None, by: Known | None = None
+    ) -> None:
         super().__init__(float(value), of)
-        self.word, self.at = word, at
+        self.word, self.at, self.by = word, at, by
 
 
 class Known:
@@ -276,6 +295,7 @@ class KnownAngle:
         return known
 
     angle = property(lambda self: self._function("angle"))
+    degrees = property(lambda self: self._function("degrees"))
     sin = property(lambda self: self._function("sin"))
     cos = property(lambda self: self._function("cos"))
     sin_2 = property(lambda self: self.multiple(2).sin)
@@ -326,6 +346,15 @@ def added(key: str, terms: Sequence[Any]) -> Any:  # noqa: ANN401 - numbers give
 def plain(value: Any) -> Any:  # noqa: ANN401 - whatever number it is
     """Return the number behind a value that may be a known, for procedures that are not remembered."""
     return value.value if isinstance(value, Known) else value
+
+
+def chosen(of: Any, first: Any, second: Any) -> Any:  # noqa: ANN401 - numbers, arrays of them, or of knowns
+    """Return the first of two values where another is above zero, else the second."""
+    if any(isinstance(one, np.ndarray) and one.dtype == object for one in (of, first, second)):
+        return np.frompyfunc(chosen, 3, 1)(of, first, second)
+    if is_known(of, first, second):
+        return Known(Chosen(*(one if isinstance(one, Known) else Known(Given(one)) for one in (of, first, second))))
+    return np.where(of > 0, first, second)[()]
 
 
 def delayed(known: Known, by: float, cycle: float, key: str) -> Known:

@@ -20,11 +20,8 @@ class Arrays:
         self._source, self._places = source, places
         self._table = source.plan.table
 
-    def level(self, at: int, store: Array, kept: Array) -> None:
-        """Calculate what is possible when lower levels are.
-
-        `store`: of designs, shape (rows, lanes); `kept`: columns, shape (columns, angles, lanes).
-        """
+    def designs(self, at: int, store: Array) -> None:
+        """Calculate what of designs is possible when lower levels are; `store`: of designs, shape (rows, lanes)."""
         level, source = self._source.plan.levels[at], self._source
         with np.errstate(all="ignore"):
             of_design: dict[int, Any] = {}
@@ -34,12 +31,19 @@ class Arrays:
                 of_design[one.at] = self._made(one, of_design, store, None)
                 if one.at in source.used:
                     store[source.rows(one.at)] = of_design[one.at]
+
+    def level(self, at: int, store: Array, kept: Array) -> None:
+        """Calculate columns of a level; `kept`: columns, shape (columns, angles, lanes)."""
+        level, source = self._source.plan.levels[at], self._source
+        with np.errstate(all="ignore"):
             for loop in level.loops:
                 made: dict[int, Any] = {}
                 for one in loop.values:
                     if one.kind == "delayed":
                         row, delay = source.columns(one.operands[0].at), source.delays(one.detail)
                         made[one.at] = kept[row, self._places[delay, loop.angles]]
+                    elif one.kind == "moved":
+                        made[one.at] = kept[source.columns(one.detail.at), loop.angles]
                     else:
                         made[one.at] = self._made(one, made, store, loop.angles)
                 for column, value in zip(level.columns, loop.columns, strict=True):

@@ -6,7 +6,7 @@ import hashlib
 import importlib.util
 import inspect
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import ModuleType
 from typing import Any, NamedTuple
 
@@ -17,13 +17,13 @@ from crankwork import files
 from crankwork.formula.known import Delayed, Found, Known, breaks_of, in_order
 from crankwork.kernel.arrays import Arrays
 from crankwork.kernel.graph import number
-from crankwork.kernel.grid import between, even, lobatto, shared
+from crankwork.kernel.grid import Edges, Grid, between, closed, divided, even, lobatto, nodes_between
 from crankwork.kernel.plan import Plan
 from crankwork.kernel.reduced import Reduced
 from crankwork.kernel.reductions import Even, Exact
 from crankwork.kernel.slopes import apart, in_part, slopes_of
 from crankwork.kernel.source import LANES, RUNNING, Source
-from crankwork.kernel.trace import Designs, Trace
+from crankwork.kernel.trace import Designs, NotCompiledError, Trace
 
 Array = NDArray[np.float64]
 
@@ -71,28 +71,39 @@ class Kernel:
         designs = Designs(memories, fields, keys)
         self.fields = fields.shape[1]
         wanted = {key: memories[0][key] for key in keys}
-        every = list(in_order(wanted.values()))
-        columns = [of for one in every if isinstance(one.node, Found) for of in one.node.operands if of.varies]
-        delays = sorted({one.node.by for one in every if isinstance(one.node, Delayed)})
-        breaks = breaks_of(columns, cycle, start)
+        delays = sorted({one.node.by for one in in_order(wanted.values()) if isinstance(one.node, Delayed)})
+        breaks = [breaks_of(_reduced([one[key] for key in keys]), cycle, start) for one in memories]
         compiles = _compiles() and not is_for_few
         widths = [one for one in _WIDTHS if one * parts <= cycle] or _WIDTHS[-1:]
         for width in (cycle,) if steps else widths:
-            grid = even(breaks, steps) if steps else between(shared(breaks, delays, width, _MOST_BREAKS), _POLYNOMIALS)
+            grid, edges = _grid(breaks, delays, width, steps)
             trace = Trace(designs, angles_at, grid.degrees, is_shifted=any(grid.earlier(one) is None for one in delays))
             outputs = {key: trace.value(one) for key, one in wanted.items()}
+            if trace.moving and steps:
+                grid = even(trace.zones(breaks[0]), steps)
+            elif trace.moving and edges is not None:
+                edges = edges.following(trace.moving)
+                if edges is None or is_sloped:
+                    raise NotCompiledError("ends", keys[0])
+                grid = grid._replace(moves=edges.moves)
+            self._edges = edges if trace.moving else None
             if parts:
                 outputs |= {in_part(key, at): of for key in keys for at, of in enumerate(apart(outputs[key], parts))}
             if is_sloped:
                 outputs |= slopes_of(outputs, self.fields)
-            self.plan = Plan(outputs, grid, self.fields, angles_at)
+            guard = trace.guard(is_sampled=steps is not None)
+            ends = [one for one, _ in trace.moving]
+            self.plan = Plan(
+                outputs | ({} if guard is None else {"": guard}), grid, self.fields, angles_at, () if steps else ends
+            )
             is_running = all(one.detail in RUNNING for level in self.plan.levels for one in level.reductions)
             self.source = Source(self.plan, is_reduced=compiles and steps is not None and is_running)
             earlier = [grid.earlier(by) for by in self.source.delays.of]
             places = np.array(earlier, dtype=np.intp).reshape(len(earlier), grid.degrees.size)
             self._given = self.plan.table, places, self.source.order, grid.weights, grid.degrees
             self._module, self._arrays = None, Arrays(self.source, places)
-            self._reduced = Reduced(self.source, Even(grid) if steps else Exact(grid, _POLYNOMIALS), parts)
+            self._exact = None if steps else Exact(grid, _POLYNOMIALS)
+            self._reduced = Reduced(self.source, self._exact or Even(grid), parts)
             self.keys = tuple(outputs)
             # looked at with arrays, so that only what is taken is compiled
             if steps or float(np.max(self(fields.T).left_out)) <= CONVERGED:
@@ -109,7 +120,7 @@ class Kernel:
     def run(self, designs: Array, found: Bulk, first: int, last: int) -> None:
         """Put the single values of some designs where they belong; threads may do so at the same time."""
         if self.source.is_reduced and self._module is not None:
-            self._module.run(designs, found.values, *self._given, first, last)
+            self._module.run(designs, found.values, found.left_out, *self._given, first, last)
             return
         lanes = LANES if self._module is not None else min(LANES, last - first)
         store = np.empty((len(self.source.rows.of), lanes))
@@ -117,17 +128,61 @@ class Kernel:
         for start in range(first, last, lanes):
             end = min(start + lanes, last)
             store[: len(designs)] = designs[:, np.minimum(np.arange(start, start + lanes), last - 1)]
-            left_out = np.zeros(lanes)
+            left_out, reductions = np.zeros(lanes), self._exact
             for at, level in enumerate(self.plan.levels):
+                if self._module is not None:
+                    getattr(self._module, f"designs_{at}")(store.reshape(-1), kept, *self._given)
+                else:
+                    self._arrays.designs(at, store)
+                if at == 0 and self._edges is not None and self._exact is not None:
+                    reductions, left_out = self._moved(self._edges, self._exact, store, kept)
                 if self._module is not None:
                     getattr(self._module, f"level_{at}")(store.reshape(-1), kept, *self._given)
                 else:
                     self._arrays.level(at, store, kept)
-                left_out = np.maximum(left_out, self._reduced(level, store, kept))
-            for row, value in enumerate(self.plan.outputs.values()):
+                left_out = np.maximum(left_out, self._reduced(level, store, kept, reductions))
+            for row, (key, value) in enumerate(self.plan.outputs.items()):
                 of = number(value) if value.is_constant else store[self.source.rows(self.source.place(value))]
-                found.values[row, start:end] = of[: end - start] if isinstance(of, np.ndarray) else of
+                if key:
+                    found.values[row, start:end] = of[: end - start] if isinstance(of, np.ndarray) else of
+                else:
+                    left_out = np.maximum(left_out, of)
             found.left_out[start:end] = left_out[: end - start]
+
+    def _moved(self, edges: Edges, exact: Exact, store: Array, kept: Array) -> tuple[Exact, Array]:
+        """Put what depends on the crank angle where panels lie in each design; return reductions over them.
+
+        And what is left out: all of a design in which laws follow one another in another order.
+        """
+        plan, source = self.plan, self.source
+        ends = edges.at(np.stack([store[source.rows(source.place(one))] for one in plan.ends]))
+        moves = plan.grid.moves
+        degrees, weights = nodes_between(ends, _POLYNOMIALS)
+        middles = np.broadcast_to(plan.grid.middles[moves, None, None], degrees[moves].shape)
+        angles = np.flatnonzero(moves[plan.grid.panel])
+        for at, one in plan.moved.items():
+            found = plan.at(one.detail, degrees[moves].ravel(), middles.ravel())
+            kept[source.columns(at), angles] = found.reshape(angles.size, -1)
+        is_other = np.any(np.diff(ends, axis=0) < 0, axis=0)
+        return exact.moved_to(ends, weights.reshape(-1, weights.shape[-1])), np.where(is_other, np.inf, 0.0)
+
+
+def _reduced(knowns: Iterable[Known]) -> list[Known]:
+    """Return the columns that single values are found of."""
+    nodes = [one.node for one in in_order(knowns)]
+    return [of for node in nodes if isinstance(node, Found) for of in node.operands if of.varies]
+
+
+def _grid(
+    breaks: Sequence[Array], delays: Sequence[float], width: float, steps: int | None
+) -> tuple[Grid, Edges | None]:
+    """Return the crank angles of the stated design, and what their panels lie between in all that are compared."""
+    if steps:
+        return even(breaks[0], steps), None
+    every = [closed(one, delays, _MOST_BREAKS) for one in breaks]
+    edges, parts = divided(every[0], width)
+    grid = between(edges, np.zeros(edges.size - 1, dtype=bool), _POLYNOMIALS)
+    return grid, Edges(every, parts)
 
 
 def _compiles() -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Literal
 
@@ -48,8 +49,8 @@ class Derivatives:
     def _of_angle(self, function: str, multiple: int, shift: float) -> Value:
         if self._by != "angle":
             return self._graph.constant(0.0)
-        if function == "angle":
-            return self._graph.constant(float(multiple))
+        if function in ("angle", "within"):
+            return self._graph.constant(multiple * (1.0 if function == "angle" else 180 / math.pi))
         other, sign = _OF_ANGLE[function]
         return self._graph.angle(other, multiple, shift) * (sign * multiple)
 
@@ -77,6 +78,8 @@ class Derivatives:
     def _of_operation(self, one: Value, moved: list[Value]) -> Value:
         if len(moved) == 1:
             return self._of_function(one, moved[0])
+        if one.kind == "choose":
+            return self._graph.apply("choose", one.operands[0], *moved[1:])
         (left, right), (left_1, right_1) = one.operands, moved
         match one.kind:
             case "add":

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Callable, Iterable, Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -51,9 +51,22 @@ COMPUTE: dict[str, Callable[..., Any]] = {
     "arccos": np.arccos,
     "arctan": np.arctan,
     "half_turns": lambda near, angle: np.rint((near - angle) / math.pi),
+    "choose": lambda of, first, second: np.where(of > 0, first, second),
 }
 # largest whole exponent that is multiplied out
 _MULTIPLIED = 8
+
+
+class End(NamedTuple):
+    """Where a law ends: in the stated design, and between which crank angles it is looked for in others. [deg]
+
+    `value` is what it is in each design, None where it is the same in all.
+    """
+
+    stated: float
+    low: float
+    high: float
+    value: Value | None = None
 
 
 class Value:
@@ -70,8 +83,10 @@ class Value:
         self.graph, self.kind, self.operands, self.detail = graph, kind, operands, detail
         self.at = len(graph.values)
         # a column of another angle is read where it was kept for each design
-        self.by_design: bool = kind in ("input", "delayed") or any(one.by_design for one in operands)
-        self.by_angle: bool = kind in ("angle", "pieces") or (
+        self.by_design: bool = kind in ("input", "delayed", "moved") or any(one.by_design for one in operands)
+        if kind == "pieces":
+            self.by_design |= any(one.value is not None for one in detail[0])
+        self.by_angle: bool = kind in ("angle", "pieces", "moved") or (
             kind != "reduction" and any(one.by_angle for one in operands)
         )
         waits: int = kind in ("reduction", "delayed")
@@ -159,13 +174,46 @@ class Graph:
         self.functions.setdefault(id(function), function)
         return self._made("angle", (), ("reading", id(function), shift))
 
-    def pieces(self, ends: tuple[float, ...], laws: tuple[Value, ...], shift: float) -> Value:
+    def moved(self, of: Value) -> Value:
+        """Return what depends on the crank angle where that differs between designs: read from where it was put."""
+        return self._made("moved", (), of)
+
+    def pieces(self, ends: tuple[End, ...], laws: tuple[Value, ...], shift: float) -> Value:
         """Return laws that follow one another, counted from elsewhere; each owns its end. [deg]"""
         return laws[0] if len({one.at for one in laws}) == 1 else self._made("pieces", laws, (ends, shift))
 
     def delayed(self, column: Value, by: float) -> Value:
         """Return a column every value of which comes later by an angle. [deg]"""
         return self._made("delayed", (column,), by) if column.by_angle else column
+
+    def at_angle(self, column: Value, degrees: Value) -> Value:
+        """Return what a column amounts to at a crank angle that follows from the design. [deg]"""
+        made: dict[int, Value] = {}
+        for one in in_order([column], into=lambda one: one.by_angle):
+            if one.kind == "angle":
+                made[one.at] = self._of_angle(*one.detail, degrees)
+            elif one.by_angle:
+                if one.kind in ("pieces", "delayed"):
+                    raise TypeError(f"{one!r} is none of one crank angle")
+                made[one.at] = self.apply(one.kind, *(made[other.at] for other in one.operands))
+            else:
+                made[one.at] = one
+        return made[column.at]
+
+    def _of_angle(self, function: str, multiple: int, shift: float, degrees: Value) -> Value:
+        at = degrees * float(multiple) + shift
+        angle = at * (math.pi / 180)
+        match function:
+            case "within":
+                return at
+            case "angle":
+                return angle
+            case "sin" | "cos":
+                return self.apply(function, angle)
+            case "one_minus_sin" | "one_plus_sin":
+                sin = self.apply("sin", angle)
+                return 1.0 - sin if function == "one_minus_sin" else 1.0 + sin
+        raise TypeError(f"{function} is read from a table")
 
     def reduction(self, word: str, *columns: Value) -> Value:
         """Return what columns come to over the cycle."""
@@ -175,6 +223,12 @@ class Graph:
         """Return what an operation gives, without what zeros and ones do not change."""
         values = tuple(one if isinstance(one, Value) else self.constant(one) for one in operands)
         numbers = [number(one) if one.is_constant else None for one in values]
+        if name == "choose":
+            # a number decides at once
+            of, first, second = values
+            if numbers[0] is not None or first is second:
+                return first if numbers[0] is None or numbers[0] > 0 else second
+            return self._made(name, values)
         if None not in numbers:
             with np.errstate(all="ignore"):
                 return self.constant(float(COMPUTE[name](*numbers)))

@@ -36,7 +36,8 @@ class Grid(NamedTuple):
     """Crank angles in panels over one cycle, between the breaks of laws. [deg]
 
     `edges` are the ends of panels; `degrees` the angles, `panel` which one each is in, `weights` those of an integral
-    over the crank angle [rad]. `each` are the angles in a panel of polynomials, none where they are evenly spaced.
+    over the crank angle [rad]. `each` are the angles in a panel of polynomials, none where they are evenly spaced;
+    `moves` says which panels lie elsewhere in other designs.
     """
 
     start: float
@@ -46,6 +47,7 @@ class Grid(NamedTuple):
     panel: NDArray[np.intp]
     weights: Array
     each: int
+    moves: NDArray[np.bool_]
 
     @property
     def middles(self) -> Array:
@@ -75,27 +77,75 @@ def even(breaks: Array, steps: int) -> Grid:
     degrees = np.asarray(start + np.arange(steps) * (cycle / steps), dtype=float)
     panel = np.maximum(np.searchsorted(breaks, degrees - _SAME, side="left") - 1, 0)
     weights = np.asarray(np.full(steps, np.radians(cycle) / steps))
-    return Grid(start, cycle, breaks, degrees, panel, weights, 0)
+    return Grid(start, cycle, breaks, degrees, panel, weights, 0, np.zeros(breaks.size - 1, dtype=bool))
 
 
-def between(edges: Array, polynomials: Polynomials) -> Grid:
+class Edges(NamedTuple):
+    """Edges of panels of which some follow from the design. [deg]
+
+    `breaks` of the stated design and of others, the way from each to the next cut in so many `parts`; `of` says which
+    of the ends of laws each follows at a distance that stays, -1 where it stays itself; `stated` are those ends.
+    """
+
+    breaks: Sequence[Array]
+    parts: NDArray[np.intp]
+    of: NDArray[np.intp] = np.zeros(0, dtype=np.intp)
+    stated: Array = np.zeros(0)
+
+    def following(self, ends: Sequence[tuple[object, Array]]) -> Edges | None:
+        """Return the same following ends, each with its crank angles in all designs; None if breaks do otherwise."""
+        if len({one.size for one in self.breaks}) > 1:
+            return None
+        breaks = np.array(self.breaks)
+        cycle, of = breaks[0, -1] - breaks[0, 0], np.full(breaks.shape[1], -1)
+        for at in np.flatnonzero(np.ptp(breaks, axis=0) > _SAME):
+            moved = breaks[:, at] - breaks[0, at]
+            for end, (_, angles) in enumerate(ends):
+                apart = moved - (angles - angles[0])
+                if np.all(np.abs(apart - cycle * np.rint(apart / cycle)) < _SAME):
+                    of[at] = end
+            if of[at] < 0:
+                return None
+        return self._replace(of=of, stated=np.array([angles[0] for _, angles in ends]))
+
+    @property
+    def moves(self) -> NDArray[np.bool_]:
+        """Which panels lie elsewhere in other designs."""
+        moving = self.of >= 0
+        return np.repeat(moving[1:] | moving[:-1], self.parts)
+
+    def at(self, ends: Array) -> Array:
+        """Return the edges of designs whose laws end at some crank angles, shape (edges, lanes) of (ends, lanes)."""
+        breaks = np.repeat(self.breaks[0][:, None], ends.shape[1], axis=1)
+        moving = np.flatnonzero(self.of >= 0)
+        breaks[moving] += (ends - self.stated[:, None])[self.of[moving]]
+        interval = np.repeat(np.arange(self.parts.size), self.parts)
+        share = np.concatenate([np.arange(count) / count for count in self.parts])[:, None]
+        inner = breaks[interval] + (breaks[interval + 1] - breaks[interval]) * share
+        return np.concatenate([inner, breaks[-1:]])
+
+
+def between(edges: Array, moves: NDArray[np.bool_], polynomials: Polynomials) -> Grid:
     """Return the nodes of polynomials between edges; an edge is twice among them, with the law of either side."""
-    middle, half = (edges[1:] + edges[:-1])[:, None] / 2, np.diff(edges)[:, None] / 2
-    degrees = middle + half * polynomials.nodes
+    degrees, weights = nodes_between(edges, polynomials)
+    panel = np.repeat(np.arange(edges.size - 1), polynomials.nodes.size)
+    start, cycle = float(edges[0]), float(edges[-1] - edges[0])
+    each = polynomials.nodes.size
+    return Grid(start, cycle, edges, degrees.ravel(), panel, weights.ravel(), each, moves)
+
+
+def nodes_between(edges: Array, polynomials: Polynomials) -> tuple[Array, Array]:
+    """Return nodes [deg] and weights [rad] between edges, shape (panels, nodes, ...) of edges of shape (edges, ...)."""
+    shape = (1, -1) + (1,) * (edges.ndim - 1)
+    middle, half = (edges[1:] + edges[:-1])[:, None] / 2, np.diff(edges, axis=0)[:, None] / 2
+    degrees = middle + half * polynomials.nodes.reshape(shape)
     # the ends to the last digit, where sines are exact
     degrees[:, 0], degrees[:, -1] = edges[:-1], edges[1:]
-    count = polynomials.nodes.size
-    weights = np.radians(half) * polynomials.weights
-    panel = np.repeat(np.arange(edges.size - 1), count)
-    each = np.asarray(weights.ravel(), dtype=float)
-    return Grid(float(edges[0]), float(edges[-1] - edges[0]), edges, degrees.ravel(), panel, each, count)
+    return degrees, np.radians(half) * polynomials.weights.reshape(shape)
 
 
-def shared(breaks: Array, delays: Sequence[float], width: float, most: int) -> Array:
-    """Return the edges of panels no wider than some degrees, the same around every delayed angle. [deg]
-
-    Where that would be too many breaks they are those of the columns alone.
-    """
+def closed(breaks: Array, delays: Sequence[float], most: int) -> Array:
+    """Return breaks, the same around every delayed angle; those of the columns alone where they would be too many."""
     start, cycle = float(breaks[0]), float(breaks[-1] - breaks[0])
     found = breaks[:-1] - start
     while True:
@@ -107,11 +157,15 @@ def shared(breaks: Array, delays: Sequence[float], width: float, most: int) -> A
             break
         found = every
         if found.size > most:
-            found = breaks[:-1] - start
-            break
-    edges = np.append(found, cycle)
-    parts = np.maximum(1, np.ceil(np.diff(edges) / width - _SAME)).astype(int)
+            return breaks
+    return start + np.append(found, cycle)
+
+
+def divided(breaks: Array, width: float) -> tuple[Array, NDArray[np.intp]]:
+    """Return edges of panels no wider than some degrees, and in how many the way between two breaks is cut. [deg]"""
+    parts = np.maximum(1, np.ceil(np.diff(breaks) / width - _SAME)).astype(np.intp)
     inner = [
-        np.linspace(low, high, count, endpoint=False) for low, high, count in zip(edges, edges[1:], parts, strict=False)
+        np.linspace(low, high, count, endpoint=False)
+        for low, high, count in zip(breaks, breaks[1:], parts, strict=False)
     ]
-    return start + np.append(np.concatenate(inner), cycle)
+    return np.append(np.concatenate(inner), breaks[-1]), parts

@@ -36,14 +36,26 @@ class Level(NamedTuple):
 
 
 class Plan:
-    """The order of a calculation: `outputs` are wanted of each design, `inputs` how many things it states."""
+    """The order of a calculation: `outputs` are wanted of each design, `inputs` how many things it states.
 
-    def __init__(self, outputs: Mapping[str, Value], grid: Grid, inputs: int, angles_at: Callable[[Any], Any]) -> None:
+    `ends` are the ends of laws that follow from the design, `moved` what depends on the crank angle where that does.
+    """
+
+    def __init__(
+        self,
+        outputs: Mapping[str, Value],
+        grid: Grid,
+        inputs: int,
+        angles_at: Callable[[Any], Any],
+        ends: Iterable[Value] = (),
+    ) -> None:
         self.outputs, self.grid, self.inputs = dict(outputs), grid, inputs
+        self.ends = tuple(ends)
         self._angles_at = angles_at
         self.row_of_angle: dict[int, int] = {}
+        self.moved: dict[int, Value] = {}
         self._rows: list[Array] = []
-        needed = list(in_order(outputs.values()))
+        needed = list(in_order([*outputs.values(), *self.ends]))
         levels = max((one.level for one in needed), default=0)
         made: set[int] = set()
         self.levels = tuple(self._level(at, needed, made) for at in range(levels + 1))
@@ -76,13 +88,14 @@ class Plan:
         if not columns:
             return
         used = [one for one in in_order(columns, into=_at_this_angle) if one.kind == "pieces"]
-        panels: dict[tuple[int, ...], list[int]] = {}
+        panels: dict[tuple[Any, ...], list[int]] = {}
         for panel, middle in enumerate(self.grid.middles):
-            panels.setdefault(tuple(self._law_at(one, middle) for one in used), []).append(panel)
-        for laws, of in panels.items():
+            is_moving = bool(self.grid.moves[panel])
+            panels.setdefault((is_moving, *(self._laws_at(one, middle) for one in used)), []).append(panel)
+        for (is_moving, *laws), of in panels.items():
             angles = np.flatnonzero(np.isin(self.grid.panel, of))
             chosen = {one.at: law for one, law in zip(used, laws, strict=True)}
-            resolved = self._with_laws(columns, chosen)
+            resolved = self._with_laws(columns, chosen, is_moving=is_moving)
             roots = _with_few_divisions([resolved[one.at] for one in columns])
             every = list(in_order(roots, into=lambda one: one.by_design and _at_this_angle(one)))
             for one in every:
@@ -91,17 +104,37 @@ class Plan:
             values = [one for one in every if one.by_angle and one.by_design]
             yield Loop(angles, tuple(values), tuple(roots))
 
-    def _law_at(self, value: Value, middle: float) -> int:
+    def _laws_at(self, value: Value, middle: float) -> tuple[int, int]:
+        """Return the first and the last of the laws that may hold at a crank angle, of which designs choose."""
         ends, shift = value.detail
-        at = (middle + shift - self.grid.start) % self.grid.cycle + self.grid.start if shift else middle
-        return min(int(np.searchsorted(ends, at, side="left")), len(ends) - 1)
+        at, last = middle + shift + self._turn(middle, shift), len(ends) - 1
+        if self.grid.each:
+            law = next((k for k, one in enumerate(ends) if at <= one.stated), last)
+            return law, law
+        first = max((k + 1 for k, one in enumerate(ends[:last]) if one.high < at), default=0)
+        return first, next((k for k in range(first, last) if ends[k].low >= at), last)
 
-    def _with_laws(self, columns: Iterable[Value], chosen: Mapping[int, int]) -> dict[int, Value]:
+    def _turn(self, middle: Any, shift: float) -> Any:  # noqa: ANN401 - of one angle or of many
+        """Return what takes crank angles counted from elsewhere into the cycle, those of a panel all alike. [deg]"""
+        own = middle + shift
+        return np.mod(own - self.grid.start, self.grid.cycle) + self.grid.start - own if shift else 0.0
+
+    def _with_laws(
+        self, columns: Iterable[Value], chosen: Mapping[int, tuple[int, int]], *, is_moving: bool
+    ) -> dict[int, Value]:
         """Return values by what they stand for, with the law of a panel in the place of pieces."""
         made: dict[int, Value] = {}
         for one in in_order(columns, into=_at_this_angle):
             if one.kind == "pieces":
-                made[one.at] = made[one.operands[chosen[one.at]].at]
+                (ends, shift), (first, last) = one.detail, chosen[one.at]
+                result = made[one.operands[last].at]
+                for law in reversed(range(first, last)):
+                    own = one.graph.angle("within", 1, shift)
+                    end = ends[law].stated if ends[law].value is None else ends[law].value
+                    result = one.graph.apply("choose", own - end, result, made[one.operands[law].at])
+                made[one.at] = result
+            elif one.kind == "angle" and is_moving:
+                made[one.at] = self.moved.setdefault(one.at, one.graph.moved(one))
             elif one.by_angle and one.kind not in ("angle", "delayed"):
                 operands = [made[other.at] for other in one.operands]
                 made[one.at] = one.graph.apply(one.kind, *operands)
@@ -126,14 +159,16 @@ class Plan:
         self._rows[row][angles] = made[value.at]
 
     def _of_angle(self, value: Value, angles: NDArray[np.intp]) -> Array:
+        return self.at(value, self.grid.degrees[angles], self.grid.middles[self.grid.panel[angles]])
+
+    def at(self, value: Value, degrees: Array, middles: Array) -> Array:
+        """Return what depends on the crank angle alone at angles, each in a panel with that middle. [deg]"""
         function, multiple, shift = value.detail
-        degrees = self.grid.degrees[angles]
-        if function != "reading":
+        if function not in ("reading", "within"):
             column: Array = getattr(self._angles_at(degrees).multiple(multiple).shifted(shift), function)
             return column
-        if shift:
-            degrees = np.mod(degrees + shift - self.grid.start, self.grid.cycle) + self.grid.start
-        return np.asarray(value.graph.functions[multiple](degrees), dtype=float)
+        own = degrees + shift + self._turn(middles, shift)
+        return own if function == "within" else np.asarray(value.graph.functions[multiple](own), dtype=float)
 
 
 def _at_this_angle(value: Value) -> bool:

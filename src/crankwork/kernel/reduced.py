@@ -26,11 +26,14 @@ class Reduced:
         self._source, self._reductions = source, reductions
         self._starts = np.linspace(0, reductions.count, parts + 1)[:-1].round().astype(int).tolist()
 
-    def __call__(self, level: Level, store: Array, kept: Array) -> Array | float:
-        """Put reductions of columns into the store; return what polynomials leave out of them, shape (lanes,)."""
+    def __call__(self, level: Level, store: Array, kept: Array, reductions: Even | Exact | None) -> Array | float:
+        """Put reductions of columns into the store; return what polynomials leave out of them, shape (lanes,).
+
+        `reductions`: those of other edges than the stated ones.
+        """
         if not level.reductions:
             return 0.0
-        block = _Block(self._source, self._reductions, self._starts, level, kept)
+        block = _Block(self._source, reductions or self._reductions, self._starts, level, kept)
         for one in level.reductions:
             store[self._source.rows(self._source.place(one))] = block.value(one)
         return np.asarray(block.left_out.max(axis=0))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -100,11 +101,9 @@ class Exact:
     """Reductions over the nodes of polynomials, of columns of shape (columns, angles, lanes)."""
 
     def __init__(self, grid: Grid, polynomials: Polynomials) -> None:
-        self._grid = grid
         count = polynomials.nodes.size
         self._nodes, self._to_coefficients = polynomials.nodes, polynomials.coefficients
-        self._half = np.radians(np.diff(grid.edges)) / 2
-        self._middle = np.radians(grid.edges[1:] + grid.edges[:-1]) / 2
+        self._set(grid.edges[:, None], grid.weights)
         # integral from the left end of a panel to each node, of values at the nodes
         integrals = [legendre.legint(one, lbnd=-1) for one in np.eye(count)]
         self._to_integrals = (
@@ -113,6 +112,17 @@ class Exact:
         derivative = np.pad(legendre.legder(np.eye(count)), ((0, 1), (0, 0)))
         self._slope = derivative
         self._bend = derivative @ derivative
+
+    def _set(self, edges: Array, weights: Array) -> None:
+        self._half = np.radians(np.diff(edges, axis=0)) / 2
+        self._middle = np.radians(edges[1:] + edges[:-1]) / 2
+        self._weights = weights
+
+    def moved_to(self, edges: Array, weights: Array) -> Exact:
+        """Return the same between edges that each design has elsewhere, shape (edges, lanes), (angles, lanes)."""
+        found = copy.copy(self)
+        found._set(edges, weights)
+        return found
 
     def panels(self, columns: Array) -> Array:
         """Return columns with their panels apart, shape (columns, panels, nodes, lanes)."""
@@ -127,7 +137,8 @@ class Exact:
 
     def integrals(self, columns: Array) -> Array:
         """Return the integrals of columns over the crank angle, shape (columns, lanes)."""
-        return np.asarray(np.matmul(self._grid.weights, columns))
+        weights = self._weights
+        return np.asarray(np.matmul(weights, columns) if weights.ndim == 1 else (weights * columns).sum(axis=1))
 
     def of_roots(self, squares: Array) -> Array:
         """Return the integrals of the roots of columns, shape (columns, lanes)."""
@@ -137,19 +148,19 @@ class Exact:
             _ROUNDING * np.sqrt(np.abs(squares).max(axis=1))[:, None], coefficients.shape[:3]
         )  # fmt: skip
         found = integrals_of_roots(coefficients.reshape(-1, self._nodes.size), limits.reshape(-1))
-        return np.asarray(2 * np.matmul(self._half, found.reshape(coefficients.shape[:3])))
+        return np.asarray(2 * (self._half * found.reshape(coefficients.shape[:3])).sum(axis=1))
 
     def running(self, columns: Array) -> Array:
         """Return the integrals of columns from the start of the cycle to each angle, in their shape."""
         values = self.panels(columns)
-        within = np.matmul(self._to_integrals, values) * self._half[:, None, None]
+        within = np.matmul(self._to_integrals, values) * self._half[:, None]
         before = np.cumsum(within[:, :, -1], axis=1) - within[:, :, -1]
         return np.asarray((within + before[:, :, None]).reshape(columns.shape))
 
     @property
     def count(self) -> int:
         """How many panels there are."""
-        return int(self._half.size)
+        return len(self._half)
 
     def largest(self, columns: Array) -> Peaks:
         """Return the largest of columns: at an angle, or on the polynomial beside it."""
@@ -185,7 +196,7 @@ class Exact:
         found, u = np.where(is_node, at_node, at_peak), np.where(is_node, self._nodes[node], u)
         best = np.full(top.shape, -np.inf)
         np.maximum.at(best, of, found)
-        angle = self._middle[panel] + self._half[panel] * u
+        angle = self._of(self._middle, panel, lane) + self._of(self._half, panel, lane) * u
         with np.errstate(invalid="ignore"):
             is_best = found >= (best - _PLATEAU * (np.abs(best) + best - least))[of]
         first = np.full(top.shape, np.inf)
@@ -213,7 +224,11 @@ class Exact:
         by_field = legendre.legval(peaks.u, np.tensordot(self._slope, change, 1), tensor=False)
         is_corner = np.abs(slope) > _LEVEL * np.abs(own[1:]).sum(axis=0)
         with np.errstate(divide="ignore", invalid="ignore"):
-            return np.where(is_corner, 0.0, -by_field / bend * self._half[peaks.panel])
+            return np.where(is_corner, 0.0, -by_field / bend * self._of(self._half, peaks.panel, np.arange(change.shape[-1])))
+
+    @staticmethod
+    def _of(panels: Array, panel: NDArray[np.intp], lane: NDArray[np.intp]) -> Array:
+        return np.asarray(panels[panel, lane if panels.shape[1] > 1 else 0])
 
     def _coefficients(self, columns: Array, peaks: Peaks) -> Array:
         """Return polynomials where the largest stand, shape (degrees, columns, lanes)."""

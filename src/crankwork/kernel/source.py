@@ -31,7 +31,7 @@ from crankwork.kernel.elementary import compiled, exp, half_turns, log, log_rati
 _RUN = """
 
 @compiled
-def run(designs, results, t, p, order, weights, degrees, first, last):
+def run(designs, results, left_out, t, p, order, weights, degrees, first, last):
     s = np.empty({rows} * {lanes})
     b = np.empty(({columns}, {angles}, {lanes}))
     for start in range(first, last, {lanes}):
@@ -86,6 +86,8 @@ class Source:
             if not is_reduced or one.kind == "delayed" or one.detail == "range":
                 for column in one.operands:
                     self.columns(column.at)
+        for at in plan.moved:
+            self.columns(at)
         self.used = self._used_elsewhere()
         levels = ("\n".join(self._level(at, one)) for at, one in enumerate(plan.levels))
         self.text = "\n\n\n".join([_HEAD, *levels]) + (self._run() if is_reduced else "\n")
@@ -101,7 +103,7 @@ class Source:
 
     def _used_elsewhere(self) -> set[int]:
         """Return which values of designs are used outside the lines that make them."""
-        used = {one.at for one in self.plan.outputs.values()}
+        used = {one.at for one in (*self.plan.outputs.values(), *self.plan.ends)}
         for level in self.plan.levels:
             used.update(other.at for other in _taken(level.designs))
             used.update(other.at for loop in level.loops for other in _taken(loop.values, loop.columns))
@@ -111,11 +113,12 @@ class Source:
         return f"s[{self.rows(key) * LANES} + {lane}]"
 
     def _run(self) -> str:
-        levels = [f"        level_{at}({_ARGUMENTS})" for at in range(len(self.plan.levels))]
+        every = range(len(self.plan.levels))
+        levels = [f"        {part}_{at}({_ARGUMENTS})" for at in every for part in ("designs", "level")]
         outputs = []
-        for at, value in enumerate(self.plan.outputs.values()):
+        for at, (key, value) in enumerate(self.plan.outputs.items()):
             shown = _name(value, "") if value.is_constant else self._stored(self.place(value))
-            outputs.append(f"            results[{at}, start + l] = {shown}")
+            outputs.append(f"            {f'results[{at}, start + l]' if key else 'left_out[start + l]'} = {shown}")
         angles = self.plan.grid.degrees.size if self.columns.of else 1
         sizes = {"rows": len(self.rows.of), "columns": max(len(self.columns.of), 1), "angles": angles, "lanes": LANES}
         return _RUN.format(levels="\n".join(levels), outputs="\n".join(outputs), **sizes)
@@ -127,9 +130,11 @@ class Source:
             yield f"@compiled\ndef loop_{at}_{part}({_ARGUMENTS}):"
             yield from self._loop(level, loop, running)
             yield "\n"
-        yield f"@compiled\ndef level_{at}({_ARGUMENTS}):"
+        yield f"@compiled\ndef designs_{at}({_ARGUMENTS}):"
         if level.designs:
             yield from self._over_lanes(4, lambda lane: self._designs(level, lane))
+        yield "    return\n\n"
+        yield f"@compiled\ndef level_{at}({_ARGUMENTS}):"
         if running:
             yield from self._over_lanes(
                 4,
@@ -186,6 +191,8 @@ class Source:
                 yield f"        t{one.at} = t[{self.plan.row_of_angle[one.at]}, j]"
         for one in (one for one in loop.values if one.kind == "delayed"):
             yield f"        b{one.at} = b[{self.columns(one.operands[0].at)}, p[{self.delays(one.detail)}, j]]"
+        for one in (one for one in loop.values if one.kind == "moved"):
+            yield f"        b{one.at} = b[{self.columns(one.detail.at)}, j]"
         value_of = dict(zip((one.at for one in level.columns), loop.columns, strict=True))
         kept = [at for at in value_of if at in self.columns.of]
         for at in kept:
@@ -194,7 +201,8 @@ class Source:
         def lines(lane: str) -> Iterator[str]:
             yield from self._taken_lines(taken, lane)
             for one in loop.values:
-                made = f"b{one.at}[{lane}]" if one.kind == "delayed" else self._expression(one, lane)
+                is_read = one.kind in ("delayed", "moved")
+                made = f"b{one.at}[{lane}]" if is_read else self._expression(one, lane)
                 yield f"{lane}{one.at} = {made}"
             for at in kept:
                 yield f"c{at}[{lane}] = {_name(value_of[at], lane)}"
@@ -247,6 +255,8 @@ class Source:
         operands = [_name(other, lane) for other in one.operands]
         if one.kind in _INFIX:
             return f"{operands[0]} {_INFIX[one.kind]} {operands[1]}"
+        if one.kind == "choose":
+            return f"{operands[1]} if {operands[0]} > 0.0 else {operands[2]}"
         return f"-{operands[0]}" if one.kind == "neg" else f"{_CALLED[one.kind]}({', '.join(operands)})"
 
 

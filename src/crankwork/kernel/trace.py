@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from crankwork.errors import CrankworkError
 from crankwork.formula.known import (
     Arithmetic,
+    Chosen,
     Component,
     Delayed,
     Found,
@@ -31,11 +32,12 @@ from crankwork.formula.known import (
     Table,
     Total,
     Use,
+    distinct,
     in_order,
 )
 from crankwork.formula.replay import Angles
 from crankwork.kernel.derivative import Derivatives
-from crankwork.kernel.graph import Graph, Value
+from crankwork.kernel.graph import End, Graph, Value
 
 Array = NDArray[np.float64]
 
@@ -45,6 +47,13 @@ _SAME = 1e-12
 _NEAR_DIRECTION = 1.0
 
 
+# how many laws are loops of all that follows of them
+_FEW_LAWS = 4
+# how far beyond those that are compared an end is looked for: of what they span, and at least [deg]
+_BEYOND, _LEAST_BEYOND = 0.5, 0.01
+# steps to an angle, and how short the last one must be [deg]
+_STEPS, _SETTLED = 6, 1e-7
+
 # Why a calculation is not compiled.
 Reason = Literal[
     "absent",
@@ -53,6 +62,7 @@ Reason = Literal[
     "curved_field",
     "table",
     "direction",
+    "ends",
     "solved",
     "procedure",
     "partial",
@@ -77,6 +87,7 @@ class Designs:
     def __init__(self, memories: Sequence[Mapping[str, Known]], fields: Array, keys: Iterable[str]) -> None:
         self.memories, self.fields = memories, fields
         self._alike: dict[int, tuple[Node, ...]] = {}
+        self._told: dict[int, Known] = {}
         self.differs: dict[int, bool] = {}
         for key in keys:
             missing = [at for at, one in enumerate(memories) if key not in one]
@@ -97,13 +108,30 @@ class Designs:
                     raise NotCompiledError("ways", name)
             stack += [
                 (tuple(one.node for one in operands), operands[0].key or name)
-                for operands in zip(*(one.operands for one in nodes), strict=True)
+                for operands in zip(*(self.made_of(one) for one in nodes), strict=True)
             ]
-        for known in in_order(knowns[:1]):
+        for known in in_order(knowns[:1], into=self.made_of):
             node = known.node
             if id(node) not in self.differs:
-                below = any(self.differs[id(one.node)] for one in node.operands)
+                below = any(self.differs[id(one.node)] for one in self.made_of(node))
                 self.differs[id(node)] = below or len({one.value for one in self._alike[id(node)]}) > 1
+
+    def made_of(self, node: Node) -> Sequence[Known]:
+        """Return all that a node follows from, also where it is told in knowns for nothing but this."""
+        match node:
+            case Pieces(retold=retold) if retold is not None:
+                return (self.told(node),)
+            case Pieces(places=places):
+                return (*node.operands, *(one for one in places if isinstance(one, Known)))
+            case Found(by=by) if by is not None:
+                return (*node.operands, by)
+        return node.operands
+
+    def told(self, node: Pieces) -> Known:
+        """Return pieces as they are told in knowns."""
+        if id(node) not in self._told and node.retold is not None:
+            self._told[id(node)] = node.retold()
+        return self._told[id(node)]
 
     def twins(self, node: Node) -> tuple[Node, ...]:
         """Return a node of the stated design and what stands in its place in the others."""
@@ -148,8 +176,8 @@ def _are_alike(one: Node, other: Node) -> bool:
             return (one.function, one.multiple, one.shift) == (other.function, other.multiple, other.shift)
         case Delayed(by=a, cycle=c), Delayed(by=b, cycle=d):
             return (a, c) == (b, d)
-        case Pieces(ends=a), Pieces(ends=b):
-            return np.array_equal(a, b)
+        case Pieces(), Pieces():
+            return one.retold is not None or _plain(one.places) == _plain(other.places)
         case (Component(at=a), Component(at=b)) | (Found(word=a), Found(word=b)):
             return bool(a == b)
     return True
@@ -171,6 +199,9 @@ class Trace:
     ) -> None:
         self.graph, self._looked = Graph(), looked
         self._designs, self._angles_at, self._is_shifted = designs, angles_at, is_shifted
+        # what must be above zero for a design to be as those that are compared
+        self._guards: list[Value] = []
+        self._ends: dict[int, tuple[End, Array]] = {}
         self._made: dict[tuple[int, float | None, float], Value] = {}
         self._by_angle = Derivatives(self.graph, "angle")
 
@@ -184,6 +215,8 @@ class Trace:
         """Return what is to be made at the same angle before a node is."""
         if node.value is not None and not self._designs.differs[id(node)]:
             return ()
+        if isinstance(node, Pieces) and node.retold is not None:
+            return (self._designs.told(node),)
         return () if isinstance(node, Delayed | Found) else node.operands
 
     def _once(self, known: Known, shift: float, fixed: float | None) -> None:
@@ -210,6 +243,8 @@ class Trace:
                 return self._as_value(function(*map(of, node.inputs)))
             case Total():
                 return self._as_value(functools.reduce(operator.add, map(of, node.operands)))
+            case Chosen():
+                return self.graph.apply("choose", *map(of, node.operands))
             case Found():
                 return self._found(known, node)
             case Root() | Component():
@@ -224,8 +259,10 @@ class Trace:
                 return self._of_angle(node, shift, fixed)
             case Delayed():
                 return self._delayed(node, shift, fixed)
+            case Pieces(retold=retold) if retold is not None:
+                return self._as_value(of(self._designs.told(node)))
             case Pieces():
-                return self._pieces(node, of, shift, fixed)
+                return self._pieces(known, node, of, shift, fixed)
             case Table() if fixed is None:
                 return self._table(node, shift)
             case HalfTurns() if fixed is None:
@@ -237,7 +274,9 @@ class Trace:
 
     def _of_angle(self, node: OfAngle, shift: float, fixed: float | None) -> Value:
         if fixed is None:
-            return self.graph.angle(node.function, node.multiple, node.shift + node.multiple * shift)
+            # counted from the start of the cycle, which a multiple is not
+            function = "within" if node.function == "degrees" else node.function
+            return self.graph.angle(function, node.multiple, node.shift + node.multiple * shift)
         angles: Angles = self._angles_at([fixed])
         column = getattr(angles.multiple(node.multiple).shifted(node.shift), node.function)
         return self.graph.constant(float(column[0]))
@@ -249,11 +288,50 @@ class Trace:
             return self.value(node.of, shift=shift - node.by)
         return self.graph.delayed(self.value(node.of, shift=shift), node.by)
 
-    def _pieces(self, node: Pieces, of: Any, shift: float, fixed: float | None) -> Value:  # noqa: ANN401
+    def _pieces(self, known: Known, node: Pieces, of: Any, shift: float, fixed: float | None) -> Value:  # noqa: ANN401
         laws = tuple(self._as_value(of(one)) for one in node.operands)
+        ends = tuple(self._end(one) for one in node.places)
         if fixed is not None:
+            if any(one.low <= fixed <= one.high for one in ends if one.value is not None):
+                raise NotCompiledError("ends", known.key)
             return laws[min(int(np.searchsorted(node.ends, fixed, side="left")), len(laws) - 1)]
-        return self.graph.pieces(tuple(node.ends.tolist()), laws, shift)
+        pieces = self.graph.pieces(ends, laws, shift)
+        # many laws are short loops of their own, and what follows of them one for all
+        return self.graph.delayed(pieces, 0.0) if len(laws) > _FEW_LAWS else pieces
+
+    def _end(self, place: Known | float) -> End:
+        """Return where a law ends, in the designs that are compared and a little beyond."""
+        if not isinstance(place, Known) or not self._designs.differs[id(place.node)]:
+            angle = place.value if isinstance(place, Known) else place
+            return End(angle, angle, angle)
+        of_twins = [one.value or 0.0 for one in self._designs.twins(place.node)]
+        low, high = min(of_twins), max(of_twins)
+        spare = _BEYOND * (high - low) + _LEAST_BEYOND
+        end = End(place.value, low - spare, high + spare, self.value(place))
+        self._ends[end.value.at if end.value else -1] = end, np.array(of_twins)
+        return end
+
+    @property
+    def moving(self) -> list[tuple[Value, Array]]:
+        """The ends of laws that follow from the design, and their crank angles in those that are compared. [deg]"""
+        return [(end.value, angles) for end, angles in self._ends.values() if end.value is not None]
+
+    def zones(self, breaks: Array) -> Array:
+        """Return breaks with those between which designs choose their law. [deg]"""
+        start, cycle = breaks[0], breaks[-1] - breaks[0]
+        pieces = [one for one in self.graph.values if one.kind == "pieces"]
+        moving = [(end, one.detail[1]) for one in pieces for end in one.detail[0] if end.value is not None]
+        found = [(at - shift - start) % cycle + start for end, shift in moving for at in (end.low, end.high)]
+        return distinct(np.concatenate([breaks, found]))
+
+    def guard(self, *, is_sampled: bool) -> Value | None:
+        """Return what is infinite for designs that are not as those that are compared, if there may be any."""
+        ends = [(end, end.value) for end, _ in self._ends.values() if is_sampled and end.value is not None]
+        guards = [*self._guards, *((value - end.low) * (end.high - value) for end, value in ends)]
+        result = self.graph.constant(0.0)
+        for one in guards:
+            result = self.graph.apply("choose", one, result, math.inf)
+        return result if guards else None
 
     def _table(self, node: Table, shift: float) -> Value:
         """Return what is read at the crank angle from a table that is the same for all designs."""
@@ -276,8 +354,12 @@ class Trace:
 
     def _found(self, known: Known, node: Found) -> Value:
         match node.word:
+            case "at" if node.by is not None and self._designs.differs[id(node.by.node)]:
+                return self._at(node.operands[0], self.value(node.by))
             case "at":
                 return self.value(node.operands[0], fixed=node.at)
+            case "reached" if node.by is not None:
+                return self._reached(node, self.value(node.by))
             case "sine" | "cosine":
                 return self.graph.apply("sin" if node.word == "sine" else "cos", self.value(node.operands[0]))
             case "mean" | "range" | "max" | "min" | "max_angle" | "min_angle" if node.operands[0].varies:
@@ -292,6 +374,28 @@ class Trace:
                 pressure, volume = map(self.value, node.operands)
                 return self.graph.reduction("integral", pressure * self._by_angle.of(volume))
         raise NotCompiledError("procedure", known.key or node.word)
+
+    def _at(self, column: Known, degrees: Value) -> Value:
+        try:
+            return self.graph.at_angle(self.value(column), degrees)
+        except TypeError:
+            raise NotCompiledError("ends", column.key) from None
+
+    def _reached(self, node: Found, wanted: Value) -> Value:
+        """Return the crank angle where a column reaches a value, by Newton's steps. [deg]"""
+        column = node.operands[0]
+        try:
+            slope = self._by_angle.of(self.value(column))
+        except (KeyError, TypeError):
+            raise NotCompiledError("ends", column.key) from None
+        # a volume grows ever faster after a dead centre: from the far side steps do not go past it
+        angle = self.graph.constant(max(one.value or 0.0 for one in self._designs.twins(node)))
+        step = angle
+        for _ in range(_STEPS):
+            step = (self._at(column, angle) - wanted) / self.graph.at_angle(slope, angle) * (180 / math.pi)
+            angle = angle - step
+        self._guards.append(_SETTLED**2 - step * step)
+        return angle
 
     def _time_ratio(self, high: Value, low: Value) -> Value:
         """Return the slower way between two crank angles over the faster one, whichever turns they stand in."""

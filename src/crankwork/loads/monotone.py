@@ -5,14 +5,18 @@ SciPy has the same curve, but importing it costs more than the whole of a run; i
 
 from __future__ import annotations
 
-import numpy as np
+from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
+from crankwork.formula.known import chosen, plain
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.between import cubic_between
 
 
 def monotone_slopes(x: Array, y: Array, *, periodic: bool = False) -> Array:
-    """Return slopes at the points such that the cubic Hermite curve never overshoots them. [Pa/deg]
+    """Return slopes at the points such that the cubic Hermite curve never overshoots them; of knowns too. [Pa/deg]
 
     Slopes; zero at local extremes. `x` and `y`: ascending abscissas and ordinates; with `periodic` the last point
     repeats the first one period on [deg], [Pa]; `periodic`: whether slopes at both ends are those of one closed
@@ -26,23 +30,19 @@ def monotone_slopes(x: Array, y: Array, *, periodic: bool = False) -> Array:
     if len(x) == 2:
         return np.repeat(delta, 2)
     before, after = 2 * h[1:] + h[:-1], h[1:] + 2 * h[:-1]
-    same_sign = delta[:-1] * delta[1:] > 0
-    left, right = np.where(same_sign, delta[:-1], 1.0), np.where(same_sign, delta[1:], 1.0)
-    inner = np.where(same_sign, (before + after) / (before / left + after / right), 0.0)
-    return np.concatenate([
-        [_end_slope(h[0], h[1], delta[0], delta[1])],
-        inner,
-        [_end_slope(h[-1], h[-2], delta[-1], delta[-2])],
-    ])  # fmt: skip
+    product = delta[:-1] * delta[1:]
+    left, right = chosen(product, delta[:-1], 1.0), chosen(product, delta[1:], 1.0)
+    inner = chosen(product, (before + after) / (before / left + after / right), 0.0)
+    slopes = np.empty(len(x), dtype=delta.dtype)
+    slopes[0], slopes[-1] = _end_slope(h[0], h[1], *delta[:2]), _end_slope(h[-1], h[-2], *delta[:-3:-1])
+    slopes[1:-1] = inner
+    return slopes
 
 
-def _end_slope(near: float, far: float, delta_near: float, delta_far: float) -> float:
-    slope = ((2 * near + far) * delta_near - near * delta_far) / (near + far)
-    if slope * delta_near <= 0:
-        return 0.0
-    if delta_near * delta_far <= 0 and abs(slope) > 3 * abs(delta_near):
-        return 3 * delta_near
-    return slope
+def _end_slope(near: Any, far: Any, delta_near: Any, delta_far: Any) -> Any:  # noqa: ANN401 - numbers or knowns
+    slope, steepest = ((2 * near + far) * delta_near - near * delta_far) / (near + far), 3 * delta_near
+    turning = chosen((slope - steepest) * delta_near, steepest, slope)
+    return chosen(slope * delta_near, chosen(delta_near * delta_far, slope, turning), 0.0)
 
 
 def hermite(x: Array, y: Array, slopes: Array, at: Array) -> Array:
@@ -51,7 +51,7 @@ def hermite(x: Array, y: Array, slopes: Array, at: Array) -> Array:
     `x`, `y` and `slopes`: points and slopes [deg], [Pa], [Pa/deg]; `at`: abscissas between the first and the last
     point [deg].
     """
-    i = np.clip(np.searchsorted(x, at, side="right") - 1, 0, len(x) - 2)
+    i = _interval(x, at)
     h = x[i + 1] - x[i]
     return cubic_between((y[i], y[i + 1]), (slopes[i] * h, slopes[i + 1] * h), (at - x[i]) / h)  # type: ignore[no-any-return]
 
@@ -62,8 +62,13 @@ def hermite_slope(x: Array, y: Array, slopes: Array, at: Array) -> Array:
     `x`, `y` and `slopes`: points and slopes [deg], [Pa], [Pa/deg]; `at`: abscissas between the first and the last
     point [deg]. Source: fritsch_carlson_1980, eq. 2.
     """
-    i = np.clip(np.searchsorted(x, at, side="right") - 1, 0, len(x) - 2)
+    i = _interval(x, at)
     h = x[i + 1] - x[i]
     t = (at - x[i]) / h
     rise = (y[i + 1] - y[i]) / h
     return np.asarray(6 * t * (1 - t) * rise + slopes[i] * (1 - t) * (1 - 3 * t) + slopes[i + 1] * t * (3 * t - 2))
+
+
+def _interval(x: Array, at: Array) -> NDArray[np.intp]:
+    numbers = np.array([plain(one) for one in x], dtype=float) if x.dtype == object else x
+    return np.asarray(np.clip(np.searchsorted(numbers, at, side="right") - 1, 0, len(x) - 2))

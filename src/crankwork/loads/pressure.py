@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,15 +19,17 @@ from crankwork.loads.indicator import IndicatorDiagram, Segment
 _SAME_VOLUME = 1e-12
 
 
-def remembered_pressure(diagram: IndicatorDiagram, volume: Known, path: str = "gas") -> Known:
+def remembered_pressure(
+    diagram: IndicatorDiagram, volume: Known, path: str = "gas", retold: Callable[[], Known] | None = None
+) -> Known:
     """Return the pressure of a diagram as the laws that follow one another.
 
-    `path`: where a description states the diagram, `chambers.NAME` that of a chamber, `gas` and what follows of a
+    `retold` gives it as made of nothing but knowns. `path`: where a description states the diagram, `chambers.NAME` that of a chamber, `gas` and what follows of a
     cylinder.
     """
     laws = tuple(_law(diagram, segment, volume, path) for segment in diagram.segments)
     ends = [segment.end for segment in diagram.segments]
-    return Known(Pieces(ends, laws, diagram.breaks.tolist()), _of("diagram_pressure", path))
+    return Known(Pieces(ends, laws, diagram.breaks.tolist(), retold), _of("diagram_pressure", path))
 
 
 def _of(key: str, path: str, name: str = "") -> str:

@@ -12,7 +12,7 @@ from crankwork.working_cycle.calculated_cycle import Calculated, CalculatedCycle
 from crankwork.working_cycle.gas_exchange import constant_pressure
 from crankwork.working_cycle.heat_data import HeatReleaseData
 from crankwork.working_cycle.heat_release import HeatReleaseResult, heat_release
-from crankwork.working_cycle.rounding import Rounding, Timing, motored_diagram, rounded_diagram
+from crankwork.working_cycle.rounding import Rounding, Timing, motored_diagram, remembered_pressure, rounded_diagram
 from crankwork.working_cycle.theoretical_diagram import theoretical_diagram
 
 # A cylinder is known by its volume at a few crank angles. [deg]
@@ -40,11 +40,19 @@ class CornerPressure:
         notices = (*cycle.notices, ("cycle_speed", {}))
         if self.timing is None:
             return Calculated(sharp, cycle.memory, notices, sharp, (points, pieces))
-        found = rounded_diagram(_theory(cycle.corners), self.timing, self.rounding, volume_at, dead_centres)
+        found = rounded_diagram(_numbers(cycle.corners), self.timing, self.rounding, volume_at, dead_centres)
         key = "filling_factor.diagram"
         memory = {**cycle.memory, key: Known(Found(found.filling_factor, "integral", cycle.corners), key)}
         rounded = _remembering(found.diagram, cycle.corners)
         return Calculated(rounded, memory, (*notices, *found.notices), sharp, (found.points, found.pieces))
+
+    def remembered(self, volume: Known, dead_centres: tuple[float, float]) -> Known:
+        """Return the pressure over the crank angle, made of knowns alone, of the volume of a cylinder."""
+        timing = Timing(cycle=self.cycle.angle) if self.timing is None else self.timing
+        corners = self.cycle.corners
+        if self.timing is None and corners.psi.value:
+            raise TypeError("the ports of a sharp diagram")
+        return remembered_pressure(_theory(corners), timing, self.rounding, volume, dead_centres)
 
     def motored(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
         """Return the diagram of a cylinder in which nothing burns: expansion goes back along the compression line."""
@@ -52,7 +60,7 @@ class CornerPressure:
         one = self.cycle.corners
         corners = one._replace(p_z=one.p_c, p_b=one.p_a, n2=one.n1, rho=absent("cut_off", 1.0))
         if self.timing is not None:
-            theory = _theory(corners)
+            theory = _numbers(corners)
             drawn, diagram = motored_diagram(theory, self.timing, self.rounding, volume_at, dead_centres)
         else:
             drawn = theoretical_diagram(corners, self.cycle.angle, volume_at, dead_centres)
@@ -60,9 +68,13 @@ class CornerPressure:
         return Calculated(_remembering(diagram, corners), {}, (), drawn=drawn)
 
 
-def _theory(corners: Corners) -> dict[str, float]:
-    """Return the corners in numbers, without a burning at constant pressure where there is none. [SI]"""
-    return {name: one.value for name, one in corners._asdict().items() if name != "rho" or one.value > 1}
+def _theory(corners: Corners) -> dict[str, Known]:
+    """Return the corners by name, without a burning at constant pressure where there is none. [SI]"""
+    return {name: one for name, one in corners._asdict().items() if name != "rho" or one.value > 1}
+
+
+def _numbers(corners: Corners) -> dict[str, float]:
+    return {name: one.value for name, one in _theory(corners).items()}
 
 
 def _remembering(diagram: IndicatorDiagram, corners: Corners) -> IndicatorDiagram:

@@ -6,12 +6,18 @@ makes the three-point end slope the wanted one, lets it leave one law and join t
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import itertools
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
+from crankwork.formula.expression import Value
+from crankwork.formula.known import Known, KnownAngle, Pieces, is_known, plain
+from crankwork.kinematics.crank_grid import Array
+from crankwork.loads.between import cubic_between
+from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Law, Piece
 from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
 
@@ -25,8 +31,8 @@ class Named(NamedTuple):
     """A point by name: crank angle [deg], pressure [Pa]."""
 
     name: str
-    angle: float
-    pressure: float
+    angle: Value
+    pressure: Value
 
 
 @dataclass(frozen=True)
@@ -35,8 +41,8 @@ class Part:
 
     law: Law
     points: tuple[Named, ...]
-    slopes: tuple[float, float] = (0.0, 0.0)
-    exponent: float | None = None
+    slopes: tuple[Value, Value] = (0.0, 0.0)
+    exponent: Value | None = None
     reference: str | None = None
 
 
@@ -55,8 +61,7 @@ def written(
     left out.
     """
     points, pieces = dict(references), []
-    inside = [one for part in parts for one in _within(part, cycle)]
-    for part in sorted(inside, key=lambda one: one.points[0].angle):
+    for part in inside_cycle(parts, cycle):
         knots = _shaped(part) if part.law == "rounded" else part.points
         names = tuple(_placed(points, one) for one in knots)
         pieces.append(Piece(part.law, names, part.exponent, part.reference))
@@ -67,6 +72,52 @@ def written(
         foot = _placed(points, Named(f"{AUXILIARY}{last}", 0.0, before))
         pieces.insert(0, Piece("rounded", (foot, first)))
     return points, tuple(pieces)
+
+
+def inside_cycle(parts: Sequence[Part], cycle: float) -> list[Part]:
+    """Return parts from 0 to the end of the cycle, those without length left out."""
+    inside = [one for part in parts for one in _within(part, cycle)]
+    return sorted(inside, key=lambda one: plain(one.points[0].angle))
+
+
+def remembered(
+    parts: Sequence[Part], cycle: float, volume: Known, references: Mapping[str, tuple[Known, Known]]
+) -> Known:
+    """Return the pressure of parts made of knowns, every cubic between two knots a law of its own. [Pa]
+
+    `references`: pressure and volume of the states that polytropes pass through.
+    """
+    degrees, ends, laws = KnownAngle().degrees, list[Value](), list[Known]()
+    for part in inside_cycle(parts, cycle):
+        if part.law != "rounded":
+            ends.append(part.points[-1].angle)
+            is_level = part.law == "constant"
+            law = part.points[0].pressure if is_level else _on_polytrope(part, references, volume)
+            laws.append(law)
+            continue
+        knots = _shaped(part)
+        x, y = _columns(knots)
+        slopes = monotone_slopes(x, y)
+        for (x_i, y_i, s_i), (x_j, y_j, s_j) in itertools.pairwise(zip(x, y, slopes, strict=True)):
+            h = x_j - x_i
+            laws.append(cubic_between((y_i, y_j), (s_i * h, s_j * h), (degrees - x_i) / h))
+            ends.append(x_j)
+    return Known(Pieces([*ends[:-1], cycle], tuple(laws)), "diagram_pressure")
+
+
+def _columns(knots: Sequence[Named]) -> tuple[Array, Array]:
+    """Return angles and pressures of knots, of objects where they are knowns."""
+    columns = [[one.angle for one in knots], [one.pressure for one in knots]]
+    made = np.empty((2, len(knots)), dtype=object if is_known(*columns[0], *columns[1]) else float)
+    for row, column in zip(made, columns, strict=True):
+        for at, one in enumerate(column):
+            row[at] = one
+    return made[0], made[1]
+
+
+def _on_polytrope(part: Part, references: Mapping[str, tuple[Known, Known]], volume: Known) -> Known:
+    law: Known = polytropic_pressure(*references[part.reference or ""], volume, part.exponent)
+    return law
 
 
 def _placed(points: dict[str, DiagramPoint], one: Named) -> str:
@@ -87,7 +138,7 @@ def _is_same(point: DiagramPoint, one: Named) -> bool:
 
 def _within(part: Part, cycle: float) -> list[Part]:
     """Return a part moved into the cycle, in two if it crosses its end."""
-    start, end = part.points[0].angle, part.points[-1].angle
+    start, end = plain(part.points[0].angle), plain(part.points[-1].angle)
     if end - start < _SAME:
         return []
     turn = cycle * float(np.floor((start + _SAME) / cycle))
@@ -101,24 +152,24 @@ def _moved(part: Part, by: float, cycle: float) -> Part:
     """Return a part moved along the crank angle, the ends of the cycle hit exactly."""
     moved = [one._replace(angle=one.angle + by) for one in part.points]
     snapped = [
-        one._replace(angle=edge) if abs(one.angle - edge) < _SAME else one
+        one._replace(angle=edge) if abs(plain(one.angle) - edge) < _SAME else one
         for one in moved
-        for edge in [0.0 if one.angle < cycle / 2 else cycle]
+        for edge in [0.0 if plain(one.angle) < cycle / 2 else cycle]
     ]
     return Part(part.law, tuple(snapped), part.slopes, part.exponent, part.reference)
 
 
 def _halves(part: Part, cut: float) -> tuple[Part, Part]:
     """Return the parts before and after a crank angle, the same curve where it is cut."""
-    before = tuple(one for one in part.points if one.angle < cut - _SAME)
-    after = tuple(one for one in part.points if one.angle > cut + _SAME)
-    at = [one for one in part.points if abs(one.angle - cut) <= _SAME]
-    slope = 0.0
+    before = tuple(one for one in part.points if plain(one.angle) < cut - _SAME)
+    after = tuple(one for one in part.points if plain(one.angle) > cut + _SAME)
+    at = [one for one in part.points if abs(plain(one.angle) - cut) <= _SAME]
+    slope: Value = 0.0
     if part.law == "rounded":
         knots = _shaped(part)
-        x, y = np.array([one.angle for one in knots]), np.array([one.pressure for one in knots])
+        x, y = _columns(knots)
         curve, where = (x, y, monotone_slopes(x, y)), np.array([cut])
-        pressure, slope = float(hermite(*curve, where)[0]), float(hermite_slope(*curve, where)[0])
+        pressure, slope = hermite(*curve, where)[0], hermite_slope(*curve, where)[0]
     else:
         pressure = part.points[0].pressure
     middle = at[0] if at else Named(f"{AUXILIARY}0", cut, pressure)
@@ -137,7 +188,7 @@ def _shaped(part: Part) -> tuple[Named, ...]:
     return (points[0], start, *points[1:-1], end, points[-1])
 
 
-def _beside(end: Named, inner: Named, slope: float) -> Named:
+def _beside(end: Named, inner: Named, slope: Value) -> Named:
     """Return the point beside an end for which (2h0 + h1) d0 - h0 d1 = (h0 + h1) slope, d1 being the next chord."""
     whole = inner.angle - end.angle
     near, far = _BESIDE * whole, (1 - _BESIDE) * whole
@@ -146,17 +197,19 @@ def _beside(end: Named, inner: Named, slope: float) -> Named:
     return Named(f"{AUXILIARY}{end.name}{inner.name}", end.angle + near, end.pressure + near * chord)
 
 
-def _shaped_alone(start: Named, end: Named, slopes: tuple[float, float]) -> tuple[Named, ...]:
+def _shaped_alone(start: Named, end: Named, slopes: tuple[Value, Value]) -> tuple[Named, ...]:
     """Return two points with one more beside each, for both end slopes at once."""
     whole, rise = end.angle - start.angle, end.pressure - start.pressure
     near, far = _BESIDE, 1 - 2 * _BESIDE
-    # chords d0, d1, d2 in units of the whole rise over the whole angle
-    matrix = np.array([[near, far, near], [2 * near + far, -near, 0.0], [0.0, -near, 2 * near + far]])
-    right = np.array([rise, *(slope * (near + far) * whole for slope in slopes)])
-    first, _, last = np.linalg.solve(matrix, right)
+    # slopes of chords times the whole angle: near (first + last) + far middle = rise, (2 near + far) first - near
+    # middle = (near + far) slope at the start, and so at the end
+    at_start, at_end = (slope * (near + far) * whole / (2 * near + far) for slope in slopes)
+    spread = near / (2 * near + far)
+    middle = (rise - near * (at_start + at_end)) / (far + 2 * near * spread)
+    first, last = at_start + spread * middle, at_end + spread * middle
     return (
         start,
-        Named(f"{AUXILIARY}{start.name}{end.name}", start.angle + near * whole, start.pressure + near * float(first)),
-        Named(f"{AUXILIARY}{end.name}{start.name}", end.angle - near * whole, end.pressure - near * float(last)),
+        Named(f"{AUXILIARY}{start.name}{end.name}", start.angle + near * whole, start.pressure + near * first),
+        Named(f"{AUXILIARY}{end.name}{start.name}", end.angle - near * whole, end.pressure - near * last),
         end,
     )

@@ -12,11 +12,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from crankwork.formula.known import Known
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Segment, VolumeAt, solve_diagram
 from crankwork.working_cycle.calculated_cycle import Drawn, Notice
 from crankwork.working_cycle.gas_exchange import clipped
-from crankwork.working_cycle.rounded_pieces import without_auxiliary, written
+from crankwork.working_cycle.rounded_pieces import remembered, without_auxiliary, written
 from crankwork.working_cycle.rounding_corners import (
+    RememberedVolume,
     RoundedCorners,
     Rounding,
     Timing,
@@ -66,6 +68,17 @@ def rounded_diagram(
     points, pieces, diagram, filling = _at_level(corners, level)
     notices = (*_deviations(corners), *notices, *_unusual(corners, filling), *_above(corners, level))
     return RoundedDiagram(points, pieces, without_auxiliary(diagram), filling, level, notices)
+
+
+def remembered_pressure(
+    theory: Mapping[str, Known], timing: Timing, rounding: Rounding, volume: Known, dead_centres: tuple[float, float]
+) -> Known:
+    """Return the pressure of the rounded diagram as a column that is made of knowns alone; sharp without timing."""
+    corners = corners_of(theory, timing, rounding, RememberedVolume(volume), dead_centres)
+    level, _ = _peak_level(corners)
+    parts = [*compression_parts(corners), *burning_parts(corners, level), *exchange_parts(corners)]
+    states = {"~start": (theory["p_a"], corners.start_volume), "~burnt": (theory["p_z"], corners.burnt_volume)}
+    return remembered(parts, timing.cycle, volume, states)
 
 
 def motored_diagram(

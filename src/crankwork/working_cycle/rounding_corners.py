@@ -8,12 +8,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
 from crankwork.errors import CrankworkError
-from crankwork.kinematics.crank_grid import Array
+from crankwork.formula.expression import Value
+from crankwork.formula.known import Found, Known, chosen, plain
+from crankwork.formula.replay import replay
+from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.extremes import reached
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import VolumeAt
@@ -26,50 +29,85 @@ _RISING = (0.25, 0.5, 0.75)
 
 
 class RoundedCorners(NamedTuple):
-    """What all levels of the peak share: angles [deg], volumes [m3], polytropes."""
+    """What all levels of the peak share: angles [deg], volumes [m3], polytropes.
 
-    theory: Mapping[str, float]
+    Pressures, volumes and the angles that follow from them are numbers, or knowns, of which no number decides but for
+    what is refused.
+    """
+
+    theory: Mapping[str, Value]
     timing: Timing
     rounding: Rounding
-    volume_at: VolumeAt
+    volume_at: VolumeAt | RememberedVolume
     dead_centres: tuple[float, float]
     kind: Literal["petrol", "diesel", "motored"]
     start: float
     top: float
     bottom: float
     opens: float
-    clearance: float
-    start_volume: float
-    burnt_volume: float
+    clearance: Value
+    start_volume: Value
+    burnt_volume: Value
 
-    def compression(self, *angles: float) -> list[float]:
+    def compression(self, *angles: Value) -> list[Value]:
         """Return the pressures on the compression line. [Pa]"""
         return self._on((self.theory["p_a"], self.start_volume), self.theory["n1"], angles)
 
-    def expansion(self, *angles: float) -> list[float]:
+    def expansion(self, *angles: Value) -> list[Value]:
         """Return the pressures on the expansion line. [Pa]"""
         return self._on((self.theory["p_z"], self.burnt_volume), self.theory["n2"], angles)
 
-    def _on(self, state: tuple[float, float], exponent: float, angles: tuple[float, ...]) -> list[float]:
-        pressures: Array = polytropic_pressure(*state, self.volume_at(np.array(angles)), exponent)
-        return [float(one) for one in pressures]
+    def _on(self, state: tuple[Value, Value], exponent: Value, angles: tuple[Value, ...]) -> list[Value]:
+        return [polytropic_pressure(*state, volume, exponent) for volume in self.volumes(*angles)]
 
-    def slope(self, line: str, angle: float, step: float = 0.01) -> float:
+    def volumes(self, *angles: Value) -> list[Value]:
+        """Return the volumes at crank angles. [m3]"""
+        at = angles if isinstance(self.volume_at, RememberedVolume) else np.array(angles)
+        return self.volume_at(at).tolist()
+
+    def slope(self, line: str, angle: Value, step: float = 0.01) -> Value:
         """Return the slope of a polytrope by crank angle. [Pa/deg]"""
         on = self.compression if line == "compression" else self.expansion
         after, before = on(angle + step, angle - step)
         return (after - before) / (2 * step)
 
-    def angle_of_volume(self, volume: float) -> float:
+    def angle_of_volume(self, volume: Value) -> Value:
         """Return where the expansion reaches a volume. [deg]"""
+        if isinstance(self.volume_at, RememberedVolume):
+            return self.volume_at.reached(volume, self.top, self.bottom)
         return reached(self.volume_at, volume, self.top, self.bottom)
 
 
+@dataclass(frozen=True)
+class RememberedVolume:
+    """The volume of a cylinder at single crank angles, remembered: what `VolumeAt` is in numbers. [deg] -> [m3]"""
+
+    volume: Known
+
+    def _numbers(self, degrees: Array) -> Array:
+        return replay(self.volume, CrankGrid.from_degrees(degrees))
+
+    def __call__(self, degrees: Any) -> Any:  # noqa: ANN401 - of numbers and knowns
+        """Return the volumes at crank angles, an array of knowns."""
+        angles = [plain(one) for one in degrees]
+        volumes = self._numbers(np.array(angles, dtype=float))
+        found = np.empty(len(angles), dtype=object)
+        for place, one in enumerate(degrees):
+            by = one if isinstance(one, Known) else None
+            found[place] = Known(Found(volumes[place], "at", (self.volume,), angles[place], by))
+        return found
+
+    def reached(self, volume: Known, start: float, end: float) -> Known:
+        """Return where the volume is reached between two crank angles. [deg]"""
+        angle = reached(self._numbers, volume.value, start, end)
+        return Known(Found(angle, "reached", (self.volume,), angle, volume))
+
+
 def corners_of(
-    theory: Mapping[str, float],
+    theory: Mapping[str, Value],
     timing: Timing,
     rounding: Rounding,
-    volume_at: VolumeAt,
+    volume_at: VolumeAt | RememberedVolume,
     dead_centres: tuple[float, float],
 ) -> RoundedCorners:
     """Return what the corners of a theoretical diagram are made of."""
@@ -79,7 +117,7 @@ def corners_of(
     is_two_stroke = timing.cycle == 360.0
     start = dead_centres[1] + (max(timing.intake_closes, timing.exhaust_closes) if is_two_stroke else 0.0)
     volumes = volume_at(np.array([top, start]))
-    clearance, start_volume = (float(one) for one in volumes)
+    clearance, start_volume = volumes.tolist()
     rho = theory.get("rho", 1.0)
     return RoundedCorners(
         theory,
@@ -87,7 +125,7 @@ def corners_of(
         rounding,
         volume_at,
         dead_centres,
-        "diesel" if rho > 1 else "petrol",
+        "diesel" if plain(rho) > 1 else "petrol",
         start,
         top,
         bottom,
@@ -98,8 +136,8 @@ def corners_of(
     )
 
 
-def _check(theory: Mapping[str, float], timing: Timing) -> None:
-    missing = [name for name in ("p_r", "p_a", "p_z", "n1", "n2") if not theory.get(name, 0.0) > 0]
+def _check(theory: Mapping[str, Value], timing: Timing) -> None:
+    missing = [name for name in ("p_r", "p_a", "p_z", "n1", "n2") if not plain(theory.get(name, 0.0)) > 0]
     if missing:
         raise CrankworkError(Refusal("theory_missing", names=", ".join(missing)))
     if timing.cycle not in (360.0, 720.0):
@@ -142,8 +180,9 @@ def burning_parts(corners: RoundedCorners, level: float) -> list[Part]:
         ]
     peak = level * theory["p_z"]
     highest = Named("z_d" if corners.rounding.school == "ru" else "z'", top + corners.rounding.peak_angle, peak)
-    joined = max(highest.angle + corners.rounding.join_after, _falls_to(corners, _JOIN_BELOW * peak))
-    if joined >= corners.opens or highest.angle <= top:
+    joined, falls_to = highest.angle + corners.rounding.join_after, _falls_to(corners, _JOIN_BELOW * peak)
+    joined = chosen(falls_to - joined, falls_to, joined)
+    if plain(joined) >= corners.opens or highest.angle <= top:
         raise CrankworkError(Refusal("peak_late", angle=corners.rounding.peak_angle))
     opened_pressure, joined_pressure = corners.expansion(corners.opens, joined)
     opened, join = _opened(corners, opened_pressure), Named("~g", joined, joined_pressure)
@@ -155,29 +194,24 @@ def burning_parts(corners: RoundedCorners, level: float) -> list[Part]:
     ]
 
 
-def _opened(corners: RoundedCorners, pressure: float) -> Named:
+def _opened(corners: RoundedCorners, pressure: Value) -> Named:
     return Named("b'" if corners.timing.exhaust_opens else "b", corners.opens, pressure)
 
 
-def _rising(corners: RoundedCorners, peak: float) -> list[Named]:
+def _rising(corners: RoundedCorners, peak: Value) -> list[Named]:
     """Return the points from where the pressure leaves the compression line to c''."""
     left = compression_parts(corners)[-1].points[-1]
     angles = [left.angle + share * (corners.top - left.angle) for share in _RISING]
     compressed, *lines = corners.compression(corners.top, *angles)
     if corners.rounding.school == "ru":
         # with a small rise of pressure there is no room for the usual one
-        middle = min(corners.rounding.rise * compressed, (compressed + peak) / 2)
+        usual, half = corners.rounding.rise * compressed, (compressed + peak) / 2
+        middle = chosen(half - usual, usual, half)
     else:
         middle = compressed + (peak - compressed) / 3
-    if not compressed < middle < peak:
-        raise CrankworkError(
-            Refusal(
-                "middle_outside",
-                middle=middle / 1e6,
-                compressed=compressed / 1e6,
-                peak=peak / 1e6,
-            )
-        )
+    low, at, high = (plain(one) for one in (compressed, middle, peak))
+    if not low < at < high:
+        raise CrankworkError(Refusal("middle_outside", middle=at / 1e6, compressed=low / 1e6, peak=high / 1e6))
     # burning adds to the compression line as the square of the angle since it began
     between = [
         Named(f"~f{number}", angle, line + (middle - compressed) * share**2)
@@ -186,10 +220,13 @@ def _rising(corners: RoundedCorners, peak: float) -> list[Named]:
     return [left, *between, Named("c''", corners.top, middle)]
 
 
-def _falls_to(corners: RoundedCorners, pressure: float) -> float:
+def _falls_to(corners: RoundedCorners, pressure: Value) -> Value:
     """Return where the expansion line falls to a pressure. [deg]"""
-    ratio = (corners.theory["p_z"] / pressure) ** (1 / corners.theory["n2"])
-    return corners.angle_of_volume(corners.burnt_volume * ratio)
+    theory = corners.theory
+    # the law of the line with pressure and volume in each other's place
+    return corners.angle_of_volume(
+        polytropic_pressure(corners.burnt_volume, theory["p_z"], pressure, 1 / theory["n2"])
+    )
 
 
 def exchange_parts(corners: RoundedCorners) -> list[Part]:
@@ -227,7 +264,7 @@ def _blow_down(corners: RoundedCorners, points: tuple[Named, ...]) -> list[Part]
     if corners.kind == "motored":
         # nothing blows: the pressure may rise to that of the exhaust
         points = (points[0], points[-1])
-    pressures = [one.pressure for one in points]
+    pressures = [plain(one.pressure) for one in points]
     if points[-1].angle <= points[0].angle:
         return []
     if corners.kind != "motored" and any(after >= before for before, after in pairwise(pressures)):
