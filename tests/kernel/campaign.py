@@ -15,7 +15,7 @@ import signal
 import sys
 import time
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -77,14 +77,14 @@ def numbers(description: Description) -> Iterator[tuple[str, Sought]]:
 
 
 class Machine:
-    """A machine and some of its numbers that vary."""
+    """A machine and some of its numbers that vary: those named, or some drawn by chance."""
 
-    def __init__(self, description: Description, draw: random.Random) -> None:
+    def __init__(self, description: Description, draw: random.Random, named: Sequence[str] = ()) -> None:
         self.description = description
         self.stated = analyse(description.machine())
         self.fields: dict[str, Sought] = {}
         self.traced = [self.stated]
-        every = list(numbers(description))
+        every = [one for one in numbers(description) if not named or one[0] in named]
         draw.shuffle(every)
         for key, number in every:
             self.fields[key] = number
@@ -92,7 +92,7 @@ class Machine:
                 self.traced += [self.results({key: (number.now or 0) * (1 + sign * PART)}) for sign in (-1, 1)]
             except CrankworkError:
                 del self.fields[key]
-            if len(self.fields) == FIELDS:
+            if not named and len(self.fields) == FIELDS:
                 break
         self.now = np.array([one.now for one in self.fields.values()])
 
@@ -108,10 +108,11 @@ class Machine:
         return np.array([self.now, *moved])
 
 
-def compared(name: str, text: str, seed: int = 1) -> Comparison:
+def compared(name: str, text: str, seed: int = 1, named: Sequence[str] = ()) -> Comparison:
     """Compare what is compiled of a machine with analyses."""
     try:
-        machine = Machine(Description(text), random.Random(f"{name}:{seed}"))  # noqa: S311 - the same every time
+        drawn = random.Random(f"{name}:{seed}")  # noqa: S311 - the same every time
+        machine = Machine(Description(text), drawn, named)
     except CrankworkError as error:
         return Comparison(name, absent=str(error).splitlines()[0])
     if not machine.fields:
@@ -198,6 +199,7 @@ def main() -> int:
     parser.add_argument("files", nargs="*")
     parser.add_argument("--count", type=int, default=0)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--vary", type=lambda one: one.split(","), default=(), help="numbers by key, commas between")
     parser.add_argument("--arrays", action="store_true", help="do not compile the loops")
     parser.add_argument("--reasons", action="store_true", help="print why values are not compiled")
     asked = parser.parse_args()
@@ -215,7 +217,7 @@ def main() -> int:
     for name, text in jobs:
         signal.alarm(_SECONDS)
         try:
-            found = compared(name, text(), asked.seed)
+            found = compared(name, text(), asked.seed, asked.vary)
         except (Exception, TimeoutError) as error:  # noqa: BLE001 - counted and told
             found = Comparison(name, worst={"value": (np.inf, f"{type(error).__name__}: {error}")})
         signal.alarm(0)

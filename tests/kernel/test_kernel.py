@@ -247,8 +247,10 @@ def played(wanted, design, degrees, cycle):
             case "angle":
                 name, multiple, shift = one.detail
                 made[one.at] = getattr(CrankGrid.from_degrees(multiple * degrees + shift), name)
+            case "delayed" if not one.detail:
+                made[one.at] = operands[0]
             case "pieces":
-                ends, shift = one.detail
+                ends, shift = [end.stated for end in one.detail[0]], one.detail[1]
                 law = np.minimum(np.searchsorted(ends, (degrees + shift) % cycle), len(ends) - 1)
                 made[one.at] = (
                     np.choose(law, operands) if len(operands) < 32 else np.array(operands)[law, range(len(law))]

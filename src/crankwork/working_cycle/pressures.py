@@ -49,10 +49,7 @@ class CornerPressure:
     def remembered(self, volume: Known, dead_centres: tuple[float, float]) -> Known:
         """Return the pressure over the crank angle, made of knowns alone, of the volume of a cylinder."""
         timing = Timing(cycle=self.cycle.angle) if self.timing is None else self.timing
-        corners = self.cycle.corners
-        if self.timing is None and corners.psi.value:
-            raise TypeError("the ports of a sharp diagram")
-        return remembered_pressure(_theory(corners), timing, self.rounding, volume, dead_centres)
+        return remembered_pressure(_theory(self.cycle.corners), timing, self.rounding, volume, dead_centres)
 
     def motored(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
         """Return the diagram of a cylinder in which nothing burns: expansion goes back along the compression line."""

@@ -16,7 +16,7 @@ from crankwork.formula.known import Known
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Segment, VolumeAt, solve_diagram
 from crankwork.working_cycle.calculated_cycle import Drawn, Notice
 from crankwork.working_cycle.gas_exchange import clipped
-from crankwork.working_cycle.rounded_pieces import remembered, without_auxiliary, written
+from crankwork.working_cycle.rounded_pieces import Named, Part, remembered, without_auxiliary, written
 from crankwork.working_cycle.rounding_corners import (
     RememberedVolume,
     RoundedCorners,
@@ -75,8 +75,16 @@ def remembered_pressure(
 ) -> Known:
     """Return the pressure of the rounded diagram as a column that is made of knowns alone; sharp without timing."""
     corners = corners_of(theory, timing, rounding, RememberedVolume(volume), dead_centres)
+    exchange = exchange_parts(corners)
+    if theory["psi"].value and not timing.exhaust_opens:
+        # ports of which only the share of the stroke is known
+        shut = theory["epsilon"] * corners.clearance
+        opens, shuts = (RememberedVolume(volume).reached(shut, corners.top, one) for one in (corners.bottom, corners.bottom - 360.0))
+        corners = corners._replace(start=shuts, opens=opens, start_volume=shut)
+        ends = Named("e", opens, theory["p_a"]), Named("a", shuts + timing.cycle, theory["p_a"])
+        exchange = [Part("constant", ends)]
     level, _ = _peak_level(corners)
-    parts = [*compression_parts(corners), *burning_parts(corners, level), *exchange_parts(corners)]
+    parts = [*compression_parts(corners), *burning_parts(corners, level), *exchange]
     states = {"~start": (theory["p_a"], corners.start_volume), "~burnt": (theory["p_z"], corners.burnt_volume)}
     return remembered(parts, timing.cycle, volume, states)
 

@@ -41,10 +41,10 @@ class RoundedCorners(NamedTuple):
     volume_at: VolumeAt | RememberedVolume
     dead_centres: tuple[float, float]
     kind: Literal["petrol", "diesel", "motored"]
-    start: float
+    start: Value
     top: float
     bottom: float
-    opens: float
+    opens: Value
     clearance: Value
     start_volume: Value
     burnt_volume: Value
@@ -161,8 +161,9 @@ def compression_parts(corners: RoundedCorners) -> list[Part]:
     else:
         events.append(("c", corners.top))
     names, angles = zip(*events, strict=True)
-    if any(after <= before for before, after in pairwise(angles)):
-        raise CrankworkError(Refusal("events_crossed", names=list(names), angles=list(angles)))
+    numbers = [plain(one) for one in angles]
+    if any(after <= before for before, after in pairwise(numbers)):
+        raise CrankworkError(Refusal("events_crossed", names=list(names), angles=numbers))
     points = list(map(Named, names, angles, corners.compression(*angles)))
     return [Part("polytropic", pair, exponent=corners.theory["n1"], reference="~start") for pair in pairwise(points)]
 
@@ -182,7 +183,7 @@ def burning_parts(corners: RoundedCorners, level: float) -> list[Part]:
     highest = Named("z_d" if corners.rounding.school == "ru" else "z'", top + corners.rounding.peak_angle, peak)
     joined, falls_to = highest.angle + corners.rounding.join_after, _falls_to(corners, _JOIN_BELOW * peak)
     joined = chosen(falls_to - joined, falls_to, joined)
-    if plain(joined) >= corners.opens or highest.angle <= top:
+    if plain(joined) >= plain(corners.opens) or highest.angle <= top:
         raise CrankworkError(Refusal("peak_late", angle=corners.rounding.peak_angle))
     opened_pressure, joined_pressure = corners.expansion(corners.opens, joined)
     opened, join = _opened(corners, opened_pressure), Named("~g", joined, joined_pressure)
