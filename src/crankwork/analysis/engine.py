@@ -69,6 +69,10 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
     summary = {key: known.value for key, known in found.items()}
     if calculated is not None:
         summary |= _cycle_values(calculated.values)
+    memory = {**({} if calculated is None else _cycle_memory(calculated)), **solved.memory, **found}
+    if calculated is not None and "geometric_compression_ratio" in calculated.memory:
+        # that of the closed cylinder, as the summary has it
+        memory["compression_ratio"] = calculated.memory["compression_ratio"]
     results = Results(
         solved,
         grid,
@@ -78,7 +82,7 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
         solved.notices,
         GROUPS,
         allowed=_allowed(solved, summary),
-        memory={**({} if calculated is None else _cycle_memory(calculated)), **solved.memory, **found},
+        memory=memory,
     )
     if machine.engine is None:
         return results

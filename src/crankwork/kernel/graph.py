@@ -191,7 +191,8 @@ class Graph:
         made: dict[int, Value] = {}
         for one in in_order([column], into=lambda one: one.by_angle):
             if one.kind == "angle":
-                made[one.at] = self._of_angle(*one.detail, degrees)
+                function, multiple, shift = one.detail
+                made[one.at] = self._of_angle(function, degrees * float(multiple) + shift)
             elif one.by_angle:
                 if one.kind in ("pieces", "delayed"):
                     raise TypeError(f"{one!r} is none of one crank angle")
@@ -200,8 +201,7 @@ class Graph:
                 made[one.at] = one
         return made[column.at]
 
-    def _of_angle(self, function: str, multiple: int, shift: float, degrees: Value) -> Value:
-        at = degrees * float(multiple) + shift
+    def _of_angle(self, function: str, at: Value) -> Value:
         angle = at * (math.pi / 180)
         match function:
             case "within":
@@ -225,7 +225,7 @@ class Graph:
         numbers = [number(one) if one.is_constant else None for one in values]
         if name == "choose":
             # a number decides at once
-            of, first, second = values
+            _, first, second = values
             if numbers[0] is not None or first is second:
                 return first if numbers[0] is None or numbers[0] > 0 else second
             return self._made(name, values)

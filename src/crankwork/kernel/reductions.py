@@ -103,7 +103,9 @@ class Exact:
     def __init__(self, grid: Grid, polynomials: Polynomials) -> None:
         count = polynomials.nodes.size
         self._nodes, self._to_coefficients = polynomials.nodes, polynomials.coefficients
-        self._set(grid.edges[:, None], grid.weights)
+        self._half = np.radians(np.diff(grid.edges))[:, None] / 2
+        self._middle = np.radians(grid.edges[1:] + grid.edges[:-1])[:, None] / 2
+        self._weights = grid.weights
         # integral from the left end of a panel to each node, of values at the nodes
         integrals = [legendre.legint(one, lbnd=-1) for one in np.eye(count)]
         self._to_integrals = (
@@ -113,15 +115,14 @@ class Exact:
         self._slope = derivative
         self._bend = derivative @ derivative
 
-    def _set(self, edges: Array, weights: Array) -> None:
-        self._half = np.radians(np.diff(edges, axis=0)) / 2
-        self._middle = np.radians(edges[1:] + edges[:-1]) / 2
-        self._weights = weights
-
     def moved_to(self, edges: Array, weights: Array) -> Exact:
         """Return the same between edges that each design has elsewhere, shape (edges, lanes), (angles, lanes)."""
         found = copy.copy(self)
-        found._set(edges, weights)
+        vars(found).update(
+            _half=np.radians(np.diff(edges, axis=0)) / 2,
+            _middle=np.radians(edges[1:] + edges[:-1]) / 2,
+            _weights=weights,
+        )
         return found
 
     def panels(self, columns: Array) -> Array:
@@ -224,7 +225,9 @@ class Exact:
         by_field = legendre.legval(peaks.u, np.tensordot(self._slope, change, 1), tensor=False)
         is_corner = np.abs(slope) > _LEVEL * np.abs(own[1:]).sum(axis=0)
         with np.errstate(divide="ignore", invalid="ignore"):
-            return np.where(is_corner, 0.0, -by_field / bend * self._of(self._half, peaks.panel, np.arange(change.shape[-1])))
+            return np.where(
+                is_corner, 0.0, -by_field / bend * self._of(self._half, peaks.panel, np.arange(change.shape[-1]))
+            )
 
     @staticmethod
     def _of(panels: Array, panel: NDArray[np.intp], lane: NDArray[np.intp]) -> Array:

@@ -189,10 +189,7 @@ class Source:
         for one in taken:
             if one.by_angle and not one.by_design:
                 yield f"        t{one.at} = t[{self.plan.row_of_angle[one.at]}, j]"
-        for one in (one for one in loop.values if one.kind == "delayed"):
-            yield f"        b{one.at} = b[{self.columns(one.operands[0].at)}, p[{self.delays(one.detail)}, j]]"
-        for one in (one for one in loop.values if one.kind == "moved"):
-            yield f"        b{one.at} = b[{self.columns(one.detail.at)}, j]"
+        yield from self._read(loop)
         value_of = dict(zip((one.at for one in level.columns), loop.columns, strict=True))
         kept = [at for at in value_of if at in self.columns.of]
         for at in kept:
@@ -210,6 +207,14 @@ class Source:
                 yield self._step(place, word, _name(value_of[column.at], lane), lane)
 
         yield from self._over_lanes(8, lines)
+
+    def _read(self, loop: Loop) -> Iterator[str]:
+        """Yield where columns stand that were kept before."""
+        for one in loop.values:
+            if one.kind == "delayed":
+                yield f"        b{one.at} = b[{self.columns(one.operands[0].at)}, p[{self.delays(one.detail)}, j]]"
+            elif one.kind == "moved":
+                yield f"        b{one.at} = b[{self.columns(one.detail.at)}, j]"
 
     def _step(self, place: tuple[str, int], word: str, value: str, lane: str) -> str:
         """Return how a reduction goes on with the value at an angle."""

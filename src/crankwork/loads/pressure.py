@@ -22,9 +22,9 @@ _SAME_VOLUME = 1e-12
 def remembered_pressure(
     diagram: IndicatorDiagram, volume: Known, path: str = "gas", retold: Callable[[], Known] | None = None
 ) -> Known:
-    """Return the pressure of a diagram as the laws that follow one another.
+    """Return the pressure of a diagram as the laws that follow one another; `retold` gives it of nothing but knowns.
 
-    `retold` gives it as made of nothing but knowns. `path`: where a description states the diagram, `chambers.NAME` that of a chamber, `gas` and what follows of a
+    `path`: where a description states the diagram, `chambers.NAME` that of a chamber, `gas` and what follows of a
     cylinder.
     """
     laws = tuple(_law(diagram, segment, volume, path) for segment in diagram.segments)

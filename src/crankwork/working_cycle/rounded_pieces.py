@@ -133,7 +133,8 @@ def _placed(points: dict[str, DiagramPoint], one: Named) -> str:
 def _is_same(point: DiagramPoint, one: Named) -> bool:
     if point.angle is None or point.pressure is None or point.volume is not None:
         return False
-    return abs(point.angle - one.angle) < _SAME and abs(point.pressure - one.pressure) <= 1e-9 * abs(one.pressure)
+    is_near = abs(point.pressure - one.pressure) <= 1e-9 * abs(one.pressure)
+    return bool(is_near and abs(point.angle - one.angle) < _SAME)
 
 
 def _within(part: Part, cycle: float) -> list[Part]:

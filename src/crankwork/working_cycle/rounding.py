@@ -79,7 +79,9 @@ def remembered_pressure(
     if theory["psi"].value and not timing.exhaust_opens:
         # ports of which only the share of the stroke is known
         shut = theory["epsilon"] * corners.clearance
-        opens, shuts = (RememberedVolume(volume).reached(shut, corners.top, one) for one in (corners.bottom, corners.bottom - 360.0))
+        opens, shuts = (
+            RememberedVolume(volume).reached(shut, corners.top, one) for one in (corners.bottom, corners.bottom - 360.0)
+        )
         corners = corners._replace(start=shuts, opens=opens, start_volume=shut)
         ends = Named("e", opens, theory["p_a"]), Named("a", shuts + timing.cycle, theory["p_a"])
         exchange = [Part("constant", ends)]

@@ -62,8 +62,9 @@ class RoundedCorners(NamedTuple):
 
     def volumes(self, *angles: Value) -> list[Value]:
         """Return the volumes at crank angles. [m3]"""
-        at = angles if isinstance(self.volume_at, RememberedVolume) else np.array(angles)
-        return self.volume_at(at).tolist()
+        at: Any = angles if isinstance(self.volume_at, RememberedVolume) else np.array(angles)
+        found: list[Value] = self.volume_at(at).tolist()
+        return found
 
     def slope(self, line: str, angle: Value, step: float = 0.01) -> Value:
         """Return the slope of a polytrope by crank angle. [Pa/deg]"""
@@ -225,9 +226,7 @@ def _falls_to(corners: RoundedCorners, pressure: Value) -> Value:
     """Return where the expansion line falls to a pressure. [deg]"""
     theory = corners.theory
     # the law of the line with pressure and volume in each other's place
-    return corners.angle_of_volume(
-        polytropic_pressure(corners.burnt_volume, theory["p_z"], pressure, 1 / theory["n2"])
-    )
+    return corners.angle_of_volume(polytropic_pressure(corners.burnt_volume, theory["p_z"], pressure, 1 / theory["n2"]))
 
 
 def exchange_parts(corners: RoundedCorners) -> list[Part]:
