@@ -25,9 +25,12 @@ export class Film {
     this.data = data;
     this.svg = svg;
     const known = data.tracks.map(smooth);
+    /** Where every part is, also those that stand still. @type {Map<string, Tracks>} */
+    this.placed = new Map();
     this.parts = Object.entries(data.parts).flatMap(([name, own]) => {
       const values = Object.entries(own).map(([key, one]) => [key, Array.isArray(one) ? known[one[0]] : one]);
       const tracks = /** @type {Tracks} */ (Object.fromEntries(values));
+      this.placed.set(name, tracks);
       const group = svg.querySelector(`[data-part="${CSS.escape(name)}"]`);
       return group && Object.values(tracks).some(Array.isArray) ? [{ name, group, tracks }] : [];
     });
@@ -40,10 +43,27 @@ export class Film {
    */
   frame(angle) {
     const angles = this.data.angles;
-    const last = this.data.turns ? angles.length - 1 : angles.indexOf(Math.max(...angles));
+    const last = this.last;
     const step = angles.findIndex((one, k) => k > 0 && k <= last && one >= angle);
     if (step < 0) return last;
     return step - 1 + Math.max(0, (angle - angles[step - 1]) / (angles[step] - angles[step - 1] || 1));
+  }
+
+  /** The last frame on the way there. */
+  get last() {
+    const angles = this.data.angles;
+    return this.data.turns ? angles.length - 1 : angles.indexOf(Math.max(...angles));
+  }
+
+  /**
+   * Return where a part is in a frame. [mm]
+   * @param {string} name
+   * @param {number} frame
+   * @returns {[number, number] | undefined}
+   */
+  place(name, frame) {
+    const part = this.placed.get(name);
+    return part && [along(part.x, frame, 0), along(part.y, frame, 0)];
   }
 
   /** Draw the paths of joints; of an engine those of piston pins and of the middles of rods. */
@@ -68,19 +88,26 @@ export class Film {
 
   /** @param {number} frame */
   draw(frame) {
-    const first = Math.floor(frame);
-    const share = frame - first;
-    const at = (/** @type {Track | undefined} */ track, /** @type {number} */ usual) => {
-      if (!Array.isArray(track)) return track ?? usual;
-      const next = track[Math.min(first + 1, track.length - 1)];
-      return track[first] + share * (next - track[first]);
-    };
+    const at = (/** @type {Track | undefined} */ track, /** @type {number} */ usual) => along(track, frame, usual);
     for (const { group, tracks } of this.parts) {
       const [x, y, turn, stretch] = [at(tracks.x, 0), at(tracks.y, 0), at(tracks.turn, 0), at(tracks.stretch, 1)];
       group.setAttribute("transform", `translate(${x} ${y})rotate(${turn})scale(${stretch} 1)`);
       if (tracks.tint !== undefined) group.setAttribute("opacity", String(at(tracks.tint, 1)));
     }
   }
+}
+
+/**
+ * Return the value of a track in a frame, or between two.
+ * @param {Track | undefined} track
+ * @param {number} frame
+ * @param {number} usual
+ */
+function along(track, frame, usual) {
+  if (!Array.isArray(track)) return track ?? usual;
+  const first = Math.floor(frame);
+  const next = track[Math.min(first + 1, track.length - 1)];
+  return track[first] + (frame - first) * (next - track[first]);
 }
 
 /**

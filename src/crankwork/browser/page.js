@@ -1,9 +1,10 @@
 // The page: one cursor over the machine, the diagrams and the tables.
+import { bar } from "./bar.js";
 import { Cursor } from "./cursor.js";
 import { Explanation } from "./explain.js";
 import { Figure } from "./figure.js";
-import { choose, Film, Motion } from "./machine.js";
-import { told, unpacked } from "./numbers.js";
+import { choose, Film } from "./machine.js";
+import { unpacked } from "./numbers.js";
 import { showTables } from "./table.js";
 
 /**
@@ -56,44 +57,4 @@ function reachWide() {
     if (one.scrollWidth > one.clientWidth) one.tabIndex = 0;
     else one.removeAttribute("tabindex");
   }
-}
-
-/**
- * Bind what stands on the bar: the button that starts and stops, the slider, its number, the choice of colours.
- * @param {Cursor} cursor
- * @param {import("./numbers.js").Column} axis
- * @param {number} seconds
- * @param {boolean} turns
- */
-function bar(cursor, axis, seconds, turns) {
-  const slider = /** @type {HTMLInputElement | null} */ (document.getElementById("slider"));
-  const shown = document.getElementById("shown");
-  const play = /** @type {HTMLButtonElement | null} */ (document.getElementById("play"));
-  if (!slider || !shown || !play) return undefined;
-  const motion = new Motion(cursor, play, seconds, turns);
-  slider.max = String(cursor.rows.length - 1);
-  slider.addEventListener("input", () => cursor.snap(cursor.rows[Number(slider.value)]));
-  cursor.follow(() => {
-    slider.value = String(cursor.row);
-    const text = told(axis, cursor.row);
-    shown.innerHTML = `${axis.symbol} = ${text}`;
-    slider.setAttribute("aria-valuetext", text);
-  });
-  document.addEventListener("keydown", (event) => {
-    const target = /** @type {Element} */ (event.target);
-    if (event.ctrlKey || event.altKey || event.metaKey || target.closest("input, select, button, summary, [role=button]")) return;
-    if (event.key === "ArrowRight") cursor.step(1);
-    else if (event.key === "ArrowLeft") cursor.step(-1);
-    else if (event.key === "Home") cursor.snap(cursor.rows[0]);
-    else if (event.key === " " && !target.closest("a")) play.click();
-    else return;
-    event.preventDefault();
-  });
-  const look = document.getElementById("look");
-  look?.addEventListener("click", () => {
-    const root = document.documentElement;
-    const dark = root.dataset.look ? root.dataset.look === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
-    root.dataset.look = dark ? "light" : "dark";
-  });
-  return motion;
 }

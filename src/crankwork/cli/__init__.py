@@ -39,6 +39,7 @@ from crankwork.cli.options import (
 )
 from crankwork.cli.spoken import SpokenGroup, language_asked, placeholder
 from crankwork.cli.studies import map_, optimise, sweep
+from crankwork.cli.studio import studio
 from crankwork.errors import CrankworkError, DoubtfulError, InputError
 from crankwork.locale import Language, Refusal, say, told
 from crankwork.progress import bar, with_progress
@@ -294,7 +295,7 @@ def run(  # noqa: PLR0913 - one argument per option of the command
     doubt(file, results, language)
 
 
-for one in (report, page, draw, sweep, optimise, map_):
+for one in (report, page, draw, sweep, optimise, map_, studio):
     commands.add_command(one)
 
 

@@ -117,5 +117,11 @@ def origins(path: str | Path, overrides: Sequence[str | Setting] = ()) -> Callab
 
     The value is compared with what stands there: what differs follows from it and does not stand there itself.
     """
-    source = files.read_text(Path(path))
-    return _File(source, str(path), settings_of(overrides)).origin
+    return origins_of(files.read_text(Path(path)), str(path), overrides)
+
+
+def origins_of(
+    source: str, name: str = "text", overrides: Sequence[str | Setting] = ()
+) -> Callable[[str, Iterable[float]], Origin]:
+    """Return what `origins` does, of a text."""
+    return _File(source, name, settings_of(overrides)).origin

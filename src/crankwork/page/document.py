@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+from collections.abc import Container
 from typing import Any
 
 from crankwork.analysis import Results
@@ -34,7 +35,7 @@ def page(results: Results, language: Language = "en", place: Place | None = None
     for name, one in drawn.items():
         # without script a figure is called by its title
         data["figures"][name]["told"] = described(one)
-    data["tables"] = _tables(results, data, language)
+    data["tables"] = tables(results, data, language)
     keys = dict.fromkeys([*(key for one in data["tables"] for key in one["k"]), *results.summary])
     data["memories"] = Memories(results, language, place or (lambda path, _: path), data["columns"]).of(keys)
     title = html.escape(results.machine.title or "crankwork")
@@ -50,7 +51,7 @@ def page(results: Results, language: Language = "en", place: Place | None = None
         *_contents(drawn, language),
         "</div><main>",
         *_figures(drawn, language),
-        *_values(results, set(data["memories"]["keys"]), language),
+        *values(results, set(data["memories"]["keys"]), language),
         *_table_room(language),
         f"<footer><p>{html.escape(provenance(results))}</p></footer></main>",
         *_explanation_room(language),
@@ -65,7 +66,8 @@ def _machine(film: MovingDrawing, language: Language) -> list[str]:
     return [f'<section id="machine" aria-label="{words("machine", language)}">{drawn}</section>']
 
 
-def _tables(results: Results, data: dict[str, Any], language: Language) -> list[dict[str, Any]]:
+def tables(results: Results, data: dict[str, Any], language: Language) -> list[dict[str, Any]]:
+    """Return which columns each table of a page has."""
     found = []
     for name, keys in results.tables.items():
         known = [key for key in keys if key in data["columns"]]
@@ -88,10 +90,11 @@ def _figures(drawn: dict[str, Drawing], language: Language) -> list[str]:
     return [*parts, "</div></section>"]
 
 
-def _values(results: Results, explained: set[str], language: Language) -> list[str]:
+def values(results: Results, explained: Container[str], language: Language) -> list[str]:
+    """Return single values, checks and notices as a section; `explained`: those that a click explains."""
     parts = [f'<section id="values"><h2>{words("values", language)}</h2><div class="values">']
-    for subject, values in by_subject(results).items():
-        rows = [_value_row(results, key, one, language, is_explained=key in explained) for key, one in values.items()]
+    for subject, found in by_subject(results).items():
+        rows = [_value_row(results, key, one, language, is_explained=key in explained) for key, one in found.items()]
         parts += _small_table(say(f"subjects.{subject}", language), rows)
     if results.checks:
         parts += _small_table(

@@ -36,12 +36,9 @@ _DRAWN = (
 
 
 @in_own_units
-def comparison_figure(results: Results, language: Language, *, per_area: bool = False) -> Drawing | None:
-    """Return the figure of a comparison: quantities by each name, and below each its differences; none without any."""
-    compared = results.compared
-    keys = [] if compared is None else _drawn_keys(compared)
-    if compared is None or not keys:
-        return None
+def comparison_figure(results: Results, compared: Comparison, language: Language, *, per_area: bool = False) -> Drawing:
+    """Return the figure of a comparison: quantities by each name, and below each its differences."""
+    keys = drawn_keys(compared)
     # two machines have pistons of their own
     per_area = per_area and compared.is_of_methods
     cycle = results.machine.cycle
@@ -80,7 +77,7 @@ def comparison_figure(results: Results, language: Language, *, per_area: bool = 
     return paper.drawing(say("figures.comparison", language), language)
 
 
-def _drawn_keys(compared: Comparison) -> list[str]:
+def drawn_keys(compared: Comparison) -> list[str]:
     """Return the columns that a figure shows; of several links or sliders the last, which others move."""
     found = []
     for kinds in _DRAWN:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 
 from crankwork.locale import say
@@ -62,16 +62,6 @@ _LOADS: dict[str, Draw] = {
     "main_wear": main_wear,
 }
 _OF_FORCES = ("piston_forces", "rod_forces", "crankpin_forces", "crankpin_polar", *_LOADS)
-
-
-def engine_figures(drawn: Drawn, only: str = "") -> Iterator[tuple[str, Drawing]]:
-    """Yield the figures of one cylinder, and of a machine that has an engine those of all its cylinders.
-
-    `only`: the name of the one that is wanted.
-    """
-    for name, draw in engine_pictures(drawn).items():
-        if only in ("", name):
-            yield name, draw()
 
 
 def engine_pictures(drawn: Drawn) -> dict[str, Callable[[], Drawing]]:

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Collection
+from functools import partial
+
 from crankwork.analysis import Results
 from crankwork.quantities import Language
-from crankwork.report.comparison_figure import comparison_figure
-from crankwork.report.engine_figure_list import engine_figures
+from crankwork.report.comparison_figure import comparison_figure, drawn_keys
+from crankwork.report.engine_figure_list import engine_pictures
 from crankwork.report.figure_data import drawn_from
 from crankwork.report.language import for_readers
-from crankwork.report.linkage_figures import linkage_figures
-from crankwork.report.turning_figures import turning_figures
+from crankwork.report.linkage_figures import linkage_pictures
+from crankwork.report.turning_figures import turning_pictures
 from crankwork.show.scene import Drawing
 from crankwork.show.svg import svg
 from crankwork.show.theme import Theme
@@ -32,12 +35,25 @@ def figures(
 
 @for_readers
 def drawings(
-    results: Results, *, language: Language = "en", per_area: bool = False, only: str = ""
+    results: Results, *, language: Language = "en", per_area: bool = False, only: Collection[str] | None = None
 ) -> dict[str, Drawing]:
-    """Return the figures of a machine as drawings; `only`: the name of the one that is wanted, others may be there."""
-    shown = linkage_figures if results.machine.turning is None else turning_figures
-    found = shown(results, language=language)
+    """Return the figures of a machine as drawings; `only`: the names of those that are wanted."""
+    listed = _pictures(results, language, per_area=per_area)
+    return {name: draw() for name, draw in listed.items() if only is None or name in only}
+
+
+@for_readers
+def figure_names(results: Results, language: Language = "en") -> list[str]:
+    """Return the names of the figures of a machine, of which none is drawn."""
+    return list(_pictures(results, language, per_area=False))
+
+
+def _pictures(results: Results, language: Language, *, per_area: bool) -> dict[str, Callable[[], Drawing]]:
+    """Return what draws each figure of a machine."""
+    listed = linkage_pictures if results.machine.turning is None else turning_pictures
+    found = listed(results, language)
     if "piston_displacement" in results.columns:
-        found |= engine_figures(drawn_from(results, language, per_area=per_area), only)
-    compared = comparison_figure(results, language, per_area=per_area)
-    return found if compared is None else {**found, "comparison": compared}
+        found |= engine_pictures(drawn_from(results, language, per_area=per_area))
+    if results.compared is not None and drawn_keys(results.compared):
+        found["comparison"] = partial(comparison_figure, results, results.compared, language, per_area=per_area)
+    return found

@@ -43,11 +43,6 @@ _AFTER = 1e-6
 Pictures = dict[str, Callable[[], Drawing]]
 
 
-def linkage_figures(results: Results, *, language: Language = "en") -> dict[str, Drawing]:
-    """Return the figures of a linkage by name; those for which nothing is known are left out."""
-    return {name: draw() for name, draw in linkage_pictures(results, language).items()}
-
-
 def linkage_pictures(results: Results, language: Language) -> Pictures:
     """Return what draws each figure of a linkage where it is placed."""
     style = Style(language, (), results_method(results, language), results.period)

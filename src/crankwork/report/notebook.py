@@ -61,11 +61,11 @@ class Picture:
 def picture(results: Results, name: str, language: Language) -> Picture:
     """Return a figure by name."""
     # a notebook that draws nothing does not load it
-    from crankwork.report.figures import drawings  # noqa: PLC0415
+    from crankwork.report.figures import drawings, figure_names  # noqa: PLC0415
 
-    found = drawings(results, language=language, only=name)
+    found = drawings(results, language=language, only=(name,))
     if name not in found:
-        known = list(drawings(results, language=language))
+        known = figure_names(results, language)
         near = difflib.get_close_matches(name, known, n=3, cutoff=0.5) or known
         raise UnknownKeyError(Refusal("figure_unknown", name=name[:60], known=", ".join(near)))
     return Picture(found[name], name)

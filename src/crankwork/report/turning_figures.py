@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
@@ -26,17 +28,17 @@ _MOST_TICKS = 12
 _MOST_NAMED = 24
 
 
-def turning_figures(results: Results, *, language: Language = "en") -> dict[str, Drawing]:
-    """Return the figures of a shaft by name; those for which nothing is known are left out."""
+def turning_pictures(results: Results, language: Language) -> dict[str, Callable[[], Drawing]]:
+    """Return what draws each figure of a shaft."""
     style, drawn = Style(language, (), results_method(results, language)), _shown(turning_diagram(results))
     if drawn is None:
         loops = results.listings.get("energy_extremes")
-        return {} if loops is None else {"loops": _loops(loops.columns["kinetic_energy_change"], style)}
-    figures = {"turning_moment": _diagram(results, drawn, style)}
+        return {} if loops is None else {"loops": partial(_loops, loops.columns["kinetic_energy_change"], style)}
+    found: dict[str, Callable[[], Drawing]] = {"turning_moment": partial(_diagram, results, drawn, style)}
     if "crank_speed" in results.columns:
         speed = results.columns_at(drawn.degrees, ["crank_speed"])["crank_speed"]
-        figures["speed"] = speed_curve(drawn.degrees, speed, style)
-    return figures
+        found["speed"] = partial(speed_curve, drawn.degrees, speed, style)
+    return found
 
 
 def _shown(drawn: TurningDiagram | None) -> TurningDiagram | None:

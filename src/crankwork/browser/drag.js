@@ -1,0 +1,160 @@
+// Two drags of the machine, never confused: along its freedom, and, with Shift held, of a dimension.
+/** @typedef {import("./machine.js").Film} Film */
+/** @typedef {import("./cursor.js").Cursor} Cursor */
+
+/**
+ * A dimension that is dragged: its field, the joints at its ends, its number and unit,
+ * and the power of the distance by which the number goes.
+ * @typedef {{key: string, from: string, to: string, power: number, number: number, unit: string}} Handle
+ */
+
+// from a point of the machine, where the pointer still means it [of its width]
+const CLOSE = 0.08;
+
+export class Drag {
+  /**
+   * @param {HTMLElement} room where the machine stands
+   * @param {{film: () => Film | undefined, cursor: () => Cursor | undefined, handles: () => Handle[],
+   *   sized: (key: string, value: string, ends: boolean) => void, said: (text: string) => void}} tells
+   */
+  constructor(room, tells) {
+    this.room = room;
+    this.tells = tells;
+    /** @type {string} */
+    this.part = "";
+    /** @type {{handle: Handle, from: [number, number], length: number, text: string} | undefined} */
+    this.size = undefined;
+    room.addEventListener("pointerdown", (event) => this.start(event));
+    room.addEventListener("pointermove", (event) => this.move(event));
+    for (const end of ["pointerup", "pointercancel"]) room.addEventListener(end, () => this.end());
+  }
+
+  /**
+   * Return where an event lies on the drawing. [mm]
+   * @param {MouseEvent} event
+   * @returns {[number, number]}
+   */
+  place(event) {
+    const matrix = this.tells.film()?.svg.getScreenCTM();
+    if (!matrix) return [0, 0];
+    const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(matrix.inverse());
+    return [x, y];
+  }
+
+  /** @param {PointerEvent} event */
+  start(event) {
+    const film = this.tells.film();
+    if (event.button || !film || !(/** @type {Element} */ (event.target)).closest("svg")) return;
+    const at = this.place(event);
+    if (event.shiftKey) this.startSize(film, at);
+    else this.startFreedom(film, at);
+    if (!this.part && !this.size) return;
+    event.preventDefault();
+    this.room.setPointerCapture(event.pointerId);
+    this.tells.cursor()?.stop();
+  }
+
+  /**
+   * @param {Film} film
+   * @param {[number, number]} at
+   */
+  startFreedom(film, at) {
+    const now = film.frame(this.angle(film));
+    let best = CLOSE * film.svg.viewBox.baseVal.width;
+    for (const one of film.parts) {
+      if (!/^(joint\.|link\.|side\.(piston|rod|crank))/.test(one.name) || !moves(one.tracks)) continue;
+      const place = film.place(one.name, now);
+      const apart = place ? Math.hypot(place[0] - at[0], place[1] - at[1]) : Infinity;
+      if (apart < best) [best, this.part] = [apart, one.name];
+    }
+  }
+
+  /**
+   * @param {Film} film
+   * @param {[number, number]} at
+   */
+  startSize(film, at) {
+    const now = film.frame(this.angle(film));
+    let best = CLOSE * film.svg.viewBox.baseVal.width;
+    for (const handle of this.tells.handles()) {
+      const [from, to] = [handle.from, handle.to].map((one) => film.place(one, now));
+      if (!from || !to) continue;
+      const apart = beside(at, from, to);
+      if (apart >= best) continue;
+      best = apart;
+      this.size = { handle, from, length: Math.hypot(to[0] - from[0], to[1] - from[1]), text: "" };
+    }
+  }
+
+  /** @param {PointerEvent} event */
+  move(event) {
+    const film = this.tells.film();
+    if (!film) return;
+    const at = this.place(event);
+    if (this.size) this.resize(at);
+    else if (this.part) this.turn(film, at);
+  }
+
+  /**
+   * Go to the frame, not far from the one that is seen, in which the part is nearest to the pointer.
+   * @param {Film} film
+   * @param {[number, number]} at
+   */
+  turn(film, at) {
+    const { angles, degrees, turns } = film.data;
+    const now = film.frame(this.angle(film));
+    const last = film.last;
+    let [best, nearest] = [Infinity, now];
+    for (let k = -16; k <= 16; k += 1) {
+      const frame = turns ? (now + k / 2 + last) % last : Math.min(Math.max(now + k / 2, 0), last);
+      const place = film.place(this.part, frame);
+      if (!place) return;
+      const apart = Math.hypot(place[0] - at[0], place[1] - at[1]) + Math.abs(k) * 1e-3;
+      if (apart < best) [best, nearest] = [apart, frame];
+    }
+    const first = Math.floor(nearest);
+    const angle = angles[first] + (nearest - first) * ((angles[Math.min(first + 1, last)] ?? angles[first]) - angles[first]);
+    this.tells.cursor()?.move(angle / degrees);
+  }
+
+  /** @param {[number, number]} at */
+  resize(at) {
+    if (!this.size) return;
+    const { handle, from, length } = this.size;
+    const number = handle.number * (Math.hypot(at[0] - from[0], at[1] - from[1]) / length) ** handle.power;
+    const text = `${Number(number.toPrecision(3))}${handle.unit ? ` ${handle.unit}` : ""}`;
+    if (text === this.size.text) return;
+    this.size.text = text;
+    this.tells.said(`${handle.key}: ${Number(handle.number.toPrecision(6))} → ${text}`);
+    this.tells.sized(handle.key, text, false);
+  }
+
+  end() {
+    if (this.size?.text) this.tells.sized(this.size.handle.key, this.size.text, true);
+    this.tells.said("");
+    this.part = "";
+    this.size = undefined;
+  }
+
+  /** @param {Film} film */
+  angle(film) {
+    return (this.tells.cursor()?.at ?? 0) * film.data.degrees;
+  }
+}
+
+/** @param {import("./machine.js").Tracks} tracks */
+function moves(tracks) {
+  return Array.isArray(tracks.x) || Array.isArray(tracks.y);
+}
+
+/**
+ * Return how far a point lies from a line between two others.
+ * @param {number[]} at
+ * @param {number[]} from
+ * @param {number[]} to
+ */
+function beside(at, from, to) {
+  const [x, y] = [to[0] - from[0], to[1] - from[1]];
+  const share = Math.min(Math.max(((at[0] - from[0]) * x + (at[1] - from[1]) * y) / (x * x + y * y || 1), 0), 1);
+  return Math.hypot(at[0] - from[0] - share * x, at[1] - from[1] - share * y);
+}

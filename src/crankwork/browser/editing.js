@@ -1,0 +1,53 @@
+// One machine file, whoever changes it: its text, and one entry of its history for each gesture.
+
+/** @typedef {{name: string, text: string}} Entry */
+
+const LONGEST = 200;
+
+export class Editing {
+  /** @param {(editing: Editing) => void} changed */
+  constructor(changed) {
+    this.changed = changed;
+    /** @type {Entry[]} */
+    this.entries = [];
+    this.at = -1;
+    this.text = "";
+  }
+
+  /**
+   * Take a text that a gesture has made, which may go on.
+   * @param {string} text
+   */
+  take(text) {
+    this.text = text;
+    this.changed(this);
+  }
+
+  /**
+   * End a gesture: what it has made is one entry.
+   * @param {string} name
+   */
+  commit(name) {
+    if (this.entries[this.at]?.text === this.text) return;
+    this.entries = [...this.entries.slice(0, this.at + 1), { name, text: this.text }].slice(-LONGEST);
+    this.at = this.entries.length - 1;
+    this.changed(this);
+  }
+
+  /** What would be undone, and done again. */
+  get names() {
+    return [this.at > 0 ? this.entries[this.at].name : "", this.entries[this.at + 1]?.name ?? ""];
+  }
+
+  /**
+   * Go an entry back or on; return whether there is one.
+   * @param {number} by
+   */
+  step(by) {
+    const entry = this.entries[this.at + by];
+    if (!entry) return false;
+    this.at += by;
+    this.take(entry.text);
+    return true;
+  }
+}

@@ -1,0 +1,164 @@
+// The machine file as a form: a field for each number, a slider where it is one, what may be added.
+
+/**
+ * A field: key, name and meaning, what stands in it; a choice has options, a number what a slider goes by.
+ * @typedef {{key: string, name: string, value: string, means?: string, options?: string[], number?: number, unit?: string,
+ *   low?: number, high?: number, whole?: boolean}} Row
+ */
+
+/** @typedef {{path: string, means: string, rows: Row[], more: Row[]}} Group */
+
+/**
+ * What a form tells: a field as typed, whether its gesture goes on; a field that goes; one that is looked at.
+ * @typedef {{typed: (key: string, value: string, ends: boolean) => void, gone: (key: string) => void}} Tells
+ */
+
+export class Form {
+  /**
+   * @param {HTMLElement} room
+   * @param {Record<string, string>} words
+   * @param {Tells} tells
+   */
+  constructor(room, words, tells) {
+    this.room = room;
+    this.words = words;
+    this.tells = tells;
+    this.shape = "";
+    /** The field whose slider is held. */
+    this.held = "";
+  }
+
+  /** @param {Group[]} groups */
+  show(groups) {
+    const shape = JSON.stringify(groups.map(({ path, rows, more }) => [path, rows.map(({ key, options }) => [key, options]), more.map(({ key }) => key)]));
+    if (shape !== this.shape) this.build(groups);
+    this.shape = shape;
+    for (const row of groups.flatMap((group) => group.rows)) this.fill(row);
+  }
+
+  /** @param {Group[]} groups */
+  build(groups) {
+    const active = /** @type {HTMLElement | null} */ (document.activeElement)?.dataset.of;
+    this.room.replaceChildren(...groups.map((group) => this.group(group)));
+    if (active) this.field(active)?.focus();
+  }
+
+  /** @param {string} key */
+  field(key) {
+    return /** @type {HTMLInputElement | HTMLSelectElement | null} */ (this.room.querySelector(`[data-of="${CSS.escape(key)}"]`));
+  }
+
+  /** @param {Group} group */
+  group(group) {
+    const made = document.createElement("fieldset");
+    const legend = made.appendChild(document.createElement("legend"));
+    legend.textContent = group.path || this.words.whole;
+    legend.title = group.means;
+    made.append(...group.rows.map((row) => this.row(row)));
+    if (group.more.length) {
+      const more = made.appendChild(document.createElement("select"));
+      more.className = "more";
+      more.setAttribute("aria-label", `${this.words.more} ${group.path}`);
+      more.append(new Option(this.words.more, ""), ...group.more.map((one) => new Option(one.name, one.key)));
+      more.addEventListener("change", () => {
+        const one = group.more.find(({ key }) => key === more.value);
+        if (one) this.tells.typed(one.key, one.value, true);
+      });
+    }
+    return made;
+  }
+
+  /** @param {Row} row */
+  row(row) {
+    const made = document.createElement("div");
+    made.className = "field";
+    const label = made.appendChild(document.createElement("label"));
+    label.textContent = row.name;
+    label.title = row.means ?? "";
+    const id = `field-${row.key}`;
+    label.htmlFor = id;
+    const input = row.options ? document.createElement("select") : document.createElement("input");
+    if (input instanceof HTMLSelectElement) input.append(...(row.options ?? []).map((one) => new Option(one, one)));
+    input.id = id;
+    input.dataset.of = row.key;
+    made.append(input);
+    input.addEventListener("change", () => this.tells.typed(row.key, input.value, true));
+    if (row.number !== undefined) made.append(this.slider(row));
+    const gone = document.createElement("button");
+    gone.className = "gone";
+    gone.textContent = "×";
+    gone.setAttribute("aria-label", `${this.words.without} ${row.key}`);
+    gone.addEventListener("click", () => this.tells.gone(row.key));
+    made.append(gone);
+    if (row.means) {
+      const means = made.appendChild(document.createElement("small"));
+      means.textContent = row.means;
+      means.id = `means-${row.key}`;
+      input.setAttribute("aria-describedby", means.id);
+    }
+    return made;
+  }
+
+  /** @param {Row} row */
+  slider(row) {
+    const slider = document.createElement("input");
+    slider.type = "range";
+    slider.dataset.slides = row.key;
+    slider.setAttribute("aria-label", `${row.name}${row.unit ? `, ${row.unit}` : ""}`);
+    slider.addEventListener("input", () => {
+      this.held = row.key;
+      const text = `${slider.value}${slider.dataset.unit ? ` ${slider.dataset.unit}` : ""}`;
+      const field = this.field(row.key);
+      if (field) field.value = text;
+      this.tells.typed(row.key, text, false);
+    });
+    slider.addEventListener("change", () => {
+      this.held = "";
+      const field = this.field(row.key);
+      if (field) this.tells.typed(row.key, field.value, true);
+    });
+    return slider;
+  }
+
+  /** @param {Row} row */
+  fill(row) {
+    const field = this.field(row.key);
+    if (field && this.held !== row.key && (field !== document.activeElement || field instanceof HTMLSelectElement)) field.value = row.value;
+    const slider = /** @type {HTMLInputElement | null} */ (this.room.querySelector(`[data-slides="${CSS.escape(row.key)}"]`));
+    if (!slider || this.held === row.key || row.number === undefined) return;
+    const [low, high, step] = reach(row.number, row.low ?? -Infinity, row.high ?? Infinity, row.whole ?? false);
+    [slider.min, slider.max, slider.step] = [low, high, step].map(String);
+    slider.value = String(row.number);
+    slider.dataset.unit = row.unit ?? "";
+  }
+
+  /**
+   * Mark the fields that are refused.
+   * @param {{key: string, text: string}[]} refusals
+   */
+  blame(refusals) {
+    for (const one of /** @type {NodeListOf<HTMLElement>} */ (this.room.querySelectorAll("[data-of]"))) {
+      const own = refusals.find(({ key }) => key && (key === one.dataset.of || key.startsWith(`${one.dataset.of}.`) || key.startsWith(`${one.dataset.of}[`)));
+      one.toggleAttribute("aria-invalid", Boolean(own));
+      if (own) one.setAttribute("aria-invalid", "true");
+      one.title = own?.text ?? "";
+    }
+  }
+}
+
+/**
+ * Return from where to where a slider goes, and its steps: from half of a number to double, within what it may be.
+ * @param {number} number
+ * @param {number} low
+ * @param {number} high
+ * @param {boolean} whole
+ */
+export function reach(number, low, high, whole) {
+  const size = Math.abs(number) || Math.min(1, Math.abs(high), Math.abs(low) || Infinity);
+  const ends = number > 0 ? [number / 2, number * 2] : number < 0 ? [number * 2, number / 2] : [-size, size];
+  const step = whole ? 1 : 10 ** Math.floor(Math.log10(size) - 2);
+  // ends that are steps too
+  const from = Math.max(Math.ceil(ends[0] / step - 1e-9) * step, low);
+  const to = Math.min(Math.floor(ends[1] / step + 1e-9) * step, high);
+  return [from, to, step].map((one) => Number(one.toPrecision(9)));
+}

@@ -1,0 +1,75 @@
+// Variants that were pinned: their curves dashed behind those of now, at the scales of now; what values differ by.
+import { Curve } from "./curves.js";
+
+/** @typedef {import("./figure.js").FigureData} FigureData */
+
+/** @typedef {{text: string, summary: Record<string, number>, curves: Record<string, {name: string, d: string, plot: import("./curves.js").Plot}[]>}} Pinned */
+
+/** How many there may be. */
+export const MOST_PINS = 4;
+
+/**
+ * Return the curves of the figures that are seen, to be kept.
+ * @param {Iterable<SVGSVGElement>} figures
+ * @param {Record<string, FigureData>} data
+ */
+export function curvesOf(figures, data) {
+  /** @type {Pinned["curves"]} */
+  const found = {};
+  for (const svg of figures) {
+    const name = svg.dataset.figure ?? "";
+    const plots = data[name]?.plots ?? [];
+    const paths = /** @type {SVGPathElement[]} */ ([...svg.querySelectorAll("path[data-curve]:not(.ghost)")]);
+    found[name] = paths.flatMap((path) => {
+      const { plot } = new Curve(path, plots);
+      return plot && path.dataset.curve !== "legend" ? [{ name: path.dataset.curve ?? "", d: path.getAttribute("d") ?? "", plot }] : [];
+    });
+  }
+  return found;
+}
+
+/**
+ * Draw the curves of a variant behind those of now, where their quantities stand on the same graph.
+ * @param {SVGSVGElement} svg
+ * @param {Pinned} pinned
+ * @param {FigureData} data
+ */
+export function haunt(svg, pinned, data) {
+  for (const { name, d, plot } of pinned.curves[svg.dataset.figure ?? ""] ?? []) {
+    const now = data.plots.find((one) => one.t[0] === plot.t[0] && one.t[1] === plot.t[1]);
+    if (!now) continue;
+    const [across, right] = onto(plot.x, now.x, plot.box[0], plot.box[2], now.box[0], now.box[2]);
+    const [down, below] = onto([plot.y[1], plot.y[0]], [now.y[1], now.y[0]], plot.box[1], plot.box[3], now.box[1], now.box[3]);
+    const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
+    path.setAttribute("d", d);
+    path.setAttribute("class", "ghost");
+    path.dataset.curve = name;
+    path.setAttribute("transform", `matrix(${across} 0 0 ${down} ${right} ${below})`);
+    svg.prepend(path);
+  }
+}
+
+/**
+ * Return factor and shift that take a place of one scale to that of another.
+ * @param {number[]} then ends of the scale that the place is told by
+ * @param {number[]} now
+ * @param {number} start where that scale begins [mm]
+ * @param {number} length
+ * @param {number} first
+ * @param {number} wide
+ */
+function onto(then, now, start, length, first, wide) {
+  const unit = ((then[1] - then[0]) / length) * (wide / (now[1] - now[0]));
+  return [unit, first + ((then[0] - now[0]) * wide) / (now[1] - now[0]) - start * unit];
+}
+
+/**
+ * Return what a value differs by from that of a variant, in per cent.
+ * @param {number} now
+ * @param {number | undefined} then
+ */
+export function differs(now, then) {
+  if (then === undefined || !then || Math.abs(now - then) < 5e-4 * Math.abs(then)) return "";
+  const percent = (100 * (now - then)) / Math.abs(then);
+  return `${percent > 0 ? "+" : "−"}${Math.abs(percent).toPrecision(2)} %`;
+}

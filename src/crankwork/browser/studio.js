@@ -1,0 +1,506 @@
+// The studio: a machine file as form and as text, the machine, its diagrams, its values; all of one document.
+import { bar } from "./bar.js";
+import { Cursor } from "./cursor.js";
+import { Drag } from "./drag.js";
+import { Editing } from "./editing.js";
+import { Editor } from "./editor.js";
+import { Explanation } from "./explain.js";
+import { Figure } from "./figure.js";
+import { Form } from "./form.js";
+import { choose, Film } from "./machine.js";
+import { unpacked } from "./numbers.js";
+import { curvesOf, differs, haunt, MOST_PINS } from "./pins.js";
+import { Talk } from "./talk.js";
+
+/** @typedef {import("./talk.js").Answer} Answer */
+/** @typedef {import("./talk.js").Question} Question */
+
+/**
+ * @template {HTMLElement} T
+ * @param {string} id
+ * @returns {T}
+ */
+function room(id) {
+  return /** @type {T} */ (document.getElementById(id));
+}
+
+class StudioPage {
+  constructor() {
+    /** @type {Record<string, string>} */
+    this.words = JSON.parse(room("words").textContent ?? "{}");
+    /** @type {string[]} */
+    this.wanted = [];
+    /** @type {import("./pins.js").Pinned[]} */
+    this.pins = [];
+    /** @type {Cursor | undefined} */
+    this.cursor = undefined;
+    /** @type {Film | undefined} */
+    this.film = undefined;
+    /** @type {Answer} */
+    this.seen = {};
+    this.reads = false;
+    this.kept = 0;
+    this.path = "";
+    this.barText = room("bar").innerHTML;
+    this.editing = new Editing((editing) => this.edited(editing));
+    this.editor = new Editor(room("source"), room("lines"), (text, ends) => this.typed(text, ends));
+    this.form = new Form(room("form"), this.words, {
+      typed: (key, value, ends) => this.set(key, value, ends),
+      gone: (key) => this.talk.ask({ do: "without", key, named: `− ${key}` }),
+    });
+    this.drag = new Drag(room("film"), {
+      film: () => this.film,
+      cursor: () => this.cursor,
+      handles: () => this.seen.handles ?? [],
+      sized: (key, value, ends) => this.set(key, value, ends),
+      said: (text) => this.chip(text),
+    });
+    this.bind();
+    document.documentElement.classList.add("live");
+    this.talk = new Talk(() => this.editing.text, (answer, question) => this.heard(answer, question), (open) => this.notice(open ? "" : this.words.lost));
+  }
+
+  /** @param {Editing} editing */
+  edited(editing) {
+    sessionStorage.setItem("text", editing.text);
+    this.editor.show(editing.text);
+    const [undo, redo] = editing.names;
+    for (const [id, name] of [["undo", undo], ["redo", redo]]) {
+      const button = /** @type {HTMLButtonElement} */ (room(id));
+      button.disabled = !name;
+      button.title = name;
+    }
+  }
+
+  /**
+   * @param {string} key
+   * @param {string} value
+   * @param {boolean} ends
+   */
+  set(key, value, ends) {
+    this.talk.ask({ do: "set", fields: { [key]: value }, figures: this.wanted, reads: this.reads, named: ends ? `${key} = ${value}` : "" });
+  }
+
+  /**
+   * @param {string} text
+   * @param {boolean} ends
+   */
+  typed(text, ends) {
+    this.editing.text = text;
+    sessionStorage.setItem("text", text);
+    if (ends) this.editing.commit(this.words.text);
+    this.show();
+  }
+
+  show() {
+    this.talk.ask({ do: "show", figures: this.wanted, reads: this.reads });
+  }
+
+  /**
+   * Take a text that comes from elsewhere.
+   * @param {string} text
+   * @param {string} name
+   */
+  open(text, name) {
+    this.wanted = [];
+    this.form.shape = "";
+    this.editing.take(text);
+    this.editing.commit(name);
+    this.show();
+  }
+
+  /**
+   * @param {Answer} answer
+   * @param {Question | undefined} question
+   */
+  heard(answer, question) {
+    if (answer.n === undefined) {
+      // what this page had when it was left comes before the file
+      const own = sessionStorage.getItem("text");
+      this.path = answer.path ?? "";
+      room("save").title = this.path;
+      if (this.editing.at < 0) this.open(own ?? answer.text ?? "", this.words.open);
+      else this.show();
+      return;
+    }
+    if (question?.do === "explain" && answer.memories) return this.explain(answer);
+    if (question?.do === "save") return this.saved(answer);
+    if (question?.do === "disk") return this.disk(answer);
+    if (answer.text !== undefined) this.editing.take(answer.text);
+    if (question?.named) this.editing.commit(String(question.named));
+    if (answer.form) this.form.show(answer.form);
+    this.refused(answer.refusals ?? []);
+    this.named(answer.named);
+    document.body.classList.toggle("stale", !answer.data);
+    if (answer.data) this.draw(answer);
+    const told = answer.refusals?.[0]?.text ?? answer.doubt ?? "";
+    if (room("told").textContent !== told) room("told").textContent = told;
+  }
+
+  /** @param {{key: string, text: string, line: number}[]} refusals */
+  refused(refusals) {
+    this.form.blame(refusals);
+    this.editor.blame(refusals.map(({ line }) => line));
+    room("refusals").replaceChildren(
+      ...refusals.map(({ text, line }) => {
+        const item = document.createElement("li");
+        const button = item.appendChild(document.createElement("button"));
+        button.textContent = text;
+        button.addEventListener("click", () => {
+          this.tab("text");
+          this.editor.go(line || 1);
+        });
+        return item;
+      }),
+    );
+  }
+
+  /**
+   * Ask whether files may be read that a text from elsewhere names.
+   * @param {string[] | undefined} names
+   */
+  named(names) {
+    if (!names?.length) return;
+    this.notice(`${this.words.named} ${names.join(", ")}`, this.words.allow, () => {
+      this.reads = true;
+      this.show();
+    });
+  }
+
+  /**
+   * Say something above all, with one way out.
+   * @param {string} text
+   * @param {string} way
+   * @param {() => void} go
+   */
+  notice(text, way = "", go = () => {}) {
+    const place = room("notice");
+    place.hidden = !text;
+    place.textContent = text;
+    if (!way) return;
+    const button = place.appendChild(document.createElement("button"));
+    button.textContent = way;
+    button.addEventListener("click", () => {
+      place.hidden = true;
+      go();
+    });
+  }
+
+  /** @param {Answer} answer */
+  draw(answer) {
+    this.seen = answer;
+    const { data } = answer;
+    const columns = Object.fromEntries(Object.entries(data.columns).map(([key, one]) => [key, unpacked(/** @type {any} */ (one))]));
+    const axis = (columns[data.axis] = unpacked(data.rows));
+    room("title").textContent = answer.title || "crankwork";
+    document.title = answer.title || "crankwork";
+    this.follow(axis, data);
+    this.machine(answer.film, data.film);
+    this.figures(answer, columns);
+    this.values(answer);
+    this.columns = columns;
+  }
+
+  /**
+   * Bind the bar to the rows of now; the place on it stays.
+   * @param {import("./numbers.js").Column} axis
+   * @param {any} data
+   */
+  follow(axis, data) {
+    const { cursor } = this;
+    const same = cursor && cursor.rows.length === axis.values.length && cursor.rows.every((one, k) => one === axis.values[k]);
+    if (cursor && same) {
+      cursor.followers.length = this.kept;
+    } else {
+      const was = cursor?.at;
+      const runs = cursor?.runs;
+      cursor?.stop();
+      const own = room("bar");
+      own.innerHTML = this.barText;
+      this.cursor = new Cursor(axis.values);
+      this.motion = bar(this.cursor, axis, data.film?.seconds ?? 4, data.film?.turns ?? true);
+      this.kept = this.cursor.followers.length;
+      if (was !== undefined) this.cursor.move(was);
+      if (data.film && (runs ?? !matchMedia("(prefers-reduced-motion: reduce)").matches)) this.motion?.start();
+    }
+  }
+
+  /**
+   * @param {string} drawn
+   * @param {any} data
+   */
+  machine(drawn, data) {
+    const own = room("film");
+    const states = [...own.querySelectorAll("input, select")].map((one) => [one.id || /** @type {HTMLElement} */ (one).dataset.choice, one]);
+    const open = own.querySelector("details")?.open;
+    own.innerHTML = drawn;
+    for (const [name, was] of states) {
+      const now = own.querySelector(`#${CSS.escape(String(name))}, [data-choice="${CSS.escape(String(name))}"]`);
+      if (was instanceof HTMLInputElement && now instanceof HTMLInputElement) now.checked = was.checked;
+      if (was instanceof HTMLSelectElement && now instanceof HTMLSelectElement && now.options[was.selectedIndex]) now.selectedIndex = was.selectedIndex;
+    }
+    const details = own.querySelector("details");
+    if (details && open) details.open = true;
+    const svg = own.querySelector("svg");
+    this.film = svg && data && this.cursor ? new Film(svg, data, this.cursor) : undefined;
+    if (this.film && this.motion) choose(this.film, this.motion);
+  }
+
+  /**
+   * @param {Answer} answer
+   * @param {Record<string, import("./numbers.js").Column>} columns
+   */
+  figures(answer, columns) {
+    const own = /** @type {HTMLElement} */ (room("diagrams").querySelector(".figures"));
+    const names = Object.keys(answer.figures);
+    this.wanted = names;
+    /** @type {Map<string, Element>} */
+    const there = new Map([...own.children].map((one) => [/** @type {HTMLElement} */ (one).dataset.name ?? "", one]));
+    own.replaceChildren(...names.map((name) => there.get(name) ?? this.frame(name, answer.names[name])));
+    for (const [k, name] of names.entries()) this.figure(/** @type {HTMLElement} */ (own.children[k]), name, answer, columns);
+    const add = /** @type {HTMLSelectElement} */ (room("add"));
+    const others = Object.entries(answer.names).filter(([name]) => !names.includes(name));
+    add.replaceChildren(new Option(this.words.add, ""), ...others.map(([name, title]) => new Option(String(title), name)));
+  }
+
+  /**
+   * @param {string} name
+   * @param {string} title
+   */
+  frame(name, title) {
+    const made = document.createElement("figure");
+    made.dataset.name = name;
+    const close = document.createElement("button");
+    close.className = "gone";
+    close.textContent = "×";
+    close.setAttribute("aria-label", `${this.words.without} ${title}`);
+    close.addEventListener("click", () => {
+      this.wanted = this.wanted.filter((one) => one !== name);
+      made.remove();
+      this.show();
+    });
+    const drawn = document.createElement("div");
+    const caption = document.createElement("figcaption");
+    caption.textContent = title;
+    made.append(close, drawn, caption);
+    return made;
+  }
+
+  /**
+   * @param {HTMLElement} frame
+   * @param {string} name
+   * @param {Answer} answer
+   * @param {Record<string, import("./numbers.js").Column>} columns
+   */
+  figure(frame, name, answer, columns) {
+    const drawn = /** @type {HTMLElement} */ (frame.querySelector("div"));
+    const before = drawn.querySelector("svg");
+    const off = [...drawn.querySelectorAll('[aria-pressed="false"]')].map((one) => one.textContent);
+    const view = before?.classList.contains("near") ? before.getAttribute("viewBox") : null;
+    const focused = before === document.activeElement;
+    drawn.innerHTML = answer.figures[name];
+    const svg = drawn.querySelector("svg");
+    if (!svg || !this.cursor) return;
+    for (const one of this.pins) haunt(svg, one, answer.data.figures[name]);
+    new Figure(svg, answer.data.figures[name], columns, answer.data.axis, this.cursor);
+    if (view) svg.setAttribute("viewBox", view);
+    svg.classList.toggle("near", Boolean(view));
+    for (const one of svg.querySelectorAll("[aria-pressed]")) if (off.includes(one.textContent)) one.dispatchEvent(new Event("click"));
+    if (focused) svg.focus();
+  }
+
+  /** @param {Answer} answer */
+  values(answer) {
+    const own = room("results");
+    const told = [...(answer.doubt ? [answer.doubt] : []), ...answer.notices];
+    const [met, all] = answer.checks;
+    own.innerHTML = answer.values;
+    const head = document.createElement("p");
+    head.textContent = `${answer.method} · ${this.words.checks} ${met}/${all}`;
+    own.prepend(head);
+    for (const text of told.slice(0, answer.doubt ? 1 : 0)) own.prepend(Object.assign(document.createElement("p"), { className: "doubt", textContent: text }));
+    for (const button of /** @type {NodeListOf<HTMLElement>} */ (own.querySelectorAll("[data-key]"))) {
+      const key = button.dataset.key ?? "";
+      const pinned = this.pins[this.pins.length - 1];
+      const change = pinned ? differs(answer.summary[key], pinned.summary[key]) : "";
+      if (change) button.after(Object.assign(document.createElement("ins"), { textContent: ` ${change}` }));
+      button.addEventListener("click", () => this.talk.ask({ do: "explain", key }));
+    }
+  }
+
+  /** @param {Answer} answer */
+  explain(answer) {
+    if (!this.cursor || !this.columns) return;
+    const shown = new Explanation(room("explanation"), answer.memories, this.columns, this.columns[this.seen.data.axis].symbol, this.cursor);
+    shown.explain(answer.key);
+  }
+
+  /** @param {string} text */
+  chip(text) {
+    const chip = room("chip");
+    chip.hidden = !text;
+    chip.textContent = text;
+  }
+
+  /** @param {Answer} answer */
+  saved(answer) {
+    if (answer.saved) return this.notice("");
+    if (answer.conflict) {
+      this.notice(`${answer.conflict}: ${this.words.conflict}`, this.words.anyway, () => this.talk.ask({ do: "save", anyway: true }));
+    } else if (answer.refusals) this.download("machine.toml", new Blob([this.editing.text]));
+  }
+
+  /** @param {Answer} answer */
+  disk(answer) {
+    if (answer.text !== undefined) this.open(answer.text, this.words.reread);
+    else if (answer.changed) this.notice(`${this.path}: ${this.words.changed}`, this.words.reread, () => this.talk.ask({ do: "disk", take: true }));
+  }
+
+  /** @param {string} name */
+  tab(name) {
+    for (const one of ["form", "text"]) {
+      room(one).hidden = one !== name;
+      const tab = room(`${one}-tab`);
+      tab.setAttribute("aria-selected", String(one === name));
+      tab.tabIndex = one === name ? 0 : -1;
+    }
+  }
+
+  /**
+   * @param {string} name
+   * @param {Blob} data
+   */
+  download(name, data) {
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(data);
+    link.download = name;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  }
+
+  /** @param {string} name */
+  async export(name) {
+    this.notice(this.words.working);
+    const answer = await fetch(`export${location.search}`, { method: "POST", body: JSON.stringify({ text: this.editing.text, name, reads: this.reads }) });
+    if (answer.ok) {
+      this.notice("");
+      this.download(name, await answer.blob());
+    } else this.notice(await answer.text());
+  }
+
+  /** Return the text as one word, as the command line opens it. */
+  async shared() {
+    const squeezed = new Blob([this.editing.text]).stream().pipeThrough(new CompressionStream("deflate"));
+    const bytes = new Uint8Array(await new Response(squeezed).arrayBuffer());
+    const letters = Array.from(bytes, (one) => String.fromCharCode(one)).join("");
+    return `crankwork:${btoa(letters).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "")}`;
+  }
+
+  pin() {
+    if (!this.seen.data) return;
+    const svgs = /** @type {NodeListOf<SVGSVGElement>} */ (room("diagrams").querySelectorAll("svg.drawing"));
+    const pinned = { text: this.editing.text, summary: this.seen.summary, curves: curvesOf(svgs, this.seen.data.figures) };
+    this.pins = [...this.pins, pinned].slice(-MOST_PINS);
+    this.listPins();
+    this.draw(this.seen);
+  }
+
+  /** Let each variant that is pinned be taken again or let go. */
+  listPins() {
+    const own = room("pins");
+    own.replaceChildren(
+      ...this.pins.flatMap((one, k) => {
+        const take = document.createElement("button");
+        take.textContent = String(k + 1);
+        take.setAttribute("aria-label", `${this.words.pinned} ${k + 1}`);
+        take.addEventListener("click", () => this.open(one.text, `${this.words.pinned} ${k + 1}`));
+        const gone = document.createElement("button");
+        gone.textContent = "×";
+        gone.setAttribute("aria-label", `${this.words.without} ${this.words.pinned} ${k + 1}`);
+        gone.addEventListener("click", () => {
+          this.pins = this.pins.filter((other) => other !== one);
+          this.listPins();
+          this.draw(this.seen);
+        });
+        return [take, gone];
+      }),
+    );
+  }
+
+  bind() {
+    const on = (/** @type {string} */ id, /** @type {() => void} */ act) => room(id).addEventListener("click", act);
+    on("undo", () => this.editing.step(-1) && this.show());
+    on("redo", () => this.editing.step(1) && this.show());
+    on("save", () => this.talk.ask({ do: "save" }));
+    on("pin", () => this.pin());
+    on("share", async () => {
+      const word = await this.shared();
+      await navigator.clipboard?.writeText(word).catch(() => {});
+      this.notice(`${this.words.copied} ${word}`);
+    });
+    for (const name of ["form", "text"]) on(`${name}-tab`, () => this.tab(name));
+    this.tab("form");
+    room("description").querySelector("[role=tablist]")?.addEventListener("keydown", (event) => {
+      const key = /** @type {KeyboardEvent} */ (event).key;
+      if (key !== "ArrowLeft" && key !== "ArrowRight") return;
+      const next = room("form").hidden ? "form" : "text";
+      this.tab(next);
+      room(`${next}-tab`).focus();
+    });
+    this.bindChoices();
+    document.addEventListener("keydown", (event) => {
+      if (!(event.ctrlKey || event.metaKey) || event.altKey || event.target === room("source")) return;
+      const key = event.key.toLowerCase();
+      if (key === "z") room(event.shiftKey ? "redo" : "undo").click();
+      else if (key === "y") room("redo").click();
+      else if (key === "s") room("save").click();
+      else return;
+      event.preventDefault();
+    });
+    addEventListener("focus", () => this.path && this.talk.ask({ do: "disk" }));
+    document.addEventListener("paste", (event) => {
+      const word = event.clipboardData?.getData("text").trim() ?? "";
+      const inside = /** @type {Element} */ (event.target).closest("input, textarea");
+      if (!word.startsWith("crankwork:") || inside) return;
+      event.preventDefault();
+      this.take({ do: "shared", word });
+    });
+  }
+
+  /** @param {Question} question a text from elsewhere, whose files are not read unasked */
+  take(question) {
+    this.reads = false;
+    this.wanted = [];
+    this.form.shape = "";
+    this.talk.ask({ ...question, figures: [], named: this.words.open });
+  }
+
+  bindChoices() {
+    const chosen = (/** @type {string} */ id, /** @type {(value: string) => void} */ act, stays = false) => {
+      const select = /** @type {HTMLSelectElement} */ (room(id));
+      select.addEventListener("change", () => {
+        const { value } = select;
+        if (!stays) select.value = "";
+        if (value) act(value);
+      });
+    };
+    chosen("template", (name) => this.take({ do: "template", name }));
+    chosen("export", (name) => void this.export(name));
+    chosen("language", (language) => location.assign(`/?lang=${language}`), true);
+    chosen("add", (name) => {
+      this.wanted = [...this.wanted, name];
+      this.show();
+    });
+    const open = /** @type {HTMLInputElement} */ (room("open"));
+    open.addEventListener("change", async () => {
+      const file = open.files?.[0];
+      if (file) {
+        this.reads = false;
+        this.open(await file.text(), file.name);
+      }
+      open.value = "";
+    });
+  }
+}
+
+new StudioPage();

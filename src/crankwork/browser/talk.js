@@ -1,0 +1,65 @@
+// What the studio asks of the calculation: one question under way, the newest of those that wait.
+
+/** @typedef {{do: string, fields?: Record<string, string>, [key: string]: unknown}} Question */
+/** @typedef {{n?: number, text?: string, [key: string]: any}} Answer */
+
+export class Talk {
+  /**
+   * @param {() => string} text what stands in the file when a question goes out
+   * @param {(answer: Answer, question: Question | undefined) => void} heard
+   * @param {(open: boolean) => void} state
+   */
+  constructor(text, heard, state) {
+    this.text = text;
+    this.heard = heard;
+    this.state = state;
+    this.number = 0;
+    /** @type {Question | undefined} */
+    this.asked = undefined;
+    /** @type {Question[]} */
+    this.waiting = [];
+    this.open();
+  }
+
+  open() {
+    const { protocol, host, search } = location;
+    this.socket = new WebSocket(`${protocol === "https:" ? "wss" : "ws"}://${host}/talk${search}`);
+    this.socket.addEventListener("open", () => this.state(true));
+    this.socket.addEventListener("message", (event) => this.answered(JSON.parse(event.data)));
+    this.socket.addEventListener("close", () => {
+      this.state(false);
+      if (this.asked) this.waiting.unshift(this.asked);
+      this.asked = undefined;
+      setTimeout(() => this.open(), 1000);
+    });
+  }
+
+  /**
+   * Ask; what changes the same thing as the one before that waits takes its place.
+   * @param {Question} question
+   */
+  ask(question) {
+    const last = this.waiting[this.waiting.length - 1];
+    if (question.do === "set" && last?.do === "set") this.waiting.pop();
+    if (question.do === "show") this.waiting = this.waiting.filter((one) => one.do !== "show");
+    const fields = question.do === "set" && last?.do === "set" ? { ...last.fields, ...question.fields } : question.fields;
+    this.waiting.push({ ...question, fields });
+    this.next();
+  }
+
+  next() {
+    if (this.asked || this.socket?.readyState !== WebSocket.OPEN) return;
+    this.asked = this.waiting.shift();
+    if (!this.asked) return;
+    this.number += 1;
+    this.socket.send(JSON.stringify({ text: this.text(), ...this.asked, n: this.number }));
+  }
+
+  /** @param {Answer} answer */
+  answered(answer) {
+    const question = answer.n === this.number ? this.asked : undefined;
+    if (answer.n !== undefined) this.asked = undefined;
+    this.heard(answer, question);
+    this.next();
+  }
+}

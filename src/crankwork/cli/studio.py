@@ -1,0 +1,42 @@
+"""The command that opens the studio."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from crankwork.cli.options import LANG
+from crankwork.cli.spoken import SpokenCommand
+from crankwork.errors import CrankworkError, MissingExtraError, missing_extras
+from crankwork.locale import Language, Refusal
+
+_MODULES = {"starlette": "studio", "uvicorn": "studio", "websockets": "studio"}
+_FIRST = "four-bar"
+
+
+@click.command(cls=SpokenCommand)
+@click.argument("file", required=False)
+@click.option("--port", metavar="N", default="0")
+@click.option("--no-browser", is_flag=True)
+@LANG
+def studio(file: str | None, port: str, language: Language, *, no_browser: bool) -> None:
+    """Open the studio, with a machine file or a text that was shared."""
+    if not (port.isascii() and port.isdecimal() and len(port) < 6 and int(port) < 1 << 16):
+        raise CrankworkError(Refusal("option_wrong", option="--port", mistake=Refusal("port_range", port=port[:20])))
+    if extras := missing_extras(_MODULES):
+        raise MissingExtraError(Refusal("extra_studio"), *extras)
+    from crankwork import files
+    from crankwork.description.machine_file import template
+    from crankwork.studio.answers import SHARE, opened_share
+    from crankwork.studio.server import Opening, serve
+
+    if file is None:
+        opening = Opening(template(_FIRST, language))
+    elif file.startswith(SHARE):
+        opening = Opening(opened_share(file))
+    else:
+        path = Path(file)
+        text = files.read_text(path, advice=Refusal("check_path_or_new", path=path))
+        opening = Opening(text, path.resolve(), reads=True)
+    serve(opening, language, int(port), opens=not no_browser, says=click.echo)

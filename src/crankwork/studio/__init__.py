@@ -1,0 +1,1 @@
+"""The studio: a local page over the calculation as it is, for looking and trying."""

@@ -1,0 +1,233 @@
+"""What the studio is told of a machine file: refusals at their lines, the form, the machine, its figures and values."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import io
+import re
+import zipfile
+import zlib
+from collections.abc import Callable, Collection, Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from crankwork import files
+from crankwork.analysis import Results, analyse
+from crankwork.description.document import Description
+from crankwork.description.machine_file import template
+from crankwork.description.origins import origins_of
+from crankwork.errors import CrankworkError, InputError
+from crankwork.locale import Language, Refusal, told
+from crankwork.note.contents import note_of, sheets_of, written_note
+from crankwork.note.explain import place_text
+from crankwork.note.live import controls, page_data
+from crankwork.note.options import NoteOptions
+from crankwork.page.document import page, tables, values
+from crankwork.page.memories import Memories
+from crankwork.report.drawing import drawn, film_of
+from crankwork.report.figure_data import figure_title
+from crankwork.report.figures import drawings, figure_names
+from crankwork.report.notices import notice_text
+from crankwork.report.summary import results_method, warning_text
+from crankwork.report.workbook import workbook
+from crankwork.show.alt import described
+from crankwork.show.formats import FORMATS
+from crankwork.show.inline import inline_film, inline_svg
+from crankwork.studio.form import form, stated_text
+from crankwork.studio.handles import handles
+
+SHARE = "crankwork:"
+_LINE = re.compile(r":(\d+)$")
+_PLACE = re.compile(r"^.{0,400}?:(\d+): ", re.DOTALL)
+
+
+class Studio:
+    """What one page of the studio asks for; it keeps the results of the text that was told last, and nothing else.
+
+    `name` and `folder`: of the file that it was opened with; `reads`: whether files that a text names may be read.
+    """
+
+    def __init__(self, language: Language, name: str = "", folder: Path | None = None, *, reads: bool = False) -> None:
+        self.language: Language = language
+        self._name, self._folder, self._reads = name, folder, reads
+        self._text: str | None = None
+        self._results: Results | None = None
+
+    def answer(self, asked: Mapping[str, Any]) -> dict[str, Any]:
+        """Return what is answered to what a page asks for."""
+        asks: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
+            "show": self._show, "set": self._set, "without": self._without, "template": self._template,
+            "shared": self._shared, "explain": self._explain,
+        }  # fmt: skip
+        try:
+            return asks[asked["do"]](asked)
+        except CrankworkError as error:
+            return {"refusals": self._told(error)}
+
+    def export(self, text: str, name: str, *, reads: bool = False) -> bytes:
+        """Return the machine of a text as a file: its name says as what."""
+        if not (reads or self._reads) and (named := _files(self._described(text))):
+            raise CrankworkError(Refusal("studio_files", names=named))
+        return _written(self._computed(text), name, self.language)
+
+    def _show(self, asked: Mapping[str, Any]) -> dict[str, Any]:
+        """Return all that is seen of a text; what of it is known where it is refused."""
+        text = asked["text"]
+        try:
+            description = self._described(text)
+        except CrankworkError as error:
+            return {"refusals": self._told(error)}
+        self._reads = self._reads or bool(asked.get("reads"))
+        groups = form(description, self.language)
+        found: dict[str, Any] = {"form": groups, "handles": handles(description.values, groups), "refusals": []}
+        if not self._reads and (named := _files(description)):
+            return {**found, "named": named}
+        try:
+            results = self._computed(text)
+        except CrankworkError as error:
+            return {**found, "refusals": self._told(error)}
+        return {**found, **self._seen(results, asked.get("figures", ()))}
+
+    def _set(self, asked: Mapping[str, Any]) -> dict[str, Any]:
+        """State what was typed into fields, and show what comes of it."""
+        description = self._described(asked["text"])
+        description.replace({key: stated_text(description, key, one) for key, one in asked["fields"].items()})
+        text = description.dump()
+        return {"text": text, **self._show({**asked, "text": text})}
+
+    def _without(self, asked: Mapping[str, Any]) -> dict[str, Any]:
+        """Take a field out, and show what comes of it."""
+        description = self._described(asked["text"])
+        del description[asked["key"]]
+        text = description.dump()
+        return {"text": text, **self._show({**asked, "text": text})}
+
+    def _template(self, asked: Mapping[str, Any]) -> dict[str, Any]:
+        text = template(asked["name"], self.language)
+        return {"text": text, **self._show({**asked, "text": text})}
+
+    def _shared(self, asked: Mapping[str, Any]) -> dict[str, Any]:
+        text = opened_share(asked["word"])
+        # who sent it is not asked for files of this machine
+        self._reads = False
+        return {"text": text, **self._show({**asked, "text": text})}
+
+    def _explain(self, asked: Mapping[str, Any]) -> dict[str, Any]:
+        """Return how a value came about."""
+        results, key = self._computed(asked["text"]), asked["key"]
+        origin = origins_of(asked["text"])
+
+        def place(path: str, numbers: Iterable[float]) -> str:
+            return place_text(origin(path, numbers), self.language)
+
+        columns = page_data(results, {}, None, self.language)["columns"]
+        return {"memories": Memories(results, self.language, place, columns).of([key]), "key": key}
+
+    def _described(self, text: str) -> Description:
+        if len(text.encode("utf-8", "replace")) > files.MAX_MACHINE_FILE:
+            raise CrankworkError(Refusal("path_large_kb", path=self._name or "text", size=files.MAX_MACHINE_FILE >> 10))
+        return Description(text, self._name or "text", folder=self._folder)
+
+    def _computed(self, text: str) -> Results:
+        """Return the results of a text, of the same text once."""
+        if self._results is None or text != self._text:
+            self._results = analyse(self._described(text).machine())
+            self._text = text
+        return self._results
+
+    def _seen(self, results: Results, wanted: Collection[str]) -> dict[str, Any]:
+        """Return what is seen of results: the machine, the figures that are wanted, single values."""
+        language = self.language
+        names = figure_names(results, language)
+        shown = drawings(results, language=language, only=set(wanted) or set(names[:4]))
+        film = film_of(results, language=language, forces=True)
+        data = page_data(results, shown, film, language)
+        for name, one in shown.items():
+            data["figures"][name]["told"] = described(one)
+        data["tables"] = tables(results, data, language)
+        warning = warning_text(results, language)
+        return {
+            "title": results.machine.title, "method": results_method(results, language), "data": data,
+            "names": {name: figure_title(name, language) for name in names},
+            "figures": {name: inline_svg(one, name, one.title) for name, one in shown.items()},
+            "film": "" if film is None else inline_film(film, "machine") + "".join(controls(film, language)),
+            "values": "".join(values(results, results.memory, language)),
+            "notices": [notice_text(one.code, one.values, language) for one in results.notices],
+            "summary": dict(results.summary),
+            "checks": [len(results.checks) - len(results.unmet), len(results.checks)],
+            **({"doubt": warning} if warning else {}),
+        }  # fmt: skip
+
+    def _told(self, error: CrankworkError) -> list[dict[str, Any]]:
+        """Return refusals as the command line tells them, each with its line where it has one."""
+        if isinstance(error, InputError):
+            lines = error.lines(lambda message: told(message, self.language))
+            found = zip(lines, error.places, error.problems, strict=True)
+            return [
+                {"text": line, "key": problem.key, "line": int(at[1]) if (at := _LINE.search(place)) else 0}
+                for line, place, problem in found
+            ]
+        text = told(error.args[0], self.language)
+        at = _PLACE.match(text)
+        return [{"text": text, "key": "", "line": int(at[1]) if at else 0}]
+
+
+def _files(description: Description) -> list[str]:
+    """Return the names of files that a description names."""
+    return [str(description[key]) for key in description if key.rpartition(".")[2] == "file"]
+
+
+def _written(results: Results, name: str, language: Language) -> bytes:
+    """Return results as a file of a name: machine.gif, figure.svg, sheets.zip, page.html, tables.xlsx, note.pdf."""
+    stem, _, ending = name.rpartition(".")
+    match stem, ending:
+        case "page", "html":
+            return page(results, language)
+        case "tables", "xlsx":
+            return workbook(results, language=language)
+        case "machine", "gif" | "svg" | "mp4":
+            return drawn(results, ending, "colour", language=language, forces=False)
+        case "sheets", "zip":
+            return _zipped(sheets_of(results, NoteOptions(language=language, sheets=True)))
+        case "note", _:
+            return written_note(note_of(results, NoteOptions(language=language)), name)
+        case _, _ if ending in FORMATS and (found := drawings(results, language=language, only=(stem,))):
+            return FORMATS[ending](found[stem], "print")
+    raise CrankworkError(Refusal("figure_unknown", name=name[:60], known=", ".join(figure_names(results, language))))
+
+
+def _zipped(found: Mapping[str, bytes]) -> bytes:
+    held = io.BytesIO()
+    with zipfile.ZipFile(held, "w", zipfile.ZIP_DEFLATED) as folder:
+        for name, data in found.items():
+            # the same bytes whenever it is written
+            folder.writestr(zipfile.ZipInfo(name.lstrip("-")), data)
+    return held.getvalue()
+
+
+def shared(text: str) -> str:
+    """Return a machine file as one word, to be sent and opened elsewhere.
+
+    Examples
+    --------
+    >>> opened_share(shared("[crank]"))
+    '[crank]'
+    """
+    squeezed = zlib.compress(text.encode(), 9)
+    return SHARE + base64.urlsafe_b64encode(squeezed).decode().rstrip("=")
+
+
+def opened_share(word: str) -> str:
+    """Return the machine file of a word that was sent."""
+    letters = "".join(word.split()).removeprefix(SHARE)
+    try:
+        squeezed = base64.b64decode(letters + "=" * (-len(letters) % 4), altchars="-_", validate=True)
+        unfolded = zlib.decompressobj()
+        data = unfolded.decompress(squeezed, files.MAX_MACHINE_FILE + 1)
+        text = data.decode()
+    except (binascii.Error, zlib.error, ValueError):
+        raise CrankworkError(Refusal("share_damaged")) from None
+    if not unfolded.eof or len(data) > files.MAX_MACHINE_FILE:
+        raise CrankworkError(Refusal("share_damaged"))
+    return text

@@ -1,0 +1,139 @@
+"""A machine file as a form: what each field is, what stands in it, what may be added."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from crankwork.description.document import Description
+from crankwork.description.kinds import Choice, Flag, Measure, Number, Quantity, Reader, Text
+from crankwork.description.machine_file import entry_at, file_keys, steps_of
+from crankwork.description.schema import By, Key, NumberOr, Table, WordOr
+from crankwork.description.written import toml
+from crankwork.errors import CrankworkError
+from crankwork.locale import Language
+from crankwork.units import EXAMPLES, from_si
+
+_LEAVES = (Quantity, Number, NumberOr, WordOr, Choice, Flag, Text)
+
+
+def form(description: Description, language: Language) -> list[dict[str, Any]]:
+    """Return the tables of a machine file in order: their fields as stated, and those that may be added."""
+    values = description.values
+    kinds = file_keys(values)
+    groups: dict[str, dict[str, Any]] = {}
+    for key in description:
+        path, table, entry = _place(kinds, key)
+        fresh = {"path": path, "means": _meaning(kinds, path, language), "rows": [], "more": []}
+        group = groups.setdefault(path, fresh)
+        group["rows"].append(_row(description, key, table, entry, language))
+    for path, group in groups.items():
+        table, stated = _kind(kinds, path), _stated(values, path)
+        if isinstance(table, Table):
+            group["more"] = list(_more(table, path, stated, language))
+    return list(groups.values())
+
+
+def _place(kinds: Table, key: str) -> tuple[str, object, Key | None]:
+    """Return the table in which a key stands, what is known of that table, and of the key."""
+    path, _, name = key.rpartition(".")
+    table = _kind(kinds, path)
+    return path, table, table.keys.get(name) if isinstance(table, Table) else None
+
+
+def _kind(kinds: Table, path: str) -> object:
+    found: object = kinds
+    for step in steps_of(path) if path else ():
+        found = entry_at(found, step)
+    return found
+
+
+def _stated(values: Mapping[str, Any], path: str) -> Mapping[str, Any]:
+    found: Any = values
+    for step in steps_of(path) if path else ():
+        found = found[step - 1] if isinstance(step, int) else found.get(step, {})
+    return found if isinstance(found, Mapping) else {}
+
+
+def _meaning(kinds: Table, path: str, language: Language) -> str:
+    around, _, name = path.rpartition(".")
+    table = _kind(kinds, around)
+    return table.meaning(name, language) if path and isinstance(table, Table) else ""
+
+
+def _row(description: Description, key: str, table: object, entry: Key | None, language: Language) -> dict[str, Any]:
+    """Return a field: its key, name, meaning, what stands in it, and how it may be changed."""
+    name, stated = key.rpartition(".")[2], description[key]
+    kind = entry.kind if entry else _kind(file_keys(description.values), key)
+    written = stated if isinstance(stated, str) else toml(stated)
+    row: dict[str, Any] = {"key": key, "name": name, "value": written}
+    if isinstance(table, Table) and (means := table.meaning(name, language)):
+        row["means"] = means
+    match kind:
+        case Choice():
+            row["options"] = list(map(str, kind.options))
+        case Flag():
+            row["options"] = ["false", "true"]
+        case _:
+            row |= _slid(kind, stated)
+    return row
+
+
+def _slid(kind: object, stated: object) -> dict[str, Any]:
+    """Return what a slider of a field goes by: its number and unit, and what the number may be."""
+    parts = [getattr(kind, name, None) for name in ("quantity", "number")] if isinstance(kind, NumberOr) else [kind]
+    for one in parts:
+        match one, stated:
+            case Quantity(), str():
+                found = one.read(stated, "", Reader())
+                if isinstance(found, Measure) and "±" not in stated and "+-" not in stated:
+                    low, high = (float(from_si(end, found.unit)) for end in (one.low, one.high))
+                    return {"number": float(from_si(found.value, found.unit)), "unit": found.unit,
+                            "low": low, "high": high}  # fmt: skip
+            case Number(), int() | float() if not isinstance(stated, bool):
+                whole = {"whole": True} if one.whole else {}
+                return {"number": float(stated), "unit": "", "low": one.low, "high": one.high, **whole}
+    return {}
+
+
+def _more(table: Table, path: str, stated: Mapping[str, Any], language: Language) -> Iterator[dict[str, str]]:
+    """Yield the fields that a table may have beside what it states, each with a value to begin with."""
+    for name, entry in table.keys.items():
+        excluded = any(other in stated for other in entry.instead_of)
+        fits = all(stated.get(one) in wanted if wanted else one in stated for one, wanted in entry.only.items())
+        if name in stated or excluded or not fits or not isinstance(entry.kind, _LEAVES):
+            continue
+        first = _first(entry.kind) if entry.default is None or isinstance(entry.default, By) else entry.default
+        written, means = first if isinstance(first, str) else toml(first), table.meaning(name, language)
+        yield {"key": f"{path}.{name}".lstrip("."), "name": name, "value": written, "means": means}
+
+
+def _first(kind: object) -> object:
+    """Return a value to begin with."""
+    match kind:
+        case Quantity():
+            return EXAMPLES[kind.dimensions[0]]
+        case Number():
+            return float(kind.example())
+        case Choice():
+            return kind.options[0]
+        case Flag():
+            return True
+        case NumberOr():
+            return _first(kind.quantity)
+        case WordOr():
+            return _first(kind.words)
+    return "..."
+
+
+def stated_text(description: Description, key: str, typed: str) -> object:
+    """Return what a text typed into a field states: a text where one stands or belongs, what TOML reads otherwise."""
+    kind = _kind(file_keys(description.values), key)
+    if isinstance(kind, Text):
+        return typed
+    values: dict[str, Any]
+    try:
+        values = Description(f"value = {typed}\n").values if "\n" not in typed else {}
+    except CrankworkError:
+        return typed
+    return values.get("value", typed)

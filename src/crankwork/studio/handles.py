@@ -1,0 +1,46 @@
+"""Which dimensions of a drawing are dragged: the field that states each, and the parts that move with its ends."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, NamedTuple
+
+
+class Handle(NamedTuple):
+    """A dimension between two parts of the drawing; `power`: of the distance, by which the number of the field goes."""
+
+    key: str
+    start: str
+    end: str
+    power: int = 1
+
+
+def handles(values: Mapping[str, Any], groups: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    """Return the dimensions that a machine file states by a number, with that number."""
+    numbers = {row["key"]: row for group in groups for row in group["rows"] if "number" in row}
+    listed = _of_linkage(values) if "links" in values or "sliders" in values else _of_crank_gear(values)
+    return [
+        {"key": one.key, "from": one.start, "to": one.end, "power": one.power,
+         "number": numbers[one.key]["number"], "unit": numbers[one.key]["unit"]}
+        for one in listed
+        if one.key in numbers
+    ]  # fmt: skip
+
+
+def _of_crank_gear(values: Mapping[str, Any]) -> Iterator[Handle]:
+    crank, rod, piston = (f"side.{one}.1" for one in ("crank", "rod", "piston"))
+    yield Handle("crank.radius", crank, rod)
+    yield Handle("crank.stroke", crank, rod)
+    yield Handle("rod.length", rod, piston)
+    definition = values.get("rod", {}).get("ratio_definition", "r/l")
+    yield Handle("rod.ratio", rod, piston, -1 if definition == "r/l" else 1)
+
+
+def _of_linkage(values: Mapping[str, Any]) -> Iterator[Handle]:
+    crank = values.get("crank", {})
+    if "pivot" in crank and "pin" in crank:
+        yield Handle("crank.radius", f"joint.{crank['pivot']}", f"joint.{crank['pin']}")
+    for name, link in values.get("links", {}).items():
+        joins = link.get("joins", []) if isinstance(link, Mapping) else []
+        if len(joins) > 1:
+            yield Handle(f"links.{name}.length", f"joint.{joins[0]}", f"joint.{joins[1]}")

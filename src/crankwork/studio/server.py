@@ -1,0 +1,307 @@
+"""The server of the studio: this machine alone, one page at a time told what it asks, nobody else let in."""
+
+from __future__ import annotations
+
+import asyncio
+import hashlib
+import json
+import logging
+import secrets
+import socket
+import threading
+import time
+import webbrowser
+from collections.abc import Callable
+from functools import partial
+from http import HTTPStatus
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import uvicorn
+from starlette.applications import Starlette
+from starlette.concurrency import run_in_threadpool
+from starlette.datastructures import Headers
+from starlette.requests import HTTPConnection, Request
+from starlette.responses import PlainTextResponse, RedirectResponse, Response
+from starlette.routing import Route, WebSocketRoute
+from starlette.types import ASGIApp, Receive, Scope, Send
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from crankwork import files
+from crankwork.browser import script
+from crankwork.errors import CrankworkError
+from crankwork.locale import LANGUAGES, Language, Refusal, say, told
+from crankwork.studio.answers import Studio
+from crankwork.studio.shell import shell, styles
+
+HOST = "127.0.0.1"
+# what one message may hold: a machine file, escaped, and what is asked of it [bytes]
+_LONGEST = 1 << 20
+_COOKIE = "crankwork"
+# for how long after the last page has gone the server waits for one to come back [s]
+_LINGERS = 3.0
+_POLICY = (
+    "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
+    "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+)
+_log = logging.getLogger(__name__)
+
+
+class Opening(NamedTuple):
+    """What the studio begins with: a text, the file it stands in if there is one, whether it may name others."""
+
+    text: str
+    path: Path | None = None
+    reads: bool = False
+
+
+class Rooms:
+    """What the pages of one server share: who may come in, the file on disk, how many pages there are."""
+
+    def __init__(self, opening: Opening, language: Language, *, lingers: bool = False) -> None:
+        self.opening, self.language, self.lingers = opening, language, lingers
+        self.token, self.port = secrets.token_urlsafe(24), 0
+        self.pages, self.left = 0, time.monotonic()
+        # of the file as it was read or written here last
+        self.seen = _digest(opening.text) if opening.path else ""
+
+    def hosts(self) -> tuple[str, ...]:
+        """Return what a browser of this machine calls the server."""
+        return f"{HOST}:{self.port}", f"localhost:{self.port}"
+
+    @property
+    def deserted(self) -> bool:
+        """Whether the last page has been gone for a while."""
+        return not self.lingers and self.pages == 0 and time.monotonic() - self.left > _LINGERS
+
+    def studio(self, language: Language) -> Studio:
+        """Return what answers one page."""
+        path = self.opening.path
+        return Studio(language, str(path or ""), path.parent if path else None, reads=self.opening.reads)
+
+    def save(self, asked: dict[str, Any]) -> dict[str, Any]:
+        """Write the text into its file, unless somebody else has changed that."""
+        path, text = self.opening.path, asked["text"]
+        if path is None:
+            raise CrankworkError(Refusal("studio_no_file"))
+        if self.changed() and not asked.get("anyway"):
+            return {"conflict": str(path)}
+        files.write_files({path: text.encode()}, overwrite=True)
+        self.seen = _digest(text)
+        return {"saved": str(path)}
+
+    def changed(self) -> bool:
+        """Return whether the file is not as it was read or written here last."""
+        return bool(self.seen) and _digest(self.on_disk()) != self.seen
+
+    def on_disk(self) -> str:
+        """Return what stands in the file, nothing where it has gone."""
+        try:
+            return files.read_text(self.opening.path or "")
+        except CrankworkError:
+            return ""
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
+
+
+class _Guard:
+    """Lets in who asks this machine by its own name, from its own page, with the token."""
+
+    def __init__(self, app: ASGIApp, rooms: Rooms) -> None:
+        self._app, self._rooms = app, rooms
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer a request, or refuse it."""
+        if scope["type"] == "lifespan":
+            await self._app(scope, receive, send)
+            return
+        refused = self._refused(HTTPConnection(scope))
+        if refused is None:
+            await self._app(scope, receive, send)
+        else:
+            # a socket that is refused before it opens is told so by its status too
+            answer = PlainTextResponse(refused.phrase, refused)
+            await answer(scope, receive, send)
+
+    def _refused(self, asked: HTTPConnection) -> HTTPStatus | None:
+        rooms, headers = self._rooms, asked.headers
+        if headers.get("host", "") not in rooms.hosts():
+            return HTTPStatus.BAD_REQUEST
+        is_reading = asked.scope["type"] == "http" and asked.scope["method"] in ("GET", "HEAD")
+        if not is_reading and not self._from_own_page(headers):
+            return HTTPStatus.FORBIDDEN
+        known = asked.cookies.get(f"{_COOKIE}-{rooms.port}") or asked.query_params.get("token", "")
+        return None if secrets.compare_digest(known.encode(), rooms.token.encode()) else HTTPStatus.UNAUTHORIZED
+
+    def _from_own_page(self, headers: Headers) -> bool:
+        return headers.get("origin", "") in {f"http://{one}" for one in self._rooms.hosts()}
+
+
+def application(rooms: Rooms) -> ASGIApp:
+    """Return the studio as an application of a server."""
+    routes = [
+        Route("/", partial(_shell, rooms)),
+        Route("/studio.js", partial(_script, rooms)),
+        Route("/studio.css", _styles),
+        Route("/export", partial(_export, rooms), methods=["POST"]),
+        WebSocketRoute("/talk", partial(_talk, rooms)),
+    ]
+    return _Guard(Starlette(routes=routes), rooms)
+
+
+def _sealed(data: bytes | str, kind: str, **headers: str) -> Response:
+    """Return data with what a browser is allowed to do with it."""
+    fixed = {
+        "Content-Security-Policy": _POLICY, "X-Content-Type-Options": "nosniff", "Referrer-Policy": "no-referrer",
+        "Cache-Control": "no-store", "Cross-Origin-Opener-Policy": "same-origin",
+    }  # fmt: skip
+    return Response(data, media_type=kind, headers=fixed | headers)
+
+
+def _language(asked: HTTPConnection, usual: Language) -> Language:
+    wanted = asked.query_params.get("lang", "")
+    return next((one for one in LANGUAGES if one == wanted), usual)
+
+
+async def _shell(rooms: Rooms, asked: Request) -> Response:
+    if "token" in asked.query_params:
+        # what stands in the address is seen by others, what is kept in a cookie is not
+        answer: Response = RedirectResponse(f"/?lang={_language(asked, rooms.language)}", 303)
+        answer.set_cookie(f"{_COOKIE}-{rooms.port}", rooms.token, httponly=True, samesite="strict")
+        return answer
+    return _sealed(shell(_language(asked, rooms.language)), "text/html")
+
+
+async def _script(_: Rooms, __: Request) -> Response:
+    return _sealed(script("studio"), "text/javascript")
+
+
+async def _styles(_: Request) -> Response:
+    return _sealed(styles(), "text/css")
+
+
+async def _export(rooms: Rooms, asked: Request) -> Response:
+    """Answer with a machine as a file."""
+    data = b""
+    async for part in asked.stream():
+        data += part
+        if len(data) > _LONGEST:
+            return PlainTextResponse("", HTTPStatus.REQUEST_ENTITY_TOO_LARGE)
+    language = _language(asked, rooms.language)
+    try:
+        wanted = json.loads(data)
+        text, name = str(wanted["text"]), str(wanted["name"])
+    except (ValueError, TypeError, KeyError):
+        return PlainTextResponse("", HTTPStatus.BAD_REQUEST)
+    studio = rooms.studio(language)
+    try:
+        found = await run_in_threadpool(studio.export, text, name, reads=bool(wanted.get("reads")))
+    except CrankworkError as error:
+        return PlainTextResponse(told(error.args[0], language), HTTPStatus.UNPROCESSABLE_ENTITY)
+    return _sealed(found, "application/octet-stream", **{"Content-Disposition": "attachment"})
+
+
+async def _talk(rooms: Rooms, socket_: WebSocket) -> None:
+    """Answer one page: each message once, in the order in which they come."""
+    await socket_.accept()
+    rooms.pages += 1
+    language = _language(socket_, rooms.language)
+    studio = rooms.studio(language)
+    try:
+        await _send(socket_, {"text": rooms.opening.text, "path": str(rooms.opening.path or "")})
+        while True:
+            asked = _asked(await socket_.receive_text())
+            if asked is None:
+                await socket_.close(1003)
+                return
+            await _send(socket_, {"n": asked["n"], **await run_in_threadpool(_answer, rooms, studio, asked)})
+    except (WebSocketDisconnect, RuntimeError):
+        pass
+    finally:
+        rooms.pages -= 1
+        rooms.left = time.monotonic()
+
+
+async def _send(socket_: WebSocket, answer: dict[str, Any]) -> None:
+    await socket_.send_text(json.dumps(answer, ensure_ascii=False, separators=(",", ":")))
+
+
+_FIELDS: dict[str, dict[str, type]] = {
+    "show": {"text": str}, "set": {"text": str, "fields": dict}, "without": {"text": str, "key": str},
+    "explain": {"text": str, "key": str}, "template": {"name": str},
+    "shared": {"word": str}, "save": {"text": str}, "disk": {},
+}  # fmt: skip
+
+
+def _asked(message: str) -> dict[str, Any] | None:
+    """Return what a message asks for, None where it makes no sense."""
+    try:
+        found = json.loads(message)
+    except (ValueError, RecursionError):
+        return None
+    if not isinstance(found, dict) or not isinstance(found.get("n"), int):
+        return None
+    wanted = _FIELDS.get(found["do"]) if isinstance(found.get("do"), str) else None
+    if wanted is None or not all(isinstance(found.get(name), kind) for name, kind in wanted.items()):
+        return None
+    listed = found.get("figures", [])
+    fields = found.get("fields", {})
+    is_sound = isinstance(listed, list) and all(isinstance(one, str) for one in listed)
+    return found if is_sound and all(isinstance(one, str) for one in fields.values()) else None
+
+
+def _answer(rooms: Rooms, studio: Studio, asked: dict[str, Any]) -> dict[str, Any]:
+    """Return the answer to a message; what fails in it is told, and the next one is answered again."""
+    try:
+        match asked["do"]:
+            case "save":
+                return rooms.save(asked)
+            case "disk":
+                return {"text": rooms.on_disk()} if asked.get("take") else {"changed": rooms.changed()}
+        return studio.answer(asked)
+    except CrankworkError as error:
+        return {"refusals": [{"text": told(error.args[0], studio.language), "key": "", "line": 0}]}
+    except Exception:  # noqa: BLE001 - whatever fails in one calculation is told, and the page lives on
+        _log.exception("an answer failed")
+        return {"refusals": [{"text": say("studio.failed", studio.language), "key": "", "line": 0}]}
+
+
+def serve(opening: Opening, language: Language, port: int, *, opens: bool, says: Callable[[str], None]) -> None:
+    """Run the studio until its last page has gone, or until it is interrupted."""
+    rooms = Rooms(opening, language, lingers=not opens)
+    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as listening:
+        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            listening.bind((HOST, port))
+        except OSError as error:
+            raise CrankworkError(
+                Refusal("port_taken", port=str(port), reason=(error.strerror or "unknown reason").lower())
+            ) from None
+        rooms.port = listening.getsockname()[1]
+        address = f"http://{HOST}:{rooms.port}/?token={rooms.token}"
+        says(address)
+        asyncio.run(_run(rooms, listening, address if opens else ""))
+
+
+async def _run(rooms: Rooms, listening: socket.socket, address: str) -> None:
+    server = uvicorn.Server(
+        uvicorn.Config(
+            application(rooms), log_level="critical", access_log=False, ws="websockets-sansio", ws_max_size=_LONGEST,
+            lifespan="off", server_header=False, date_header=False,
+        )
+    )  # fmt: skip
+    if address:
+        threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+        # a browser takes its time
+        rooms.left = time.monotonic() + 60
+    watching = asyncio.create_task(_watch(rooms, server))
+    await server.serve([listening])
+    watching.cancel()
+
+
+async def _watch(rooms: Rooms, server: uvicorn.Server) -> None:
+    while not rooms.deserted:
+        await asyncio.sleep(0.5)
+    server.should_exit = True

@@ -1,0 +1,102 @@
+"""The page of the studio as it is before anything has been told: rooms, buttons, words of its script."""
+
+from __future__ import annotations
+
+import html
+import json
+
+from crankwork.browser import style
+from crankwork.description.machine_file import template_names, template_title
+from crankwork.locale import LANGUAGES, Language, say, texts
+from crankwork.note.live import bar, look
+
+# names of languages in themselves
+_OWN = {"en": "English", "ru": "Русский", "vi": "Tiếng Việt"}
+# what may be saved of a machine, by the name of the file
+EXPORTS = ("note.pdf", "note.docx", "note.html", "page.html", "tables.xlsx", "sheets.zip", "machine.gif", "machine.svg")
+
+
+def styles() -> str:
+    """Return the style sheet of the studio."""
+    return look() + style("page", "studio")
+
+
+def shell(language: Language) -> str:
+    """Return the page of the studio in a language."""
+    stored = json.dumps(dict(texts("studio", language)), ensure_ascii=False).replace("<", "\\u003c")
+    return "\n".join([
+        f'<!DOCTYPE html>\n<html lang="{language}"><head><meta charset="utf-8"><title>crankwork</title>',
+        '<meta name="viewport" content="width=device-width, initial-scale=1">',
+        '<link rel="stylesheet" href="studio.css"><link rel="icon" href="data:,"></head><body>',
+        *_header(language),
+        f'<div id="bar">{"".join(bar(language))}</div>',
+        f'<p id="notice" role="alert" hidden></p><script type="application/json" id="words">{stored}</script>',
+        "<main>",
+        *_left(language), *_middle(language), *_right(language),
+        f'<section id="results" aria-label="{_said("results", language)}"></section>',
+        "</main>",
+        f'<aside id="explanation" tabindex="-1" hidden aria-label="{html.escape(say("page.explanation", language))}">',
+        f'<button aria-label="{html.escape(say("page.close", language))}">×</button><div class="body"></div></aside>',
+        '<p id="told" role="status" class="unseen"></p>',
+        '<script src="studio.js"></script></body></html>\n',
+    ])  # fmt: skip
+
+
+def _said(key: str, language: Language) -> str:
+    return html.escape(say(f"studio.{key}", language))
+
+
+def _button(name: str, language: Language) -> str:
+    return f'<button id="{name}">{_said(name, language)}</button>'
+
+
+def _header(language: Language) -> list[str]:
+    templates = "".join(
+        f'<option value="{one}">{html.escape(template_title(one, language))}' for one in template_names()
+    )
+    exports = "".join(f"<option>{one}" for one in EXPORTS)
+    spoken = "".join(
+        f'<option value="{one}" lang="{one}"{" selected" if one == language else ""}>{_OWN[one]}' for one in LANGUAGES
+    )
+    return [
+        '<header><h1 id="title">crankwork</h1>',
+        f'<select id="template" aria-label="{_said("template", language)}">',
+        f'<option value="">{_said("template", language)}</option>{templates}</select>',
+        f'<label class="button" tabindex="-1">{_said("open", language)}',
+        '<input id="open" type="file" accept=".toml,.txt,text/plain"></label>',
+        *(_button(name, language) for name in ("save", "undo", "redo", "share", "pin")),
+        '<span id="pins"></span>',
+        f'<select id="export" aria-label="{_said("export", language)}">',
+        f'<option value="">{_said("export", language)}</option>{exports}</select>',
+        f'<select id="language" aria-label="{_said("language", language)}">{spoken}</select></header>',
+    ]
+
+
+def _left(language: Language) -> list[str]:
+    tabs = "".join(
+        f'<button role="tab" id="{name}-tab" aria-controls="{name}" aria-selected="{str(name == "form").lower()}">'
+        f"{_said(name, language)}</button>"
+        for name in ("form", "text")
+    )
+    return [
+        f'<section id="description" aria-label="{_said("description", language)}"><div role="tablist">{tabs}</div>',
+        '<div id="form" role="tabpanel" aria-labelledby="form-tab"></div>',
+        '<div id="text" role="tabpanel" aria-labelledby="text-tab" hidden><pre id="lines" aria-hidden="true"></pre>',
+        f'<textarea id="source" spellcheck="false" wrap="off" aria-label="{_said("text", language)}"></textarea></div>',
+        '<ul id="refusals" role="status"></ul></section>',
+    ]
+
+
+def _middle(language: Language) -> list[str]:
+    return [
+        f'<section id="machine" aria-label="{html.escape(say("page.machine", language))}">',
+        '<div id="film"></div><output id="chip" hidden></output>',
+        f'<p class="hint">{_said("hint", language)}</p></section>',
+    ]
+
+
+def _right(language: Language) -> list[str]:
+    return [
+        f'<section id="diagrams" aria-label="{html.escape(say("page.diagrams", language))}">',
+        f'<select id="add" aria-label="{_said("add", language)}"></select><div class="figures"></div></section>',
+    ]
