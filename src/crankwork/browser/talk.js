@@ -48,6 +48,7 @@ export class Talk {
   }
 
   next() {
+    document.body.dataset.waits = String(Boolean(this.asked || this.waiting.length));
     if (this.asked || this.socket?.readyState !== WebSocket.OPEN) return;
     this.asked = this.waiting.shift();
     if (!this.asked) return;

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from crankwork.analysis import Array, Results
 from crankwork.analysis.diagrams import fine_columns
 from crankwork.errors import CrankworkError
-from crankwork.locale import say
+from crankwork.locale import has_text, say
 from crankwork.quantities import Language
 from crankwork.report.language import displayed
 
@@ -22,7 +22,9 @@ def figure_title(name: str, language: Language) -> str:
     """Return what a figure shows, for its caption."""
     kind = kind_of(name)
     number = name.removeprefix(kind).removeprefix("_")
-    return say(f"figures.{kind}", language) + (f", {number}" if number else "")
+    # some are called what their table is
+    room = "figures" if has_text(f"figures.{kind}") else "tables"
+    return say(f"{room}.{kind}", language) + (f", {number}" if number else "")
 
 
 class Drawn(NamedTuple):

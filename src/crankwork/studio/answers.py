@@ -8,7 +8,7 @@ import io
 import re
 import zipfile
 import zlib
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -140,7 +140,7 @@ class Studio:
         """Return what is seen of results: the machine, the figures that are wanted, single values."""
         language = self.language
         names = figure_names(results, language)
-        shown = drawings(results, language=language, only=set(wanted) or set(names[:4]))
+        shown = drawings(results, language=language, only=set(wanted) or set(_first(names)))
         film = film_of(results, language=language, forces=True)
         data = page_data(results, shown, film, language)
         for name, one in shown.items():
@@ -171,6 +171,11 @@ class Studio:
         text = told(error.args[0], self.language)
         at = _PLACE.match(text)
         return [{"text": text, "key": "", "line": int(at[1]) if at else 0}]
+
+
+def _first(names: Sequence[str]) -> list[str]:
+    """Return the figures that are seen before any was chosen: curves sooner than constructions."""
+    return sorted(names, key=lambda name: name.endswith(("plan", "plans", "lever", "centrodes", "brix", "tolle")))[:3]
 
 
 def _files(description: Description) -> list[str]:

@@ -275,6 +275,8 @@ def serve(opening: Opening, language: Language, port: int, *, opens: bool, says:
         listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             listening.bind((HOST, port))
+            # who reads the address may come at once
+            listening.listen(64)
         except OSError as error:
             raise CrankworkError(
                 Refusal("port_taken", port=str(port), reason=(error.strerror or "unknown reason").lower())

@@ -83,7 +83,7 @@ def _left(language: Language) -> list[str]:
         '<div id="form" role="tabpanel" aria-labelledby="form-tab"></div>',
         '<div id="text" role="tabpanel" aria-labelledby="text-tab" hidden><pre id="lines" aria-hidden="true"></pre>',
         f'<textarea id="source" spellcheck="false" wrap="off" aria-label="{_said("text", language)}"></textarea></div>',
-        '<ul id="refusals" role="status"></ul></section>',
+        '<ul id="refusals"></ul></section>',
     ]
 
 

@@ -1,0 +1,116 @@
+"""What the studio is told of a machine file, without a browser."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import crankwork
+from crankwork.description.machine_file import template, template_names
+from crankwork.errors import CrankworkError
+from crankwork.studio.answers import Studio, opened_share, shared
+
+EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
+
+
+def rows_of(answer):
+    return {row["key"]: row for group in answer["form"] for row in group["rows"]}
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_every_example_opens_with_what_the_command_line_finds(path):
+    answer = Studio("en", str(path), path.parent, reads=True).answer(
+        {"do": "show", "text": path.read_text("utf-8"), "figures": []}
+    )
+    results = crankwork.analyse(crankwork.read(path))
+    assert answer["refusals"] == []
+    assert answer["summary"] == dict(results.summary)
+    assert set(rows_of(answer)) == set(crankwork.load(path))
+    assert answer["checks"] == [len(results.checks) - len(results.unmet), len(results.checks)]
+    assert set(answer["figures"]) <= set(answer["names"])
+
+
+@pytest.mark.parametrize("name", template_names())
+def test_a_field_typed_as_it_stands_changes_nothing(name):
+    text = template(name)
+    studio = Studio("en")
+    for key, row in rows_of(studio.answer({"do": "show", "text": text, "figures": []})).items():
+        found = studio.answer({"do": "set", "text": text, "fields": {key: row["value"]}, "figures": []})
+        assert found["text"] == text, key
+
+
+def test_a_field_changes_in_the_text_and_keeps_what_is_said_beside_it():
+    text = template("engine")
+    found = Studio("en").answer({"do": "set", "text": text, "fields": {"crank.radius": "47,5 mm"}, "figures": []})
+    assert 'radius = "47,5 mm"' in found["text"]
+    assert found["text"].count("#") == text.count("#")
+    assert "decimal" in found["refusals"][0]["text"]
+    whole = Studio("en").answer({"do": "set", "text": text, "fields": {"crank.radius": "47.5 mm"}, "figures": []})
+    assert whole["summary"]["stroke"] == pytest.approx(0.095)
+
+
+@pytest.mark.parametrize("typed", ["50", "-3 mm", "0 mm", "", "abc", "1.7 cms", "1,7 cm"])
+@pytest.mark.parametrize("language", ["en", "ru", "vi"])
+def test_what_is_refused_is_told_as_the_command_line_tells_it(typed, language, tmp_path):
+    from crankwork.locale import told
+
+    found = Studio(language, "machine.toml").answer(
+        {"do": "set", "text": template("engine"), "fields": {"crank.radius": typed}, "figures": []}
+    )
+    with pytest.raises(crankwork.InputError) as error:
+        crankwork.read_machine(found["text"], "machine.toml")
+    assert [one["text"] for one in found["refusals"]] == error.value.lines(lambda one: told(one, language))
+    lines = found["text"].splitlines()
+    assert lines[found["refusals"][0]["line"] - 1].startswith(f'radius = "{typed}"' if typed != "50" else "radius = 50")
+    assert "data" not in found
+    assert "form" in found
+
+
+def test_text_that_is_no_toml_is_refused_at_its_line():
+    found = Studio("en").answer({"do": "show", "text": "[crank]\nradius = 45 mm\n", "figures": []})
+    assert [one["line"] for one in found["refusals"]] == [2]
+    assert "form" not in found
+
+
+def test_a_shared_machine_comes_back_whole_and_a_damaged_one_is_refused():
+    text = template("engine", "vi")
+    word = shared(text)
+    assert len(word) < len(text)
+    assert opened_share(word) == text
+    for damaged in (word[:-9], "crankwork:", "crankwork:ж", word[:60] + "A" + word[61:], word + "AAAA=A"):
+        with pytest.raises(CrankworkError, match="shared whole"):
+            opened_share(damaged)
+    with pytest.raises(CrankworkError, match="shared whole"):
+        opened_share(shared("#" * 10_000_000))
+
+
+def test_files_that_a_text_names_are_read_only_where_that_is_allowed(tmp_path):
+    text = template("engine").replace("[gas]", '[gas]\n[gas.measured]\nfile = "/etc/hostname"\n[spare]', 1)
+    asked = {"do": "show", "text": text, "figures": []}
+    studio = Studio("en")
+    assert studio.answer(asked)["named"] == ["/etc/hostname"]
+    assert studio.answer(asked)["refusals"] == []
+    assert studio.answer({**asked, "reads": True})["refusals"] != []
+    with pytest.raises(CrankworkError, match="read only if you allow it"):
+        Studio("en").export(text, "note.html")
+
+
+def test_a_value_is_explained_down_to_its_line():
+    text = template("engine")
+    found = Studio("en").answer({"do": "explain", "text": text, "key": "swept_volume"})["memories"]
+    assert found["keys"].keys() == {"swept_volume"}
+    lines = text.splitlines()
+    bore = next(k for k, line in enumerate(lines, start=1) if line.startswith("bore"))
+    assert any(f"line {bore}" in node.get("g", "") for node in found["nodes"])
+
+
+@pytest.mark.parametrize(
+    ("name", "start"),
+    [("note.html", b"<!DOCTYPE"), ("page.html", b"<!DOCTYPE"), ("tables.xlsx", b"PK"), ("sheets.zip", b"PK"),
+     ("machine.svg", b"<svg"), ("kinematics.dxf", b"  0"), ("torque.svg", b"<svg")],
+)  # fmt: skip
+def test_a_machine_is_exported_as_what_its_name_says(name, start):
+    data = Studio("ru").export(template("engine"), name)
+    assert data.lstrip(b"\xef\xbb\xbf").startswith((start, b"<?xml"))
+    assert len(data) > 1000

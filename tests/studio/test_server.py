@@ -1,0 +1,170 @@
+"""Who is let into the studio, and what comes of messages that make no sense."""
+
+from __future__ import annotations
+
+import http.client
+import json
+import random
+import string
+import time
+from contextlib import closing, suppress
+
+import pytest
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.sync.client import connect
+
+from crankwork.description.machine_file import template
+
+
+def asked(started, path, method="GET", body=None, **headers):
+    host = started.address.removeprefix("http://").rstrip("/")
+    own = {"Host": host, "Cookie": f"crankwork-{host.rpartition(':')[2]}={started.token}"}
+    headers = {name.replace("_", "-"): value for name, value in headers.items()}
+    data = (body or "").encode()
+    with closing(http.client.HTTPConnection(host, timeout=60)) as talk:
+        talk.putrequest(method, path, skip_host=True, skip_accept_encoding=True)
+        for name, value in {**own, **headers, "Content-Length": str(len(data))}.items():
+            if value:
+                talk.putheader(name, value)
+        talk.endheaders(data)
+        answer = talk.getresponse()
+        return answer.status, dict(answer.getheaders()), answer.read()
+
+
+def talked(started, **changed):
+    address = started.address
+    own = {"Cookie": f"crankwork-{address.rpartition(':')[2].rstrip('/')}={started.token}"}
+    origin = changed.pop("origin", address.rstrip("/"))
+    return connect(f"ws{address.removeprefix('http')}talk", additional_headers={**own, **changed}, origin=origin,
+                   max_size=None, open_timeout=60)  # fmt: skip
+
+
+def test_who_asks_by_another_name_or_without_the_token_is_refused(started):
+    own = started.address.rstrip("/")
+    body = json.dumps({"text": template("four-bar"), "name": "tables.xlsx"})
+    assert asked(started, "/")[0] == 200
+    assert asked(started, "/", Host="crankwork.example")[0] == 400
+    assert asked(started, "/", Cookie="")[0] == 401
+    assert asked(started, "/", Cookie="crankwork-1=abc")[0] == 401
+    assert asked(started, "/?token=wrong", Cookie="")[0] == 401
+    assert asked(started, "/export", "POST", body)[0] == 403
+    assert asked(started, "/export", "POST", body, Origin="http://crankwork.example")[0] == 403
+    assert asked(started, "/export", "POST", body, Origin=own)[0] == 200
+    assert asked(started, "/export", "POST", "[1]", Origin=own)[0] == 400
+    assert asked(started, "/export", "POST", "x" * (10 << 20), Origin=own)[0] == 413
+    for path in ("/../pyproject.toml", "/%2e%2e/pyproject.toml", "/studio.js/../../x", "/static//etc/passwd"):
+        assert asked(started, path)[0] == 404
+
+
+def test_a_socket_is_opened_to_its_own_page_alone(started):
+    for changed, status in (
+        ({"origin": "http://crankwork.example"}, 403),
+        ({"origin": None}, 403),
+        ({"Cookie": ""}, 401),
+    ):
+        with pytest.raises(InvalidStatus) as refused, talked(started, **changed):
+            pass
+        assert refused.value.response.status_code == status
+    with talked(started) as socket:
+        assert "four-bar" in json.loads(socket.recv())["text"].lower()
+
+
+def test_the_page_may_run_no_text_as_script_and_ask_nobody(started):
+    _, headers, _ = asked(started, "/")
+    policy = headers["content-security-policy"]
+    assert "default-src 'none'" in policy
+    assert "unsafe-eval" not in policy
+    assert "script-src 'self'" in policy
+    status, headers, _ = asked(started, f"/?token={started.token}", Cookie="")
+    assert status == 303
+    assert "HttpOnly" in headers["set-cookie"]
+    assert "SameSite=strict" in headers["set-cookie"]
+    assert started.token not in headers["location"]
+
+
+def test_messages_without_sense_end_a_talk_and_nothing_else(started):
+    chance = random.Random(5)  # noqa: S311 - nothing is secret
+    for _ in range(1000):
+        kind = chance.randrange(4)
+        if kind == 0:
+            message = "".join(chance.choices(string.printable, k=chance.randrange(200)))
+        elif kind == 1:
+            message = json.dumps({"n": chance.choice([1, "1", None]), "do": chance.choice(["show", "set", "x", 3])})
+        elif kind == 2:
+            message = json.dumps({"n": 1, "do": "set", "text": "", "fields": {"a..b[": 3, "[": []}})
+        else:
+            message = "[" * chance.randrange(1, 100_000)
+        with talked(started) as socket:
+            socket.recv()
+            socket.send(message)
+            with suppress(ConnectionClosed):
+                assert json.loads(socket.recv(timeout=60))["refusals"]
+
+
+def test_a_message_of_ten_megabytes_is_refused(started):
+    with talked(started) as socket:
+        socket.recv()
+        with suppress(ConnectionClosed):
+            socket.send("x" * (10 << 20))
+        with pytest.raises(ConnectionClosed) as closed:
+            socket.recv(timeout=60)
+    assert closed.value.rcvd.code == 1009
+
+
+def test_what_fails_in_a_calculation_is_told_and_the_next_one_is_answered(monkeypatch):
+    from crankwork.studio import server
+    from crankwork.studio.answers import Studio
+
+    rooms = server.Rooms(server.Opening(""), "en")
+    studio = Studio("en")
+    monkeypatch.setattr(studio, "_show", lambda _: 1 / 0)
+    found = server._answer(rooms, studio, {"n": 1, "do": "show", "text": ""})
+    assert "inside crankwork" in found["refusals"][0]["text"]
+    monkeypatch.undo()
+    assert "data" in server._answer(rooms, studio, {"n": 2, "do": "show", "text": template("four-bar")})
+
+
+def test_a_file_is_saved_with_its_comments_and_never_over_what_somebody_wrote(tmp_path, start):
+    path = tmp_path / "my machine.toml"
+    text = template("four-bar")
+    path.write_text(text, encoding="utf-8")
+    with start(tmp_path, str(path)) as started, talked(started) as socket:
+        assert json.loads(socket.recv())["path"] == str(path)
+
+        def ask(**question):
+            socket.send(json.dumps({"n": 1, "text": text, **question}))
+            return json.loads(socket.recv())
+
+        changed = ask(do="set", fields={"crank.radius": "60 mm"})["text"]
+        assert ask(do="save", text=changed) == {"n": 1, "saved": str(path)}
+        assert path.read_text("utf-8") == changed
+        assert changed == text.replace('"62.5 mm"', '"60 mm"')
+        assert ask(do="disk") == {"n": 1, "changed": False}
+        path.write_text("# somebody else\n", encoding="utf-8")
+        assert ask(do="disk") == {"n": 1, "changed": True}
+        assert ask(do="save", text=text) == {"n": 1, "conflict": str(path)}
+        assert path.read_text("utf-8") == "# somebody else\n"
+        assert ask(do="disk", take=True)["text"] == "# somebody else\n"
+        assert ask(do="save", text=text, anyway=True)["saved"]
+        assert path.read_text("utf-8") == text
+
+
+def test_two_pages_do_not_disturb_each_other(started):
+    with talked(started) as one, talked(started) as other:
+        one.recv(), other.recv()
+        for number, (socket, name) in enumerate([(one, "engine"), (other, "press"), (one, "engine"), (other, "press")]):
+            socket.send(json.dumps({"n": number, "do": "template", "name": name}))
+        titles = [json.loads(socket.recv())["title"] for socket in (one, one, other, other)]
+    assert titles[0] == titles[1] != titles[2] == titles[3]
+
+
+def test_the_studio_ends_after_its_last_page_has_gone():
+    from crankwork.studio import server
+
+    rooms = server.Rooms(server.Opening(""), "en")
+    assert not rooms.deserted
+    rooms.left = time.monotonic() - 60
+    assert rooms.deserted
+    rooms.pages = 1
+    assert not rooms.deserted
+    assert not server.Rooms(server.Opening(""), "en", lingers=True).deserted
