@@ -34,7 +34,7 @@ NAMED_IN = {
     "fields": "description", "figures": "",
     "headings": "note", "kinds": "",
     "marks": "", "memory": "", "note": "note", "notices": "", "refusals": "", "report": "", "seen": "note",
-    "page": "", "sentences": "", "sheets": "note", "study": "study", "tables": "",
+    "page": "", "sentences": "", "sheets": "note", "studio": "studio", "study": "study", "tables": "",
 }  # fmt: skip
 
 
@@ -106,7 +106,12 @@ def pieces(folder: Path) -> set[str]:
 PIECES = {folder: pieces(PACKAGE / folder) for folder in set(NAMED_IN.values())}
 
 
+MODULES = "".join(path.read_text("utf-8") for path in (PACKAGE / "browser").glob("*.js"))
+
+
 def is_used(room: str, name: str) -> bool:
+    if room == "studio" and re.search(rf"\bwords\.{name}\b", MODULES):
+        return True
     if f"{room}.{name}" in EVERYWHERE or name in TABLES.get(room, ()):
         return True
     return room in NAMED_IN and is_made_of(name, PIECES[NAMED_IN[room]])

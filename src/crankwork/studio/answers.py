@@ -92,7 +92,8 @@ class Studio:
     def _set(self, asked: Mapping[str, Any]) -> dict[str, Any]:
         """State what was typed into fields, and show what comes of it."""
         description = self._described(asked["text"])
-        description.replace({key: stated_text(description, key, one) for key, one in asked["fields"].items()})
+        for key, one in asked["fields"].items():
+            description[key] = stated_text(description, key, one)
         text = description.dump()
         return {"text": text, **self._show({**asked, "text": text})}
 
