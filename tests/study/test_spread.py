@@ -50,6 +50,11 @@ def test_one_per_cent_of_four_numbers_against_draws() -> None:
         assert found[key].deviation == pytest.approx(float(drawn.std()), rel=0.01), key
         assert sum(cause.share for cause in found[key].causes) == pytest.approx(1)
         assert not found[key].is_sampled
+    # by three deviations of each, where the value grows or falls with each
+    assert found["stroke"].worst == pytest.approx((0.097, 0.103))
+    w, ends = 50 * math.pi, found["piston_acceleration_max"].worst
+    assert ends[1] == pytest.approx(0.0515 * (1.03 * w) ** 2 * (1 + 0.0515 / 0.194))
+    assert ends[0] == pytest.approx(0.0485 * (0.97 * w) ** 2 * (1 + 0.0485 / 0.206))
     # of r w^2 (1 + r/l) the speed brings (2 %)^2 of the variance, the crank (1.2 %)^2, the rod (0.2 %)^2
     shares = {cause.key: cause.share for cause in found["piston_acceleration_max"].causes}
     assert shares["crank.speed"] == pytest.approx(4 / (4 + 1.44 + 0.04), rel=1e-3)
@@ -62,6 +67,8 @@ def test_a_value_at_its_least_spreads_by_its_curvature() -> None:
     (e,) = draws((0.0, 0.008))
     stroke = np.sqrt(0.25**2 - e**2) - np.sqrt(0.15**2 - e**2)
     assert found["stroke"].deviation == pytest.approx(float(stroke.std()), rel=0.02)
+    off = math.sqrt(0.25**2 - 0.024**2) - math.sqrt(0.15**2 - 0.024**2)
+    assert found["stroke"].worst == pytest.approx((0.1, off))
 
 
 OFFSET = """
@@ -93,6 +100,33 @@ def test_where_the_largest_of_two_peaks_changes_draws_are_taken_and_told() -> No
     # of 1500 draws a deviation is known to 1.8 %
     assert one.deviation == pytest.approx(expected, rel=0.06)
     assert "1500" in spread_text(found)
+    assert one.worst == pytest.approx((math.asin(0.05 / 0.2), math.asin(0.056 / 0.2)))
+
+
+def test_draws_calculated_at_once_are_those_analysed_one_by_one(monkeypatch) -> None:
+    """With a rod so short the least acceleration leaves the bottom dead centre, and for some draws does not."""
+    description = slider_crank(crank__radius="50 ± 0.5 mm", rod__length="192 ± 2 mm", crank__speed="1500 rpm ± 1 %")
+    keys = ["piston_acceleration_min", "piston_acceleration_min_angle"]
+    at_once = crankwork.spread(description, keys, samples=150)
+    assert at_once[keys[1]].is_sampled
+    monkeypatch.setattr("crankwork.study.spread._Beside.compile", lambda *_: None)
+    alone = crankwork.spread(description, keys, samples=150)
+    for key in keys:
+        assert at_once[key].deviation == pytest.approx(alone[key].deviation, rel=1e-9)
+        assert at_once[key].worst == pytest.approx(alone[key].worst, rel=1e-9)
+        assert dict(at_once[key].causes) == pytest.approx(dict(alone[key].causes), rel=1e-6)
+
+
+def test_the_least_acceleration_against_draws() -> None:
+    found = crankwork.spread(
+        slider_crank(crank__radius="50 ± 1 mm", rod__length="200 ± 4 mm"), ["piston_acceleration_min"], samples=20_000
+    )["piston_acceleration_min"]
+    r, rod = draws((0.05, 0.001), (0.2, 0.004))
+    phi = np.radians(np.linspace(130, 180, 251))[:, None]
+    of_angle = np.cos(phi) + (r / rod) * np.cos(2 * phi) / (1 - (r / rod * np.sin(phi)) ** 2) ** 0.5
+    of_angle = of_angle + (r / rod) ** 3 * np.sin(2 * phi) ** 2 / 4 / (1 - (r / rod * np.sin(phi)) ** 2) ** 1.5
+    expected = (r * (50 * math.pi) ** 2 * of_angle).min(axis=0)
+    assert found.deviation == pytest.approx(float(expected.std()), rel=0.02)
 
 
 def test_the_command_tells_values_deviations_and_causes(tmp_path, capsys, monkeypatch) -> None:
@@ -191,3 +225,15 @@ def test_equal_causes_have_equal_shares_where_draws_are_taken():
     assert largest.deviation == pytest.approx(10 * math.sqrt(0.5594672), rel=0.06)
     assert re.search(r"mean of the draws 100[89]; ", spread_text(found))
     assert [one.share for one in largest.causes] == pytest.approx([1 / 3] * 3, abs=0.06)
+
+
+@pytest.mark.parametrize("within", ["0", "-1", "11", "nan", "three"])
+def test_a_worst_case_that_is_none_is_refused(tmp_path, capsys, monkeypatch, within) -> None:
+    from crankwork import cli
+
+    (tmp_path / "my.toml").write_text(slider_crank(crank__radius="50 ± 0.1 mm").dump(), encoding="utf-8")
+    monkeypatch.setattr("sys.argv", ["crankwork", "spread", str(tmp_path / "my.toml"), f"--within={within}"])
+    with pytest.raises(SystemExit) as ended:
+        cli.main()
+    assert ended.value.code == 2
+    assert "--within 3" in capsys.readouterr().err

@@ -17,6 +17,7 @@ from crankwork.cli.asked import (
     analysed,
     compared,
     doubt,
+    factor_of,
     formats_of,
     laid_over,
     machine_of,
@@ -384,6 +385,7 @@ def solve(  # noqa: PLR0913 - one argument per option of the command
 @click.argument("file")
 @click.argument("keys", nargs=-1)
 @click.option("--samples", metavar="N", default="2000")
+@click.option("--within", metavar="N", default="3")
 @LANG
 @SYSTEM
 @SET
@@ -392,6 +394,7 @@ def spread(  # noqa: PLR0913 - one argument per option of the command
     file: str,
     keys: tuple[str, ...],
     samples: str,
+    within: str,
     language: Language,
     units: str | None,
     settings: tuple[str, ...],
@@ -405,7 +408,10 @@ def spread(  # noqa: PLR0913 - one argument per option of the command
 
     count = int(samples) if samples.isascii() and samples.isdecimal() and len(samples) < 10 else 0
     with bar() as telling:
-        found = found_spread(load(file), keys, samples=count, overrides=laid_over(settings, units=units), told=telling)
+        found = found_spread(
+            load(file), keys, samples=count, within=factor_of(within), overrides=laid_over(settings, units=units),
+            told=telling,
+        )  # fmt: skip
     if as_json:
         click.echo(json.dumps(spread_data(found), ensure_ascii=False, indent=1))
     else:

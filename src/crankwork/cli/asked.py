@@ -70,6 +70,14 @@ def place_of(text: str, dimension: str) -> float:
     return round(math.degrees(value), 9) if dimension == "angle" else value
 
 
+def factor_of(text: str) -> float:
+    """Return a plain number of an option, 0 where it is none; a decimal comma is understood."""
+    try:
+        return float(text.replace(",", "."))
+    except ValueError:
+        return 0.0
+
+
 def analysed(machine: Machine) -> Results:
     """Return the results of a machine, with a bar on the error stream where one let go takes more than a second."""
     from crankwork.analysis import analyse

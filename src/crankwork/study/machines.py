@@ -70,10 +70,10 @@ class Machines:
         ]
         return analyse(self._description.machine([*self._overrides, *written]))
 
-    def compile(self, steps: int | None, checked: Array) -> None:
+    def compile(self, steps: int | None, checked: Array, *, is_for_few: bool = False) -> None:
         """Compile the calculation, or remember why it cannot be; it must give what analyses of some designs do."""
         try:
-            kernel = self.kernel(steps)
+            kernel = self.kernel(steps, is_for_few=is_for_few)
             self._check(kernel, checked, _SAME if steps is None else _SAMPLED)
         except NotCompiledError as error:
             self.reason = error.reason

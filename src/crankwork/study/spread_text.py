@@ -23,7 +23,8 @@ def spread_text(found: Spreads, language: Language = "en") -> str:
 def _text(found: Spreads, language: Language) -> str:
     title = found.results.machine.title
     lines = [title] if title else []
-    lines += [say("study.normal", language), ""]
+    within = number(found.within, language)
+    lines += [say("study.normal", language), say("study.worst", language, within=within), ""]
     rows = []
     for key, one in found.items():
         causes = ", ".join(
@@ -38,8 +39,9 @@ def _text(found: Spreads, language: Language) -> str:
         # draws tell no more digits
         size = number(displayed_size(key, one.deviation), language, digits=3 if one.is_sampled else 6)
         shown = [number(displayed(key, one.value), language), size]
-        rows.append((label(key, language), " ± ".join(shown), unit_name(key_unit(key), language), causes, sign))
-    wide = [max((len(row[at]) for row in rows), default=0) for at in range(4)]
+        worst = " … ".join(number(displayed(key, end), language) for end in one.worst)
+        rows.append((label(key, language), " ± ".join(shown), worst, unit_name(key_unit(key), language), causes, sign))
+    wide = [max((len(row[at]) for row in rows), default=0) for at in range(5)]
     lines += ["  ".join(cell.ljust(size) for cell, size in zip(row, [*wide, 0], strict=True)).rstrip() for row in rows]
     if found.samples:
         lines += ["", say("study.samples", language, count=str(found.samples), sign=say("study.sampled", language))]
@@ -52,11 +54,14 @@ def spread_data(found: Spreads) -> dict[str, Any]:
         return {
             "title": found.results.machine.title,
             "samples": found.samples,
+            "within": found.within,
             "spreads": {
                 key: {
                     "value": rounded(displayed(key, one.value)),
                     "deviation": rounded(displayed_size(key, one.deviation)),
                     "unit": key_unit(key),
+                    "least": rounded(displayed(key, one.worst[0])),
+                    "largest": rounded(displayed(key, one.worst[1])),
                     "is_sampled": one.is_sampled,
                     "mean": None if one.mean is None else rounded(displayed(key, one.mean)),
                     "causes": {cause.key: rounded(cause.share) for cause in one.causes},
