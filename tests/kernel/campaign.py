@@ -204,7 +204,7 @@ def main() -> int:
     parser.add_argument("--reasons", action="store_true", help="print why values are not compiled")
     asked = parser.parse_args()
     if asked.arrays:
-        compiled._compiles = lambda: False
+        compiled.compiles = lambda: False
     jobs: list[tuple[str, Callable[[], str]]] = [(one, Path(one).read_text) for one in asked.files]
     jobs += [
         (f"{asked.seed}:{at}", lambda at=at: plausible_file(asked.seed, at).text)  # type: ignore[misc]

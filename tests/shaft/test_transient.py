@@ -9,6 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from crankwork.shaft.fitted import fitted
+from crankwork.shaft.glide import Glide
 from crankwork.shaft.motor import AsynchronousMotor, GearedMotor
 from crankwork.shaft.transient import FreeMachine, Run
 
@@ -29,14 +30,23 @@ def free(inertia=2.0, potential=None, grows=0.0, falls=0.0, damping=0.0, breaks=
     return FreeMachine(reduced, breaks, **other)
 
 
+@pytest.fixture(params=["arrays", "compiled"])
+def run(request):
+    """Steps of arrays, and the same steps compiled."""
+    if request.param == "arrays":
+        return Run
+    pytest.importorskip("numba")
+    return Glide
+
+
 def words(course):
     return [one.word for one in course.events]
 
 
 class TestRunDown:
-    def test_dry_friction(self):
+    def test_dry_friction(self, run):
         """J w / M seconds, J w^2 / (2 M) radians; then it stays."""
-        course = Run(free(grows=-4.0, falls=4.0), 0.3, 20.0).until(15.0)
+        course = run(free(grows=-4.0, falls=4.0), 0.3, 20.0).until(15.0)
         assert words(course) == ["comes_to_rest"]
         assert course.events[-1].time == pytest.approx(10.0, rel=1e-13)
         q, v, a = course.at(np.array([10.0, 12.0, 15.0]))
@@ -44,25 +54,25 @@ class TestRunDown:
         assert v == pytest.approx([0.0] * 3, abs=1e-13)
         assert not a[1:].any()
 
-    def test_viscous_damping_never_stops(self):
-        course = Run(free(damping=0.5), 0.0, 20.0).until(10.0)
+    def test_viscous_damping_never_stops(self, run):
+        course = run(free(damping=0.5), 0.0, 20.0).until(10.0)
         q, v, _ = course.at(np.array([4.0, 10.0]))
         assert v == pytest.approx(20 * np.exp(-0.25 * np.array([4.0, 10.0])), rel=1e-13)
         assert q == pytest.approx(80 * (1 - np.exp(-0.25 * np.array([4.0, 10.0]))), rel=1e-13)
 
-    def test_a_stiff_damper(self):
+    def test_a_stiff_damper(self, run):
         """A time constant of a hundred thousandth of the time that it is followed."""
-        course = Run(free(damping=2e4, grows=1.0, falls=1.0), 0.0, 1.0).until(10.0)
+        course = run(free(damping=2e4, grows=1.0, falls=1.0), 0.0, 1.0).until(10.0)
         assert course.at(np.array([10.0]))[1] == pytest.approx(5e-5, rel=1e-9)
         assert len(course.steps) < 400
 
 
 class TestOscillation:
-    def test_a_spring_with_dry_friction_loses_the_same_way_each_time(self):
+    def test_a_spring_with_dry_friction_loses_the_same_way_each_time(self, run):
         """x_n = x_0 - 2 n M / c, at multiples of half the period; it rests where the spring no longer moves it."""
         c, dry = 50.0, 4.0
         spring = (lambda q: c * (q - 3.0) ** 2 / 2, lambda q: c * (q - 3.0))
-        course = Run(free(potential=spring, grows=-dry, falls=dry), 4.0, 0.0).until(10.0)
+        course = run(free(potential=spring, grows=-dry, falls=dry), 4.0, 0.0).until(10.0)
         assert words(course) == ["turns_back"] * (len(course.events) - 1) + ["comes_to_rest"]
         back = course.events
         half = math.pi * math.sqrt(2.0 / c)
@@ -71,19 +81,19 @@ class TestOscillation:
         assert [one.coordinate - 3.0 for one in back] == pytest.approx(ways, abs=1e-12)
         assert abs(back[-1].coordinate - 3.0) <= dry / c < abs(back[-2].coordinate - 3.0)
 
-    def test_damped_vibration(self):
+    def test_damped_vibration(self, run):
         c, d = 50.0, 2.0
         spring = (lambda q: c * (q - 3.0) ** 2 / 2, lambda q: c * (q - 3.0))
-        course = Run(free(potential=spring, damping=d), 4.0, 0.0).until(5.0)
+        course = run(free(potential=spring, damping=d), 4.0, 0.0).until(5.0)
         decay, rate = d / 4.0, math.sqrt(c / 2 - (d / 4.0) ** 2)
         time = np.linspace(0, 5, 41)
         exact = np.exp(-decay * time) * (np.cos(rate * time) + decay / rate * np.sin(rate * time))
         assert course.at(time)[0] - 3.0 == pytest.approx(exact, abs=1e-12)
 
-    def test_a_stop_gives_back_its_part_of_the_speed(self):
+    def test_a_stop_gives_back_its_part_of_the_speed(self, run):
         """A weight that falls: each bounce takes the part of the time of the one before it, and in the end it lies."""
         e, g = 0.5, 3.0
-        course = Run(free(grows=-2 * g, falls=-2 * g, stops=(1.0, math.inf), restitution=e), 2.0, 0.0).until(10.0)
+        course = run(free(grows=-2 * g, falls=-2 * g, stops=(1.0, math.inf), restitution=e), 2.0, 0.0).until(10.0)
         hits = [one for one in course.events if one.word == "stop"]
         first = math.sqrt(2 / g)
         expected = first + 2 * first * np.cumsum(e ** np.arange(1, 12))
@@ -91,18 +101,18 @@ class TestOscillation:
         assert words(course)[-1] == "comes_to_rest"
         assert course.at(np.array([10.0]))[0] == pytest.approx(1.0, abs=1e-12)
 
-    def test_one_that_starts_against_its_stop_is_given_back_at_once(self):
-        course = Run(free(stops=(-1.0, 1.0), restitution=1.0), 1.0, 2.0).until(2.5)
+    def test_one_that_starts_against_its_stop_is_given_back_at_once(self, run):
+        course = run(free(stops=(-1.0, 1.0), restitution=1.0), 1.0, 2.0).until(2.5)
         assert [one.coordinate for one in course.events] == pytest.approx([1.0, -1.0, 1.0])
         assert [one.time for one in course.events] == pytest.approx([0.0, 1.0, 2.0], abs=1e-12)
 
-    def test_on_top_of_a_hill_it_stays(self):
-        course = Run(free(potential=(np.cos, lambda q: -np.sin(q))), math.pi * 2, 0.0).until(100.0)
+    def test_on_top_of_a_hill_it_stays(self, run):
+        course = run(free(potential=(np.cos, lambda q: -np.sin(q))), math.pi * 2, 0.0).until(100.0)
         assert words(course) == ["comes_to_rest"]
 
-    def test_the_smallest_oscillation_is_one(self):
+    def test_the_smallest_oscillation_is_one(self, run):
         """A thousand-millionth of a radian about the bottom."""
-        course = Run(free(potential=(np.cos, lambda q: -np.sin(q))), math.pi + 1e-9, 0.0).until(20.0)
+        course = run(free(potential=(np.cos, lambda q: -np.sin(q))), math.pi + 1e-9, 0.0).until(20.0)
         time = np.linspace(0, 20, 50)
         assert course.at(time)[0] - math.pi == pytest.approx(1e-9 * np.cos(time / math.sqrt(2)), abs=1e-14)
         assert len(course.steps) < 100

@@ -24,7 +24,7 @@ def of(file, *asked, **more):
 @pytest.mark.parametrize("way", ["slsqp", "trust-constr", "evolution"])
 def test_the_least_acceleration_of_a_stroke(way, monkeypatch, tmp_path):
     """The acceleration at top dead centre, r w^2 (1 + r/l), is least with the longest rod and the shortest crank."""
-    monkeypatch.setattr("crankwork.kernel.compiled._compiles", lambda: False)
+    monkeypatch.setattr("crankwork.kernel.compiled.compiles", lambda: False)
     found = of(SLIDER_CRANK, "piston_acceleration_max", SIZES, limits=["stroke >= 90 mm"], way=way)
     w, r, rod = found.results.summary["speed"], 0.045, 0.22
     assert found.fields == {"rod.length": pytest.approx(rod, rel=1e-9), "crank.radius": pytest.approx(r, rel=1e-8)}

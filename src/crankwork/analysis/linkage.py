@@ -110,7 +110,7 @@ def analyse_linkage(
     driver = machine.mechanism.driver
     if found is None and "shaking_force" in memory and isinstance(driver, Crank) and driver.law is None:
         summary |= {key: one.named(key) for key, one in balance_of(driver, memory | summary, machine.mechanism.period)}
-    ran = let_go(solved, found, summary, progress)
+    ran = let_go(solved, motion, found, summary, progress)
     summary, checks, notices = summary | ran.summary, checks | ran.checks, notices + ran.notices
     notices += tuple(_of_machine(machine))
     # where links pass through a line, that is told already

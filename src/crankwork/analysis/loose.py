@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from crankwork.analysis.charts import Chart, Piece
+from crankwork.analysis.evenness import turning_inertia
 from crankwork.analysis.solved import SolvedLinkage
 from crankwork.dynamics.force_system import whole_system
 from crankwork.dynamics.friction import Rubbing, rubbing_joints
@@ -18,10 +19,10 @@ from crankwork.dynamics.reduction import reduced_inertia, reduced_torque
 from crankwork.dynamics.running import Running
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value
-from crankwork.formula.known import Known, breaks_of
+from crankwork.formula.known import Known, absent, breaks_of, given, total
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.loops import ChainPath
-from crankwork.kinematics.memory import remembered_motion
+from crankwork.kinematics.memory import given_mechanism, remembered_motion
 from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.transfer import Transfer
 from crankwork.loads.applied import AppliedLoads
@@ -33,12 +34,10 @@ from crankwork.locale import Refusal
 from crankwork.machine import Machine, Transient
 from crankwork.shaft.fitted import fitted
 from crankwork.shaft.slipping import Slipping
-from crankwork.shaft.transient import OWN, RATE, FreeMachine, Way
+from crankwork.shaft.transient import LIGHT, OWN, RATE, FreeMachine, Way
 
 _WIDTH = math.pi / 8
 _LOOKS, _HALVINGS, _NOTHING = 2001, 60, 1e-12
-# of the largest moment of inertia, one with which the crank would run away
-_LIGHT = 1e-6
 # inertia and its derivative; energy and torques; damping; rate of the crank
 _ALIKE = (0, 1, 1, 1, 2, 3, 0, 1)
 
@@ -177,7 +176,7 @@ class Loose:
         reduced = reduced.with_slopes((0, 6), (1, 7)) if dead else reduced
         places = np.linspace(ends[0], ends[-1], _LOOKS)
         inertia = reduced(places)[0]
-        if not np.min(inertia) > _LIGHT * np.max(inertia):
+        if not np.min(inertia) > LIGHT * np.max(inertia):
             light = self.chart.crank(places[[np.argmin(inertia)]]).position
             raise MethodError(Refusal("transient_light", angle=math.degrees(float(light[0]))))
         slipping = self._slipping
@@ -193,6 +192,37 @@ class Loose:
             motor=self.machine.drive.motor if wanted.motor else None,
             stops=self.chart.walls(wanted.start, wanted.stops),
             restitution=wanted.restitution,
+        )
+
+    def remembered(self, motion: Motion, flywheel: Known | None) -> tuple[Known, ...]:
+        """Return what a motion in time follows from, remembered, as `Followed` takes it.
+
+        Nothing where its columns are not those of the crank angle alone. `motion`: over the crank angle, remembered;
+        `flywheel`: beside what the machine has.
+        """
+        machine, wanted = self.machine, self.wanted
+        if self.chart.pieces[0].turns_back or machine.friction or machine.drive.motor or self.is_two_sided:
+            return ()
+        mechanism = given_mechanism(machine.mechanism, machine.linkage)
+        beside = [turning_inertia(machine, "reduced_inertia.drive"), *([] if flywheel is None else [flywheel])]
+        dampers = [one for one in machine.loads if isinstance(one, Damper | SliderDamper)]
+        others = [one for one in machine.loads if one not in dampers]
+        pushed = applied_loads(mechanism, motion, others).also(self.solved.filling.loads(mechanism, motion))
+        rubbed = applied_loads(mechanism, motion, dampers, 1.0)
+        stated = (
+            ("transient_time", wanted.time, "time"),
+            ("driving_torque", wanted.torque, "torque"),
+            ("crank_angle", wanted.start, "start"),
+            ("speed", wanted.speed, "speed"),
+        )
+        inertia: Known
+        inertia, inertia_1 = reduced_inertia(mechanism, motion, total("reduced_inertia", beside))
+        return (
+            inertia,
+            inertia_1,
+            reduced_torque(motion, pushed),
+            -reduced_torque(motion, rubbed) if dampers else absent("damping"),
+            *(given(key, value, f"transient.{name}") if value else absent(key) for key, value, name in stated),
         )
 
     @property

@@ -19,7 +19,7 @@ from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.reduction import kinetic_energy, reduced_torque
 from crankwork.dynamics.running import Running
 from crankwork.errors import GeometryError, MethodError
-from crankwork.formula.known import Found, Known
+from crankwork.formula.known import Found, Known, Procedure
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.travel import Travel
@@ -27,6 +27,7 @@ from crankwork.loads.potential import has_potential, potential_energy
 from crankwork.locale import Refusal
 from crankwork.mechanism.joints import names_of_pivots
 from crankwork.shaft.collocation import gauss
+from crankwork.shaft.glide import Followed
 from crankwork.shaft.transient import RATE, Course, Run, Way
 
 # share of the energy that may be missed across dead positions of the crank, beside which its angle says little
@@ -54,25 +55,27 @@ class Ran(NamedTuple):
 
 def let_go(
     solved: SolvedLinkage,
+    motion: Motion,
     found: Travel | None,
     summary: Mapping[str, Known],
     progress: Callable[[float], None] | None = None,
 ) -> Ran:
     """Return how a linkage moves in time from where it is let go (artobolevsky_1988, ch. 15); nothing if it is not.
 
-    `found`: the way of a crank that does not turn fully; `summary`: what else is known, such as its flywheel;
-    `progress`: told the part of the time that is done.
+    `motion`: over the crank angle, remembered; `found`: the way of a crank that does not turn fully; `summary`: what
+    else is known, such as its flywheel; `progress`: told the part of the time that is done.
     """
     if solved.machine.transient is None:
         return Ran({}, {}, {}, (), {})
     try:
-        return _followed(solved, found, summary, progress)
+        return _followed(solved, motion, found, summary, progress)
     except (GeometryError, MethodError) as error:
         return Ran({}, {}, {}, (Notice("transient_unfollowed", {"message": error.args[0]}),), {})
 
 
 def _followed(
     solved: SolvedLinkage,
+    motion: Motion,
     found: Travel | None,
     summary: Mapping[str, Known],
     progress: Callable[[float], None] | None,
@@ -98,8 +101,13 @@ def _followed(
     (q, q_1, _), (_, v, _) = chart.crank(course.at(end)[0]), course.at(end)
     turn, speed = float(q[0]) - wanted.start, float(q_1[0] * v[0])
     keys = {"transient_time": course.end, "final_turn": turn, "final_speed": speed}
+    felt, of = loose.felt, loose.remembered(motion, flywheel) if wanted.until == "time" else ()
+    by = Followed(felt.breaks, felt.stops, felt.restitution)
+    nodes = [
+        Procedure(one, "followed", of, by, k) if of else Found(one, "followed") for k, one in enumerate(keys.values())
+    ]
     return Ran(
-        {key: Known(Found(value, "followed"), key) for key, value in keys.items()},
+        {key: Known(node, key) for key, node in zip(keys, nodes, strict=True)},
         {"transient": _history(loose, course), **_events(chart, course)},
         checks,
         (*_told(loose, course), *_not_yet(loose, course)),

@@ -200,6 +200,27 @@ class Found(Node):
         self.word, self.at, self.by = word, at, by
 
 
+class Procedure(Found):
+    """A single value that `function` found with others, of which it is one: of columns over a cycle and single values.
+
+    It takes edges of panels [rad] and Legendre coefficients of its operands on them, shape (operands, panels, k). Where
+    designs differ in it they are not made the same way.
+    """
+
+    __slots__ = ("function", "part")
+
+    def __init__(
+        self,
+        value: float,
+        word: str,
+        of: Iterable[Known],
+        function: Callable[[Array, Array], Sequence[float]],
+        part: int,
+    ) -> None:
+        super().__init__(value, word, of)
+        self.function, self.part = function, part
+
+
 class Known:
     """A value that remembers how it came about, under the name it has here.
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork import files
-from crankwork.formula.known import Delayed, Found, Known, breaks_of, in_order
+from crankwork.formula.known import Delayed, Found, Known, Procedure, breaks_of, in_order
 from crankwork.kernel.arrays import Arrays
 from crankwork.kernel.graph import number
 from crankwork.kernel.grid import Edges, Grid, between, closed, divided, even, lobatto, nodes_between
@@ -71,9 +71,12 @@ class Kernel:
         designs = Designs(memories, fields, keys)
         self.fields = fields.shape[1]
         wanted = {key: memories[0][key] for key in keys}
-        delays = sorted({one.node.by for one in in_order(wanted.values()) if isinstance(one.node, Delayed)})
+        every = list(in_order(wanted.values()))
+        if (steps or is_sloped) and any(isinstance(one.node, Procedure) for one in every):
+            raise NotCompiledError("procedure", next(iter(keys)))
+        delays = sorted({one.node.by for one in every if isinstance(one.node, Delayed)})
         breaks = [breaks_of(_reduced([one[key] for key in keys]), cycle, start) for one in memories]
-        compiles = _compiles() and not is_for_few
+        is_compiled = compiles() and not is_for_few
         widths = [one for one in _WIDTHS if one * parts <= cycle] or _WIDTHS[-1:]
         for width in (cycle,) if steps else widths:
             grid, edges = _grid(breaks, delays, width, steps)
@@ -97,7 +100,7 @@ class Kernel:
                 outputs | ({} if guard is None else {"": guard}), grid, self.fields, angles_at, () if steps else ends
             )
             is_running = all(one.detail in RUNNING for level in self.plan.levels for one in level.reductions)
-            self.source = Source(self.plan, is_reduced=compiles and steps is not None and is_running)
+            self.source = Source(self.plan, is_reduced=is_compiled and steps is not None and is_running)
             earlier = [grid.earlier(by) for by in self.source.delays.of]
             places = np.array(earlier, dtype=np.intp).reshape(len(earlier), grid.degrees.size)
             self._given = self.plan.table, places, self.source.order, grid.weights, grid.degrees
@@ -108,7 +111,7 @@ class Kernel:
             # looked at with arrays, so that only what is taken is compiled
             if steps or float(np.max(self(fields.T).left_out)) <= CONVERGED:
                 break
-        self._module = compiled(self.source.text) if compiles else None
+        self._module = compiled(self.source.text) if is_compiled else None
 
     def __call__(self, designs: Array) -> Bulk:
         """Return the single values of designs, shape (fields, n). [SI]"""
@@ -140,7 +143,7 @@ class Kernel:
                     getattr(self._module, f"level_{at}")(store.reshape(-1), kept, *self._given)
                 else:
                     self._arrays.level(at, store, kept)
-                left_out = np.maximum(left_out, self._reduced(level, store, kept, reductions))
+                left_out = np.maximum(left_out, self._reduced(level, store, kept, reductions, end - start))
             for row, (key, value) in enumerate(self.plan.outputs.items()):
                 of = number(value) if value.is_constant else store[self.source.rows(self.source.place(value))]
                 if key:
@@ -185,7 +188,7 @@ def _grid(
     return grid, Edges(every, parts)
 
 
-def _compiles() -> bool:
+def compiles() -> bool:
     """Return whether Numba is there."""
     return importlib.util.find_spec("numba") is not None
 

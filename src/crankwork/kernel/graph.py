@@ -146,7 +146,7 @@ class Graph:
 
     def __init__(self) -> None:
         self.values: list[Value] = []
-        self.functions: dict[int, Callable[[Any], Any]] = {}
+        self.functions: dict[int, Callable[..., Any]] = {}
         self._found: dict[Any, Value] = {}
 
     def _made(self, kind: str, operands: tuple[Value, ...] = (), detail: Any = None) -> Value:  # noqa: ANN401
@@ -218,6 +218,11 @@ class Graph:
     def reduction(self, word: str, *columns: Value) -> Value:
         """Return what columns come to over the cycle."""
         return self._made("reduction", columns, word)
+
+    def procedure(self, function: Callable[..., Any], part: int, columns: Iterable[Value]) -> Value:
+        """Return one of the values that a function finds of columns."""
+        self.functions.setdefault(id(function), function)
+        return self.reduction(f"procedure {id(function)} {part}", *columns)
 
     def apply(self, name: str, *operands: Any) -> Value:  # noqa: ANN401 - values and numbers
         """Return what an operation gives, without what zeros and ones do not change."""

@@ -26,14 +26,16 @@ class Reduced:
         self._source, self._reductions = source, reductions
         self._starts = np.linspace(0, reductions.count, parts + 1)[:-1].round().astype(int).tolist()
 
-    def __call__(self, level: Level, store: Array, kept: Array, reductions: Even | Exact | None) -> Array | float:
+    def __call__(
+        self, level: Level, store: Array, kept: Array, reductions: Even | Exact | None, count: int
+    ) -> Array | float:
         """Put reductions of columns into the store; return what polynomials leave out of them, shape (lanes,).
 
-        `reductions`: those of other edges than the stated ones.
+        `reductions`: those of other edges than the stated ones; `count`: how many lanes are designs that are asked for.
         """
         if not level.reductions:
             return 0.0
-        block = _Block(self._source, reductions or self._reductions, self._starts, level, kept)
+        block = _Block(self._source, reductions or self._reductions, self._starts, level, kept, count)
         for one in level.reductions:
             store[self._source.rows(self._source.place(one))] = block.value(one)
         return np.asarray(block.left_out.max(axis=0))
@@ -43,9 +45,9 @@ class _Block:
     """The columns of some designs, and what was found of them."""
 
     def __init__(
-        self, source: Source, reductions: Even | Exact, starts: Sequence[int], level: Level, kept: Array
+        self, source: Source, reductions: Even | Exact, starts: Sequence[int], level: Level, kept: Array, count: int
     ) -> None:
-        self._source, self._exact, self._starts, self._kept = source, reductions, starts, kept
+        self._source, self._exact, self._starts, self._kept, self._count = source, reductions, starts, kept, count
         reduced = {one.at: one for reduction in level.reductions for one in _looked_at(reduction)}
         self._row_of = {at: row for row, at in enumerate(reduced)}
         self._columns = kept[[source.columns(at) for at in reduced]]
@@ -59,12 +61,15 @@ class _Block:
             self._integral[is_root] = reductions.of_roots(self._smooth[is_root])
         self._peaks: dict[tuple[float, bool], Peaks] = {}
         self._ranges: dict[int, tuple[Peaks, Peaks]] = {}
+        self._procedures: dict[tuple[str, tuple[Value, ...]], Array] = {}
 
     def value(self, one: Value) -> Array:
         """Return what a reduction comes to, shape (lanes,)."""
         word, *more = one.detail.split()
         part = more[0] if more and more[0] != "slope" else ""
         row = self._row_of[one.operands[0].at]
+        if word == "procedure":
+            return np.asarray(self._by_procedure(one)[int(more[1])])
         if word == "tangents":
             return self._tangents(one, is_slope=bool(more))
         change = self._column(one.operands[1]) if len(one.operands) > 1 else None
@@ -85,6 +90,20 @@ class _Block:
             return np.asarray(up.value[0] + down.value[0])
         work = self._work(change)
         return np.asarray(self._exact.at(work, up)[0] - self._exact.at(work, down)[0])
+
+    def _by_procedure(self, one: Value) -> Array:
+        """Return what a function finds of columns, shape (values, lanes)."""
+        _, function, _ = one.detail.split()
+        key = function, one.operands
+        if not isinstance(self._exact, Exact):
+            raise TypeError("procedures take polynomials")
+        if key not in self._procedures:
+            series = self._exact.series(self._kept[[self._source.columns(column.at) for column in one.operands]])
+            call, lanes = one.graph.functions[int(function)], np.minimum(np.arange(series.shape[-1]), self._count - 1)
+            edges = np.broadcast_to(self._exact.edges, (series.shape[1] + 1, lanes.size))
+            found = np.array([call(edges[:, lane], series[..., lane]) for lane in range(self._count)])
+            self._procedures[key] = found[lanes].T
+        return self._procedures[key]
 
     def _column(self, value: Value) -> Array:
         return self._kept[[self._source.columns(value.at)]]
@@ -125,4 +144,6 @@ class _Block:
 
 def _looked_at(one: Value) -> tuple[Value, ...]:
     """Return the columns of a reduction that polynomials must follow."""
+    if one.detail.startswith("procedure"):
+        return one.operands
     return one.operands[:2] if one.detail.startswith("tangents") else one.operands[:1]

@@ -159,6 +159,15 @@ class Exact:
         return np.asarray((within + before[:, :, None]).reshape(columns.shape))
 
     @property
+    def edges(self) -> Array:
+        """The ends of panels, shape (edges, lanes or 1). [rad]"""
+        return np.concatenate([self._middle - self._half, self._middle[-1:] + self._half[-1:]])
+
+    def series(self, columns: Array) -> Array:
+        """Return the Legendre coefficients of columns, shape (columns, panels, degrees, lanes)."""
+        return np.asarray(np.matmul(self._to_coefficients, self.panels(columns)))
+
+    @property
     def count(self) -> int:
         """How many panels there are."""
         return len(self._half)

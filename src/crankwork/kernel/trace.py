@@ -28,6 +28,7 @@ from crankwork.formula.known import (
     Node,
     OfAngle,
     Pieces,
+    Procedure,
     Root,
     Table,
     Total,
@@ -178,6 +179,8 @@ def _are_alike(one: Node, other: Node) -> bool:
             return (a, c) == (b, d)
         case Pieces(), Pieces():
             return one.retold is not None or _plain(one.places) == _plain(other.places)
+        case Procedure(function=f, part=a), Procedure(function=g, part=b):
+            return f == g and a == b
         case (Component(at=a), Component(at=b)) | (Found(word=a), Found(word=b)):
             return bool(a == b)
     return True
@@ -245,6 +248,8 @@ class Trace:
                 return self._as_value(functools.reduce(operator.add, map(of, node.operands)))
             case Chosen():
                 return self.graph.apply("choose", *map(of, node.operands))
+            case Procedure():
+                return self.graph.procedure(node.function, node.part, map(self.value, node.operands))
             case Found():
                 return self._found(known, node)
             case Root() | Component():

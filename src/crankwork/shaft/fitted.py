@@ -15,7 +15,7 @@ _COUNT = 16
 _NODES, _WEIGHTS = legendre.leggauss(_COUNT)
 _DEGREES = np.arange(_COUNT)
 _TO_SERIES = (_DEGREES + 0.5)[:, None] * legendre.legvander(_NODES, _COUNT - 1).T * _WEIGHTS
-_TO_POWERS = np.stack([np.pad(legendre.leg2poly(one), (0, _COUNT - 1 - k)) for k, one in enumerate(np.eye(_COUNT))])
+TO_POWERS = np.stack([np.pad(legendre.leg2poly(one), (0, _COUNT - 1 - k)) for k, one in enumerate(np.eye(_COUNT))])
 _POWERS = np.arange(_COUNT)
 _CONVERGED = 3e-14
 _NO_BETTER = 0.1
@@ -108,7 +108,7 @@ def fitted(
         kept.append((low, series))
     begun = np.concatenate([one for one, _ in kept])
     order = np.argsort(begun)
-    powers = np.concatenate([one for _, one in kept])[order] @ _TO_POWERS
+    powers = np.concatenate([one for _, one in kept])[order] @ TO_POWERS
     return Fitted(np.append(begun[order], breaks[-1]), np.asarray(powers), period)
 
 

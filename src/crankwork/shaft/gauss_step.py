@@ -17,20 +17,23 @@ from crankwork.shaft.collocation import gauss
 Acceleration = Callable[[Array, Array], Array]
 
 POINTS = 12
-NODES, WEIGHTS, _TO_SERIES, _TO_INTEGRAL, _INTEGRATION = gauss(POINTS)
-_TWICE = _INTEGRATION @ _INTEGRATION
-_ITERATIONS = 25
-_SETTLED = 1e-15
-_STAGNANT = 1e-12
-_UNFELT = 1e-13
-_LOOKS = (1 - np.cos(np.pi * np.arange(4 * POINTS + 1) / (4 * POINTS))) / 2
+NODES, WEIGHTS, TO_SERIES, _TO_INTEGRAL, INTEGRATION = gauss(POINTS)
+TWICE = INTEGRATION @ INTEGRATION
+ITERATIONS = 25
+SETTLED = 1e-15
+STAGNANT = 1e-12
+UNFELT = 1e-13
+LOOKS = (1 - np.cos(np.pi * np.arange(4 * POINTS + 1) / (4 * POINTS))) / 2
+# from values at the points to the integral up to each look, and to the integral of that
+AT_LOOKS = legendre.legvander(2 * LOOKS - 1, POINTS) @ _TO_INTEGRAL @ TO_SERIES
+TWICE_AT_LOOKS = AT_LOOKS @ INTEGRATION
 _HALVINGS = 80
 # how far a polynomial still tells what follows it, of its own length
-_AHEAD = 0.3
+AHEAD = 0.3
 _AT_START = 1e-13
 
 
-@dataclass(frozen=True)
+@dataclass
 class Step:
     """A stretch of motion in time: the acceleration is a polynomial."""
 
@@ -53,7 +56,7 @@ class Step:
     @cached_property
     def _series(self) -> tuple[Array, Array, Array]:
         """Legendre series of the acceleration, of its integral and of the integral of that, over the unit step."""
-        first = _TO_SERIES @ self.stages
+        first = TO_SERIES @ self.stages
         second = _TO_INTEGRAL @ first
         return first, second, legendre.legint(second, lbnd=-1) / 2
 
@@ -61,7 +64,7 @@ class Step:
     def end(self) -> tuple[float, float]:
         """Coordinate and rate at its end."""
         h = self.length
-        rates = self.rate + h * (_INTEGRATION @ self.stages)
+        rates = self.rate + h * (INTEGRATION @ self.stages)
         return self.start + h * float(WEIGHTS @ rates), self.rate + h * float(WEIGHTS @ self.stages)
 
     @property
@@ -72,14 +75,14 @@ class Step:
 
     def crossings(self, value: Callable[[Array, Array], Array]) -> list[float]:
         """Return the times within the step at which a function of coordinate and rate changes its sign, ascending."""
-        q, v, _ = self.at(self.time + self.length * _LOOKS)
+        q, v, _ = self.at(self.time + self.length * LOOKS)
         signs = value(q, v)
         if abs(signs[0]) <= _AT_START * np.max(np.abs(signs)):
             # it starts there
             signs[0] = 0.0
         found = []
         for k in np.flatnonzero(signs[1:] * signs[:-1] < 0):
-            low, high, below = _LOOKS[k], _LOOKS[k + 1], signs[k] < 0
+            low, high, below = LOOKS[k], LOOKS[k + 1], signs[k] < 0
             for _ in range(_HALVINGS):
                 middle = (low + high) / 2
                 if middle in (low, high):
@@ -103,16 +106,16 @@ def gauss_step(
     if before is None:
         a = np.full(POINTS, float(acceleration(np.array([start]), np.array([rate]))[0]))
     else:
-        a = before.at(np.minimum(time + h * NODES, time + _AHEAD * before.length))[2]
+        a = before.at(np.minimum(time + h * NODES, time + AHEAD * before.length))[2]
     if not np.isfinite(a).all():
         return None
     last = math.inf
-    for iteration in range(_ITERATIONS):
-        q, v = drift + h * h * (_TWICE @ a), rate + h * (_INTEGRATION @ a)
+    for iteration in range(ITERATIONS):
+        q, v = drift + h * h * (TWICE @ a), rate + h * (INTEGRATION @ a)
         found = acceleration(q, v)
         if iteration % 6 == 0:
             by_q, by_v = _slopes(acceleration, q, v, found)
-            matrix = np.eye(POINTS) - h * h * by_q[:, None] * _TWICE - h * by_v[:, None] * _INTEGRATION
+            matrix = np.eye(POINTS) - h * h * by_q[:, None] * TWICE - h * by_v[:, None] * INTEGRATION
         if not (np.isfinite(found).all() and np.isfinite(matrix).all()):
             return None
         move = np.linalg.solve(matrix, found - a)
@@ -120,8 +123,10 @@ def gauss_step(
         size, scale = float(np.max(np.abs(move))), float(np.max(np.abs(a)))
         # what it does to coordinate and rate is below their own rounding
         felt = max(size * h * h / max(np.max(np.abs(q - start)), 1e-300), size * h / max(np.max(np.abs(v)), 1e-300))
-        stagnates = size >= last / 4 and (size <= _STAGNANT * scale or felt <= _UNFELT)
-        if size <= _SETTLED * scale or felt <= 1e-17 or stagnates:
+        stagnates = size >= last / 4 and (size <= STAGNANT * scale or felt <= UNFELT)
+        # the next move would be as much smaller as this one is than the last
+        left = size * min(size / last, 1.0) if iteration else size
+        if left <= SETTLED * scale or felt <= 1e-17 or stagnates:
             return Step(time, start, rate, length, a)
         last = size
     return None

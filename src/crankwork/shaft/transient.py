@@ -26,15 +26,17 @@ EventWord = Literal[
 
 # rows of the quantities of a machine that are its own, and which of them is the rate of the crank
 OWN, RATE = 8, 5
-_TAIL = 1e-12
-_SHARE = 1e-10
-_GROWTH = 2.0
-_SHORTEST = 1e-13
+TAIL = 1e-12
+SHARE = 1e-10
+GROWTH = 2.0
+SHORTEST = 1e-13
 _LANDINGS = 8
 _LANDED = 1e-15
 MOST_STEPS = 10_000
-_AT_END = 1e-13
+AT_END = 1e-13
 _MOMENT = 1e-12
+# of the largest moment of inertia, one with which the crank would run away
+LIGHT = 1e-6
 # of the largest speed, what counts as standing after a stop
 _STILL = 1e-6
 # of the rate that a machine could come to, below which steps are not told apart; and of its forces, what is rounding
@@ -172,6 +174,7 @@ class Run:
         self.largest = max(abs(rate), _SLOW * machine.natural_rate)
         self.before: Step | None = None  # The step before under the same law
         self.is_over = self.is_lost = False
+        self.end = math.inf
         self._wrap()
         low, high = machine.stops
         if (rate > 0 and coordinate >= high) or (rate < 0 and coordinate <= low):
@@ -187,9 +190,9 @@ class Run:
 
         `watched`: speeds of the crank whose passing is told [rad/s].
         """
-        length, tried = end / 100, 0
+        length, tried, self.end = end / 100, 0, end
         try:
-            while self.time < end * (1 - _AT_END) and not (self.is_over or self.is_lost):
+            while self.time < end * (1 - AT_END) and not (self.is_over or self.is_lost):
                 tried += 1
                 if tried >= 3 * MOST_STEPS or len(self.course.steps) >= MOST_STEPS:
                     self.tell("many_steps")
@@ -232,7 +235,7 @@ class Run:
             self.before = None
             self._happen(cut[1])
             return length
-        return step.length * min(_GROWTH, 0.9 * math.pow(max(tail, 1e-30), -1 / POINTS))
+        return step.length * min(GROWTH, 0.9 * math.pow(max(tail, 1e-30), -1 / POINTS))
 
     def _law(self) -> Callable[[Array, Array], Array]:
         way, (low, high) = self.way, self.stretch
@@ -241,12 +244,12 @@ class Run:
     def _tail(self, step: Step) -> float:
         """Return what a step leaves out, over what it may leave out."""
         q, v, share = step.tail
-        felt = max(q / (_TAIL * self.machine.size), v / (_TAIL * max(self.largest, abs(step.end[1]), 1e-300)))
+        felt = max(q / (TAIL * self.machine.size), v / (TAIL * max(self.largest, abs(step.end[1]), 1e-300)))
         # polynomials of the coordinate end in rounding, and so does the acceleration
-        return min(felt, share / _SHARE)
+        return min(felt, share / SHARE)
 
     def _shorter(self, length: float) -> float:
-        if length / 2 <= _SHORTEST * max(self.time, 1e-3):
+        if length / 2 <= SHORTEST * max(self.time, 1e-3):
             self.tell("lost")
             self.is_lost = True
         return length / 2
