@@ -172,7 +172,7 @@ def test_a_value_is_explained_when_clicked(seen):
     page = seen()
     page.locator('#results [data-key="speed"]').click()
     page.wait_for_selector("#explanation:not([hidden]) math")
-    assert "crank.speed" in page.locator("#explanation").inner_text()
+    assert "rotational speed" in page.locator("#explanation").inner_text()
     page.keyboard.press("Escape")
     assert page.locator("#explanation").is_hidden()
 
@@ -245,3 +245,77 @@ def test_every_field_is_reached_by_keys(seen):
         "add",
     } <= reached
     assert {one for one in reached if one.startswith("field-")} >= {"field-crank.radius", "field-links.coupler.length"}
+
+
+def canvas(page):
+    page.locator("#draw").click()
+    box = page.locator("svg.sketch").bounding_box()
+    scale = min(box["width"] / 240, box["height"] / 180)
+    left, top = box["x"] + (box["width"] - 240 * scale) / 2, box["y"] + (box["height"] - 180 * scale) / 2
+    return lambda x, y: (left + x * scale, top + y * scale)
+
+
+def test_a_four_bar_is_drawn_in_six_actions_and_moves(seen):
+    page = seen(reduced_motion="no-preference")
+    at = canvas(page)  # the first action
+    for x, y in ((60, 120), (60, 90), (140, 60)):  # three more
+        page.mouse.click(*at(x, y))
+    page.mouse.dblclick(*at(150, 120))  # the fifth
+    page.wait_for_function("() => document.getElementById('source').value.includes('radius = \"30 mm\"')")
+    settled(page)
+    assert "[positions]" in source(page)
+    assert page.locator("#film [data-part]").count() > 0
+    before = page.locator("#shown").inner_text()
+    page.wait_for_function("before => document.getElementById('shown').textContent !== before", arg=before)
+    at = canvas(page)
+    assert page.locator("svg.sketch circle").count() == 4
+    page.mouse.move(*at(100, 75))
+    page.mouse.down()
+    page.mouse.move(*at(95, 45), steps=3)
+    page.mouse.up()
+    page.wait_for_function("() => document.getElementById('source').value.includes('points')")
+    settled(page)
+    assert page.locator('#film [data-part="joint.D"]').count() == 1
+    assert page.locator("#undo").get_attribute("title") == "Draw"
+
+
+def test_a_slider_crank_is_drawn_by_keys_alone(seen):
+    page = seen()
+    page.locator("#draw").focus()
+    page.keyboard.press("Enter")
+    page.keyboard.press("Enter")
+    for keys in (["ArrowUp"] * 5, ["ArrowRight"] * 16 + ["ArrowDown"] * 5):
+        for key in keys:
+            page.keyboard.press(key)
+        page.keyboard.press("Enter")
+    page.keyboard.press("s")
+    page.wait_for_function("() => document.getElementById('source').value.includes('[guides]')")
+    settled(page)
+    assert 'radius = "25 mm"' in source(page)
+    assert page.locator("#refusals li").count() == 0
+    assert page.locator("#film [data-part]").count() > 0
+
+
+def test_what_is_missing_of_a_drawing_is_said(seen):
+    page = seen()
+    at = canvas(page)
+    for x, y in ((60, 120), (60, 90), (120, 60), (160, 80)):
+        page.mouse.click(*at(x, y))
+    page.mouse.dblclick(*at(180, 120))
+    page.wait_for_selector("#refusals li")
+    assert "2 degrees of freedom" in page.locator("#refusals li").inner_text()
+    assert page.locator("svg.sketch circle").count() == 5
+
+
+def test_digits_set_the_length_of_the_next_link(seen):
+    page = seen()
+    at = canvas(page)
+    page.mouse.click(*at(60, 120))
+    page.mouse.move(*at(60, 95))
+    page.keyboard.type("32,5")
+    assert "32,5 mm" in page.locator("#chip").inner_text()
+    page.mouse.click(*at(60, 95))
+    page.mouse.click(*at(140, 60))
+    page.mouse.dblclick(*at(150, 120))
+    page.wait_for_function("() => document.getElementById('source').value.includes('[positions]')")
+    assert 'radius = "32.5 mm"' in source(page)

@@ -10,6 +10,7 @@ import { Form } from "./form.js";
 import { choose, Film } from "./machine.js";
 import { unpacked } from "./numbers.js";
 import { curvesOf, differs, haunt, MOST_PINS } from "./pins.js";
+import { Sketch } from "./sketch.js";
 import { Talk } from "./talk.js";
 
 /** @typedef {import("./talk.js").Answer} Answer */
@@ -41,6 +42,10 @@ class StudioPage {
     this.reads = false;
     this.kept = 0;
     this.path = "";
+    /** @type {Sketch | undefined} */
+    this.sketch = undefined;
+    /** What was drawn last. @type {{pins: any, links: any} | undefined} */
+    this.drawn = undefined;
     this.barText = room("bar").innerHTML;
     this.editing = new Editing((editing) => this.edited(editing));
     this.editor = new Editor(room("source"), room("lines"), (text, ends) => this.typed(text, ends));
@@ -127,12 +132,14 @@ class StudioPage {
     if (question?.do === "save") return this.saved(answer);
     if (question?.do === "disk") return this.disk(answer);
     if (answer.text !== undefined) this.editing.take(answer.text);
+    if (question?.do === "sketch" && answer.data) this.drawing(false);
     if (question?.named) this.editing.commit(String(question.named));
     if (answer.form) this.form.show(answer.form);
     this.refused(answer.refusals ?? []);
     this.named(answer.named);
     document.body.classList.toggle("stale", !answer.data);
     if (answer.data) this.draw(answer);
+    if (question?.do === "sketch" && answer.data) this.run();
     const told = answer.refusals?.[0]?.text ?? answer.doubt ?? "";
     if (room("told").textContent !== told) room("told").textContent = told;
   }
@@ -195,7 +202,7 @@ class StudioPage {
     room("title").textContent = answer.title || "crankwork";
     document.title = answer.title || "crankwork";
     this.follow(axis, data);
-    this.machine(answer.film, data.film);
+    if (!this.sketch) this.machine(answer.film, data.film);
     this.figures(answer, columns);
     this.values(answer);
     this.columns = columns;
@@ -221,8 +228,13 @@ class StudioPage {
       this.motion = bar(this.cursor, axis, data.film?.seconds ?? 4, data.film?.turns ?? true);
       this.kept = this.cursor.followers.length;
       if (was !== undefined) this.cursor.move(was);
-      if (data.film && (runs ?? !matchMedia("(prefers-reduced-motion: reduce)").matches)) this.motion?.start();
+      if (data.film && (runs ?? true)) this.run();
     }
+  }
+
+  /** Let the machine run, unless the reader wants nothing to move by itself. */
+  run() {
+    if (!this.cursor?.runs && !matchMedia("(prefers-reduced-motion: reduce)").matches) this.motion?.start();
   }
 
   /**
@@ -356,6 +368,32 @@ class StudioPage {
     else if (answer.changed) this.notice(`${this.path}: ${this.words.changed}`, this.words.reread, () => this.talk.ask({ do: "disk", take: true }));
   }
 
+  /**
+   * Begin or end to draw a linkage; what was drawn stays.
+   * @param {boolean} begins
+   */
+  drawing(begins) {
+    room("draw").setAttribute("aria-pressed", String(begins));
+    const hint = /** @type {HTMLElement} */ (room("machine").querySelector(".hint"));
+    hint.textContent = begins ? this.words.sketch : this.words.hint;
+    if (!begins) {
+      this.sketch = undefined;
+      this.chip("");
+      if (this.seen.data) this.machine(this.seen.film, this.seen.data.film);
+      return;
+    }
+    this.motion?.stop();
+    this.film = undefined;
+    const ask = (/** @type {any} */ pins, /** @type {any} */ links) => {
+      this.drawn = { pins, links };
+      this.wanted = [];
+      this.talk.ask({ do: "sketch", pins, links, named: this.words.draw });
+    };
+    this.sketch = new Sketch(room("film"), this.words, ask, (text) => this.chip(text));
+    if (this.drawn) this.sketch.take(this.drawn.pins, this.drawn.links);
+    this.sketch.svg.focus();
+  }
+
   /** @param {string} name */
   tab(name) {
     for (const one of ["form", "text"]) {
@@ -433,6 +471,7 @@ class StudioPage {
     on("redo", () => this.editing.step(1) && this.show());
     on("save", () => this.talk.ask({ do: "save" }));
     on("pin", () => this.pin());
+    on("draw", () => this.drawing(!this.sketch));
     on("share", async () => {
       const word = await this.shared();
       await navigator.clipboard?.writeText(word).catch(() => {});

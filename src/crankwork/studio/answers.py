@@ -36,6 +36,7 @@ from crankwork.show.formats import FORMATS
 from crankwork.show.inline import inline_film, inline_svg
 from crankwork.studio.form import form, stated_text
 from crankwork.studio.handles import handles
+from crankwork.studio.sketch import sketched
 
 SHARE = "crankwork:"
 _LINE = re.compile(r":(\d+)$")
@@ -58,7 +59,7 @@ class Studio:
         """Return what is answered to what a page asks for."""
         asks: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
             "show": self._show, "set": self._set, "without": self._without, "template": self._template,
-            "shared": self._shared, "explain": self._explain,
+            "shared": self._shared, "sketch": self._sketch, "explain": self._explain,
         }  # fmt: skip
         try:
             return asks[asked["do"]](asked)
@@ -112,6 +113,10 @@ class Studio:
         text = opened_share(asked["word"])
         # who sent it is not asked for files of this machine
         self._reads = False
+        return {"text": text, **self._show({**asked, "text": text})}
+
+    def _sketch(self, asked: Mapping[str, Any]) -> dict[str, Any]:
+        text = sketched(asked, self.language)
         return {"text": text, **self._show({**asked, "text": text})}
 
     def _explain(self, asked: Mapping[str, Any]) -> dict[str, Any]:

@@ -65,7 +65,7 @@ def _header(language: Language) -> list[str]:
         f'<label class="button" tabindex="-1">{_said("open", language)}',
         '<input id="open" type="file" accept=".toml,.txt,text/plain"></label>',
         *(_button(name, language) for name in ("save", "undo", "redo", "share", "pin")),
-        '<span id="pins"></span>',
+        f'<span id="pins"></span><button id="draw" aria-pressed="false">{_said("draw", language)}</button>',
         f'<select id="export" aria-label="{_said("export", language)}">',
         f'<option value="">{_said("export", language)}</option>{exports}</select>',
         f'<select id="language" aria-label="{_said("language", language)}">{spoken}</select></header>',
