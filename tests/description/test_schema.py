@@ -22,15 +22,56 @@ from crankwork.description.machine_file import (
 from crankwork.description.schema import ListOf, Named, NameOr, Nested, Table
 from crankwork.errors import CrankworkError
 from crankwork.locale import texts
+from crankwork.study.study_file import study_schema
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
 WRITTEN = sorted((Path(crankwork.__file__).parent / TEMPLATES).glob("*.toml"))
 TEXTS = {name: template(name) for name in template_names()} | {path.stem: path.read_text("utf-8") for path in EXAMPLES}
 SCHEMA = json.loads(json_schema())
+STUDIES = json.loads(study_schema())
+STUDY_FILES = [
+    path for path in sorted(EXAMPLES[0].parent.glob("studies/*.toml")) if "[vary]" in path.read_text("utf-8")
+]
 
 
 def test_the_schema_is_a_json_schema() -> None:
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
+    jsonschema.Draft202012Validator.check_schema(STUDIES)
+
+
+STUDY = """
+machine = "machine.toml"
+[designs]
+drawing = "sobol"
+count = 64
+[vary]
+crank.radius = { from = "40 mm", to = "50 mm" }
+rod.length = "200 ± 1 mm"
+[objectives]
+joint_force_max.B = "minimise"
+"""
+
+
+@pytest.mark.parametrize("text", [STUDY, *(path.read_text("utf-8") for path in STUDY_FILES)])
+def test_studies_follow_their_schema(text) -> None:
+    jsonschema.validate(tomllib.loads(text), STUDIES)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("sobol", "sobel"),
+        ("count = 64", "count = 0"),
+        ("count", "cuont"),
+        ("minimise", "small"),
+        ('machine = "machine.toml"', ""),
+        ('"200 ± 1 mm"', "200"),
+        ("[objectives]", "[search]\nway = 'luck'\n[objectives]"),
+    ],
+)
+def test_what_studies_are_refused_for_their_schema_refuses_too(old, new) -> None:
+    assert old in STUDY
+    assert not jsonschema.Draft202012Validator(STUDIES).is_valid(tomllib.loads(STUDY.replace(old, new, 1)))
 
 
 @pytest.mark.parametrize("text", TEXTS.values(), ids=TEXTS)

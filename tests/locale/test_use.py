@@ -23,9 +23,11 @@ from crankwork.notation import ARGUMENTS
 from crankwork.note.captions import _PLACE, _SAME
 from crankwork.quantities import QUANTITIES, SUBJECTS
 from crankwork.report.notices import notice_text
+from crankwork.study.study_file import STUDY_FILE
 from crankwork.units import UNITS
 
 PACKAGE = Path(crankwork.__file__).parent
+FILES = *machine_file.FILES, STUDY_FILE
 TEMPLATES = sorted((PACKAGE / machine_file.TEMPLATES).glob("*.toml"))
 ROOMS = sorted({path.stem for path in (PACKAGE / "locale").glob("*/*.toml")})
 # rooms whose names are put together with their room where they are asked for, and the folder whose constants name them
@@ -63,7 +65,7 @@ def texts_of_help() -> set[str]:
 # and rooms with one text for each entry of a table
 TABLES = {
     "arguments": ARGUMENTS,
-    "fields": set().union(*map(texts_of, machine_file.FILES)),
+    "fields": set().union(*map(texts_of, FILES)),
     "help": texts_of_help(),
     "kinds": (*vars(dyads), "opposed"),
     "refusals": (*(f"dimension_{one.dimension}" for one in UNITS.values()), "or", "and"),
@@ -171,7 +173,7 @@ def test_what_is_the_same_in_english_is_one_text():
 
 
 def test_every_key_of_a_machine_file_says_what_it_means():
-    assert {name for one in machine_file.FILES for name in texts_of(one)} <= set(texts("fields", "en"))
+    assert {name for one in FILES for name in texts_of(one)} <= set(texts("fields", "en"))
 
 
 def test_every_command_option_and_stand_in_of_the_help_has_its_text():

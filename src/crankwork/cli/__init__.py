@@ -420,8 +420,14 @@ def spread(  # noqa: PLR0913 - one argument per option of the command
 
 @commands.command()
 @LANG
-def schema(language: Language) -> None:
-    """Print the JSON Schema of the machine file, for editors."""
+@click.option("--study", "of_study", is_flag=True)
+def schema(language: Language, *, of_study: bool) -> None:
+    """Print the JSON Schema of the machine file, or of study files, for editors."""
     from crankwork.description.machine_file import json_schema
 
+    if of_study:
+        from crankwork.study.study_file import study_schema
+
+        click.echo(study_schema(language))
+        return
     click.echo(json_schema(language))

@@ -366,12 +366,13 @@ def _printable(text: str) -> str:
 
 def json_schema(language: Language = "en") -> str:
     """Return the JSON Schema of the machine file, for editors, its descriptions in a language."""
-    schema = {
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "crankwork machine file",
-        "anyOf": [one.schema(language) for one in FILES],
-    }
-    return json.dumps(schema, indent=2, ensure_ascii=False)
+    return schema_text("crankwork machine file", {"anyOf": [one.schema(language) for one in FILES]})
+
+
+def schema_text(title: str, schema: dict[str, Any]) -> str:
+    """Return a JSON Schema as a file of its own."""
+    head = {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": title}
+    return json.dumps(head | schema, indent=2, ensure_ascii=False)
 
 
 def template_names() -> list[str]:

@@ -13,8 +13,8 @@ from typing import Any, NamedTuple, get_args
 from crankwork import __version__, files
 from crankwork.analysis import Results, analyse
 from crankwork.description.document import Description, load, stated_value
-from crankwork.description.kinds import Choice, Flag, Measure, Number, Reader, Text, shown
-from crankwork.description.machine_file import Setting, input_error, parse
+from crankwork.description.kinds import Choice, Flag, Kind, Measure, Number, Reader, Text, shown
+from crankwork.description.machine_file import Setting, input_error, parse, schema_text
 from crankwork.description.schema import Key, Named, OneOrMore, Table, Values
 from crankwork.errors import CrankworkError
 from crankwork.locale import Language, Refusal
@@ -28,6 +28,8 @@ from crankwork.units import System, parse_in, shown_in
 # more points there are none of a Sobol sequence of 30 bits
 MOST = 2**30
 _MOST_FIELDS, _MOST_VALUES = 40, 10_000
+# tables of a machine file within each other
+_DEEP = 4
 GRID, LIST, DRAWN = "grid", "list", ("random", "latin", "sobol", "saltelli")
 _LIMITS = {"at_least": -math.inf, "at_most": math.inf}
 _SIGNS = {"minimise": 1.0, "maximise": -1.0}
@@ -52,23 +54,46 @@ class Count(NamedTuple):
 
 
 class As(NamedTuple):
-    """What is read by the kind of the field or value that it concerns, once that is known."""
+    """What is read by the kind of the field or value that it concerns, once that is known: of types, or a table."""
+
+    types: tuple[str, ...]
+    entry: Table | None = None
 
     def read(self, value: object, _: str, __: Reader) -> object:
         """Return what the file states."""
         return value
 
-    def schema(self, _: Language, /) -> dict[str, Any]:
-        """Return the schema of anything."""
-        return {}
+    def schema(self, language: Language, /) -> dict[str, Any]:
+        """Return the schema of any of these."""
+        own: dict[str, Any] = {"type": list(self.types)}
+        return own if self.entry is None else {"anyOf": [own, self.entry.schema(language)]}
 
 
+class Dotted(NamedTuple):
+    """A table whose keys are those of a machine file or of results, which dots make tables within tables of."""
+
+    entry: Kind
+    most: int
+
+    def read(self, value: object, key: str, reader: Reader) -> dict[str, Any] | None:
+        """Return the values by key."""
+        return Named(self.entry, self.most).read(value, key, reader)
+
+    def schema(self, language: Language, /) -> dict[str, Any]:
+        """Return the schema of a mapping."""
+        own = below = self.entry.schema(language)
+        for _ in range(_DEEP):
+            below = {"anyOf": [own, {"type": "object", "additionalProperties": below}]}
+        return {"type": "object", "additionalProperties": below, "maxProperties": self.most}
+
+
+_VALUE = As(("string", "number"))
 _RANGE = Table("range", {
-    "from": Key(As(), instead_of=("uniform",)),
-    "to": Key(As(), instead_of=("uniform",)),
+    "from": Key(_VALUE, instead_of=("uniform",)),
+    "to": Key(_VALUE, instead_of=("uniform",)),
     "steps": Key(Number(1, _MOST_VALUES, whole=True), only={"from": ()}),
     "spacing": Key(Choice(("even", "ratios")), default="even", only={"from": ()}),
-    "uniform": Key(As(), instead_of=("from", "to")),
+    "uniform": Key(As(("string",)), instead_of=("from", "to")),
 })  # fmt: skip
 _DESIGNS = Table("designs", {
     "drawing": Key(Choice((GRID, LIST, *DRAWN)), required=True),
@@ -84,15 +109,15 @@ _SEARCH = Table("search", {
     "starts": Key(Number(1, 1000, whole=True)),
     "seed": Key(Number(0, 2**31, whole=True), default=0),
 })  # fmt: skip
-_OF_VALUE = Table("limits", {name: Key(As()) for name in _LIMITS})
+_OF_VALUE = Table("limits", {name: Key(_VALUE) for name in _LIMITS})
 _KEY = Text(80)
 STUDY_FILE = Table("study", {
     "title": Key(Text()),
     "machine": Key(Text(), required=True),
     "designs": Key(_DESIGNS),
-    "vary": Key(Named(As(), most=_MOST_FIELDS), required=True),
-    "objectives": Key(Named(Choice(tuple(_SIGNS)), most=8)),
-    "limits": Key(Named(_OF_VALUE, most=_MOST_FIELDS)),
+    "vary": Key(Dotted(As(("array", "string"), _RANGE), most=_MOST_FIELDS), required=True),
+    "objectives": Key(Dotted(Choice(tuple(_SIGNS)), most=8)),
+    "limits": Key(Dotted(_OF_VALUE, most=_MOST_FIELDS)),
     "values": Key(OneOrMore(_KEY, most=100)),
     "search": Key(_SEARCH),
 })  # fmt: skip
@@ -207,6 +232,11 @@ def read_study(
         search=read["search"] or Values({}, _SEARCH),
         text=text,
     )
+
+
+def study_schema(language: Language = "en") -> str:
+    """Return the JSON Schema of study files, for editors, its descriptions in a language."""
+    return schema_text("crankwork study file", STUDY_FILE.schema(language))
 
 
 def _machine(values: Mapping[str, Any], reader: Reader, folder: Path) -> Description | None:
