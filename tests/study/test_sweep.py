@@ -90,3 +90,25 @@ def test_what_cannot_be_asked_is_refused(designs, keys, told):
     d = crankwork.Description(crankwork.template("slider-crank"))
     with pytest.raises(CrankworkError, match=told):
         crankwork.sweep(d, designs, keys)
+
+
+def test_units_and_seed_go_with_designs_into_a_file(tmp_path):
+    pytest.importorskip("pyarrow")
+    xarray, pandas = pytest.importorskip("xarray"), pytest.importorskip("pandas")
+    d = crankwork.Description(crankwork.template("slider-crank"))
+    speeds = ["1000 rpm"] * 2
+    found = crankwork.sweep(d, {"crank.radius": ["40 mm", "50 mm"], "crank.speed": speeds}, ["stroke", "speed"])
+    data = found.to_xarray()
+    assert data["stroke"].attrs["units"] == data["crank.radius"].attrs["units"] == "m"
+    assert data["crank.speed"].attrs["units"] == "rad/s"
+    assert data["speed"].attrs["units"] == "rad/s"
+    assert data["stroke"].values == pytest.approx([0.08, 0.1])
+    assert isinstance(data, xarray.Dataset)
+    of, rods = "piston_acceleration_max", {"rod.length": (0.15, 0.22)}
+    best = crankwork.optimise(d, of, rods, limits=["stroke >= 90 mm"], seed=7)
+    assert best.fields["rod.length"] == pytest.approx(0.22)
+    best.history.to_dataframe().to_parquet(tmp_path / "course.parquet")
+    read = pandas.read_parquet(tmp_path / "course.parquet")
+    assert read.attrs["seed"] == "7"
+    assert read.attrs["units"] == {"rod.length": "m", "piston_acceleration_max": "m/s2", "stroke": "m"}
+    assert len(read) == len(best.history)

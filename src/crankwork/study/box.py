@@ -71,6 +71,7 @@ class Box:
     ) -> None:
         values = description.values_with(overrides)
         numbers = {key: sought_number(values, key) for key in (*bounds, *start)}
+        self.numbers = {key: numbers[key] for key in bounds}
         self.low, self.high = (
             np.array([_in_si(numbers[key], of[end]) for key, of in bounds.items()], dtype=float) for end in (0, 1)
         )
@@ -92,7 +93,7 @@ class Box:
         def around(design: Array, part: float = 1.0) -> Machines:
             low, high = (design + sign * part * (self.high - self.low) for sign in (-1, 1))
             spans = np.array([np.maximum(low, self.low), design, np.minimum(high, self.high)]).T
-            return Machines(description, {key: numbers[key] for key in bounds}, spans, keys, overrides)
+            return Machines(description, self.numbers, spans, keys, overrides)
 
         self._machines, self.start = self._first(around, first, is_stated=bool(start))
         self._kernel: Kernel | None = None

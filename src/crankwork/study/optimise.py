@@ -19,7 +19,7 @@ from crankwork.study.box import Box
 from crankwork.study.limits import written_limits
 from crankwork.study.search import REACHED, Place, Problem, Way, searched
 from crankwork.study.study_file import Study
-from crankwork.study.sweep import Swept
+from crankwork.study.sweep import Swept, units_of
 from crankwork.units import coherent_unit, from_si, shown_in
 
 STARTS = 4
@@ -60,7 +60,7 @@ class Optimum:
     results : Results
         The whole analysis of the design.
     history : Swept
-        Every design that was looked at from one place to the next.
+        Every design that was looked at from one place to the next, with units and seed, as a frame or a data set.
     places : tuple of mapping
         Where the search from each start has come to: fields, and the objective where the limits are kept.
     way, seed : str, int
@@ -181,7 +181,8 @@ def optimise(  # noqa: PLR0913 - what is wanted of what, where, and how it is se
         box.give_up("differs")
     history = Swept(
         dict(zip(bounds, np.array(designs).T, strict=True)), dict(zip(keys, np.array(found).T, strict=True)), {}, 0,
-        box.reason,
+        box.reason, units_of(box.numbers, keys),
+        {"objective": objective, "sense": sense, "way": way, "seed": str(seed), "limits": ", ".join(limits)},
     )  # fmt: skip
     near = box.near(best.at)
     span = box.high - box.low

@@ -16,12 +16,14 @@ from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Refusal
 from crankwork.report.dataset import check_extras
+from crankwork.report.language import key_unit
 from crankwork.study.machines import Machines
 from crankwork.study.sought import Sought, sought_number
-from crankwork.units import parse_in
+from crankwork.units import coherent_unit, parse_in, shown_in
 
 if TYPE_CHECKING:
     import pandas as pd
+    import xarray as xr
 
 # designs that are calculated both ways before all others are compiled
 _CHECKED = 4
@@ -43,6 +45,10 @@ class Swept:
         How many designs were analysed one by one.
     reason : str
         Why the calculation was not compiled; empty where it was.
+    units : mapping of str to str
+        The SI units of fields and values, by their keys.
+    about : mapping of str to str
+        Where the designs come from, such as the seed of what was drawn.
     """
 
     fields: Mapping[str, Array]
@@ -50,12 +56,30 @@ class Swept:
     refused: Mapping[str, int]
     one_by_one: int = 0
     reason: str = ""
+    units: Mapping[str, str] = field(default_factory=dict, repr=False)
+    about: Mapping[str, str] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return next(iter(self.fields.values())).size
 
+    def to_xarray(self) -> xr.Dataset:
+        """Return fields and values over the designs, the fields as coordinates, with their units as attributes.
+
+        Raises
+        ------
+        MissingExtraError
+            If xarray is not installed.
+        """
+        check_extras("xarray")
+        import xarray as xr  # noqa: PLC0415 - an optional part
+
+        def of(columns: Mapping[str, Array]) -> dict[str, tuple[str, Array, dict[str, str]]]:
+            return {key: ("design", one, {"units": self.units.get(key, "")}) for key, one in columns.items()}
+
+        return xr.Dataset(of(self.values), of(self.fields), dict(self.about))
+
     def to_dataframe(self) -> pd.DataFrame:
-        """Return fields and values as a frame, a row for each design.
+        """Return fields and values as a frame, a row for each design; units are among its `attrs`.
 
         Raises
         ------
@@ -65,7 +89,9 @@ class Swept:
         check_extras("pandas")
         import pandas as pd  # noqa: PLC0415 - an optional part
 
-        return pd.DataFrame({**self.fields, **self.values})
+        found = pd.DataFrame({**self.fields, **self.values})
+        found.attrs.update(self.about, units=dict(self.units))
+        return found
 
 
 def sweep(
@@ -127,7 +153,15 @@ def sweep(
     found = machines.values(every, workers=workers or os.cpu_count() or 1)
     refused = Counter(str(one) for one in found.refused.values())
     fields = dict(zip(numbers, every, strict=True))
-    return Swept(fields, dict(zip(keys, found.of, strict=True)), refused, found.one_by_one, machines.reason)
+    values_of = dict(zip(keys, found.of, strict=True))
+    return Swept(fields, values_of, refused, found.one_by_one, machines.reason, units_of(numbers, keys))
+
+
+def units_of(numbers: Mapping[str, Sought], keys: Sequence[str]) -> dict[str, str]:
+    """Return the SI units of fields and of single values."""
+    with shown_in("si"):
+        values = {key: coherent_unit(key_unit(key)) for key in keys}
+    return {key: coherent_unit(number.unit) if number.unit else "" for key, number in numbers.items()} | values
 
 
 def _in_si(number: Sought, values: Sequence[float | str]) -> list[float]:
