@@ -60,3 +60,16 @@ def test_a_wrong_axis_is_named_with_what_to_write(crankwork, machine, options, a
     answer = crankwork("map", machine, *options)
     assert (answer.code, answer.out) == (2, "")
     assert answered in answer.err
+
+
+def test_processes_find_what_one_finds(crankwork, machine, tmp_path):
+    over = ("--over", "crank.speed=1000..3000rpm:14", "--over", "rod.length=40..200mm:14")
+    for workers in ("1", "2"):
+        answer = crankwork("map", machine, *over, "-o", f"out{workers}", "--workers", workers, "--no-figures")
+        assert answer.code == 0, answer.err
+        assert "without values: the rod" in answer.out
+    found = [(tmp_path / f"out{workers}" / "tables" / "map.csv").read_bytes() for workers in "12"]
+    assert found[0] == found[1]
+    summaries = [(tmp_path / f"out{workers}" / "summary.json").read_bytes() for workers in "12"]
+    assert summaries[0] == summaries[1]
+    assert "--workers: " in crankwork("map", machine, *OVER, "--workers", "0").err

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import time
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
@@ -120,6 +121,7 @@ def optimise(
 @click.argument("file")
 @click.option("--over", multiple=True, required=True, metavar="KEY=FROM..TO")
 @click.option("-o", "--output", metavar="DIR")
+@click.option("--workers", metavar="N")
 @LANG
 @SYSTEM
 @SET
@@ -132,6 +134,7 @@ def map_(  # noqa: PLR0913 - one argument per option of the command
     file: str,
     over: tuple[str, ...],
     output: str | None,
+    workers: str | None,
     language: Language,
     units: str | None,
     settings: tuple[str, ...],
@@ -151,8 +154,9 @@ def map_(  # noqa: PLR0913 - one argument per option of the command
     wanted = () if no_figures or output is None else formats_of(formats)
     if output is not None:
         files.check_folder(output, overwrite=overwrite)
+    count = _number_of(workers, None) or os.cpu_count() or 1
     with bar() as telling:
-        found = mapped(load(file), over, laid_over(settings, units=units), telling)
+        found = mapped(load(file), over, laid_over(settings, units=units), telling, count)
     if as_json:
         click.echo(json.dumps(map_data(found), ensure_ascii=False, indent=1))
     else:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,9 +20,11 @@ from crankwork.formula.known import Given
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Language, Refusal, capital, say, told
 from crankwork.locale.numbers import number, unit_name
+from crankwork.machine import Machine
 from crankwork.report.language import displayed, displayed_column, key_unit, label, rounded
 from crankwork.report.tables import Sheet, csv_of_sheet
 from crankwork.study.chunks import reason_of
+from crankwork.study.running import each
 from crankwork.study.sought import Places, Sought, places, sought_number
 from crankwork.units import System, from_si, shown_in
 
@@ -61,8 +65,12 @@ def mapped(
     over: Sequence[str],
     overrides: Sequence[str | Setting] = (),
     told_share: Callable[[float], None] | None = None,
+    workers: int = 1,
 ) -> Map:
-    """Return the single values of a machine over ranges of one or two numbers, `crank.speed=800..6000rpm`."""
+    """Return the single values of a machine over ranges of one or two numbers, `crank.speed=800..6000rpm`.
+
+    `workers`: processes that share the points where these are many.
+    """
     if not 1 <= len(over) <= _AXES:
         raise CrankworkError(Refusal("map_axes"))
     values = description.values_with(overrides)
@@ -75,28 +83,50 @@ def mapped(
     found: dict[str, Array] = {}
     given: set[str] = set()
     refused: Counter[str] = Counter()
-    first: Results | None = None
-    for count, place in enumerate(np.ndindex(shape), start=1):
-        settings = [
-            Setting("--over", key, fields[key].written(float(where.at[one])))
-            for (key, where), one in zip(at.items(), place, strict=True)
+    every = list(np.ndindex(shape))
+    points = [
+        [
+            *overrides,
+            *(
+                Setting("--over", key, fields[key].written(float(where.at[one])))
+                for (key, where), one in zip(at.items(), place, strict=True)
+            ),
         ]
-        try:
-            results = analyse(description.machine([*overrides, *settings]))
-        except CrankworkError as error:
-            refused[reason_of(error)] += 1
+        for place in every
+    ]
+    machine: Machine | None = None
+    of_points = each(functools.partial(_point, description), points, workers)
+    for count, (place, point) in enumerate(zip(every, of_points, strict=True), start=1):
+        if isinstance(point, str):
+            refused[point] += 1
         else:
-            first = first or results
-            given |= {key for key in results.summary if _is_given(results, key)}
-            for key, value in results.summary.items():
+            machine = machine or description.machine(points[count - 1])
+            given |= point.given
+            for key, value in point.summary.items():
                 found.setdefault(key, np.full(shape, np.nan))[place] = value
         if told_share is not None:
-            told_share(count / np.prod(shape))
-    if first is None:
+            told_share(count / len(every))
+    if machine is None:
         raise CrankworkError(Refusal("map_nothing", reason=next(iter(refused))))
     kept = {key: of for key, of in found.items() if key not in given}
     independent = {key: [one for one, of in kept.items() if _is_same(of, at)] for at, key in enumerate(fields)}
-    return Map(first.machine.title or "", first.machine.units, fields, at, kept, independent, refused)
+    return Map(machine.title or "", machine.units, fields, at, kept, independent, refused)
+
+
+class _Point(NamedTuple):
+    """Single values of a point, and which of them the file states."""
+
+    summary: dict[str, float]
+    given: set[str]
+
+
+def _point(description: Description, settings: Sequence[str | Setting]) -> _Point | str:
+    """Return what is found at a point, or why there is no machine."""
+    try:
+        results = analyse(description.machine(settings))
+    except CrankworkError as error:
+        return reason_of(error)
+    return _Point(dict(results.summary), {key for key in results.summary if _is_given(results, key)})
 
 
 def _axis(values: dict[str, object], text: str) -> tuple[Sought, Places]:

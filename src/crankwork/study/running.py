@@ -7,7 +7,7 @@ import multiprocessing
 import os
 import signal
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import (
     FIRST_COMPLETED,
     BrokenExecutor,
@@ -19,7 +19,7 @@ from concurrent.futures import (
     wait,
 )
 from pathlib import Path
-from typing import Any, NamedTuple, Self
+from typing import Any, NamedTuple, Self, TypeVar
 
 from crankwork import files
 from crankwork.errors import CrankworkError, MissingExtraError, missing_extras
@@ -27,10 +27,14 @@ from crankwork.locale import Refusal
 from crankwork.study.chunks import Reduced, nothing, opened, part_of, read_part
 from crankwork.study.study_file import Study
 
+T = TypeVar("T")
+R = TypeVar("R")
 # chunks that may be under way before the first that is missing, and for each worker
 _AHEAD, _EACH = 64, 2
 # how many workers a chunk may end before it is told
 _PATIENCE = 4
+# from how many things on processes are worth starting, and how many of them one takes at a time
+_WORTH, _TOGETHER = 200, 8
 # how long a cluster may take to answer
 _WAITS = "10s"
 
@@ -184,8 +188,7 @@ class _Pool:
             return self._of_cluster()
         if self._by_threads:
             return ThreadPoolExecutor(self.workers)
-        # started fresh: a fork would inherit the lock of the folder
-        return ProcessPoolExecutor(self.workers, multiprocessing.get_context("spawn"), _start_worker)
+        return _processes(self.workers)
 
     def _of_cluster(self) -> Executor:
         """Return the executor of a cluster, which gives a chunk to another worker where one has ended."""
@@ -210,6 +213,23 @@ class _Pool:
             self._client.close()
         elif self._executor is not None:
             self._executor.shutdown(cancel_futures=True)
+
+
+def each(function: Callable[[T], R], of: Sequence[T], workers: int) -> Iterator[R]:
+    """Yield what a function gives for each of some things in their order, in processes where these are many."""
+    if workers == 1 or len(of) < _WORTH:
+        yield from map(function, of)
+        return
+    pool = _processes(min(workers, len(of)))
+    try:
+        yield from pool.map(function, of, chunksize=_TOGETHER)
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _processes(count: int) -> ProcessPoolExecutor:
+    """Return processes that are started fresh: a fork would inherit the lock of a folder."""
+    return ProcessPoolExecutor(count, multiprocessing.get_context("spawn"), _start_worker)
 
 
 def _start_worker() -> None:
