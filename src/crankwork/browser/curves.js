@@ -2,9 +2,16 @@
 import { firstFrom, significant } from "./numbers.js";
 
 /**
- * A graph on a drawing: left, top, width and height [mm], ends of its scales, what stands across, titles of its axes.
+ * A curve that follows the sliders: columns across and upward, or the single value where it is level, each with a factor.
+ * @typedef {{x?: [string, number], y?: [string, number], level?: [string, number]}} Made
+ */
+
+/**
+ * A graph on a drawing: left, top, width and height [mm], ends of its scales, what stands across, titles of its axes;
+ * where it follows sliders its curves, ticks, which of these have numbers, and powers of ten that the numbers lack.
  * @typedef {{box: [number, number, number, number], x: [number, number], y: [number, number], over: string,
- *   t: [string, string]}} Plot
+ *   t: [string, string], curves?: Record<string, Made>, ticks?: [number[], number[]], labels?: [boolean, boolean],
+ *   powers?: [number, number]}} Plot
  */
 
 export class Curve {
@@ -19,6 +26,9 @@ export class Curve {
     this.x = x;
     this.y = y;
     this.plot = plots.find((plot) => holds(plot.box, x, y));
+    this.d = path.getAttribute("d") ?? "";
+    this.home = { x, y, angles: /** @type {number[] | undefined} */ (undefined) };
+    this.made = this.plot?.curves?.[this.name];
     /** Crank angles of the points, or nothing. @type {number[] | undefined} */
     this.angles = undefined;
     const plot = this.plot;
@@ -28,6 +38,48 @@ export class Curve {
     } else if (plot?.over) {
       this.angles = x.map((one) => plot.x[0] + ((one - plot.box[0]) / plot.box[2]) * (plot.x[1] - plot.x[0]));
     }
+    this.home.angles = this.angles;
+    this.ends = plot ? { x: plot.x, y: plot.y } : undefined;
+  }
+
+  /** Go back to what the page was written with. */
+  back() {
+    ({ x: this.x, y: this.y, angles: this.angles } = this.home);
+    this.path.setAttribute("d", this.d);
+  }
+
+  /** Return what the page was written with as values of its scales. */
+  values() {
+    const { plot, ends } = this;
+    if (!plot || !ends) return { x: this.home.x, y: this.home.y };
+    const [left, top, width, height] = plot.box;
+    const x = this.home.x.map((one) => ends.x[0] + ((one - left) / width) * (ends.x[1] - ends.x[0]));
+    const y = this.home.y.map((one) => ends.y[1] + ((one - top) / height) * (ends.y[0] - ends.y[1]));
+    return { x, y };
+  }
+
+  /**
+   * Draw it through values of its scales.
+   * @param {ArrayLike<number>} across
+   * @param {ArrayLike<number>} upward
+   * @param {number[]} [angles]
+   */
+  through(across, upward, angles) {
+    const { plot } = this;
+    if (!plot) return;
+    const [left, top, width, height] = plot.box;
+    const [a, b] = [width / (plot.x[1] - plot.x[0]), height / (plot.y[0] - plot.y[1])];
+    const [x, y] = [new Array(across.length), new Array(across.length)];
+    let d = "";
+    for (let k = 0; k < across.length; k += 1) {
+      x[k] = Math.round((left + (across[k] - plot.x[0]) * a) * 100) / 100;
+      y[k] = Math.round((top + (upward[k] - plot.y[1]) * b) * 100) / 100;
+      d += `${k ? "L" : "M"}${x[k]} ${y[k]}`;
+    }
+    this.x = x;
+    this.y = y;
+    this.angles = angles ?? this.home.angles;
+    this.path.setAttribute("d", d);
   }
 
   /**

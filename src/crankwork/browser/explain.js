@@ -1,5 +1,5 @@
 // How a value came about: its formula, what was put in, and what that came from, as deep as the reader opens it.
-import { firstFrom, fixed, nearest, told, unpacked } from "./numbers.js";
+import { firstFrom, fixed, nearest, printed, told, unpacked } from "./numbers.js";
 
 /** @typedef {import("./numbers.js").Column} Column */
 /** @typedef {import("./numbers.js").Packed} Packed */
@@ -9,7 +9,8 @@ import { firstFrom, fixed, nearest, told, unpacked } from "./numbers.js";
  * A value that is remembered: symbol, name, formula in MathML, words in place of one, value as text or by rows, what it
  * was made of; the column of the tables that has it, and its numbers at other rows; laws with the angles where they end; another column with how much earlier, within which cycle; the angle
  * where it was found; where it is given, and the source of its formula.
- * @typedef {{s?: string, n?: string, f?: number, w?: string, t?: string, c?: Packed, o?: number[], p?: [number, number][],
+ * `m`: where the calculation has it, what takes it to its unit, and that unit.
+ * @typedef {{s?: string, m?: [string, number, number, string], n?: string, f?: number, w?: string, t?: string, c?: Packed, o?: number[], p?: [number, number][],
  *   k?: string, e?: [number, number][], y?: [number, number], a?: number, g?: string, q?: number}} Memory
  */
 
@@ -38,6 +39,8 @@ export class Explanation {
     }
     this.axis = axis;
     this.cursor = cursor;
+    /** What the sliders have made of the values. @type {import("./sliders.js").Live | undefined} */
+    this.live = undefined;
     /** @type {Map<number, Column>} */
     this.columns = new Map();
     /** @type {number | undefined} */
@@ -52,6 +55,15 @@ export class Explanation {
     cursor.follow(() => {
       if (this.shown !== undefined && cursor.row !== this.row && this.varies(this.shown)) this.draw();
     });
+  }
+
+  /**
+   * Show values as the sliders have made them.
+   * @param {import("./sliders.js").Live} live
+   */
+  follow(live) {
+    this.live = live.moved ? live : undefined;
+    this.draw();
   }
 
   /** @param {string} key */
@@ -100,7 +112,9 @@ export class Explanation {
     const formula = node.f === undefined ? "" : ` = <math>${this.memories.formulas[node.f]}</math>`;
     const source = node.q === undefined ? "" : this.memories.sources[node.q];
     const words = [node.w, node.g, source].filter(Boolean).join(" · ");
-    if (named || formula) found.push(element("p", `${node.s}${formula} = ${this.value(id, at)}`, "equation"));
+    // of what the sliders cannot make anew the file's value is told, pale
+    const kind = this.live && !node.m && this.varies(id) ? "equation filed" : "equation";
+    if (named || formula) found.push(element("p", `${node.s}${formula} = ${this.value(id, at)}`, kind));
     if (words) found.push(element("p", words, "words"));
     const list = document.createElement("ul");
     if (node.y) list.append(this.item(node.y[0], this.earlier(at, node.y[1]), `${way}/d`));
@@ -164,6 +178,7 @@ export class Explanation {
    */
   value(id, at) {
     const node = this.memories.nodes[id];
+    if (this.live && node.m) return this.calculated(this.live, node.m, at);
     if (node.t !== undefined) return node.t;
     if (node.k !== undefined) return this.listed(this.tables[node.k], node.e ?? [], at);
     if (!node.c) return "–";
@@ -171,6 +186,21 @@ export class Explanation {
     this.columns.set(id, column);
     const row = this.rowAt(at);
     return row === undefined ? "" : told(column, row);
+  }
+
+  /**
+   * Return a value as the sliders have made it, with its unit.
+   * @param {import("./sliders.js").Live} live
+   * @param {[string, number, number, string]} made
+   * @param {number} at
+   */
+  calculated(live, [key, factor, added, unit], at) {
+    const { values, columns } = live.data.calculation;
+    const row = nearest(this.cursor.rows, at);
+    const isRow = Math.abs(this.cursor.rows[row] - at) < 1e-6;
+    if (columns[key] !== undefined && !isRow) return "";
+    const value = columns[key] === undefined ? live.calculation.values[values[key]] : live.rows(key)[row];
+    return printed(value * factor + added) + (["", "°", "%"].includes(unit) ? "" : "\u00a0") + unit;
   }
 
   /**

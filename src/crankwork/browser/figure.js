@@ -1,5 +1,6 @@
 // A diagram to read: cursor and dots, the numbers under them, zoom, curves shown and hidden by the legend.
 import { Curve } from "./curves.js";
+import { Frame } from "./frame.js";
 import { told } from "./numbers.js";
 
 /** @typedef {import("./curves.js").Plot} Plot */
@@ -7,8 +8,9 @@ import { told } from "./numbers.js";
 /** @typedef {import("./numbers.js").Column} Column */
 
 /**
- * Graphs of a drawing, what each row of its legend tells of, names of curves, and what it shows in words.
- * @typedef {{plots: Plot[], legend: string[][], told?: string}} FigureData
+ * Graphs of a drawing, what each row of its legend tells of, names of curves, and what it shows in words; whether it
+ * differs where sliders move, and cannot follow.
+ * @typedef {{plots: Plot[], legend: string[][], told?: string, filed?: boolean}} FigureData
  */
 
 const SVG = "http://www.w3.org/2000/svg";
@@ -34,6 +36,11 @@ export class Figure {
     const paths = /** @type {SVGPathElement[]} */ ([...svg.querySelectorAll("path[data-curve]")]);
     this.curves = paths.filter((one) => one.dataset.curve !== "legend").map((one) => new Curve(one, data.plots));
     this.moving = this.curves.filter((one) => one.angles);
+    this.frames = data.plots.map((plot, k) => {
+      const group = /** @type {SVGGElement | null} */ (svg.querySelector(`g.frame[class$=" ${k}"]`));
+      return group ? new Frame(group, plot) : undefined;
+    });
+    if (data.filed) svg.closest("figure")?.classList.add("filed");
     this.home = [svg.viewBox.baseVal.x, svg.viewBox.baseVal.y, svg.viewBox.baseVal.width, svg.viewBox.baseVal.height];
     // an image may hold nothing that is pressed
     svg.setAttribute("role", "group");
@@ -98,6 +105,37 @@ export class Figure {
     if (this.reading && !this.reading.hidden) this.read();
   }
 
+  /** Whether any of its curves follows the sliders. */
+  get follows() {
+    return this.curves.some((one) => one.made);
+  }
+
+  /** Go back to what the page was written with. */
+  back() {
+    for (const one of this.frames) one?.back();
+    for (const one of this.curves) if (one.plot) one.back();
+    if (this.moving.length) this.draw();
+  }
+
+  /**
+   * Draw the curves that follow the sliders, in scales that hold them, and the others where they are in these.
+   * @param {import("./lines.js").Lines} lines
+   */
+  follow(lines) {
+    this.data.plots.forEach((plot, k) => {
+      const own = this.curves.filter((one) => one.plot === plot);
+      if (!own.some((one) => one.made)) return;
+      const drawn = own.map((one) => ({ one, ...(one.made ? lines.of(one, plot) : { ...one.values(), angles: undefined }) }));
+      const frame = this.frames[k];
+      if (frame?.moves) {
+        const held = drawn.filter(({ one }) => one.made || !one.path.closest(".faint, .gone"));
+        frame.fit(reach(held.map(({ x }) => x)), reach(held.map(({ y }) => y)));
+      }
+      for (const { one, x, y, angles } of drawn) one.through(x, y, angles);
+    });
+    if (this.moving.length) this.draw();
+  }
+
   /** Write the numbers at the cursor: of columns those of the table, of other curves those of the scale. */
   read() {
     const { columns, cursor } = this;
@@ -123,7 +161,7 @@ export class Figure {
    */
   said(name) {
     const row = this.data.legend.findIndex((names) => names.includes(name));
-    return row < 0 ? "" : this.rows()[row]?.nextElementSibling?.textContent ?? "";
+    return row < 0 ? "" : beside(this.rows()[row])?.textContent ?? "";
   }
 
   rows() {
@@ -174,7 +212,7 @@ export class Figure {
     this.rows().forEach((row, k) => {
       const names = this.data.legend[k] ?? [];
       const own = this.curves.filter((one) => names.includes(one.name));
-      const text = row.nextElementSibling;
+      const text = beside(row);
       if (!own.length || !(text instanceof SVGTextElement)) return;
       text.setAttribute("role", "button");
       text.setAttribute("tabindex", "0");
@@ -244,4 +282,29 @@ export class Figure {
     this.svg.setAttribute("viewBox", box.map((one) => one.toFixed(3)).join(" "));
     this.svg.classList.toggle("near", box[2] < this.home[2]);
   }
+}
+
+/**
+ * Return the text beside the sample of a legend.
+ * @param {Element | undefined} row
+ */
+function beside(row) {
+  const next = row?.nextElementSibling;
+  return next instanceof SVGGElement ? next.firstElementChild : next;
+}
+
+/**
+ * Return the least and the largest of numbers.
+ * @param {ArrayLike<number>[]} values
+ * @returns {[number, number]}
+ */
+function reach(values) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const some of values) {
+    for (let k = 0; k < some.length; k += 1) {
+      if (some[k] < low) low = some[k];
+      if (some[k] > high) high = some[k];
+    }
+  }
+  return [low, high];
 }

@@ -52,6 +52,22 @@ export function significant(value, digits = 4) {
 }
 
 /**
+ * Return a number with up to some significant digits, as the language of the page writes it.
+ * @param {number} value
+ * @param {number} digits
+ */
+export function printed(value, digits = 6) {
+  if (!Number.isFinite(value)) return "–";
+  const [mantissa, exponent] = value.toExponential(digits - 1).split("e").map(Number);
+  const isPlain = exponent >= -4 && exponent < digits;
+  const comma = document.documentElement.lang === "en" ? "." : ",";
+  const text = String(isPlain ? Number(value.toPrecision(digits)) : mantissa).replace("-", "−").replace(".", comma);
+  if (isPlain) return text;
+  const raised = String(exponent).replace(/./g, (one) => "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"["0123456789-".indexOf(one)]);
+  return `${Math.abs(mantissa) === 1 ? text.replace("1", "") : `${text}·`}10${raised}`;
+}
+
+/**
  * Return the place of the number that lies nearest among rising ones.
  * @param {number[]} rising
  * @param {number} value

@@ -3,14 +3,17 @@ import { bar } from "./bar.js";
 import { Cursor } from "./cursor.js";
 import { Explanation } from "./explain.js";
 import { Figure } from "./figure.js";
+import { Lines } from "./lines.js";
 import { choose, Film } from "./machine.js";
 import { unpacked } from "./numbers.js";
+import { bindSliders, Live } from "./sliders.js";
 import { showTables } from "./table.js";
 
 /**
  * @typedef {{axis: string, rows: import("./numbers.js").Packed, columns: Record<string, import("./numbers.js").Packed>,
  *   figures: Record<string, import("./figure.js").FigureData>, tables?: import("./table.js").TableData[],
- *   memories?: import("./explain.js").Memories, film?: import("./machine.js").FilmData}} PageData
+ *   memories?: import("./explain.js").Memories, film?: import("./machine.js").FilmData,
+ *   sliders?: import("./sliders.js").SlidersData}} PageData
  */
 
 const store = document.getElementById("data");
@@ -32,9 +35,10 @@ function begin(data) {
   const axis = unpacked(data.rows);
   columns[data.axis] = axis;
   const cursor = new Cursor(axis.values);
+  const figures = [];
   for (const svg of /** @type {NodeListOf<SVGSVGElement>} */ (document.querySelectorAll("svg.drawing[data-figure]"))) {
     const own = data.figures[svg.dataset.figure ?? ""];
-    if (own) new Figure(svg, own, columns, data.axis, cursor);
+    if (own) figures.push(new Figure(svg, own, columns, data.axis, cursor));
   }
   const room = document.getElementById("explanation");
   const explanation = room && data.memories ? new Explanation(room, data.memories, columns, axis.symbol, cursor) : null;
@@ -42,13 +46,62 @@ function begin(data) {
     button.addEventListener("click", () => explanation?.explain(button.dataset.key ?? ""));
   }
   const tables = document.getElementById("tables");
-  if (tables && data.tables) showTables(tables, data.tables, columns, cursor, (key) => explanation?.explain(key));
+  const filed = new Set(data.sliders?.filed);
+  const show = tables && data.tables && showTables(tables, data.tables, columns, cursor, (key) => explanation?.explain(key), filed);
+  const moves = document.getElementById("sliders");
+  // a page with sliders has the steps of its calculation before this script
+  const { steps } = /** @type {{steps?: import("./calculation.js").Steps}} */ (globalThis);
+  if (moves && data.sliders && steps) {
+    const live = new Live(data.sliders, steps, columns);
+    const lines = new Lines(live.calculation, data.film?.degrees ?? 1);
+    const late = whenSeen([
+      ...figures.filter((one) => one.follows).map((one) => ({ at: one.svg, show: () => (live.moved ? one.follow(lines) : one.back()) })),
+      ...(tables && show ? [{ at: tables, show }] : []),
+    ]);
+    bindSliders(moves, live, () => {
+      late();
+      explanation?.follow(live);
+      if (!cursor.runs) cursor.move(cursor.at);
+    });
+  }
   const machine = /** @type {SVGSVGElement | null} */ (document.querySelector('[data-figure="machine"]'));
   const motion = bar(cursor, axis, data.film?.seconds ?? 4, data.film?.turns ?? true);
   if (machine && data.film && motion) choose(new Film(machine, data.film, cursor), motion);
   reachWide();
   addEventListener("resize", reachWide);
   if (data.film && motion && !matchMedia("(prefers-reduced-motion: reduce)").matches) motion.start();
+}
+
+/**
+ * Return what shows things anew: those that are seen at once, others when they come into view.
+ * @param {{at: Element, show: () => void}[]} every
+ */
+function whenSeen(every) {
+  const late = new Set(every);
+  const seen = new Set();
+  const watch = new IntersectionObserver((found) => {
+    for (const { target, isIntersecting } of found) {
+      const one = every.find(({ at }) => at === target);
+      if (!one) continue;
+      if (!isIntersecting) seen.delete(one);
+      else {
+        seen.add(one);
+        if (late.delete(one)) one.show();
+      }
+    }
+  }, { rootMargin: "200px" });
+  late.clear();
+  for (const { at } of every) watch.observe(at);
+  addEventListener("beforeprint", () => {
+    for (const one of late) one.show();
+    late.clear();
+  });
+  return () => {
+    for (const one of every) {
+      if (seen.has(one)) one.show();
+      else late.add(one);
+    }
+  };
 }
 
 /** Let keys reach what is wider than its room, and nothing else. */

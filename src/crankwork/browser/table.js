@@ -13,8 +13,10 @@ import { fixed } from "./numbers.js";
  * @param {Record<string, Column>} columns
  * @param {Cursor} cursor
  * @param {(key: string) => void} explain
+ * @param {Set<string>} filed columns that do not follow the sliders
+ * @returns {() => void} what shows the table anew
  */
-export function showTables(room, tables, columns, cursor, explain) {
+export function showTables(room, tables, columns, cursor, explain, filed) {
   const choice = /** @type {HTMLSelectElement} */ (room.querySelector("select"));
   const table = /** @type {HTMLTableElement} */ (room.querySelector("table"));
   choice.append(...tables.map((one, k) => new Option(one.n, String(k))));
@@ -34,7 +36,7 @@ export function showTables(room, tables, columns, cursor, explain) {
       return `<th scope="col"><button type="button" title="${name}">${symbol}${unit ? `, ${unit}` : ""}</button></th>`;
     });
     const rows = cursor.rows.map((_, row) => {
-      const cells = keys.map((key) => `<td>${fixed(columns[key].values[row], columns[key].decimals)}</td>`);
+      const cells = keys.map((key) => `<td${filed.has(key) ? ' class="filed"' : ""}>${fixed(columns[key].values[row], columns[key].decimals)}</td>`);
       return `<tr>${cells.join("")}</tr>`;
     });
     table.innerHTML = `<thead><tr>${heads.join("")}</tr></thead><tbody>${rows.join("")}</tbody>`;
@@ -52,4 +54,5 @@ export function showTables(room, tables, columns, cursor, explain) {
   });
   if (tables.length) show();
   cursor.follow(mark);
+  return show;
 }

@@ -94,6 +94,7 @@ def report(  # noqa: PLR0913 - one argument per option of the command
 @SYSTEM
 @SET
 @COMPARE
+@click.option("--slider", "asked", multiple=True, metavar="KEY[=FROM..TO]")
 @OVERWRITE
 def page(  # noqa: PLR0913 - one argument per option of the command
     file: str,
@@ -104,6 +105,7 @@ def page(  # noqa: PLR0913 - one argument per option of the command
     units: str | None,
     settings: tuple[str, ...],
     compare: str | None,
+    asked: tuple[str, ...],
     *,
     overwrite: bool,
 ) -> None:
@@ -124,7 +126,13 @@ def page(  # noqa: PLR0913 - one argument per option of the command
     def place(path: str, numbers: Iterable[float]) -> str:
         return place_text(origin(path, numbers), language)
 
-    files.write_files({output: written(results, language, place)}, overwrite=overwrite)
+    live = None
+    if asked:
+        from crankwork.description.document import load
+        from crankwork.study.sliders import moved
+
+        live = moved(load(file), asked, overrides, results)
+    files.write_files({output: written(results, language, place, live)}, overwrite=overwrite)
     click.echo(f"{say('report.written', language)} {output}")
     doubt(file, results, language)
 

@@ -16,11 +16,12 @@ from numpy.typing import NDArray
 from crankwork import files
 from crankwork.formula.known import Delayed, Found, Known, Procedure, breaks_of, in_order
 from crankwork.kernel.arrays import Arrays
-from crankwork.kernel.graph import number
+from crankwork.kernel.graph import Value, number
 from crankwork.kernel.grid import Edges, Grid, between, closed, divided, even, lobatto, nodes_between
 from crankwork.kernel.plan import Plan
 from crankwork.kernel.reduced import Reduced
 from crankwork.kernel.reductions import Even, Exact
+from crankwork.kernel.script import Script
 from crankwork.kernel.slopes import apart, in_part, slopes_of
 from crankwork.kernel.source import LANES, RUNNING, Source
 from crankwork.kernel.trace import Designs, NotCompiledError, Trace
@@ -51,7 +52,8 @@ class Kernel:
     crank angles are looked at; otherwise extremes and integrals are those of polynomials between the breaks of laws, as
     in an analysis. With `is_sloped` derivatives by the fields are found too, with `parts` largest and least values in
     so many parts of the cycle; `is_for_few`: carried out with arrays, where compiling takes longer than the few designs
-    that are asked for. `NotCompiledError` says why a calculation cannot be compiled.
+    that are asked for. Columns among the keys are kept, at `rows` too [deg], for what carries the plan out elsewhere.
+    `NotCompiledError` says why a calculation cannot be compiled.
     """
 
     def __init__(  # noqa: PLR0913 - designs, what is wanted of them, and where it is looked at
@@ -67,6 +69,7 @@ class Kernel:
         is_sloped: bool = False,
         parts: int = 0,
         is_for_few: bool = False,
+        rows: Array | None = None,
     ) -> None:
         designs = Designs(memories, fields, keys)
         self.fields = fields.shape[1]
@@ -80,8 +83,9 @@ class Kernel:
         widths = [one for one in _WIDTHS if one * parts <= cycle] or _WIDTHS[-1:]
         for width in (cycle,) if steps else widths:
             grid, edges = _grid(breaks, delays, width, steps)
+            grid = grid if rows is None else grid.with_rows(rows)
             trace = Trace(designs, angles_at, grid.degrees, is_shifted=any(grid.earlier(one) is None for one in delays))
-            outputs = {key: trace.value(one) for key, one in wanted.items()}
+            outputs = {key: _of_cycle(one, trace.value(one)) for key, one in wanted.items()}
             if trace.moving and steps:
                 grid = even(trace.zones(breaks[0]), steps)
             elif trace.moving and edges is not None:
@@ -96,9 +100,8 @@ class Kernel:
                 outputs |= slopes_of(outputs, self.fields)
             guard = trace.guard(is_sampled=steps is not None)
             ends = [one for one, _ in trace.moving]
-            self.plan = Plan(
-                outputs | ({} if guard is None else {"": guard}), grid, self.fields, angles_at, () if steps else ends
-            )
+            guarded = outputs | ({} if guard is None else {"": guard})
+            self.plan = Plan(guarded, grid, self.fields, angles_at, () if steps else ends, shares_divisions=compiles)
             is_running = all(one.detail in RUNNING for level in self.plan.levels for one in level.reductions)
             self.source = Source(self.plan, is_reduced=is_compiled and steps is not None and is_running)
             earlier = [grid.earlier(by) for by in self.source.delays.of]
@@ -169,11 +172,22 @@ class Kernel:
         is_other = np.any(np.diff(ends, axis=0) < 0, axis=0)
         return exact.moved_to(ends, weights.reshape(-1, weights.shape[-1])), np.where(is_other, np.inf, 0.0)
 
+    def script(self) -> Script:
+        """Return the plan in the language of browsers."""
+        return Script(self.source, _POLYNOMIALS)
+
+
+def _of_cycle(known: Known, value: Value) -> Value:
+    """Return a value of the whole cycle: of a column that it is kept."""
+    return value.graph.reduction("column", value) if known.varies else value
+
 
 def _reduced(knowns: Iterable[Known]) -> list[Known]:
-    """Return the columns that single values are found of."""
+    """Return the columns that single values are found of, and those that are kept."""
+    knowns = list(knowns)
     nodes = [one.node for one in in_order(knowns)]
-    return [of for node in nodes if isinstance(node, Found) for of in node.operands if of.varies]
+    found = [of for node in nodes if isinstance(node, Found) for of in node.operands if of.varies]
+    return [*found, *(one for one in knowns if one.varies)]
 
 
 def _grid(

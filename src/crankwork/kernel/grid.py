@@ -37,7 +37,8 @@ class Grid(NamedTuple):
 
     `edges` are the ends of panels; `degrees` the angles, `panel` which one each is in, `weights` those of an integral
     over the crank angle [rad]. `each` are the angles in a panel of polynomials, none where they are evenly spaced;
-    `moves` says which panels lie elsewhere in other designs.
+    `moves` says which panels lie elsewhere in other designs. The last `rows` of the degrees are no nodes: they are
+    those of tables.
     """
 
     start: float
@@ -48,6 +49,12 @@ class Grid(NamedTuple):
     weights: Array
     each: int
     moves: NDArray[np.bool_]
+    rows: int = 0
+
+    @property
+    def nodes(self) -> int:
+        """How many of the angles are those of integrals and extremes."""
+        return int(self.degrees.size) - self.rows
 
     @property
     def middles(self) -> Array:
@@ -68,7 +75,21 @@ class Grid(NamedTuple):
         fits = (np.abs(self.middles[panel] - middles) < _SAME) & (np.abs(widths[panel] - widths) < _SAME)
         if not fits.all():
             return None
-        return (panel[:, None] * self.each + np.arange(self.each)).ravel()
+        nodes = (panel[:, None] * self.each + np.arange(self.each)).ravel()
+        rows = self.degrees[self.nodes :]
+        if not rows.size:
+            return nodes
+        at = np.mod(rows - by - self.start, self.cycle) + self.start
+        found = np.minimum(np.searchsorted(rows, at - _SAME), rows.size - 1)
+        if np.max(np.abs(rows[found] - at)) > _SAME:
+            return None
+        return np.concatenate([nodes, self.nodes + found])
+
+    def with_rows(self, rows: Array) -> Grid:
+        """Return the grid with rising angles of tables behind its nodes; one at an edge belongs to what ends there."""
+        panel = np.maximum(np.searchsorted(self.edges, rows - _SAME, side="left") - 1, 0)
+        degrees, panels = np.concatenate([self.degrees, rows]), np.concatenate([self.panel, panel])
+        return self._replace(degrees=degrees, panel=panels, rows=int(rows.size))
 
 
 def even(breaks: Array, steps: int) -> Grid:

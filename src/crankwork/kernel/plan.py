@@ -48,11 +48,14 @@ class Plan:
         inputs: int,
         angles_at: Callable[[Any], Any],
         ends: Iterable[Value] = (),
+        *,
+        shares_divisions: bool = True,
     ) -> None:
         self.outputs, self.grid, self.inputs = dict(outputs), grid, inputs
         self.ends = tuple(ends)
-        self._angles_at = angles_at
+        self._angles_at, self._shares_divisions = angles_at, shares_divisions
         self.row_of_angle: dict[int, int] = {}
+        self.of_angle: list[Value] = []
         self.moved: dict[int, Value] = {}
         self._rows: list[Array] = []
         needed = list(in_order([*outputs.values(), *self.ends]))
@@ -96,7 +99,8 @@ class Plan:
             angles = np.flatnonzero(np.isin(self.grid.panel, of))
             chosen = {one.at: law for one, law in zip(used, laws, strict=True)}
             resolved = self._with_laws(columns, chosen, is_moving=is_moving)
-            roots = _with_few_divisions([resolved[one.at] for one in columns])
+            roots = [resolved[one.at] for one in columns]
+            roots = _with_few_divisions(roots) if self._shares_divisions else roots
             every = list(in_order(roots, into=lambda one: one.by_design and _at_this_angle(one)))
             for one in every:
                 if one.by_angle and not one.by_design and one.kind != "delayed":
@@ -146,19 +150,21 @@ class Plan:
         row = self.row_of_angle.get(value.at)
         if row is None:
             row = self.row_of_angle[value.at] = len(self._rows)
+            self.of_angle.append(value)
             self._rows.append(np.zeros(self.grid.degrees.size))
         made: dict[int, Any] = {}
         for one in in_order([value]):
             if one.kind == "constant":
                 made[one.at] = number(one)
             elif one.kind == "angle":
-                made[one.at] = self._of_angle(one, angles)
+                made[one.at] = self.function_of_angle(one, angles)
             else:
                 with np.errstate(all="ignore"):
                     made[one.at] = COMPUTE[one.kind](*(made[other.at] for other in one.operands))
         self._rows[row][angles] = made[value.at]
 
-    def _of_angle(self, value: Value, angles: NDArray[np.intp]) -> Array:
+    def function_of_angle(self, value: Value, angles: NDArray[np.intp] | slice) -> Array:
+        """Return what depends on the crank angle alone at some angles of the grid."""
         return self.at(value, self.grid.degrees[angles], self.grid.middles[self.grid.panel[angles]])
 
     def at(self, value: Value, degrees: Array, middles: Array) -> Array:

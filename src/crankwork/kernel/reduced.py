@@ -33,10 +33,11 @@ class Reduced:
 
         `reductions`: those of other edges than the stated ones; `count`: how many lanes are designs that are asked for.
         """
-        if not level.reductions:
+        every = [one for one in level.reductions if one.detail != "column"]
+        if not every:
             return 0.0
-        block = _Block(self._source, reductions or self._reductions, self._starts, level, kept, count)
-        for one in level.reductions:
+        block = _Block(self._source, reductions or self._reductions, self._starts, every, kept, count)
+        for one in every:
             store[self._source.rows(self._source.place(one))] = block.value(one)
         return np.asarray(block.left_out.max(axis=0))
 
@@ -45,19 +46,26 @@ class _Block:
     """The columns of some designs, and what was found of them."""
 
     def __init__(
-        self, source: Source, reductions: Even | Exact, starts: Sequence[int], level: Level, kept: Array, count: int
+        self,
+        source: Source,
+        reductions: Even | Exact,
+        starts: Sequence[int],
+        every: Sequence[Value],
+        kept: Array,
+        count: int,
     ) -> None:
-        self._source, self._exact, self._starts, self._kept, self._count = source, reductions, starts, kept, count
-        reduced = {one.at: one for reduction in level.reductions for one in _looked_at(reduction)}
+        self._source, self._exact, self._starts, self._count = source, reductions, starts, count
+        self._kept = kept[:, : source.plan.grid.nodes]
+        reduced = {one.at: one for reduction in every for one in _looked_at(reduction)}
         self._row_of = {at: row for row, at in enumerate(reduced)}
-        self._columns = kept[[source.columns(at) for at in reduced]]
+        self._columns = self._kept[[source.columns(at) for at in reduced]]
         # a root has a corner where it vanishes, and its square has none
         self._is_root = is_root = np.array([one.kind == "sqrt" for one in reduced.values()])
         self._smooth = np.where(is_root[:, None, None], self._columns**2, self._columns)
         self.left_out = reductions.left_out(self._smooth)
         self._cycle = np.radians(source.plan.grid.cycle)
         self._integral = reductions.integrals(self._columns)
-        if is_root.any() and any(one.detail == "mean" for one in level.reductions):
+        if is_root.any() and any(one.detail == "mean" for one in every):
             self._integral[is_root] = reductions.of_roots(self._smooth[is_root])
         self._peaks: dict[tuple[float, bool], Peaks] = {}
         self._ranges: dict[int, tuple[Peaks, Peaks]] = {}

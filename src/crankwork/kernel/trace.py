@@ -39,6 +39,7 @@ from crankwork.formula.known import (
 from crankwork.formula.replay import Angles
 from crankwork.kernel.derivative import Derivatives
 from crankwork.kernel.graph import End, Graph, Value
+from crankwork.kernel.graph import in_order as graph_in_order
 
 Array = NDArray[np.float64]
 
@@ -91,22 +92,33 @@ class Designs:
         self._told: dict[int, Known] = {}
         self.differs: dict[int, bool] = {}
         for key in keys:
-            missing = [at for at, one in enumerate(memories) if key not in one]
-            if missing:
-                raise NotCompiledError("absent", key)
-            self._walk(key, tuple(one[key] for one in memories))
+            self.add(key)
 
-    def _walk(self, key: str, knowns: tuple[Known, ...]) -> None:
+    def add(self, key: str) -> None:
+        """Look through what a key is made of; what is made in several ways is refused each time it is come upon."""
+        if any(key not in one for one in self.memories):
+            raise NotCompiledError("absent", key)
+        knowns = tuple(one[key] for one in self.memories)
+        fresh: list[int] = []
+        try:
+            self._walk(key, knowns, fresh)
+        except NotCompiledError:
+            for one in fresh:
+                del self._alike[one]
+            raise
+
+    def _walk(self, key: str, knowns: tuple[Known, ...], fresh: list[int]) -> None:
         stack = [(tuple(one.node for one in knowns), key)]
         while stack:
             nodes, name = stack.pop()
             first = nodes[0]
             if id(first) in self._alike:
                 continue
-            self._alike[id(first)] = nodes
             for other in nodes[1:]:
                 if not _are_alike(first, other):
                     raise NotCompiledError("ways", name)
+            self._alike[id(first)] = nodes
+            fresh.append(id(first))
             stack += [
                 (tuple(one.node for one in operands), operands[0].key or name)
                 for operands in zip(*(self.made_of(one) for one in nodes), strict=True)
@@ -207,6 +219,20 @@ class Trace:
         self._ends: dict[int, tuple[End, Array]] = {}
         self._made: dict[tuple[int, float | None, float], Value] = {}
         self._by_angle = Derivatives(self.graph, "angle")
+
+    def compiling(self, keys: Iterable[str]) -> list[str]:
+        """Return those of some keys that compile, that designs differ in, and whose laws end where they do in all."""
+        found = []
+        for key in keys:
+            try:
+                self._designs.add(key)
+                value = self.value(self._designs.memories[0][key])
+            except NotCompiledError:
+                continue
+            every = [one for one in graph_in_order([value]) if one.kind == "pieces"]
+            if value.by_design and not any(end.value for one in every for end in one.detail[0]):
+                found.append(key)
+        return found
 
     def value(self, known: Known, *, shift: float = 0.0, fixed: float | None = None) -> Value:
         """Return the value of what is remembered, at angles larger by some degrees or at one angle. [deg]"""

@@ -8,12 +8,14 @@ from typing import Any
 
 from crankwork.analysis import Results
 from crankwork.browser import script, style
-from crankwork.locale import capital, say
+from crankwork.errors import CrankworkError, InputError
+from crankwork.locale import capital, say, told
 from crankwork.locale.numbers import number, unit_name
 from crankwork.note.equations import value_symbol
 from crankwork.note.explain import Place
 from crankwork.note.live import bar, controls, look, page_data, stored, symbol_html, words
 from crankwork.page.memories import Memories
+from crankwork.page.sliders import Live, Moved, scale
 from crankwork.quantities import Language
 from crankwork.report.drawing import film_of
 from crankwork.report.figures import drawings
@@ -27,8 +29,12 @@ from crankwork.show.scene import Drawing
 
 
 @in_own_units
-def page(results: Results, language: Language = "en", place: Place | None = None) -> bytes:
-    """Return the page of a machine, UTF-8; `place` says where a value stands that comes from a path of its file."""
+def page(results: Results, language: Language = "en", place: Place | None = None, moved: Moved | None = None) -> bytes:
+    """Return the page of a machine, UTF-8.
+
+    `place` says where a value stands that comes from a path of its file; `moved`: what its reader may move.
+    """
+    live = None if moved is None else Live(moved, language=language)
     drawn = drawings(results, language=language)
     film = film_of(results, language=language, forces=True)
     data = page_data(results, drawn, film, language)
@@ -37,7 +43,13 @@ def page(results: Results, language: Language = "en", place: Place | None = None
         data["figures"][name]["told"] = described(one)
     data["tables"] = tables(results, data, language)
     keys = dict.fromkeys([*(key for one in data["tables"] for key in one["k"]), *results.summary])
-    data["memories"] = Memories(results, language, place or (lambda path, _: path), data["columns"]).of(keys)
+    memories = Memories(results, language, place or (lambda path, _: path), data["columns"])
+    data["memories"] = memories.of(keys)
+    marks, steps = dict[str, list[str]](), ""
+    if live is not None:
+        memories.follow(live)
+        marks = {name: _followed(live, name, data["figures"][name]) for name in drawn}
+        data["sliders"], steps = _sliders_data(results, live, data)
     title = html.escape(results.machine.title or "crankwork")
     parts = [
         f'<!DOCTYPE html>\n<html lang="{language}"><head><meta charset="utf-8">',
@@ -47,23 +59,77 @@ def page(results: Results, language: Language = "en", place: Place | None = None
         f"<header><h1>{title}</h1><p>{html.escape(results_method(results, language))}</p></header>",
         *bar(language),
         '<div class="side">',
-        *([] if film is None else _machine(film, language)),
+        *([] if live is None or moved is None else _sliders(live, moved, language)),
+        *([] if film is None else _machine(film, language, is_filed=live is not None and live.moves_apart())),
         *_contents(drawn, language),
         "</div><main>",
-        *_figures(drawn, language),
-        *values(results, set(data["memories"]["keys"]), language),
+        *_figures(drawn, marks, language),
+        *values(results, set(data["memories"]["keys"]), language, live),
         *_table_room(language),
         f"<footer><p>{html.escape(provenance(results))}</p></footer></main>",
         *_explanation_room(language),
         stored(data),
-        f"<script>{script('page')}</script></body></html>\n",
+        f"<script>{steps}{script('page')}</script></body></html>\n",
     ]
     return "\n".join(parts).encode()
 
 
-def _machine(film: MovingDrawing, language: Language) -> list[str]:
+def _followed(live: Live, name: str, data: dict[str, Any]) -> list[str]:
+    """Say in the data of a figure which curves follow the sliders; return what becomes of its items."""
+    plots, marks, differs = live.figure(name)
+    for one, more in zip(data["plots"], plots, strict=False):
+        one.update(more)
+    if differs and not plots:
+        data["filed"] = True
+    return marks if plots else []
+
+
+def _sliders_data(results: Results, live: Live, data: dict[str, Any]) -> tuple[dict[str, Any], str]:
+    """Return what the sliders of a page work with, and the steps of the calculation."""
+    columns = {key: scale(key)[0] for key in data["columns"] if live.follows(key)}
+    values = {key: scale(key) for key in results.summary if live.follows(key)}
+    filed = [key for key in data["columns"] if key not in columns and live.differs(key)]
+    found, steps = live.data()
+    return {**found, "columns": columns, "values": values, "filed": filed}, steps
+
+
+def _sliders(live: Live, moved: Moved, language: Language) -> list[str]:
+    """Return the elements by which a reader states numbers of the machine file."""
+    title = words("sliders", language)
+    parts = [f'<section id="sliders" aria-label="{title}"><h2>{title}</h2>']
+    for at, one in enumerate(moved.sliders):
+        now, low, high = (one.shown(value) for value in (one.now, one.low, one.high))
+        key = live.name(one)
+        name = html.escape(f"{capital(label(key, language))} ({one.key})" if key else one.key)
+        unit = html.escape(unit_name(one.unit, language))
+        ends = f'min="{low!r}" max="{high!r}"'
+        parts += [
+            f'<p class="slid"><label for="move{at}">{name}</label>',
+            f'<input type="range" id="move{at}" data-field="{at}" {ends} step="any" value="{now!r}">',
+            f'<input type="text" inputmode="decimal" data-box="{at}" aria-label="{name}, {unit}" size="7">',
+            f"<span>{unit}</span></p>",
+        ]
+        if one.stop is not None:
+            stop = html.escape(_cause(one.stop, language))
+            parts.append(f'<p class="words">{words("slider_stops", language)} {stop}</p>')
+    return [
+        *parts,
+        f'<p><button id="filed">{words("slider_back", language)}</button>',
+        f' <output id="told" data-none="{words("slider_none", language)}"',
+        f' data-wrong="{words("slider_wrong", language)}"></output></p>',
+        f'<p class="words when">{words("slider_filed", language)}</p></section>',
+    ]
+
+
+def _cause(error: CrankworkError, language: Language) -> str:
+    """Return why there is no machine: of several mistakes the first."""
+    return told(error.problems[0].message if isinstance(error, InputError) else error.args[0], language)
+
+
+def _machine(film: MovingDrawing, language: Language, *, is_filed: bool) -> list[str]:
     drawn = f"<figure>{inline_film(film, 'machine')}{''.join(controls(film, language))}</figure>"
-    return [f'<section id="machine" aria-label="{words("machine", language)}">{drawn}</section>']
+    kind = ' class="filed"' if is_filed else ""
+    return [f'<section id="machine"{kind} aria-label="{words("machine", language)}">{drawn}</section>']
 
 
 def tables(results: Results, data: dict[str, Any], language: Language) -> list[dict[str, Any]]:
@@ -82,19 +148,24 @@ def _contents(drawn: dict[str, Drawing], language: Language) -> list[str]:
     return [f'<nav aria-label="{words("contents", language)}"><ul>', *links, "</ul></nav>"]
 
 
-def _figures(drawn: dict[str, Drawing], language: Language) -> list[str]:
+def _figures(drawn: dict[str, Drawing], marks: dict[str, list[str]], language: Language) -> list[str]:
     parts = [f'<section><h2>{words("diagrams", language)}</h2><div class="figures">']
     for name, one in drawn.items():
         told = f"<figcaption>{html.escape(capital(one.title))}</figcaption>"
-        parts.append(f'<figure id="figure-{name}">{inline_svg(one, name, one.title)}{told}</figure>')
+        parts.append(
+            f'<figure id="figure-{name}">{inline_svg(one, name, one.title, marks.get(name, ()))}{told}</figure>'
+        )
     return [*parts, "</div></section>"]
 
 
-def values(results: Results, explained: Container[str], language: Language) -> list[str]:
+def values(results: Results, explained: Container[str], language: Language, live: Live | None = None) -> list[str]:
     """Return single values, checks and notices as a section; `explained`: those that a click explains."""
     parts = [f'<section id="values"><h2>{words("values", language)}</h2><div class="values">']
     for subject, found in by_subject(results).items():
-        rows = [_value_row(results, key, one, language, is_explained=key in explained) for key, one in found.items()]
+        rows = [
+            _value_row(results, key, one, language, is_explained=key in explained, marks=_value_marks(live, key))
+            for key, one in found.items()
+        ]
         parts += _small_table(say(f"subjects.{subject}", language), rows)
     if results.checks:
         parts += _small_table(
@@ -103,7 +174,10 @@ def values(results: Results, explained: Container[str], language: Language) -> l
     parts.append("</div>")
     if results.notices:
         told = (html.escape(notice_text(one.code, one.values, language)) for one in results.notices)
-        parts += [f"<h3>{html.escape(say('report.notices', language))}</h3><ul>", *(f"<li>{one}</li>" for one in told)]
+        parts += [
+            f"<h3>{html.escape(say('report.notices', language))}</h3><ul class=filed>",
+            *(f"<li>{one}</li>" for one in told),
+        ]
         parts.append("</ul>")
     return [*parts, "</section>"]
 
@@ -112,20 +186,31 @@ def _small_table(caption: str, rows: list[str]) -> list[str]:
     return [f"<table><caption>{html.escape(caption)}</caption><tbody>", *rows, "</tbody></table>"]
 
 
-def _value_row(results: Results, key: str, value: float, language: Language, *, is_explained: bool) -> str:
+def _value_marks(live: Live | None, key: str) -> tuple[str, str]:
+    """Return what a row and the number in it are marked with: that it follows the sliders, or cannot."""
+    if live is None or not live.differs(key):
+        return "", ""
+    return ("", f' data-value="{html.escape(key)}"') if live.follows(key) else (' class="filed"', "")
+
+
+def _value_row(
+    results: Results, key: str, value: float, language: Language, *, is_explained: bool, marks: tuple[str, str]
+) -> str:
     name = html.escape(label(told_as(key, results), language))
     shown = number(displayed(key, value), language)
     if is_explained:
         quote = "" if key.replace("_", "").replace(".", "").isalnum() else '"'
-        shown = f"<button data-key={quote}{html.escape(key)}{quote}>{shown}</button>"
+        shown = f"<button data-key={quote}{html.escape(key)}{quote}{marks[1]}>{shown}</button>"
+    elif marks[1]:
+        shown = f"<span{marks[1]}>{shown}</span>"
     unit = html.escape(unit_name(key_unit(key), language))
     # a table needs no ends of its cells
-    return f"<tr><th>{name}<td>{symbol_html(value_symbol(key, language))}<td>{shown}<td>{unit}"
+    return f"<tr{marks[0]}><th>{name}<td>{symbol_html(value_symbol(key, language))}<td>{shown}<td>{unit}"
 
 
 def _check_row(results: Results, key: str, language: Language) -> str:
     shown, told = number(results.checks[key], language, digits=2), html.escape(met(results, key, language))
-    return f"<tr><th>{html.escape(say(f'report.{key}', language))}<td>{shown}<td>{told}"
+    return f"<tr class=filed><th>{html.escape(say(f'report.{key}', language))}<td>{shown}<td>{told}"
 
 
 def _table_room(language: Language) -> list[str]:

@@ -23,6 +23,8 @@ from crankwork.note.equations import shown_values, symbolic, value_symbol, value
 from crankwork.note.explain import Place, has_own_symbol, meaning_of_argument, of_angle
 from crankwork.note.live import packed, symbol_html, unpacked
 from crankwork.note.mathml import mathml_box
+from crankwork.note.printed_units import printed_unit
+from crankwork.page.sliders import Live
 from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.report.language import label
 from crankwork.sources import cite
@@ -45,6 +47,7 @@ class Memories:
         self._numbers: dict[tuple[int, str], int] = {}
         # nodes are told apart by where they lie, so none may be given up
         self._kept: list[Known] = []
+        self._arguments: list[str] = []
         self._formulas: dict[str, int] = {}
         self._sources: dict[str, int] = {}
         self._varying: dict[int, str] = {}
@@ -81,6 +84,14 @@ class Memories:
             "rows": [round(one * self._unit, 9) for one in self._degrees.tolist()],
             "sources": [html.escape(cite(one)) for one in self._sources],
         }  # fmt: skip
+
+    def follow(self, live: Live) -> None:
+        """Say of nodes which follow the sliders: where they are calculated, and what takes them to their units."""
+        names = live.nodes(self._kept)
+        for node, known, argument, name in zip(self._nodes, self._kept, self._arguments, names, strict=True):
+            if name:
+                (origin, unit), (end, _) = (self._shown(known, argument, one) for one in (0.0, 1.0))
+                node["m"] = [name, end - origin, origin, printed_unit(unit, self._language)]
 
     def _of_table(self, key: str, values: Array, unit: str) -> dict[str, Any]:
         """Return the column of the tables that has these values, and those at other angles, if there is one."""
@@ -137,6 +148,7 @@ class Memories:
             number = self._numbers[mark] = len(self._nodes)
             self._nodes.append({})
             self._kept.append(known)
+            self._arguments.append(argument)
             made = {"s": symbol_html(self._symbol(known, name)), "n": self._name(name), **self._made(known, degrees)}
             self._nodes[number] = {key: one for key, one in made.items() if one not in ("", [])}
             if known.varies:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -101,8 +101,9 @@ class Graph:
         self.curves: dict[str, tuple[Array, Array]] = {}
         self._angles: dict[str, Array] = {}
         self._titles: dict[str, str] = {}
+        self._frame: dict[str, Any] = {}
         titles = self._titles if to_scale or not here().is_sheet else {}
-        paper.plot(scene.Plot(scene.Box(*box), x, y, over, self._angles, self.curves, titles))
+        paper.plot(scene.Plot(scene.Box(*box), x, y, over, self._angles, self.curves, titles, self._frame))
 
     @property
     def powers(self) -> tuple[int, int]:
@@ -165,6 +166,7 @@ class Graph:
         """Draw grid, ticks and numbers; the horizontal axis goes through zero where it is in reach."""
         left, top, width, height = self.box
         right, bottom = left + width, top + height
+        first = len(self.paper.items)
         across, down = self.across(x_ticks), self.down(y_ticks)
         grid = [(one, top, one, bottom) for one in across] + [(left, one, right, one) for one in down]
         self.paper.segments(np.array(grid), colour=LIGHT)
@@ -180,6 +182,13 @@ class Graph:
         if labels[1]:
             for value, at in zip(y_ticks, down, strict=True):
                 self.paper.text(left - 6, at + 3, self._number(value, 1), size=_TICK, anchor="end")
+        ticks = [x_ticks.tolist(), y_ticks.tolist()]
+        self._frame |= {
+            "ticks": ticks,
+            "labels": labels,
+            "powers": self.powers,
+            "items": (first, len(self.paper.items)),
+        }
 
     def told(self, value: float) -> str:
         """Return a value as the numbers of the vertical axis are told, to four digits."""

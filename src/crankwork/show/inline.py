@@ -5,7 +5,8 @@ from __future__ import annotations
 import html
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -27,13 +28,24 @@ _FILLED = fill_colours("print")
 _PARTED_BY_POINTS = re.compile(r"(?<=\.\d) (?=\.)|(?<=\.\d\d) (?=\.)")
 
 
-def inline_svg(drawing: Drawing, name: str, about: str = "") -> str:
-    """Return a drawing as an SVG element with the class `drawing`; `name`: by which the page knows it."""
+def inline_svg(drawing: Drawing, name: str, about: str = "", marks: Sequence[str] = ()) -> str:
+    """Return a drawing as an SVG element with the class `drawing`; `name`: by which the page knows it.
+
+    `marks`: a class for each item, empty for most, by which the page finds what becomes of it.
+    """
     angles = {curve: one for plot in drawing.plots for curve, one in plot.angles.items()}
     sizes = Counter(_hundredths(round(100 * one.height / CAP_HEIGHT)) for one in drawing.items if isinstance(one, Text))
     usual = max(sizes, key=lambda size: sizes[size], default="3")
-    written = _InlineWriter(drawing.height, angles, usual).written(drawing.items)
+    writer = _InlineWriter(drawing.height, angles, usual)
+    written = _grouped(writer, drawing.items, marks) if marks else writer.written(drawing.items)
     return _element(drawing, name, about or described(drawing), written, usual)
+
+
+def _grouped(writer: SvgWriter, items: Sequence[Item], marks: Sequence[str]) -> Iterator[str]:
+    """Yield items in their order, those of one mark that follow one another in a group."""
+    for mark, some in groupby(zip(marks, items, strict=True), key=lambda one: one[0]):
+        written = writer.written(tuple(item for _, item in some))
+        yield "".join([f'<g class="{mark}">', *written, "</g>"]) if mark else "".join(written)
 
 
 def inline_film(film: MovingDrawing, name: str) -> str:

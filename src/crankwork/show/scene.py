@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping, Sequence
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -154,7 +154,8 @@ class Plot(NamedTuple):
 
     `over`: key of the quantity across, if that is what tables go by; `angles`: crank angles [deg] of the points of
     curves that stand over something else, by the names of their lines; `curves`: what they show, in the units of the
-    scales, by the same names; `titles`: of the axes, by `x` and `y`.
+    scales, by the same names; `titles`: of the axes, by `x` and `y`; `frame`: its `ticks` across and upward, which of
+    them have numbers, powers of ten that these lack, and its `items` from one to another.
     """
 
     box: Box
@@ -164,6 +165,7 @@ class Plot(NamedTuple):
     angles: Mapping[str, Array]
     curves: Mapping[str, tuple[Array, Array]]
     titles: Mapping[str, str]
+    frame: Mapping[str, Any] = {}
 
 
 class Drawing(NamedTuple):

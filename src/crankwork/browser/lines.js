@@ -1,0 +1,64 @@
+// Curves of diagrams as the calculation has them: the nodes that are drawn, over the crank angle or over each other.
+
+/** @typedef {import("./curves.js").Curve} Curve */
+/** @typedef {import("./curves.js").Plot} Plot */
+
+// points of a curve at most
+const MOST = 721;
+// of degrees, what is the same
+const SAME = 1e-6;
+
+export class Lines {
+  /**
+   * @param {import("./calculation.js").Calculation} calculation
+   * @param {number} degrees what a unit of the scale across is, where that is what tables go by
+   */
+  constructor(calculation, degrees) {
+    this.calculation = calculation;
+    this.degrees = degrees;
+    const { count, panels } = calculation.cycle;
+    const gaps = count - 1;
+    // both ends of each panel, and evenly many between them
+    const by = [1, 3, 5, gaps].find((one) => gaps % one === 0 && panels * (gaps / one + 1) <= MOST) ?? gaps;
+    this.places = Array.from({ length: panels * count }, (_, k) => k).filter((k) => (k % count) % by === 0);
+    this.angles = this.places.map((k) => calculation.degrees[k]);
+  }
+
+  /**
+   * Return the points of a curve as values of the scales of its graph, and their crank angles.
+   * @param {Curve} curve
+   * @param {Plot} plot
+   * @returns {{x: ArrayLike<number>, y: ArrayLike<number>, angles: number[] | undefined}}
+   */
+  of(curve, plot) {
+    const { calculation, degrees } = this;
+    const { x, y, level } = /** @type {import("./curves.js").Made} */ (curve.made);
+    if (level) {
+      const value = calculation.values[calculation.data.values[level[0]]] * level[1];
+      return { x: curve.values().x, y: [value, value], angles: undefined };
+    }
+    const angles = curve.home.angles ?? [];
+    const [first, last] = plot.over ? [angles[0] * degrees, angles[angles.length - 1] * degrees] : [angles[0], angles[angles.length - 1]];
+    const inside = this.angles.flatMap((one, k) => (one >= first - SAME && one <= last + SAME ? [k] : []));
+    const at = inside.map((k) => this.angles[k]);
+    const up = this.column(y, inside, last);
+    const isCut = at[at.length - 1] < last - SAME;
+    if (isCut) at.push(last);
+    const across = x ? this.column(x, inside, last) : at.map((one) => one / degrees);
+    return { x: across, y: up, angles: plot.over ? Array.from(across) : at };
+  }
+
+  /**
+   * Return a column at some of the nodes that are drawn, and where the curve ends if that is none of them.
+   * @param {[string, number] | undefined} made
+   * @param {number[]} inside
+   * @param {number} last
+   */
+  column(made, inside, last) {
+    const [key, factor] = made ?? ["", 1];
+    const values = this.calculation.nodesOf(this.calculation.data.columns[key]);
+    const found = inside.map((k) => values[this.places[k]] * factor);
+    if (this.angles[inside[inside.length - 1]] < last - SAME) found.push(this.calculation.cycle.at(values, last) * factor);
+    return found;
+  }
+}

@@ -1,0 +1,309 @@
+"""What a page calculates anew where its reader moves a slider: by the remembered calculation, in the browser."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from crankwork.analysis import Array, Results
+from crankwork.errors import CrankworkError
+from crankwork.formula.known import Delayed, Given, Known, in_order
+from crankwork.kernel.compiled import CONVERGED, Kernel
+from crankwork.kernel.script import Script
+from crankwork.kernel.trace import Designs, Trace
+from crankwork.locale import Refusal
+from crankwork.quantities import QUANTITIES, base_key
+from crankwork.report.drawing import film_of
+from crankwork.report.figures import drawings
+from crankwork.report.language import displayed
+from crankwork.show.moving import MovingDrawing
+from crankwork.show.scene import Arc, Circle, Drawing, Hatch, Item, Plot, Polyline, Text
+from crankwork.units import to_si
+
+# of its size, how far what is drawn may be from a column that it is taken for
+_SAME = 1e-9
+_SAME_PLACE = 1e-6
+# where tables of designs are compared [deg]
+_LOOKED = 7.0
+# millimetres that nobody sees
+_UNSEEN = 1e-3
+# rows that are calculated for the tables at most
+_MOST_ROWS = 1000
+# of an item: hidden, or faint, where sliders have moved
+GONE, FAINT = "gone", "faint"
+
+
+class Slider(NamedTuple):
+    """A number of a machine file that a reader may move, between two values [SI], in the unit it is written in.
+
+    `stop`: why the machine does not go as far as was asked, and as far as the field goes.
+    """
+
+    key: str
+    now: float
+    low: float
+    high: float
+    unit: str = ""
+    stop: CrankworkError | None = None
+
+    def shown(self, value: float) -> float:
+        """Return a value in its unit."""
+        origin, end = (float(to_si(one, self.unit)) for one in (0.0, 1.0)) if self.unit else (0.0, 1.0)
+        return float(f"{(value - origin) / (end - origin):.12g}")
+
+
+class Moved(NamedTuple):
+    """Sliders, and results of designs: the stated one, a smaller and a larger value of each alone, one of all at once.
+
+    `designs`: what the fields are in each, shape (m, fields). [SI]
+    """
+
+    sliders: tuple[Slider, ...]
+    designs: Array
+    results: tuple[Results, ...]
+
+
+class Live:
+    """What of a page follows its sliders."""
+
+    def __init__(self, moved: Moved, **drawn: Any) -> None:  # noqa: ANN401 - what drawings take
+        self._moved, self._results = moved, moved.results
+        self.memories = [dict(one.memory) for one in self._results]
+        stated = self._results[0]
+        self._angles_at, self._cycle = type(stated.grid).from_degrees, stated.machine.cycle
+        self._designs = Designs(self.memories, moved.designs, ())
+        self._trace = self._new_trace()
+        keys = self._trace.compiling(self.memories[0])
+        self._columns = [key for key in keys if self.memories[0][key].varies]
+        self._singles = [key for key in keys if not self.memories[0][key].varies]
+        if not keys:
+            raise CrankworkError(Refusal("slider_nothing", keys=[one.key for one in moved.sliders]))
+        self._drawings = [drawings(one, **drawn) for one in self._results]
+        self._films = [film_of(one, forces=True, **drawn) for one in self._results]
+        self._replayed: dict[tuple[int, bytes], Array] = {}
+        self._used: dict[str, None] = {}
+
+    def _new_trace(self) -> Trace:
+        looked = np.arange(0.0, self._cycle, _LOOKED)
+        return Trace(self._designs, self._angles_at, looked, is_shifted=True)
+
+    def name(self, slider: Slider) -> str:
+        """Return the key of the quantity that a field is, if a formula takes it."""
+        for known in in_order(self.memories[0].values()):
+            if isinstance(known.node, Given) and known.node.path == slider.key and base_key(known.key) in QUANTITIES:
+                return known.key
+        return ""
+
+    def differs(self, key: str) -> bool:
+        """Return whether designs differ in a column or a single value, or some have none."""
+        values = [one.columns.get(key, one.summary.get(key)) for one in self._results]
+        if any(one is None for one in values):
+            return True
+        stated, *others = (np.asarray(one) for one in values)
+        return any(not np.array_equal(stated, one, equal_nan=True) for one in others)
+
+    def follows(self, key: str) -> bool:
+        """Return whether a column or a single value is calculated in the browser, and remember that it is wanted."""
+        if key not in self._columns and key not in self._singles:
+            return False
+        self._used[key] = None
+        return True
+
+    def nodes(self, knowns: Iterable[Known]) -> list[str]:
+        """Return names under which what lies between keys is calculated, empty for what is not."""
+        names = []
+        for at, known in enumerate(knowns):
+            name = f"#{at}"
+            try:
+                twins = self._designs.twins(known.node)
+            except KeyError:
+                names.append("")
+                continue
+            for memory, twin in zip(self.memories, twins, strict=True):
+                memory[name] = Known(twin, known.key)
+            names.append(name)
+        live = set(self._trace.compiling(one for one in names if one))
+        self._used |= dict.fromkeys(one for one in names if one in live)
+        return [one if one in live else "" for one in names]
+
+    def figure(self, name: str) -> tuple[list[dict[str, Any]], list[str], bool]:
+        """Return how the curves of each graph are made, what becomes of each item, and whether the figure differs."""
+        every = [one.get(name) for one in self._drawings]
+        drawn = every[0]
+        assert drawn is not None  # noqa: S101 - the page has it
+        others = [one for one in every if one is not None]
+        plots = [self._plot(at, others) for at in range(len(drawn.plots))] if len(others) == len(every) else []
+        signs = [Counter(map(_signed, one.items)) for one in others[1:]]
+        is_same = [all(one[_signed(item)] > 0 for one in signs) for item in drawn.items]
+        differs = len(others) < len(every) or not all(is_same)
+        live = {curve for one in plots for curve in one["curves"]}
+        marks = [""] * len(drawn.items)
+        for at, item in enumerate(drawn.items):
+            before = drawn.items[at - 1] if at else None
+            if is_same[at] or (isinstance(item, Polyline) and item.name in live):
+                continue
+            is_legend = isinstance(before, Polyline) and before.name == "legend"
+            is_curve = isinstance(item, Polyline) and item.name
+            marks[at] = FAINT if is_legend or is_curve or not live else GONE
+        for at, plot in enumerate(drawn.plots):
+            if plots and plots[at]["curves"] and plot.frame:
+                first, last = plot.frame["items"]
+                marks[first:last] = [f"frame {at}"] * (last - first)
+        return plots if live else [], marks if differs else [], differs
+
+    def _plot(self, at: int, drawn: Sequence[Drawing]) -> dict[str, Any]:
+        """Return the curves of a graph that follow, by name, each with what stands across and upward."""
+        plots = [one.plots[at] for one in drawn if at < len(one.plots)]
+        found: dict[str, Any] = {"curves": {}}
+        if len(plots) < len(drawn):
+            return found
+        for name in plots[0].curves:
+            if all(name in one.curves for one in plots):
+                of = self._curve(name, plots)
+                if of:
+                    found["curves"][name] = of
+        if plots[0].frame:
+            found |= {key: plots[0].frame[key] for key in ("ticks", "labels", "powers")}
+        return found
+
+    def _curve(self, name: str, plots: Sequence[Plot]) -> dict[str, Any]:
+        x, y = ([one.curves[name][axis] for one in plots] for axis in (0, 1))
+        if all(len(one) == 2 and one[0] == one[1] for one in y):
+            level = self._single([float(one[0]) for one in y])
+            return {"level": level} if level else {}
+        if plots[0].over:
+            degrees = [
+                self._results[at].degrees_of(1.0) * one if plots[0].over == "time" else one for at, one in enumerate(x)
+            ]
+            up = self._column(name, degrees, y)
+            return {"y": up} if up else {}
+        if not all(name in one.angles for one in plots):
+            return {}
+        degrees = [one.angles[name] for one in plots]
+        if any(len(one) != len(other) for one, other in zip(degrees, x, strict=True)):
+            return {}
+        across, up = (self._column(name, degrees, of) for of in (x, y))
+        return {"x": across, "y": up} if across and up else {}
+
+    def _single(self, values: Sequence[float]) -> list[Any]:
+        """Return the single value that a level stands at in all designs, and by what it is multiplied."""
+        wanted = np.array(values)
+        if np.ptp(wanted) == 0:
+            return []
+        for key in self._singles:
+            of = np.array([one[key].value for one in self.memories])
+            factor = (of @ wanted) / (of @ of) if of.any() else 0.0
+            if np.max(np.abs(factor * of - wanted)) <= _SAME * np.max(np.abs(wanted)):
+                self._used[key] = None
+                return [key, factor]
+        return []
+
+    def _column(self, name: str, degrees: Sequence[Array], values: Sequence[Array]) -> list[Any]:
+        """Return the column that a curve shows in all designs, and by what it is multiplied."""
+        wanted = np.concatenate(values)
+        seen = np.isfinite(wanted)
+        wanted = wanted[seen]
+        if not wanted.any():
+            return []
+        every = np.concatenate([self._replay(at, one) for at, one in enumerate(degrees)], axis=1)[:, seen]
+        with np.errstate(all="ignore"):
+            factors = (every @ wanted) / np.sum(every**2, axis=1)
+            apart = np.max(np.abs(factors[:, None] * every - wanted), axis=1)
+        fitting = [at for at in np.argsort(apart) if apart[at] <= _SAME * np.max(np.abs(wanted))]
+        if not fitting:
+            return []
+        best = next((at for at in fitting if self._columns[at] == name), fitting[0])
+        self._used[self._columns[best]] = None
+        return [self._columns[best], float(factors[best])]
+
+    def _replay(self, at: int, degrees: Array) -> Array:
+        """Return all columns that follow, of a design at crank angles, shape (columns, n)."""
+        mark = at, degrees.tobytes()
+        if mark not in self._replayed:
+            found = self._results[at].columns_at(self._angles_at(degrees), self._columns)
+            self._replayed[mark] = np.array([found[key] for key in self._columns])
+        return self._replayed[mark]
+
+    def moves_apart(self) -> bool:
+        """Return whether the machine moves otherwise in other designs."""
+        stated, *others = self._films
+        return any(_film(one) != _film(stated) for one in others)
+
+    def data(self) -> tuple[dict[str, Any], str]:
+        """Return what the browser calculates with, and the script that does."""
+        stated, moved = self._results[0], self._moved
+        rows = self._rows(stated.grid.degrees)
+        kernel = Kernel(
+            self.memories, moved.designs, list(self._used), self._angles_at, cycle=self._cycle,
+            is_for_few=True, rows=rows,
+        )  # fmt: skip
+        self._check(kernel)
+        script: Script = kernel.script()
+        fields = []
+        for one in moved.sliders:
+            origin, end = (float(to_si(at, one.unit)) if one.unit else at for at in (0.0, 1.0))
+            fields.append({"now": one.now, "scale": end - origin, "origin": origin})
+        places = np.searchsorted(rows, stated.grid.degrees - _SAME).tolist()
+        return {"fields": fields, "calculation": script.data, "rows": places}, script.text
+
+    def _rows(self, rows: Array) -> Array:
+        """Return crank angles of the tables, and those that other cylinders have there. [deg]"""
+        known = in_order(self.memories[0][one] for one in self._used)
+        delays = {one.node.by for one in known if isinstance(one.node, Delayed)}
+        every = rows
+        while True:
+            more = np.concatenate([every, *(np.mod(every - by, self._cycle) for by in delays)])
+            more = np.unique(np.round(more, 9))
+            if more.size == every.size or more.size > _MOST_ROWS:
+                return every
+            every = more
+
+    def _check(self, kernel: Kernel) -> None:
+        """Refuse a calculation that gives something else than the analyses of the designs it follows to the end."""
+        found = kernel(self._moved.designs.T)
+        whole = found.left_out <= CONVERGED
+        for key, values in zip(self._used, found.values, strict=True):
+            known = [one[key] for one in self.memories]
+            if known[0].varies:
+                continue
+            expected = np.array([one.value for one in known])
+            # a place where a column is flat is known to the root of its digits
+            is_place = "angle" in known[0].key or "time_ratio" in known[0].key
+            size = max(float(np.max(np.abs(expected))), _SAME)
+            if not np.all(np.abs(values - expected)[whole] <= (_SAME_PLACE if is_place else _SAME) * size):
+                raise CrankworkError(Refusal("slider_nothing", keys=[one.key for one in self._moved.sliders]))
+
+
+def scale(key: str) -> list[float]:
+    """Return what takes a value to its display unit: a factor, and what is added."""
+    origin = displayed(key, 0.0)
+    return [displayed(key, 1.0) - origin, origin]
+
+
+def _film(film: MovingDrawing | None) -> Mapping[str, Any] | None:
+    if film is None:
+        return None
+    parts = [one for one in film.parts if not one.name.startswith("force.")]
+    return {one.name: (np.rint(one.track / 0.05).tobytes(), tuple(map(_signed, one.items))) for one in parts}
+
+
+def _signed(item: Item) -> tuple[Any, ...]:
+    """Return what tells an item from others that look otherwise."""
+
+    def rounded(of: Any) -> bytes:  # noqa: ANN401 - numbers
+        return (np.rint(np.asarray(of, dtype=float) / _UNSEEN) + 0.0).tobytes()
+
+    match item:
+        case Polyline():
+            return "line", rounded(item.points), item.kind, item.fill, item.name
+        case Text():
+            return "text", rounded(item.place), item.text, item.angle
+        case Circle():
+            return "circle", rounded((*item.centre, item.radius)), item.fill
+        case Arc():
+            return "arc", rounded((*item.centre, item.radius, item.start, item.end))
+        case Hatch():
+            return "hatch", rounded(item.points)
