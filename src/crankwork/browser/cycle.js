@@ -84,7 +84,9 @@ export class Cycle {
       }
       most = Math.max(most, rest);
     }
-    this.leftOut = Math.max(this.leftOut, most / size);
+    const rest = most / size;
+    // where a machine cannot be assembled there is nothing to follow
+    this.leftOut = Number.isNaN(rest) ? Infinity : Math.max(this.leftOut, rest);
     return found;
   }
 

@@ -129,7 +129,7 @@ export class Figure {
       const frame = this.frames[k];
       if (frame?.moves) {
         const held = drawn.filter(({ one }) => one.made || !one.path.closest(".faint, .gone"));
-        frame.fit(reach(held.map(({ x }) => x)), reach(held.map(({ y }) => y)));
+        frame.fit(ends(held.map(({ x }) => x)), ends(held.map(({ y }) => y)));
       }
       for (const { one, x, y, angles } of drawn) one.through(x, y, angles);
     });
@@ -161,7 +161,7 @@ export class Figure {
    */
   said(name) {
     const row = this.data.legend.findIndex((names) => names.includes(name));
-    return row < 0 ? "" : beside(this.rows()[row])?.textContent ?? "";
+    return row < 0 ? "" : textBeside(this.rows()[row])?.textContent ?? "";
   }
 
   rows() {
@@ -212,7 +212,7 @@ export class Figure {
     this.rows().forEach((row, k) => {
       const names = this.data.legend[k] ?? [];
       const own = this.curves.filter((one) => names.includes(one.name));
-      const text = beside(row);
+      const text = textBeside(row);
       if (!own.length || !(text instanceof SVGTextElement)) return;
       text.setAttribute("role", "button");
       text.setAttribute("tabindex", "0");
@@ -288,7 +288,7 @@ export class Figure {
  * Return the text beside the sample of a legend.
  * @param {Element | undefined} row
  */
-function beside(row) {
+function textBeside(row) {
   const next = row?.nextElementSibling;
   return next instanceof SVGGElement ? next.firstElementChild : next;
 }
@@ -298,7 +298,7 @@ function beside(row) {
  * @param {ArrayLike<number>[]} values
  * @returns {[number, number]}
  */
-function reach(values) {
+function ends(values) {
   let [low, high] = [Infinity, -Infinity];
   for (const some of values) {
     for (let k = 0; k < some.length; k += 1) {
