@@ -39,7 +39,7 @@ from crankwork.formula.known import (
 from crankwork.formula.replay import Angles
 from crankwork.kernel.derivative import Derivatives
 from crankwork.kernel.graph import End, Graph, Value
-from crankwork.kernel.graph import in_order as graph_in_order
+from crankwork.kernel.graph import in_order as values_in_order
 
 Array = NDArray[np.float64]
 
@@ -202,6 +202,12 @@ def _plain(inputs: Iterable[Known | float]) -> list[float | None]:
     return [None if isinstance(one, Known) else float(one) for one in inputs]
 
 
+def _needs_more(value: Value) -> bool:
+    if value.kind == "pieces":
+        return any(end.value is not None for end in value.detail[0])
+    return value.kind == "reduction" and value.detail.startswith("procedure")
+
+
 class Trace:
     """Values of a graph for what is remembered.
 
@@ -221,7 +227,10 @@ class Trace:
         self._by_angle = Derivatives(self.graph, "angle")
 
     def compiling(self, keys: Iterable[str]) -> list[str]:
-        """Return those of some keys that compile, that designs differ in, and whose laws end where they do in all."""
+        """Return those of some keys that compile, that designs differ in, and that need loops and extremes alone.
+
+        Neither laws that end where the design puts them, nor procedures.
+        """
         found = []
         for key in keys:
             try:
@@ -229,8 +238,7 @@ class Trace:
                 value = self.value(self._designs.memories[0][key])
             except NotCompiledError:
                 continue
-            every = [one for one in graph_in_order([value]) if one.kind == "pieces"]
-            if value.by_design and not any(end.value for one in every for end in one.detail[0]):
+            if value.by_design and not any(map(_needs_more, values_in_order([value]))):
                 found.append(key)
         return found
 
