@@ -101,7 +101,7 @@ class Kernel:
             guard = trace.guard(is_sampled=steps is not None)
             ends = [one for one, _ in trace.moving]
             guarded = outputs | ({} if guard is None else {"": guard})
-            self.plan = Plan(guarded, grid, self.fields, angles_at, () if steps else ends, shares_divisions=compiles)
+            self.plan = Plan(guarded, grid, self.fields, angles_at, () if steps else ends, shares_divisions=is_compiled)
             is_running = all(one.detail in RUNNING for level in self.plan.levels for one in level.reductions)
             self.source = Source(self.plan, is_reduced=is_compiled and steps is not None and is_running)
             earlier = [grid.earlier(by) for by in self.source.delays.of]
