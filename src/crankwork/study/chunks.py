@@ -46,6 +46,7 @@ class Opened:
         self._few = designs_of(study, 8, 0)[:, :_CHECKED]
         first = self._chosen(tuple(int(at) for at in self._few[self._words, 0]))
         self.reason = first.reason if isinstance(first, Machines) else "absent"
+        self.at_key = first.at_key if isinstance(first, Machines) else study.keys[0]
         rows = study.chunk or (_ALONE if self.reason else _SAMPLED if study.angles else _EXACT)
         self.block = block_of(study)
         self.points = 1 << max((rows // self.block).bit_length() - 1, 0)
@@ -121,7 +122,8 @@ def opened(study: Study) -> Opened:
 class Reduced:
     """What is kept of designs, SI: counts and sums, and rows of the best ones, of the Pareto set and of some of all.
 
-    `refused`: by the kind of reason how many designs have none of the values, and the reason of the first one.
+    `refused`: by the kind of reason how many designs have none of the values, and the reason of the first one;
+    `alone`: why the calculation is not compiled and of what that shows, if it is not.
     """
 
     numbers: Index
@@ -135,6 +137,7 @@ class Reduced:
     histograms: dict[str, Histogram] = field(default_factory=dict)
     shares: dict[str, Shares] = field(default_factory=dict)
     is_thinned: bool = False
+    alone: tuple[str, str] | None = None
 
     def add(self, study: Study, other: Reduced) -> None:
         """Add what is kept of the designs that come next."""

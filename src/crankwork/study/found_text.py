@@ -48,6 +48,10 @@ def _lines(study: Study, found: Reduced, language: Language) -> Iterator[str]:
     yield say(name, language, count=_count(found.designs), within=_count(found.within))
     for count, reason in found.refused.values():
         yield say("study.refused", language, count=_count(count), reason=told(reason, language))
+    if found.alone is None:
+        yield say("study.compiled", language, count=_count(found.one_by_one))
+    else:
+        yield say("study.alone", language, reason=_because(found.alone, language))
     yield from ("", say("study.values", language))
     yield from aligned([_moments(key, one, language) for key, one in found.moments.items()])
     best, pareto = ranked(study, found)
@@ -61,6 +65,11 @@ def _lines(study: Study, found: Reduced, language: Language) -> Iterator[str]:
     if any(one.indices() for one in found.shares.values()):
         yield from ("", say("study.indices", language))
         yield from aligned(list(_causes(study, found, language)))
+
+
+def _because(alone: tuple[str, str], language: Language) -> str:
+    reason, key = alone
+    return say(f"study.because_{reason}", language, name=key)
 
 
 def _count(count: int) -> str:
@@ -172,6 +181,7 @@ def _data(study: Study, found: Reduced) -> dict[str, Any]:
         "designs": found.designs,
         "within_limits": found.within,
         "one_by_one": found.one_by_one,
+        "not_compiled": None if found.alone is None else _because(found.alone, "en"),
         "refused": [{"count": count, "reason": str(reason)} for count, reason in found.refused.values()],
         "units": {
             **{one.key: one.number.unit for one in study.varied if one.number},

@@ -57,7 +57,8 @@ class Machines:
         self._description, self._overrides = description, list(overrides)
         self._numbers, self._spans, self.keys = numbers, spans, list(keys)
         self._kernel: Kernel | None = None
-        self.reason = ""
+        # why the calculation is not compiled, and of what that shows
+        self.reason, self.at_key = "", ""
         self.stated = self.results(spans[:, 1])
         for key in keys:
             check_single(self.stated, key)
@@ -76,7 +77,7 @@ class Machines:
             kernel = self.kernel(steps, is_for_few=is_for_few)
             self._check(kernel, checked, _SAME if steps is None else _SAMPLED)
         except NotCompiledError as error:
-            self.reason = error.reason
+            self.reason, self.at_key = error.reason, error.key
         else:
             self._kernel = kernel
 

@@ -83,7 +83,8 @@ class _Run:
 
     def found(self) -> Reduced:
         """Return what is found, merged in the order of the chunks."""
-        found, following = nothing(self._study), 0
+        found, following, of = nothing(self._study), 0, opened(self._study)
+        found.alone = (of.reason, of.at_key) if of.reason else None
         with _Pool(self._study, self._where, self._workers) as pool:
             try:
                 for chunk in range(self._count):
