@@ -7,6 +7,7 @@ import pickle
 import re
 from collections import defaultdict
 from pathlib import Path
+from typing import get_args
 
 import click
 import pytest
@@ -17,6 +18,7 @@ from crankwork.cli import commands
 from crankwork.cli.spoken import option_key, stand_in_key
 from crankwork.description import machine_file
 from crankwork.description.schema import Table
+from crankwork.kernel.trace import Reason
 from crankwork.locale import LANGUAGES, Refusal, has_text, say, texts, told
 from crankwork.mechanism import dyads
 from crankwork.notation import ARGUMENTS
@@ -71,6 +73,7 @@ TABLES = {
     "refusals": (*(f"dimension_{one.dimension}" for one in UNITS.values()), "or", "and"),
     "places": re.findall(r"\w{2,}\.?|p\.", _PLACE.pattern.replace("\\", "")),
     "quantities": QUANTITIES,
+    "study": {f"because_{one}" for one in get_args(Reason)},
     "subjects": SUBJECTS,
     "symbols": QUANTITIES,
     "templates": {word for path in TEMPLATES for word in re.findall(r"\{(\w+)\}", path.read_text("utf-8"))},

@@ -18,7 +18,10 @@ import pytest
 from crankwork import cli, files
 from crankwork.description.machine_file import template
 from crankwork.errors import CrankworkError
+from crankwork.kernel import compiled
+from crankwork.locale import say
 from crankwork.study.chunks import opened
+from crankwork.study.found_text import found_data, found_text
 from crankwork.study.running import Where, run_study
 from crankwork.study.study_file import load_study
 
@@ -316,3 +319,34 @@ def test_words_have_designs_of_their_own(write, tmp_path):
     # r w^2 (1 + lambda) at the top, by either
     largest = [row["piston_acceleration_max"] / (1 + row["rod.ratio"]) for row in rows]
     np.testing.assert_allclose(largest, largest[0], rtol=1e-9)
+
+
+OF_CYCLE = """\
+machine = "machine.toml"
+values = "{key}"
+[designs]
+drawing = "sobol"
+count = 8
+angles = 360
+[vary]
+cylinder.compression_ratio = {{ from = 8, to = 9 }}
+"""
+
+
+@pytest.mark.parametrize("key", ["mean_torque", "filling_factor.diagram"])
+@pytest.mark.parametrize("language", ["en", "ru", "vi"])
+def test_a_study_says_whether_it_is_compiled_and_why_not(tmp_path, monkeypatch, key, language):
+    monkeypatch.setattr(compiled, "_compiles", lambda: False)
+    machine = Path(__file__).parents[2] / "examples" / "petrol-four.toml"
+    (tmp_path / "machine.toml").write_bytes(machine.read_bytes())
+    (tmp_path / "study.toml").write_text(OF_CYCLE.format(key=key), encoding="utf-8")
+    study = load_study(tmp_path / "study.toml")
+    found = run_study(study, str(tmp_path / "found"), Where(1))
+    told = found_text(study, found, language)
+    if key == "mean_torque":
+        assert say("study.compiled", language, count="0") in told
+        assert found_data(study, found)["not_compiled"] is None
+    else:
+        assert found.one_by_one == 8
+        assert say("study.because_procedure", language, name=key) in told
+        assert key in found_data(study, found)["not_compiled"]

@@ -209,7 +209,8 @@ def read_study(
     count = 0 if is_search else _count(read, varied, reader)
     if reader.problems or machine is None or results is None:
         raise input_error(text, name, reader)
-    designs, objectives = read["designs"] or Values({}, _DESIGNS), read["objectives"]
+    designs, objectives = read["designs"] or Values({}, _DESIGNS), read["objectives"] or {}
+    searched = read["search"] or Values({}, _SEARCH)
     keys = tuple(dict.fromkeys([*objectives, *limits, *(read["values"] or ())]))
     return Study(
         name=name,
@@ -229,7 +230,7 @@ def read_study(
         keys=keys,
         stated={key: results.value(key) for key in keys},
         units=results.machine.units,
-        search=read["search"] or Values({}, _SEARCH),
+        search={key: searched[key] for key in _SEARCH.keys},
         text=text,
     )
 
@@ -414,8 +415,8 @@ class _Field:
 def _wanted(read: Values, results: Results, reader: Reader) -> dict[str, tuple[float, float]]:
     """Return limits of values after a look at every key that is named. [SI]"""
     named = {
-        **{f"objectives.{key}": key for key in read["objectives"]},
-        **{f"limits.{key}": key for key in read["limits"]},
+        **{f"objectives.{key}": key for key in read["objectives"] or ()},
+        **{f"limits.{key}": key for key in read["limits"] or ()},
         **{f"values[{at}]": key for at, key in enumerate(read["values"] or (), start=1)},
     }
     known = set()
@@ -429,7 +430,7 @@ def _wanted(read: Values, results: Results, reader: Reader) -> dict[str, tuple[f
     if not named and not reader.problems:
         reader.complain("values", Refusal("study_nothing"))
     with shown_in(results.machine.units):
-        return {key: _limits(key, one, reader) for key, one in read["limits"].items() if one and key in known}
+        return {key: _limits(key, one, reader) for key, one in (read["limits"] or {}).items() if one and key in known}
 
 
 def _limits(key: str, stated: Values, reader: Reader) -> tuple[float, float]:
