@@ -289,6 +289,39 @@ def test_a_full_disk_stops_a_run_that_can_go_on(write, tmp_path, monkeypatch):
     assert run_study(study, tmp_path / "out", Where(1), resume=True).designs == 3000
 
 
+@pytest.fixture
+def small_disk(tmp_path):
+    """A disk of so few bytes that parts do not fit on it, and how it is made larger."""
+    disk = tmp_path / "disk"
+    disk.mkdir()
+
+    def mounted(options):
+        asked = ["mount", "-t", "tmpfs", "-o", options, "tmpfs", str(disk)]
+        return subprocess.run(asked, capture_output=True, check=False).returncode == 0
+
+    if os.name != "posix" or os.geteuid() != 0 or not mounted("size=100k"):
+        pytest.skip("only who may mount has a small disk")
+    yield disk, lambda: mounted("remount,size=4m")
+    subprocess.run(["umount", "-l", str(disk)], check=True)
+
+
+def test_what_was_written_before_a_disk_was_full_is_whole(write, tmp_path, small_disk):
+    (disk, enlarged), study = small_disk, load_study(write())
+    run_study(study, tmp_path / "whole", Where(1))
+    whole = parts_of(tmp_path / "whole")
+    with pytest.raises(CrankworkError, match=r"cannot be written \(no space left on device\)"):
+        run_study(study, disk / "out", Where(1))
+    written = parts_of(disk / "out")
+    assert 0 < len(written) < len(whole)
+    assert written.items() < whole.items()
+    # nothing else has room either, and says so
+    with pytest.raises(CrankworkError, match="no space left on device"):
+        run_study(study, disk / "out", Where(1), resume=True)
+    assert enlarged()
+    run_study(study, disk / "out", Where(1), resume=True)
+    assert parts_of(disk / "out") == whole
+
+
 def test_what_cannot_be_assembled_is_counted_by_reason(write, tmp_path):
     text = ALONE.replace('"55 mm", to = "65 mm"', '"20 mm", to = "120 mm"').replace(
         '["time_ratio.rocker", "link_swing.rocker"]', '"joint_force_max.B"'

@@ -148,10 +148,14 @@ class NumberOr(NamedTuple):
 
 
 class Named(NamedTuple):
-    """A table whose keys are names of the user's own, all values of one kind."""
+    """A table whose keys are names of the user's own, all values of one kind.
+
+    `deep`: how many tables within each other dots of a name make, that are read as one.
+    """
 
     entry: Kind
     most: int = _MAX_ENTRIES
+    deep: int = 0
 
     def read(self, value: object, key: str, reader: Reader) -> dict[str, Any] | None:
         """Return the values by name."""
@@ -169,7 +173,10 @@ class Named(NamedTuple):
     def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of a mapping."""
         names = {"minLength": 1, "maxLength": _LONGEST_NAME}
-        return {"type": "object", "additionalProperties": self.entry.schema(language), "propertyNames": names,
+        own = below = self.entry.schema(language)
+        for _ in range(self.deep):
+            below = {"anyOf": [own, {"type": "object", "additionalProperties": below}]}
+        return {"type": "object", "additionalProperties": below, "propertyNames": names,
                 "maxProperties": self.most}  # fmt: skip
 
 

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, get_args
 from crankwork import __version__, files
 from crankwork.analysis import Results, analyse
 from crankwork.description.document import Description, load, stated_value
-from crankwork.description.kinds import Choice, Flag, Kind, Measure, Number, Reader, Text, shown
+from crankwork.description.kinds import Choice, Flag, Measure, Number, Reader, Text, shown
 from crankwork.description.machine_file import Setting, input_error, parse, schema_text
 from crankwork.description.schema import Key, Named, OneOrMore, Table, Values
 from crankwork.errors import CrankworkError
@@ -69,24 +69,6 @@ class As(NamedTuple):
         return own if self.entry is None else {"anyOf": [own, self.entry.schema(language)]}
 
 
-class Dotted(NamedTuple):
-    """A table whose keys are those of a machine file or of results, which dots make tables within tables of."""
-
-    entry: Kind
-    most: int
-
-    def read(self, value: object, key: str, reader: Reader) -> dict[str, Any] | None:
-        """Return the values by key."""
-        return Named(self.entry, self.most).read(value, key, reader)
-
-    def schema(self, language: Language, /) -> dict[str, Any]:
-        """Return the schema of a mapping."""
-        own = below = self.entry.schema(language)
-        for _ in range(_DEEP):
-            below = {"anyOf": [own, {"type": "object", "additionalProperties": below}]}
-        return {"type": "object", "additionalProperties": below, "maxProperties": self.most}
-
-
 _VALUE = As(("string", "number"))
 _RANGE = Table("range", {
     "from": Key(_VALUE, instead_of=("uniform",)),
@@ -115,9 +97,9 @@ STUDY_FILE = Table("study", {
     "title": Key(Text()),
     "machine": Key(Text(), required=True),
     "designs": Key(_DESIGNS),
-    "vary": Key(Dotted(As(("array", "string"), _RANGE), most=_MOST_FIELDS), required=True),
-    "objectives": Key(Dotted(Choice(tuple(_SIGNS)), most=8)),
-    "limits": Key(Dotted(_OF_VALUE, most=_MOST_FIELDS)),
+    "vary": Key(Named(As(("array", "string"), _RANGE), _MOST_FIELDS, _DEEP), required=True),
+    "objectives": Key(Named(Choice(tuple(_SIGNS)), 8, _DEEP)),
+    "limits": Key(Named(_OF_VALUE, _MOST_FIELDS, _DEEP)),
     "values": Key(OneOrMore(_KEY, most=100)),
     "search": Key(_SEARCH),
 })  # fmt: skip
@@ -209,8 +191,7 @@ def read_study(
     count = 0 if is_search else _count(read, varied, reader)
     if reader.problems or machine is None or results is None:
         raise input_error(text, name, reader)
-    designs, objectives = read["designs"] or Values({}, _DESIGNS), read["objectives"] or {}
-    searched = read["search"] or Values({}, _SEARCH)
+    designs, objectives, searched = read["designs"], read["objectives"], read["search"]
     keys = tuple(dict.fromkeys([*objectives, *limits, *(read["values"] or ())]))
     return Study(
         name=name,
@@ -297,7 +278,7 @@ def _flat(table: object, path: str = "") -> Any:  # noqa: ANN401 - what the file
 
 def _check_search(read: Values, reader: Reader) -> None:
     """Refuse a search for the best design that does not say by which one value."""
-    objectives = read["objectives"]
+    objectives = read["objectives"] or {}
     if len(objectives) > 1:
         reader.complain("objectives", Refusal("objectives_several", keys=list(objectives)))
     elif not objectives and not reader.doubts("objectives"):
