@@ -182,3 +182,11 @@ def test_tables_of_the_best_machine_are_found_from_its_folder(crankwork, study, 
     assert 'file = "../../pressure.csv"' in (tmp_path / "a" / "out" / "machine.toml").read_text(encoding="utf-8")
     again = crankwork("check", "a/out/machine.toml")
     assert again.code == 0, again.err
+
+
+@pytest.mark.parametrize("table", ["designs", "vary", "objectives", "limits", "search"])
+@pytest.mark.parametrize("command", ["sweep", "optimise"])
+def test_a_number_in_the_place_of_a_table_is_told(crankwork, study, command, table):
+    answer = crankwork(command, study(f'{table} = 3\nmachine = "machine.toml"\n'), "-o", "out")
+    assert answer.code == 2
+    assert f"study.toml:1: {table}: must be a table" in answer.err
