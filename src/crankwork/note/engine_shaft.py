@@ -75,14 +75,13 @@ def _total_table(material: Material) -> Table | None:
     keys.append("total_torque")
     if material.order != "vi":
         return angle_table(material, "total", keys)
-    area = material.summary["piston_area"] * 1e6 if material.per_area else 1.0
-    tangential = (material.results.columns["total_torque"] / material.summary["crank_radius"] / area).tolist()
+    force = material.results.columns["total_torque"] / material.summary["crank_radius"]
     unit = words.unit("tangential_force")
     texts: list[tuple[Runs, Sequence[str]]] = [
         (words.titled("crank_angle"), [words.number(float(one)) for one in material.results.grid.degrees])
     ]
     texts += [(words.titled(key), words.column_texts(columns[key].tolist())) for key in keys]
-    texts.append(((Math("ΣT"), f", {unit}"), words.column_texts(tangential)))
+    texts.append(((Math("ΣT"), f", {unit}"), words.column_texts(material.shown("tangential_force", force).tolist())))
     return folded(column_table("total", texts, words))
 
 

@@ -16,8 +16,8 @@ from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_motion import instant_centres, worked_at
 from crankwork.note.linkage_tables import equations, position_tables, quantity_columns
 from crankwork.note.linkage_words import Words, named
+from crankwork.report.language import key_unit
 from crankwork.report.tables import any_nonzero
-from crankwork.units import from_si
 
 _SOURCE = "artobolevsky_1988, ch. 4"
 _STATICS = "artobolevsky_1988, ch. 13"
@@ -70,18 +70,18 @@ def _drives(driver: Driver, words: Words) -> Paragraph:
 
 def _segments(law: Law, words: Words, *, turns: bool) -> Table:
     """Return the segments of a law: how they move, from where to where, when and how long."""
-    unit = "deg" if turns else "mm"
+    key = "link_angle" if turns else "slider_displacement"
     places = [law.start, *(one.to for one in law.segments)]
     times = [one.share * law.period for one in law.segments]
     rows = [
         (
-            str(number), _moves(one, words), *(words.number(float(from_si(place, unit))) for place in ends),
+            str(number), _moves(one, words), *(words.shown(key, place) for place in ends),
             words.number(sum(times[: number - 1])), words.number(times[number - 1]),
         )
         for number, (one, ends) in enumerate(zip(law.segments, itertools.pairwise(places), strict=True), start=1)
     ]  # fmt: skip
     titles: list[Runs] = [(words.column(one),) for one in ("number", "motion_law")]
-    titles += [(words.column(one, unit),) for one in ("law_from", "law_to")]
+    titles += [(words.column(one, key_unit(key)),) for one in ("law_from", "law_to")]
     titles += [words.titled("start_time"), words.titled("segment_time")]
     return Table(words.caption("law"), tuple(titles), rows, align="clrrrr", label="law")
 

@@ -14,6 +14,7 @@ from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_motion import worked_at
 from crankwork.note.linkage_tables import Column, equations, position_tables, quantity_columns
 from crankwork.note.linkage_words import Words, named
+from crankwork.note.words import in_display_unit
 from crankwork.report.not_drawn import not_drawn
 from crankwork.report.tables import any_nonzero
 
@@ -77,7 +78,7 @@ def _lever(material: Material) -> Iterator[Block]:
 
 def _route(name: str, values: Array, words: Words) -> Column:
     heading = (*words.titled("balancing_torque"), f", {words.term(name)}")
-    return Column(heading, words.column_texts(values.tolist(), digits=5))
+    return Column(heading, words.column_texts(in_display_unit("balancing_torque", values.tolist()), digits=5))
 
 
 def balance(material: Material) -> Iterator[Block]:
@@ -95,7 +96,7 @@ def balance(material: Material) -> Iterator[Block]:
     if not orders:
         return
     yield words.paragraph("free_forces", table=Reference("orders"))
-    sizes = words.column_texts([summary[key] for key in orders], digits=6)
+    sizes = words.column_texts(in_display_unit("free_force", [summary[key] for key in orders]), digits=6)
     rows = [(key.partition(".")[2], size) for key, size in zip(orders, sizes, strict=True)]
     yield Table(
         words.caption("linkage_orders"), ((words.column("order_of_turn"),), words.titled("free_force")), rows,

@@ -65,10 +65,11 @@ def flywheel(material: Material) -> Iterator[Block]:
         yield from equations((one,), words, marks=_marks(ways, words))
     excess = {way: one.value for way in ways for one in lines if one.key in (f"excess_work.{way}", "excess_work")}
     rows = [
-        (words.way(way), words.number(excess[way]), words.number(summary[f"flywheel_inertia.{way}"]))
+        (words.way(way), words.shown("excess_work", excess[way]),
+         words.shown("flywheel_inertia", summary[f"flywheel_inertia.{way}"]))
         for way in ways
         if way in excess
-    ]
+    ]  # fmt: skip
     titles: tuple[Runs, ...] = ((words.column("way"),), words.titled("excess_work"), words.titled("flywheel_inertia"))
     yield Table(words.caption("flywheels"), titles, rows, align="lrr", label="flywheels")
     yield from material.figures("wittenbauer")

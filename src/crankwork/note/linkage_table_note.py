@@ -97,9 +97,7 @@ def _parts(material: Material) -> list[Column]:
     known = {one.key: one for one in whole if one.key.startswith("reduced_inertia.")}
     rows = Program(known)(results.grid)
     parts = {key: rows[key] for key in (f"reduced_inertia.{one.name}" for one in material.table.bodies) if key in rows}
-    return [
-        Column(words.titled(key), words.column_texts(values.tolist())) for key, values in parts.items() if values.any()
-    ]
+    return [quantity_columns((key,), parts, words)[0] for key, values in parts.items() if values.any()]
 
 
 def driving(material: Material) -> Iterator[Block]:

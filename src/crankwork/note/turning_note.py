@@ -97,7 +97,7 @@ def _points(material: Material, table: str) -> Table:
     words, turning = material.words, material.machine.turning
     points = turning.diagrams[table].points if turning is not None else ()
     key = "turning_moment" if table == "torque" else "load_torque"
-    rows = [(words.number(math.degrees(angle)), words.number(torque)) for angle, torque in points]
+    rows = [(words.number(math.degrees(angle)), words.shown(key, torque)) for angle, torque in points]
     return Table(words.caption("points_of_torque"), (words.titled("crank_angle"), words.titled(key)), rows, align="rr")
 
 
