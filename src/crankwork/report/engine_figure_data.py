@@ -13,7 +13,8 @@ from crankwork.locale import say
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language
 from crankwork.report.figure_data import Drawn, figure_title
-from crankwork.report.language import displayed, key_unit, method_name
+from crankwork.report.language import displayed, key_unit
+from crankwork.report.summary import results_method
 from crankwork.show.chart import sign
 from crankwork.show.paper import Paper
 from crankwork.show.scene import Drawing
@@ -82,8 +83,7 @@ class EngineDrawn:
 
     def finished(self, name: str, paper: Paper, remark: str = "", *, forces: bool = False) -> Drawing:
         """Return a figure, with the method that made it."""
-        method = self.drawn.results.method
         if forces and self.drawn.per_area:
             remark = "; ".join(one for one in (remark, say("report.per_area", self.language)) if one)
-        sign(paper, method_name(method.kinematics, method.order, method.rod, self.language), remark)
+        sign(paper, results_method(self.drawn.results, self.language), remark)
         return paper.drawing(figure_title(name, self.language), self.language)

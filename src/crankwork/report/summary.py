@@ -143,8 +143,12 @@ def results_method(results: Results, language: Language) -> str:
     """Return how results were made, in words."""
     if results.has_positions:
         return say("report.tabulated", language)
-    method = results.method
-    return method_name(method.kinematics, method.order, method.rod if "rod_length" in results.summary else "", language)
+    method, masses = results.method, results.machine.masses
+    rod = method.rod if masses is not None and "rod_length" in results.summary else ""
+    # without a moment of inertia of its own it is its two masses
+    if rod == "rigid" and masses is not None and not masses.rod_inertia_excess:
+        rod = "two-mass"
+    return method_name(method.kinematics, method.order, rod, language)
 
 
 def warning_text(results: Results, language: Language = "en") -> str:
