@@ -127,10 +127,7 @@ export class Figure {
       if (!own.some((one) => one.made)) return;
       const drawn = own.map((one) => ({ one, ...(one.made ? lines.of(one, plot) : { ...one.values(), angles: undefined }) }));
       const frame = this.frames[k];
-      if (frame?.moves) {
-        const held = drawn.filter(({ one }) => one.made || !one.path.closest(".faint, .gone"));
-        frame.fit(ends(held.map(({ x }) => x)), ends(held.map(({ y }) => y)));
-      }
+      if (frame?.moves) frame.fit(ends(drawn.map(({ x }) => x)), ends(drawn.map(({ y }) => y)));
       for (const { one, x, y, angles } of drawn) one.through(x, y, angles);
     });
     if (this.moving.length) this.draw();

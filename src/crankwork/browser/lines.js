@@ -4,7 +4,7 @@
 /** @typedef {import("./curves.js").Plot} Plot */
 
 // points of a curve at most
-const MOST = 721;
+const MOST = 481;
 // of degrees, what is the same
 const SAME = 1e-6;
 
@@ -22,13 +22,33 @@ export class Lines {
     const by = [1, 3, 5, gaps].find((one) => gaps % one === 0 && panels * (gaps / one + 1) <= MOST) ?? gaps;
     this.places = Array.from({ length: panels * count }, (_, k) => k).filter((k) => (k % count) % by === 0);
     this.angles = this.places.map((k) => calculation.degrees[k]);
+    /** Which nodes are drawn between two crank angles. @type {Map<string, {inside: number[], at: number[], isCut: boolean}>} */
+    this.known = new Map();
+  }
+
+  /**
+   * Return the nodes that are drawn between two crank angles, their angles, and whether the last is no node.
+   * @param {number} first
+   * @param {number} last
+   */
+  between(first, last) {
+    const key = `${first} ${last}`;
+    const known = this.known.get(key);
+    if (known) return known;
+    const inside = this.places.filter((_, k) => this.angles[k] >= first - SAME && this.angles[k] <= last + SAME);
+    const at = inside.map((one) => this.calculation.degrees[one]);
+    const isCut = at[at.length - 1] < last - SAME;
+    if (isCut) at.push(last);
+    const found = { inside, at, isCut };
+    this.known.set(key, found);
+    return found;
   }
 
   /**
    * Return the points of a curve as values of the scales of its graph, and their crank angles.
    * @param {Curve} curve
    * @param {Plot} plot
-   * @returns {{x: ArrayLike<number>, y: ArrayLike<number>, angles: number[] | undefined}}
+   * @returns {{x: number[], y: number[], angles: number[] | undefined}}
    */
   of(curve, plot) {
     const { calculation, degrees } = this;
@@ -39,26 +59,24 @@ export class Lines {
     }
     const angles = curve.home.angles ?? [];
     const [first, last] = plot.over ? [angles[0] * degrees, angles[angles.length - 1] * degrees] : [angles[0], angles[angles.length - 1]];
-    const inside = this.angles.flatMap((one, k) => (one >= first - SAME && one <= last + SAME ? [k] : []));
-    const at = inside.map((k) => this.angles[k]);
-    const up = this.column(y, inside, last);
-    const isCut = at[at.length - 1] < last - SAME;
-    if (isCut) at.push(last);
-    const across = x ? this.column(x, inside, last) : at.map((one) => one / degrees);
-    return { x: across, y: up, angles: plot.over ? Array.from(across) : at };
+    const { inside, at, isCut } = this.between(first, last);
+    const up = this.column(y, inside, isCut, last);
+    const across = x ? this.column(x, inside, isCut, last) : degrees === 1 ? at : at.map((one) => one / degrees);
+    return { x: across, y: up, angles: plot.over ? across : at };
   }
 
   /**
    * Return a column at some of the nodes that are drawn, and where the curve ends if that is none of them.
    * @param {[string, number] | undefined} made
    * @param {number[]} inside
+   * @param {boolean} isCut
    * @param {number} last
    */
-  column(made, inside, last) {
+  column(made, inside, isCut, last) {
     const [key, factor] = made ?? ["", 1];
     const values = this.calculation.nodesOf(this.calculation.data.columns[key]);
-    const found = inside.map((k) => values[this.places[k]] * factor);
-    if (this.angles[inside[inside.length - 1]] < last - SAME) found.push(this.calculation.cycle.at(values, last) * factor);
+    const found = inside.map((k) => values[k] * factor);
+    if (isCut) found.push(this.calculation.cycle.at(values, last) * factor);
     return found;
   }
 }
