@@ -58,9 +58,10 @@ def printed_columns(table: Table) -> Iterator[tuple[np.ndarray, np.ndarray]]:
 
 
 def in_units(key: str, value: np.ndarray, area: float | None) -> Iterator[np.ndarray]:
-    """Yield SI values as they are, in the unit of tables, and that per piston area."""
-    yield value
-    if base_key(key) in QUANTITIES:
+    """Yield values in the unit of tables, and that per piston area; as they are what has no unit."""
+    if base_key(key) not in QUANTITIES:
+        yield value
+    else:
         yield from_si(value, key_unit(key))
         if area is not None:
             yield from_si(value / area, key_unit(key, per_area=True))

@@ -75,6 +75,16 @@ def _empty_ends(pdf: Path) -> list[float]:
     return shares
 
 
+def _print_word(folder: Path) -> Path:
+    """Print the Word note of a folder by LibreOffice."""
+    subprocess.run(
+        [_program("soffice", "libreoffice"), f"-env:UserInstallation=file://{folder}/profile", "--headless",
+         "--convert-to", "pdf:writer_pdf_Export", "--outdir", str(folder / "word"), str(folder / "note.docx")],
+        capture_output=True, check=True, timeout=180,
+    )  # fmt: skip
+    return folder / "word" / "note.pdf"
+
+
 @pytest.fixture(scope="module", params=[("spark-engine", "vi"), ("petrol-four", "ru"), ("press", "ru")], ids="-".join)
 def printed(request, tmp_path_factory):
     name, language = request.param
@@ -83,12 +93,7 @@ def printed(request, tmp_path_factory):
     note = note_of(results, NoteOptions(language=language))
     for ending in ("pdf", "docx", "html"):
         (folder / f"note.{ending}").write_bytes(written_note(note, f"note.{ending}"))
-    office = _program("soffice", "libreoffice")
-    subprocess.run(
-        [office, f"-env:UserInstallation=file://{folder}/profile", "--headless",
-         "--convert-to", "pdf:writer_pdf_Export", "--outdir", str(folder / "word"), str(folder / "note.docx")],
-        capture_output=True, check=True, timeout=180,
-    )  # fmt: skip
+    _print_word(folder)
     browser = _program(*BROWSERS)
     subprocess.run(
         [browser, "--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer",
@@ -96,7 +101,7 @@ def printed(request, tmp_path_factory):
         capture_output=True, check=True, timeout=180,
     )  # fmt: skip
     shown = {"pdf": folder / "note.pdf", "word": folder / "word" / "note.pdf", "web": folder / "web.pdf"}
-    return note, {kind: _printed(path) for kind, path in shown.items()}
+    return note, {kind: _printed(path) for kind, path in shown.items()}, shown
 
 
 # a page in a frame as wide as the screen of a telephone, and after it how wide its parts are
@@ -166,7 +171,7 @@ def test_the_three_hold_the_same_numbers(printed):
 
 @pytest.mark.parametrize("kind", ["pdf", "word"])
 def test_no_word_of_a_table_is_divided(printed, kind):
-    note, shown = printed
+    note, shown, _ = printed
     said = [
         run for block in note.blocks if isinstance(block, Table)
         for some in (*block.headings, *block.rows) for run in some if isinstance(run, str)
@@ -179,7 +184,7 @@ def test_no_word_of_a_table_is_divided(printed, kind):
 
 
 def test_the_contents_of_word_have_pages(printed):
-    note, shown = printed
+    note, shown, _ = printed
     titles = [block.text for block in note.blocks if isinstance(block, Heading) and block.level <= 2]
     contents = [word for page, _, word in shown["word"].words if page == 1]
     pages = [int(found[1]) for word in contents if (found := re.search(r"\.{2,}(\d+)$", word))]
@@ -196,6 +201,19 @@ def test_no_page_between_cover_and_end_is_nearly_empty(name, language, tmp_path)
     path = tmp_path / "note.pdf"
     path.write_bytes(written_note(note_of(results, NoteOptions(language=language)), "note.pdf"))
     _, *shares, _ = _empty_ends(path)
+    assert max(shares) < 0.4
+
+
+def test_no_page_of_word_is_nearly_empty(printed):
+    _, *shares, _ = _empty_ends(printed[2]["word"])
+    assert max(shares) < 0.4
+
+
+@pytest.mark.parametrize(("name", "language"), [("v8-diesel", "ru"), ("two-stroke", "vi")])
+def test_no_page_of_a_long_word_note_is_nearly_empty(name, language, tmp_path):
+    results = crankwork.analyse(crankwork.read(EXAMPLES / f"{name}.toml"))
+    (tmp_path / "note.docx").write_bytes(written_note(note_of(results, NoteOptions(language=language)), "note.docx"))
+    _, *shares, _ = _empty_ends(_print_word(tmp_path))
     assert max(shares) < 0.4
 
 

@@ -9,9 +9,12 @@ from typing import Protocol, TypeVar
 
 from crankwork.machine import Machine
 from crankwork.note.cover import cover
-from crankwork.note.document import Block, Contents, ItemList, Note, Paragraph, Reference
+from crankwork.note.document import Block, Contents, Heading, ItemList, Note, PageBreak, Paragraph, Reference
 from crankwork.note.legends import explained
 from crankwork.note.options import NoteOptions
+
+# headings of contents that fill a page to more than three fifths
+_OWN_PAGE = 24
 
 
 class _Material(Protocol):
@@ -44,8 +47,10 @@ def note_of_sections(
     if chosen and "sources" not in chosen:
         chosen = (*chosen, "sources")
     written = itertools.chain.from_iterable(sections[name](material) for name in chosen or order)
-    blocks = explained(written, options.language, with_results=with_results)
-    front = (cover(document, options.language, subtitle), Contents())
+    blocks = tuple(explained(written, options.language, with_results=with_results))
+    # on a page of their own where they fill it: Typst then sets the rest once, not again with every page found
+    listed = sum(isinstance(one, Heading) and one.level <= 2 for one in blocks)
+    front = (cover(document, options.language, subtitle), Contents(), *[PageBreak()] * (listed >= _OWN_PAGE))
     return Note(
         options.title or material.machine.title or title,
         options.language,

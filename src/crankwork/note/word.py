@@ -106,11 +106,10 @@ class _Writer:
     def _height(self, block: Block, headings: int) -> float:
         match block:
             case Equation():
-                return equation_height(block, self._printed[id(block)].lines)
+                return equation_height(block, self._printed[id(block)].lines, self._note.language)
             case Table():
-                columns = self._columns[id(block)]
-                return table_height(block, columns.size / 2, columns.row_height)
-        return block_height(block, headings)
+                return table_height(block, self._columns[id(block)])
+        return block_height(block, headings, self._numbers.sources)
 
     def footer(self) -> None:
         footer = self._document.sections[0].footer

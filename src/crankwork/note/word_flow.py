@@ -7,8 +7,11 @@ high blocks are is estimated; where that is wrong a figure stands a little earli
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
+import numpy as np
+
+from crankwork.analysis import Array
 from crankwork.note.document import (
     Bibliography,
     Block,
@@ -24,84 +27,96 @@ from crankwork.note.document import (
     Table,
     TitlePage,
 )
+from crankwork.note.equations import legend_rows
 from crankwork.note.layout import Apply, Box, Fence, Fraction, Root, Row, Script
+from crankwork.note.word_parts import Columns
+from crankwork.quantities import Language
 from crankwork.show.place import MM
 from crankwork.show.scene import CAP_HEIGHT, text_width
+from crankwork.sources import cite
 
 # of a page: height and width of its text, and what may stay empty for a figure that keeps to its section [pt]
 PAGE, _WIDTH, _EMPTY = 728.0, 481.0, 150.0
-# how far estimates of heights are off
-_DOUBT = 0.04
-# lines of text, of mathematics and of a legend; what a fraction has more; what stands after a paragraph [pt]
-_LINE, _MATHS, _ENTRY, _HIGHER, _AFTER = 16.0, 16.2, 18.4, 12.0, 6.0
-_CAPTION = 12.0 + _LINE
+# how high blocks may be beside what is estimated, and how much text a figure waits for until it stands anywhere [pt]
+_OFF, _LONG = np.linspace(0.965, 1.035, 15), 2.5 * PAGE
+# lines of text and of mathematics; what a line of a legend and a fraction have more; what stands after a paragraph [pt]
+_LINE, _MATHS, _ENTRY, _HIGHER, _AFTER = 16.0, 16.4, 2.3, 12.0, 6.0
+_CAPTION, _BEGINS = 17.0 + _LINE, 90.0
 _HEADINGS = {1: 46.0, 2: 37.0, 3: 33.0}
 _SIZE = 12.0
+# before the words of a legend and of an item [pt]; as wide as a symbol in the line, about
+_INDENT, _ITEM, _SYMBOL = 48.0, 21.0, 6 * "x"
 
 
 def flow(blocks: Sequence[Block], heights: Sequence[float]) -> Iterator[int]:
     """Yield the places of blocks in the order in which they are written; `heights`: how high each is. [pt]"""
     waiting: list[int] = []
-    filled, doubt, is_heading = 0.0, 0.0, False
+    filled, waited, is_heading = np.zeros(len(_OFF)), 0.0, False
     for k, (block, height) in enumerate(zip(blocks, heights, strict=True)):
-        left = PAGE - filled
-        if isinstance(block, Figure) and (waiting or (left + doubt > _EMPTY and height > left - doubt)):
+        if isinstance(block, Figure) and (waiting or _left(filled, height) > _EMPTY):
             waiting.append(k)
             continue
         is_new = isinstance(block, PageBreak | TitlePage) or (isinstance(block, Table) and block.wide)
-        while waiting and not is_heading and (is_new or _goes_first(heights[waiting[0]], left, doubt, block, height)):
-            figure = waiting.pop(0)
-            filled, doubt = _placed(filled, doubt, heights[figure])
-            left = PAGE - filled
+        while waiting and not is_heading and (is_new or _stands(filled, heights[waiting[0]], waited)):
+            figure, waited = waiting.pop(0), 0.0
+            filled = _after(filled, blocks[figure], heights[figure])
             yield figure
         yield k
         is_heading = isinstance(block, Heading)
-        if is_new:
-            filled, doubt = 0.0, 0.0
-        elif isinstance(block, Figure):
-            filled, doubt = _placed(filled, doubt, height)
-        else:
-            filled, doubt = _after(filled, block, height), min(doubt + _DOUBT * height, _EMPTY)
+        waited += height if waiting else 0.0
+        filled = np.zeros(len(_OFF)) if is_new else _after(filled, block, height)
     yield from waiting
 
 
-def _placed(filled: float, doubt: float, height: float) -> tuple[float, float]:
-    """Return how far the page is filled after a figure, and how sure that is; at the head of a page it is sure."""
-    return (height, 0.0) if filled + doubt + height > PAGE else (filled + height, doubt)
+def _left(filled: Array, height: float) -> float:
+    """Return how much of a page stays empty at most where a figure comes upon it. [pt]"""
+    return float(np.where(filled + height > PAGE, PAGE - filled, 0.0).max())
 
 
-def _goes_first(figure: float, room: float, doubt: float, block: Block, height: float) -> bool:
-    """Return whether a figure that waits stands before a block: it fits, or the page is full, or its section ends."""
-    is_end = isinstance(block, Heading) and block.level == 1 and room + doubt <= _EMPTY
-    is_next = not isinstance(block, Table | Paragraph) and height > room
-    # one as high as a page must not come upon a page that has begun
-    least = doubt if figure > PAGE - 2 * _EMPTY else 0.0
-    return figure <= room - doubt or room < max(4 * _LINE, least) or is_end or is_next
+def _stands(filled: Array, figure: float, waited: float) -> bool:
+    """Return whether a figure that waits stands here: it leaves little empty, or has waited long."""
+    room = PAGE - filled[len(_OFF) // 2]
+    return _left(filled, figure) <= _EMPTY or (waited > _LONG and (figure <= room or room <= _EMPTY))
 
 
-def _after(filled: float, block: Block, height: float) -> float:
+def _after(filled: Array, block: Block, height: float) -> Array:
     """Return how far the page is filled after a block; text and tables go on on the next one."""
-    if filled + height <= PAGE:
-        return filled + height
-    if isinstance(block, Table):
-        # its header stands on every page
-        height += 2 * _LINE * int((filled + height) / PAGE)
-    return (filled + height) % PAGE if isinstance(block, Table | Paragraph | ItemList | Contents) else height
+    high = np.full(len(_OFF), height) if isinstance(block, Figure) else height * _OFF
+    begins = filled
+    if isinstance(block, Table | Heading):
+        # neither caption and header nor a heading stand alone at the foot of a page; a header stands on every page
+        least = _BEGINS if isinstance(block, Table) else height + 2 * _LINE
+        begins = np.where(filled + least > PAGE, 0.0, filled)
+        high = high + 2 * _LINE * ((begins + high) // PAGE)
+    goes_on = isinstance(block, Table | Paragraph | ItemList | Contents)
+    return np.where(begins + high <= PAGE, begins + high, (begins + high) % PAGE if goes_on else high)
 
 
-def equation_height(block: Equation, lines: Sequence[Row]) -> float:
+def equation_height(block: Equation, lines: Sequence[Row], language: Language) -> float:
     """Return about how high the lines of an equation and its legend are. [pt]"""
-    return sum(_MATHS + _HIGHER * (_high(one) - 1.0) for one in lines) + _ENTRY * len(block.legend)
+    legend = sum(
+        _LINE * _lines((words,), _WIDTH - _INDENT) + _ENTRY + _HIGHER * (_high(symbol) - 1.0)
+        for _, symbol, words in legend_rows(block, language)
+    )
+    return sum(_MATHS + _HIGHER * (_high(one) - 1.0) for one in lines) + (legend or 2.0)
 
 
-def table_height(block: Table, size: float, row: float) -> float:
-    """Return about how high a table with letters of a size is; `row`: how high a row is where all are one line. [pt]"""
+def table_height(block: Table, columns: Columns) -> float:
+    """Return about how high a table is. [pt]"""
+    size, row = columns.size / 2, columns.row_height
     tall = any(isinstance(one, Math) and not isinstance(one.content, str) for runs in block.headings for one in runs)
-    return (row or 1.3 * size) * len(block.rows) + (2.4 + 1.2 * tall) * size + _CAPTION + _LINE
+    rows = row * len(block.rows) or size * sum(
+        max(
+            1.44 if isinstance(cell, Math) else 1.18 * _lines((cell,), width / 20 - 6.0, size)
+            for cell, width in zip(cells, columns.widths, strict=True)
+        )
+        for cells in block.rows
+    )
+    return rows + (2.4 + 1.2 * tall) * size + _CAPTION + 0.7 * _LINE
 
 
-def block_height(block: Block, headings: int) -> float:
-    """Return about how high another block is; `headings`: how many the note has. [pt]"""
+def block_height(block: Block, headings: int, sources: Iterable[str]) -> float:
+    """Return about how high another block is; `headings`, `sources`: how many the note has, what it cites. [pt]"""
     match block:
         case Heading(level):
             return _HEADINGS[min(level, 3)]
@@ -110,18 +125,18 @@ def block_height(block: Block, headings: int) -> float:
         case Figure(drawing=drawing):
             return drawing.height / MM * min(1.0, _WIDTH / (drawing.width / MM)) + _CAPTION
         case ItemList(items):
-            return sum(_LINE * _lines(item) + 3 for item in items)
+            return sum(_LINE * _lines(item, _WIDTH - _ITEM) + 3 for item in items)
         case Contents():
             return _HEADINGS[1] + (_LINE + 3) * headings
         case Bibliography():
-            return 8 * _LINE
+            return sum(_LINE * _lines((cite(one),), _WIDTH - _ITEM) + 3 for one in sources)
         case _:
             return 0.0
 
 
-def _lines(runs: Runs) -> int:
-    wide = sum(text_width(one if isinstance(one, str) else " " * 12, CAP_HEIGHT) for one in runs)
-    return max(1, math.ceil(0.92 * wide * _SIZE / _WIDTH))
+def _lines(runs: Runs, width: float = _WIDTH, size: float = _SIZE) -> int:
+    wide = sum(text_width(one if isinstance(one, str) else _SYMBOL, CAP_HEIGHT) for one in runs)
+    return max(1, math.ceil(wide * size / width))
 
 
 def _high(box: Box | None) -> float:

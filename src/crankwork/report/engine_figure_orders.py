@@ -11,11 +11,16 @@ from crankwork.analysis import Array
 from crankwork.analysis.engine_diagrams import Locus
 from crankwork.locale import say
 from crankwork.report.engine_figure_data import EngineDrawn
+from crankwork.report.language import units_of
 from crankwork.show.chart import BOTTOM, TOP, Box, Graph, round_ticks, small_text
 from crankwork.show.labels import label_marks
 from crankwork.show.paper import BLACK, WIDER, Paper, text_width
 from crankwork.show.place import here, tall
 from crankwork.show.scene import DASHED, SOLID
+from crankwork.units import shown_in
+
+# between values of neighbouring bars [pt]
+_BETWEEN = 5.0
 
 
 class _Bars(NamedTuple):
@@ -55,7 +60,8 @@ def _bar_graph(
         width = 0.8 / max(len(bars), 1)
         start = place + 0.5 - width * len(present) / 2
         values = [engine.number(bars[which].heights[order], 4) for which in present]
-        is_upright = any(WIDER * text_width(one, 7.0) > box.width / len(orders) * width for one in values)
+        room = box.width / len(orders) * width - _BETWEEN
+        is_upright = any(WIDER * text_width(one, 7.0) > room for one in values)
         for at, (which, text) in enumerate(zip(present, values, strict=True)):
             height = bars[which].heights[order]
             left, right = graph.across(start + at * width), graph.across(start + (at + 1) * width)
@@ -127,13 +133,16 @@ def balance_orders(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     graphs: dict[str, Graph] = {}
     for at, panel in enumerate(panels):
         key = f"free_{panel}"
-        bars = [
-            _Bars(kind, {float(one.order): float(engine.shown(key, getattr(one, panel).largest)) for one in parts})
-            for kind, parts in kinds.items()
-        ]
-        box = Box(here().left, TOP + head + at * (height + 28), here().inner, height)
-        graphs[panel] = _bar_graph(engine, paper, box, bars, orders, fills)
-        graphs[panel].y_title(f"{say(f'drawing.{key}', language)} {engine.symbol(key)}, {engine.unit(key)}")
+        largest = {kind: {float(one.order): getattr(one, panel).largest for one in some} for kind, some in kinds.items()}
+        most = max((value for some in largest.values() for value in some.values()), default=0.0)
+        with shown_in(units_of(engine.drawn.results, key, most)):
+            bars = [
+                _Bars(kind, {order: float(engine.shown(key, value)) for order, value in some.items()})
+                for kind, some in largest.items()
+            ]
+            box = Box(here().left, TOP + head + at * (height + 28), here().inner, height)
+            graphs[panel] = _bar_graph(engine, paper, box, bars, orders, fills)
+            graphs[panel].y_title(f"{say(f'drawing.{key}', language)} {engine.symbol(key)}, {engine.unit(key)}")
     graphs[panels[-1]].x_title(say("report.order", language, order="$q$"))
     return paper, graphs
 

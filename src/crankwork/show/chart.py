@@ -21,6 +21,8 @@ BOTTOM, TOP = 45.0, 10.0
 LEGEND_ROW = 13.4
 _TICK, _SMALL, _LEGEND = 8.5, 7.5, 8.5
 _FOOT_ROW = 9.0
+# from an axis to its numbers, with what is free between them and the title [pt]
+_CLEAR = 16.0
 # largest numbers of axes that need no power of ten
 _SHORT = 0.01, 1e5
 # The styles of rows of a legend that explain an open circle, a dot, and an arrow.
@@ -102,6 +104,8 @@ class Graph:
         self._angles: dict[str, Array] = {}
         self._titles: dict[str, str] = {}
         self._frame: dict[str, Any] = {}
+        # how wide the numbers of the vertical axis are [pt]
+        self._numbers = 0.0
         titles = self._titles if to_scale or not here().is_sheet else {}
         paper.plot(scene.Plot(scene.Box(*box), x, y, over, self._angles, self.curves, titles, self._frame))
 
@@ -181,7 +185,9 @@ class Graph:
                 self.paper.text(at, bottom + 12.5, self._number(value, 0), size=_TICK, anchor="middle")
         if labels[1]:
             for value, at in zip(y_ticks, down, strict=True):
-                self.paper.text(left - 6, at + 3, self._number(value, 1), size=_TICK, anchor="end")
+                text = self._number(value, 1)
+                self.paper.text(left - 6, at + 3, text, size=_TICK, anchor="end")
+                self._numbers = max(self._numbers, WIDER * text_width(text, _TICK))
         ticks = [x_ticks.tolist(), y_ticks.tolist()]
         self._frame |= {
             "ticks": ticks,
@@ -216,8 +222,8 @@ class Graph:
         self.paper.text(self.box.left + self.box.width / 2, self.box.top + self.box.height + 26, text, anchor="middle")
 
     def y_title(self, text: str, offset: float = 44.0) -> None:
-        """Write the title of the vertical axis, on two lines if it is long; `offset` is its distance. [pt]"""
-        self._titles["y"] = marked(text)
+        """Write the title of the vertical axis, on two lines if it is long; `offset` is its least distance. [pt]"""
+        self._titles["y"], offset = marked(text), max(offset, self._numbers + _CLEAR)
         size, text = 9.0, self._titled(text, 1)
         lines = fitted_lines(text, size, self.box.height + 10)
         if len(lines) > 2 and here().is_sheet and "$" in text:
