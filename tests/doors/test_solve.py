@@ -93,7 +93,7 @@ def test_solutions_stretches_and_the_range_are_printed_in_line(crankwork, machin
     lines = answer.out.splitlines()
     assert lines[:4] == [
         "Four-bar linkage",
-        "Y of a point, B (0°) = 80 mm",
+        "Coordinate y of point B (0°) = 80 mm",
         "links.coupler.length from 10 to 400 mm in 16 steps of the ratio 1.259",
         "two solutions, or two ends of a stretch, less than a step apart may be missed",
     ]

@@ -36,7 +36,7 @@ _PARTS = frozenset(
         "damper",
     )
 )
-_WITHIN = str.maketrans({".": ",", "/": ":", "′": "'", "″": "'", "_": " "})
+_WITHIN = str.maketrans({".": ",", "/": ":", "′": "'", "″": "'"})
 
 
 class Words(NoteWords):
@@ -113,7 +113,7 @@ def subscript(name: str) -> str:
     >>> subscript("upper rod.x")
     'upper-rod,x'
     >>> subscript("P_coupler")
-    'P-coupler'
+    'P_coupler'
     """
     return "-".join(name.translate(_WITHIN).split())
 

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from typing import NamedTuple
 
 from crankwork.locale import Language, say
 from crankwork.units import coherent_unit, shown_unit
+
+# how the name of what a point, link, slider or joint has ends
+OWNED = re.compile(
+    r" (точки|звена|ползуна|в шарнире|điểm|khâu|con trượt|khớp)$| of(?P<article> a) (point|link|slider)$"
+)
 
 
 class Quantity(NamedTuple):
@@ -49,8 +55,28 @@ class Quantity(NamedTuple):
         """Return the name of the quantity in that language."""
         kind, part = self._split()
         name = say(f"quantities.{kind}", language)
-        return f"{name}, {part.replace('.', ', ')}" if part else name
+        return owned_name(name, part.replace(".", ", "))
 
     def _split(self) -> tuple[str, str]:
         kind, _, part = self.key.partition(".")
-        return kind, part.replace("_", " ")
+        return kind, part
+
+
+def owned_name(name: str, owner: str) -> str:
+    """Return the name of a quantity with what it belongs to, if anything.
+
+    Examples
+    --------
+    >>> owned_name("velocity of a point", "B"), owned_name("угол поворота звена", "rod"), owned_name("joint force", "A")
+    ('velocity of point B', 'угол поворота звена rod', 'joint force, A')
+    """
+    if not owner:
+        return name
+    found = OWNED.search(name)
+    if not found:
+        return f"{name}, {owner}"
+    return (
+        f"{name[: found.start('article')]}{name[found.end('article') :]} {owner}"
+        if found["article"]
+        else f"{name} {owner}"
+    )

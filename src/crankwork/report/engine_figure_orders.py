@@ -133,7 +133,9 @@ def balance_orders(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     graphs: dict[str, Graph] = {}
     for at, panel in enumerate(panels):
         key = f"free_{panel}"
-        largest = {kind: {float(one.order): getattr(one, panel).largest for one in some} for kind, some in kinds.items()}
+        largest = {
+            kind: {float(one.order): getattr(one, panel).largest for one in some} for kind, some in kinds.items()
+        }
         most = max((value for some in largest.values() for value in some.values()), default=0.0)
         with shown_in(units_of(engine.drawn.results, key, most)):
             bars = [

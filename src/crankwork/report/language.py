@@ -12,6 +12,7 @@ import numpy as np
 
 from crankwork.locale import decimal, has_text, say
 from crankwork.quantities import QUANTITIES, Language, base_key
+from crankwork.quantities.quantity import OWNED, owned_name
 from crankwork.units import Shown, from_si, shown_in
 
 if TYPE_CHECKING:
@@ -141,14 +142,14 @@ def label(key: str, language: Language) -> str:
         is_order = name.replace(".", "", 1).isdecimal()
         what = say("report.order", language, order=decimal(name, language)) if is_order else row_name(name, language)
         return f"{say(f'drawing.{kind}', language)}, {what}"
-    return _label(kind, language) + (f", {_part(kind, name, language)}" if dot else "")
+    return _label(kind, language, _part(kind, name, language) if dot else "")
 
 
 def _part(kind: str, name: str, language: Language) -> str:
     """Return what a part of a quantity is called: the report's own phrase, or the name as it is."""
     way = f"report.way_{name}"
     key = way if kind in _BY_WAY and has_text(way) else f"report.{name}"
-    return say(key, language) if has_text(key) else name.replace("_", " ")
+    return say(key, language) if has_text(key) else name
 
 
 def row_name(name: str, language: Language) -> str:
@@ -160,17 +161,22 @@ def row_name(name: str, language: Language) -> str:
     return f"{what} {number}".rstrip()
 
 
-def _label(key: str, language: Language) -> str:
+def _label(key: str, language: Language, part: str = "") -> str:
+    """Return the name of a kind of key, and with the name of the part that it belongs to."""
     if key in QUANTITIES:
-        return QUANTITIES[key].label(language)
+        return owned_name(QUANTITIES[key].label(language), part)
+    name = f"report.{key.removesuffix('_angle')}"
     if key.endswith(("_max_angle", "_min_angle")):
-        return say("report.max_angle", language)
-    if key.endswith(("_max_time", "_min_time")):
-        return say("report.max_time", language)
+        name = "report.max_angle"
+    elif key.endswith(("_max_time", "_min_time")):
+        name = "report.max_time"
     for suffix in ("max", "min", "error", "difference"):
         if key.endswith(f"_{suffix}"):
-            return say(f"report.{suffix}", language, name=_label(key.removesuffix(f"_{suffix}"), language))
-    return say(f"report.{key.removesuffix('_angle')}", language)
+            base = _label(key.removesuffix(f"_{suffix}"), language)
+            if OWNED.search(base):
+                base, part = owned_name(base, part), ""
+            return owned_name(say(f"report.{suffix}", language, name=base), part)
+    return owned_name(say(name, language), part)
 
 
 def symbol(key: str, language: Language) -> str:

@@ -49,7 +49,7 @@ def centrodes(
         scale = float(displayed_values(QUANTITIES["point_x"], np.array(1.0)))
         places = {name: one.place[at] * scale for name, one in moved.points.items()}
         rows = [
-            Row(say("drawing.fixed_centrode", style.language, link=plain(name.replace("_", " ")))),
+            Row(say("drawing.fixed_centrode", style.language, link=plain(name))),
             Row(
                 f"{say('drawing.moving_centrode', style.language)}, {position_text(float(degrees[at]), style)}", DASHED
             ),
