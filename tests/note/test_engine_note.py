@@ -484,3 +484,16 @@ def test_every_heading_stands_in_the_table_of_terms():
         for key in texts(room, "en")
     }
     assert rows - everything == {("en", "ru", "vi")}
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "derived"),
+    [("v8-diesel", {"S", "λ"}, {"R", "L"}), ("petrol-four", {"R", "λ"}, {"S", "L"}), ("two-stroke", {"S", "L"}, {"R"})],
+)
+def test_what_is_worked_out_is_not_listed_as_given(name, given, derived):
+    results = crankwork.analyse(crankwork.read(ROOT / "examples" / f"{name}.toml"))
+    blocks = note_of(results, NoteOptions(language="ru", figures=False)).blocks
+    table = next(one for one in blocks if isinstance(one, Table) and one.label == "t:data")
+    symbols = {str(cell.content) for row in table.rows for cell in row if isinstance(cell, Math)}
+    assert given <= symbols
+    assert not derived & symbols

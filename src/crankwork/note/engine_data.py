@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from crankwork.formula.known import in_order
+from crankwork.formula.known import Given, Node, in_order
 from crankwork.machine import Bearings, Engine
 from crankwork.note.document import Block, Cell, Citation, Reference
 from crankwork.note.engine_material import Material
@@ -14,7 +14,7 @@ from crankwork.note.engine_words import EngineWords
 from crankwork.quantities import cycle as cycle_quantities
 from crankwork.report.summary import results_method
 
-GEAR = ("rotational_speed", "angular_acceleration", "crank_radius", "rod_length", "rod_ratio", "offset")
+GEAR = ("rotational_speed", "angular_acceleration", "stroke", "crank_radius", "rod_length", "rod_ratio", "offset")
 _SIZES = (
     ("bearing_diameter", "crankpin_diameter", "crankpin"), ("bearing_length", "crankpin_length", "crankpin"),
     ("bearing_diameter", "main_diameter", "main_journal"), ("bearing_length", "main_length", "main_journal"),
@@ -73,8 +73,13 @@ def _how(material: Material) -> Iterator[Block]:
 
 def _rows(material: Material) -> Iterator[tuple[Cell, ...]]:
     """Yield what is given, row by row."""
-    words, machine, summary = material.words, material.machine, material.summary
-    known = {**summary, "rotational_speed": machine.speed, "angular_acceleration": machine.angular_acceleration}
+    words, machine = material.words, material.machine
+    # what is worked out of them stands in the equations after the table
+    known = {one.key: one.value for one in in_order(material.results.memory.values()) if _is_stated(one.node)}
+    if "crank_radius" in known:
+        known.pop("stroke", None)
+    known |= {"rotational_speed": machine.speed, "angular_acceleration": machine.angular_acceleration}
+    known |= {"offset": material.summary.get("offset", 0.0)}
     for key in GEAR:
         if known.get(key):
             yield value_row(key, known[key], words)
@@ -90,6 +95,10 @@ def _rows(material: Material) -> Iterator[tuple[Cell, ...]]:
         yield from _sizes(engine.bearings, words)
         if machine.drive.fluctuation is not None:
             yield value_row("speed_fluctuation", machine.drive.fluctuation, words)
+
+
+def _is_stated(node: Node) -> bool:
+    return isinstance(node, Given) and bool(node.path) and not node.is_absent
 
 
 def _cylinder(material: Material) -> Iterator[tuple[Cell, ...]]:
