@@ -101,7 +101,8 @@ def faults(drawing: Drawing) -> list[Fault]:
         through = owners[_is_through(lines, inner)]
         if np.any(through > cleared):
             found.append(Fault("crossed", item.text))
-        if re.search(r"[\^_${}]", "".join(one.text for one in runs(item.text))):
+        # a line between two words is a name of the user's own
+        if re.search(r"[\^${}]|(?<!\w{3})_|_(?!\w{3})", "".join(one.text for one in runs(item.text))):
             found.append(Fault("mark", item.text))
     return found
 

@@ -429,7 +429,8 @@ def test_numbers_of_a_column_have_the_same_decimals(language, values, shown):
 def test_names_of_links_stay_in_the_subscript():
     words = Words("ru")
     assert words.symbol("link_angular_velocity.upper rod") == "ω_upper-rod"
-    assert words.symbol("joint_force.A_K5") == "R_A_K5"
+    assert words.symbol("joint_force.A_K5") == "R_A-K5"
+    assert words.symbol("link_angular_velocity.left_rod") == "ω_left_rod"
     assert words.symbol("velocity_ratio.r/2") == "V_r:2/ω₁"
     assert subscript("a. b\tc/d") == "a,-b-c:d"
     assert words.titled("joint_force.A") == (Math("R_A"), ", Н")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 import re
 from pathlib import Path
 from xml.etree import ElementTree as ET
@@ -12,11 +13,12 @@ import numpy as np
 import pytest
 
 import crankwork
+from crankwork.description.machine_file import read_machine, template
 from crankwork.errors import CrankworkError
 from crankwork.report.figures import drawings
 from crankwork.show.dxf import dxf
 from crankwork.show.pdf import pdf, png
-from crankwork.show.scene import Drawing, Polyline, Text, literal, pen_of, thinned
+from crankwork.show.scene import Drawing, Polyline, Text, literal, pen_of, runs, thinned
 from crankwork.show.svg import svg
 from crankwork.show.theme import THEMES, look_of
 
@@ -137,3 +139,18 @@ def test_names_with_signs_of_codes_stand_in_dxf_as_they_are_written():
     coded = [one.plain_text().partition(" ")[2].replace("i ", "") for one in space.query("MTEXT")]
     assert [one.rpartition(" ")[2] for one in coded] == names
     assert [one.plain_text() for one in space.query("TEXT")] == names
+
+
+@pytest.mark.parametrize("name", ["Шарнир Ж", "khớp nối ậ", "φ₁", "ο′", "№ 5 %%d", "~x;"])
+def test_letters_of_names_come_back_from_dxf(name):
+    text = template("four-bar").replace('"A"', json.dumps(name))
+    drawn = drawings(crankwork.analyse(read_machine(text)), language="vi")["joint_forces"]
+    space = ezdxf.read(io.StringIO(dxf(drawn).decode())).modelspace()
+    read = [one.plain_text() for one in space.query("TEXT MTEXT")]
+    assert any(name.replace("%%", "% %") in one for one in read), read
+    said = ["".join(run.text for run in runs(one.text)) for one in drawn.items if isinstance(one, Text)]
+    assert sorted(_bare(one) for one in read) == sorted(_bare(one) for one in said)
+
+
+def _bare(text):
+    return "".join(text.replace("^", "").replace("%", "").split())

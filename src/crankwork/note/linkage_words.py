@@ -10,6 +10,7 @@ from crankwork.note.document import Figure, Heading, Math, Runs
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.words import NoteWords
 from crankwork.quantities import QUANTITIES
+from crankwork.quantities.quantity import own_name
 from crankwork.report.figure_data import kind_of
 from crankwork.report.language import symbol as key_symbol
 from crankwork.show.scene import Drawing
@@ -126,7 +127,7 @@ def owned_symbol(kind: str, shown: str, name: str, language: Language) -> str:
     >>> owned_symbol("joint_force_x", "R_x", "A", "en"), owned_symbol("point_x", "x", "upper rod.guide", "en")
     ('R_x,A', 'x_upper-rod,g')
     """
-    owner, *parts = name.split(".")
+    owner, *parts = own_name(kind, name).split(".")
     marks = texts("marks", language)
     name = subscript(".".join([owner, *(marks[one] if one in _PARTS else one for one in parts)]))
     if "_i" in shown and not kind.startswith("indicated"):

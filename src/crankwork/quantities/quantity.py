@@ -59,7 +59,12 @@ class Quantity(NamedTuple):
 
     def _split(self) -> tuple[str, str]:
         kind, _, part = self.key.partition(".")
-        return kind, part
+        return kind, own_name(kind, part)
+
+
+def own_name(kind: str, name: str) -> str:
+    """Return the name of what a quantity belongs to; the link that tells apart joints of one point follows a space."""
+    return name.replace("_", " ") if kind.startswith("joint_") else name
 
 
 def owned_name(name: str, owner: str) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 
 from crankwork.locale import decimal, has_text, say
 from crankwork.quantities import QUANTITIES, Language, base_key
-from crankwork.quantities.quantity import OWNED, owned_name
+from crankwork.quantities.quantity import OWNED, own_name, owned_name
 from crankwork.units import Shown, from_si, shown_in
 
 if TYPE_CHECKING:
@@ -149,7 +149,7 @@ def _part(kind: str, name: str, language: Language) -> str:
     """Return what a part of a quantity is called: the report's own phrase, or the name as it is."""
     way = f"report.way_{name}"
     key = way if kind in _BY_WAY and has_text(way) else f"report.{name}"
-    return say(key, language) if has_text(key) else name
+    return say(key, language) if has_text(key) else own_name(kind, name)
 
 
 def row_name(name: str, language: Language) -> str:

@@ -20,7 +20,7 @@ from crankwork.units import from_si
 
 _DIGITS = 4
 # what would mark something in a text of a figure, where a name is the user's own
-_SIGNS = frozenset(r"$\#{}%^_~&")
+_SIGNS = frozenset(r"$\#{}%^~&")
 
 
 class Style(NamedTuple):

@@ -184,7 +184,7 @@ def _add_text(space: Any, item: Text, edge: float) -> None:  # noqa: ANN401 - a 
 
 def _coded(run: Run) -> str:
     r"""Return a part of a text as MTEXT writes it, an index as a fraction `\S^ index;` without numerator."""
-    text = _CODES.sub(r"\\\g<0>", run.text)
+    text = _CODES.sub(r"\\\g<0>", run.text).replace("%%", "% %")
     if not run.shift:
         text = text.replace("^", "^ ")
         return rf"{{\Q{_SLANT:g};{text}}}" if run.is_slanted else text
