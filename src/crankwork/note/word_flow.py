@@ -53,7 +53,7 @@ def flow(blocks: Sequence[Block], heights: Sequence[float]) -> Iterator[int]:
     waiting: list[int] = []
     filled, waited, is_heading = np.zeros(len(_OFF)), 0.0, False
     for k, (block, height) in enumerate(zip(blocks, heights, strict=True)):
-        if isinstance(block, Figure) and (waiting or _left(filled, height) > _EMPTY):
+        if isinstance(block, Figure) and (waiting or _left(filled, height).max() > _EMPTY):
             waiting.append(k)
             continue
         is_new = isinstance(block, PageBreak | TitlePage) or (isinstance(block, Table) and block.wide)
@@ -68,15 +68,15 @@ def flow(blocks: Sequence[Block], heights: Sequence[float]) -> Iterator[int]:
     yield from waiting
 
 
-def _left(filled: Array, height: float) -> float:
-    """Return how much of a page stays empty at most where a figure comes upon it. [pt]"""
-    return float(np.where(filled + height > PAGE, PAGE - filled, 0.0).max())
+def _left(filled: Array, height: float) -> Array:
+    """Return how much of a page stays empty where a figure comes upon it. [pt]"""
+    return np.where(filled + height > PAGE, PAGE - filled, 0.0)
 
 
 def _stands(filled: Array, figure: float, waited: float) -> bool:
-    """Return whether a figure that waits stands here: it leaves little empty, or has waited long."""
-    room = PAGE - filled[len(_OFF) // 2]
-    return _left(filled, figure) <= _EMPTY or (waited > _LONG and (figure <= room or room <= _EMPTY))
+    """Return whether a figure that waits stands here: it leaves little empty, or does so on average and waited long."""
+    left = _left(filled, figure)
+    return bool(left.max() <= _EMPTY or (waited > _LONG and left.mean() <= _EMPTY / 2))
 
 
 def _after(filled: Array, block: Block, height: float) -> Array:
