@@ -236,7 +236,8 @@ def crankpin_load(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     rows.append(Row(f"{mean}, {engine.value('mean_crankpin_load', found.mean)}", style, 0.8))
     base = engine.symbol("crankpin_load")[:-1]
     ends = (
-        f"{base}{',' if '_' in base else '_'}{name}$ = {engine.value('crankpin_load', value)} ({engine.number(round(angle, 1))}°)"
+        f"{base}{',' if '_' in base else '_'}{name}$ = {engine.value('crankpin_load', value)} "
+        f"({engine.number(round(angle, 1))}°)"
         for name, angle, value in (("max", found.max_angle, found.max), ("min", found.min_angle, found.min))
     )
     rows.append(Row(f"{which}{': ' if which else ''}{'; '.join(ends)}", width=0.0))
