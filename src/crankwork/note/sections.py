@@ -50,7 +50,9 @@ def note_of_sections(
     blocks = tuple(explained(written, options.language, with_results=with_results))
     # on a page of their own where they fill it: Typst then sets the rest once, not again with every page found
     listed = sum(isinstance(one, Heading) and one.level <= 2 for one in blocks)
-    front = (cover(document, options.language, subtitle), Contents(), *[PageBreak()] * (listed >= _OWN_PAGE))
+    front: list[Block] = [cover(document, options.language, subtitle), Contents()]
+    if listed >= _OWN_PAGE:
+        front.append(PageBreak())
     return Note(
         options.title or material.machine.title or title,
         options.language,
