@@ -217,6 +217,8 @@ class Graph:
 
     def reduction(self, word: str, *columns: Value) -> Value:
         """Return what columns come to over the cycle."""
+        if word == "max" and columns[0].kind == "sqrt":
+            return self.apply("sqrt", self.reduction(word, *columns[0].operands))
         return self._made("reduction", columns, word)
 
     def procedure(self, function: Callable[..., Any], part: int, columns: Iterable[Value]) -> Value:
@@ -241,15 +243,16 @@ class Graph:
 
     def _simpler(self, name: str, values: tuple[Value, ...], numbers: list[Any]) -> Value | None:
         if len(values) == 1:
-            return self._log(*values) if name == "log" else None
+            return self._of_one(name, *values)
         (left, right), (first, second) = values, numbers
+        turned = self._without_signs(name, left, right)
+        if turned is not None:
+            return turned
         match name:
             case "add" if first == 0 or second == 0:
                 return right if first == 0 else left
             case "sub" if second == 0:
                 return left
-            case "sub" if first == 0:
-                return self.apply("neg", right)
             case "mul" if first == 0 or second == 0:
                 return self.constant(0.0)
             case "mul" if first == 1 or second == 1:
@@ -264,9 +267,30 @@ class Graph:
                 return result or self.apply("exp", right * self.apply("log", left))
         return None
 
-    def _log(self, of: Value) -> Value | None:
-        """Return the logarithm of a quotient, which saves a division."""
-        if of.kind == "mul":
+    def _without_signs(self, name: str, left: Value, right: Value) -> Value | None:
+        """Return an operation on what has its sign turned with the sign elsewhere, or with none at all."""
+        match name, left.kind, right.kind:
+            case ("sub", "constant", _) if number(left) == 0:
+                return -right
+            case ("mul", "neg", "neg"):
+                return left.operands[0] * right.operands[0]
+            case ("mul", _, "constant") if number(right) == -1:
+                return -left
+            case ("mul", "constant", _) if number(left) == -1:
+                return -right
+            case ("mul", "neg", "constant"):
+                return left.operands[0] * -number(right)
+            case ("mul", "constant", "neg"):
+                return right.operands[0] * -number(left)
+            case ("add" | "sub", _, "neg"):
+                return self.apply("sub" if name == "add" else "add", left, *right.operands)
+        return None
+
+    def _of_one(self, name: str, of: Value) -> Value | None:
+        """Return what has its sign turned twice, or the logarithm of a quotient, which saves a division."""
+        if name == of.kind == "neg":
+            return of.operands[0]
+        if name == "log" and of.kind == "mul":
             for one, other in (of.operands, of.operands[::-1]):
                 if other.kind == "div":
                     return self._made("log_ratio", (one, other.operands[1]))

@@ -71,7 +71,10 @@ class Plan:
     def _level(self, level: int, needed: list[Value], made: set[int]) -> Level:
         above = [one for one in needed if one.kind in ("reduction", "delayed") and one.level == level + 1]
         columns = tuple({one.at: one for reduced in above for one in reduced.operands}.values())
-        loops = tuple(self._loops(columns))
+        # what was kept for other angles is read at its own too
+        kept = {of.at: of.graph.delayed(of, 0.0) for one in needed if one.kind == "delayed" for of in one.operands}
+        kept = {at: one for at, one in kept.items() if one.level <= level}
+        loops = tuple(self._loops(_replaced(list(columns), kept)))
         # with its laws chosen a product of a law and an area, say, is one of designs
         hoisted = [other for loop in loops for one in loop.values for other in one.operands if not other.by_angle]
         hoisted += [one for loop in loops for one in loop.columns if not one.by_angle]
@@ -86,7 +89,7 @@ class Plan:
         delayed = tuple(one for one in above if one.kind == "delayed")
         return Level(tuple(designs), columns, loops, reductions, delayed)
 
-    def _loops(self, columns: tuple[Value, ...]) -> Iterable[Loop]:
+    def _loops(self, columns: list[Value]) -> Iterable[Loop]:
         """Yield the loops over angles, one for each choice of laws that these columns follow."""
         if not columns:
             return
@@ -211,7 +214,10 @@ def _replaced(roots: list[Value], by: dict[int, Value]) -> list[Value]:
     for one in in_order(roots, into=lambda one: one.at not in by and _at_this_angle(one)):
         if one.at not in made:
             is_made_anew = _at_this_angle(one) and any(made[other.at] is not other for other in one.operands)
-            made[one.at] = (
-                one.graph.apply(one.kind, *(made[other.at] for other in one.operands)) if is_made_anew else one
-            )
+            operands = tuple(made[other.at] for other in one.operands) if is_made_anew else ()
+            if is_made_anew and one.kind == "pieces":
+                ends, shift = one.detail
+                made[one.at] = one.graph.pieces(ends, operands, shift)
+            else:
+                made[one.at] = one.graph.apply(one.kind, *operands) if is_made_anew else one
     return [made[one.at] for one in roots]

@@ -17,6 +17,8 @@ from crankwork.kernel.graph import Value, number
 from crankwork.kernel.plan import Level, Loop, Plan
 
 LANES = 64
+# what others wait for
+_SLOW = ("sqrt", "div", "exp", "log", "log_ratio")
 _INFIX = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
 _CALLED = {
     "sqrt": "math.sqrt", "exp": "exp", "log": "log", "log_ratio": "log_ratio", "sin": "math.sin", "cos": "math.cos",
@@ -206,7 +208,7 @@ class Source:
             for place, word, column in running:
                 yield self._step(place, word, _name(value_of[column.at], lane), lane)
 
-        yield from self._over_lanes(8, lines)
+        yield from self._over_lanes(8, lines, waits=any(one.kind in _SLOW for one in loop.values))
 
     def _read(self, loop: Loop) -> Iterator[str]:
         """Yield where columns stand that were kept before."""
@@ -247,9 +249,9 @@ class Source:
         yield f"    for l in range({LANES}):"
         yield f"        {high} -= {low}"
 
-    def _over_lanes(self, indent: int, lines: Callable[[str], Iterable[str]]) -> Iterator[str]:
-        """Yield a loop over lanes, two of them side by side where every moment counts."""
-        space, lanes = " " * indent, ("l", "h") if self.is_reduced else ("l",)
+    def _over_lanes(self, indent: int, lines: Callable[[str], Iterable[str]], *, waits: bool = True) -> Iterator[str]:
+        """Yield a loop over lanes, two of them side by side where every moment counts and what one does `waits`."""
+        space, lanes = " " * indent, ("l", "h") if self.is_reduced and waits else ("l",)
         yield f"{space}for l in range({LANES // len(lanes)}):"
         if "h" in lanes:
             yield f"{space}    h = l + {LANES // 2}"
