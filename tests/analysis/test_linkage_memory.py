@@ -4,11 +4,12 @@ import math
 import pickle
 import sys
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from crankwork import analyse, figures, read_machine, template
+from crankwork import analyse, figures, read, read_machine, template
 from crankwork.analysis.linkage import running_at
 from crankwork.dynamics.routes import ROUTES, by_groups
 from crankwork.formula.expression import FORMULAS
@@ -179,3 +180,11 @@ def test_routes_of_the_checks_share_no_formula_with_the_forces_in_joints(name):
     assert len(forces) >= 3
     assert {name: called(route, running) & forces for name, route in ROUTES.items()} == {key: set() for key in ROUTES}
     assert len(called(ROUTES["energy"], running)) >= 3
+
+
+def test_a_machine_that_is_driven_by_gas_has_a_positive_share_of_its_work_in_motion():
+    memory = analyse(read(Path(__file__).parents[2] / "examples" / "atkinson.toml")).memory
+    assert memory["work_per_cycle"].value < 0
+    assert memory["energy_fluctuation"].value == pytest.approx(
+        memory["excess_work"].value / -memory["work_per_cycle"].value
+    )

@@ -30,7 +30,7 @@ from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Samples
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.shaft.curve import Curve
-from crankwork.shaft.fluctuation import ExcessWork, TrueSpeed, excess_work, fluctuation_of_energy
+from crankwork.shaft.fluctuation import ExcessWork, TrueSpeed, excess_work, share_of_work
 from crankwork.shaft.flywheel import work_of_mean_torque
 
 _ORDERS = 12
@@ -109,7 +109,7 @@ def engine_torque(
     if mean.value:
         work = work_of_mean_torque(mean, origins.cycle_angle(whole.machine))
         between["work_per_cycle"] = work
-        summary["energy_fluctuation"] = fluctuation_of_energy(excess, work if mean.value > 0 else -work)
+        summary["energy_fluctuation"] = share_of_work(excess, work)
     wheel = wheel_for(whole.machine, excess, w, turning_inertia(whole.machine, "reduced_inertia.drive"))
     course = course_of(all_, found, excess, w, wheel.inertia, of[0])
     summary |= wheel.summary | course.summary

@@ -18,7 +18,7 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.locale import Refusal
 from crankwork.machine import Machine
 from crankwork.shaft.curve import AtDegrees, Curve
-from crankwork.shaft.fluctuation import excess_work, fluctuation_of_energy, speed_of_energy, true_speed
+from crankwork.shaft.fluctuation import excess_work, share_of_work, speed_of_energy, true_speed
 from crankwork.shaft.flywheel import (
     Flywheel,
     flywheel_beside_machine,
@@ -118,7 +118,7 @@ def _of_energy(memory: Mapping[str, Known], excess: Known, cycle: Known) -> dict
     if mean is None or not mean.value:
         return {}
     work = work_of_mean_torque(mean, cycle)
-    return {"work_per_cycle": work, "energy_fluctuation": fluctuation_of_energy(excess, work)}
+    return {"work_per_cycle": work, "energy_fluctuation": share_of_work(excess, work)}
 
 
 def _rotor(motor: GearedMotor) -> dict[str, Known]:

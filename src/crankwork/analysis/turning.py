@@ -25,8 +25,8 @@ from crankwork.shaft.fluctuation import (
     TrueSpeed,
     acceleration_of_crank,
     excess_work,
-    fluctuation_of_energy,
     fluctuation_of_inertia,
+    share_of_work,
 )
 from crankwork.shaft.flywheel import work_of_mean_torque
 from crankwork.shaft.motor_choice import needed_power
@@ -117,8 +117,7 @@ def _per_cycle(machine: Machine, mean: Known, excess: Known) -> dict[str, Known]
         return {"excess_work": excess}
     cycle = given("cycle_angle", math.radians(machine.cycle))
     work: Known = work_of_mean_torque(mean, cycle)
-    named = work.named("work_per_cycle")
-    ratio = fluctuation_of_energy(excess, named if mean.value > 0 else -named)
+    ratio = share_of_work(excess, work.named("work_per_cycle"))
     return {"work_per_cycle": work, "excess_work": excess, "energy_fluctuation": ratio}
 
 

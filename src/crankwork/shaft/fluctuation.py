@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from crankwork.dynamics.reduction import kinetic_energy
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import Known
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Refusal
 from crankwork.shaft.curve import Curve, Extremes
@@ -41,6 +42,11 @@ def fluctuation_of_inertia(L_exc: Value, J: Value, w: Value) -> Value:
 def fluctuation_of_energy(L_exc: Value, W_c: Value) -> Value:
     """Coefficient of fluctuation of energy."""
     return L_exc / W_c
+
+
+def share_of_work(excess: Known, work: Known) -> Known:
+    """Return what part of the work of a cycle, done or taken, the kinetic energy takes and gives."""
+    return fluctuation_of_energy(excess, work if work.value > 0 else -work)
 
 
 @dataclass(frozen=True)
