@@ -75,7 +75,8 @@ export class Explanation {
     this.open.clear();
     this.room.hidden = false;
     this.draw();
-    this.room.focus();
+    this.back?.scrollIntoView({ block: "nearest" });
+    this.room.focus({ preventScroll: true });
   }
 
   close() {

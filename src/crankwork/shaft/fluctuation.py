@@ -46,7 +46,8 @@ def fluctuation_of_energy(L_exc: Value, W_c: Value) -> Value:
 
 def share_of_work(excess: Known, work: Known) -> Known:
     """Return what part of the work of a cycle, done or taken, the kinetic energy takes and gives."""
-    return fluctuation_of_energy(excess, work if work.value > 0 else -work)
+    share: Known = fluctuation_of_energy(excess, work if work.value > 0 else -work)
+    return share
 
 
 @dataclass(frozen=True)
