@@ -254,6 +254,40 @@ def test_lengths_without_a_machine_keep_the_last_one(opened):
     assert page.locator("#told").inner_text() == ""
 
 
+@pytest.mark.parametrize(
+    ("name", "crank", "ratio", "ends"),
+    [("four-bar", 80, 175 / 80, ("A", "B")), ("six-bar", 80, None, ("A", "B"))],
+)
+def test_the_machine_moves_with_its_lengths_and_back(opened, name, crank, ratio, ends):
+    page = opened(name)
+    page.keyboard.press("Home")
+    before = page.locator("#machine svg").evaluate("one => [one.innerHTML, one.getAttribute('viewBox')]")
+    move(page, 0, crank)
+    lengths = []
+    for _ in range(3):
+        places = {
+            name: page.locator(f'[data-part="joint.{name}"]').evaluate(
+                "one => { const m = one.transform.baseVal.consolidate().matrix; return [m.e, m.f] }"
+            )
+            for name in ("O", *ends)
+        }
+        lengths.append((math.dist(places["O"], places["A"]), math.dist(places["A"], places["B"])))
+        page.keyboard.press("ArrowRight")
+    stated = results(name, [crank, *(one.shown(one.now) for one in live(name).sliders[1:])])
+    points = [np.array([stated[f"point_{axis}.{end}"][0] for axis in "xy"]) for end in ends]
+    wanted = float(np.hypot(*(points[1] - points[0]))) / (crank / 1000)
+    assert ratio is None or wanted == pytest.approx(ratio, rel=1e-9)
+    for radius, coupler in lengths:
+        assert coupler / radius == pytest.approx(wanted, rel=2e-3)
+    corners = page.locator('[data-part="link.crank.1"] path').get_attribute("d")
+    assert corners.startswith("M")
+    page.keyboard.press("Home")
+    page.locator("#filed").click()
+    after = page.locator("#machine svg").evaluate("one => [one.innerHTML, one.getAttribute('viewBox')]")
+    parts = [re.split("(?=<)", one[0]) + one[1:] for one in (before, after)]
+    assert [one for one in zip(*parts, strict=True) if one[0] != one[1]] == []
+
+
 @pytest.mark.parametrize("language", ["en", "ru", "vi"])
 @pytest.mark.parametrize(("width", "scheme"), [(1280, "light"), (360, "dark")])
 def test_everybody_can_use_the_sliders(opened, language, width, scheme):

@@ -3,6 +3,7 @@ import { bar } from "./bar.js";
 import { Cursor } from "./cursor.js";
 import { Explanation } from "./explain.js";
 import { Figure } from "./figure.js";
+import { Joints } from "./joints.js";
 import { Lines } from "./lines.js";
 import { choose, Film } from "./machine.js";
 import { unpacked } from "./numbers.js";
@@ -48,6 +49,10 @@ function begin(data) {
   const tables = document.getElementById("tables");
   const filed = new Set(data.sliders?.filed);
   const show = tables && data.tables && showTables(tables, data.tables, columns, cursor, (key) => explanation?.explain(key), filed);
+  const machine = /** @type {SVGSVGElement | null} */ (document.querySelector('[data-figure="machine"]'));
+  const motion = bar(cursor, axis, data.film?.seconds ?? 4, data.film?.turns ?? true);
+  const film = machine && data.film ? new Film(machine, data.film, cursor) : undefined;
+  if (film && motion) choose(film, motion);
   const moves = document.getElementById("sliders");
   // a page with sliders has the steps of its calculation before this script
   const { steps } = /** @type {{steps?: import("./calculation.js").Steps}} */ (globalThis);
@@ -58,15 +63,15 @@ function begin(data) {
       ...figures.filter((one) => one.follows).map((one) => ({ at: one.svg, show: () => (live.moved ? one.follow(lines) : one.back()) })),
       ...(tables && show ? [{ at: tables, show }] : []),
     ]);
+    const joints = film && data.sliders.joints ? new Joints(film, live, data.sliders.joints) : undefined;
+    cursor.follow(() => joints?.draw(cursor.at * (data.film?.degrees ?? 1)));
     bindSliders(moves, live, () => {
       late();
+      joints?.fit();
       explanation?.follow(live);
       if (!cursor.runs) cursor.move(cursor.at);
     });
   }
-  const machine = /** @type {SVGSVGElement | null} */ (document.querySelector('[data-figure="machine"]'));
-  const motion = bar(cursor, axis, data.film?.seconds ?? 4, data.film?.turns ?? true);
-  if (machine && data.film && motion) choose(new Film(machine, data.film, cursor), motion);
   reachWide();
   addEventListener("resize", reachWide);
   if (data.film && motion && !matchMedia("(prefers-reduced-motion: reduce)").matches) motion.start();

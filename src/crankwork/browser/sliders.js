@@ -13,9 +13,10 @@ const FAR = 1e-6;
 /**
  * Of each field what it is in the file [SI], and what takes a number in its unit to SI; the calculation; factors that
  * take columns to their units, factor and what is added of single values, columns that cannot be calculated, which of the further
- * crank angles are those of the tables.
+ * crank angles are those of the tables, joints of a linkage.
  * @typedef {{fields: {now: number, scale: number, origin: number}[], calculation: CalculationData,
- *   columns: Record<string, number>, values: Record<string, [number, number]>, filed: string[], rows: number[]}} SlidersData
+ *   columns: Record<string, number>, values: Record<string, [number, number]>, filed: string[], rows: number[],
+ *   joints?: import("./joints.js").JointsData}} SlidersData
  */
 
 /** What follows the sliders: told at each move, and where nothing is moved any more. */

@@ -45,11 +45,14 @@ def page(results: Results, language: Language = "en", place: Place | None = None
     keys = dict.fromkeys([*(key for one in data["tables"] for key in one["k"]), *results.summary])
     memories = Memories(results, language, place or (lambda path, _: path), data["columns"])
     data["memories"] = memories.of(keys)
-    marks, steps = dict[str, list[str]](), ""
+    marks, steps, is_filed = dict[str, list[str]](), "", False
     if live is not None:
         memories.follow(live)
         marks = {name: _followed(live, name, data["figures"][name]) for name in drawn}
+        is_filed, joints = live.machine()
+        is_filed = is_filed and joints is None
         data["sliders"], steps = _sliders_data(results, live, data)
+        data["sliders"] |= {} if joints is None else {"joints": joints}
     title = html.escape(results.machine.title or "crankwork")
     parts = [
         f'<!DOCTYPE html>\n<html lang="{language}"><head><meta charset="utf-8">',
@@ -60,7 +63,7 @@ def page(results: Results, language: Language = "en", place: Place | None = None
         *bar(language),
         '<div class="side">',
         *([] if live is None or moved is None else _sliders(live, moved, language)),
-        *([] if film is None else _machine(film, language, is_filed=live is not None and live.moves_apart())),
+        *([] if film is None else _machine(film, language, is_filed=is_filed)),
         *_contents(drawn, language),
         "</div><main>",
         *_figures(drawn, marks, language),

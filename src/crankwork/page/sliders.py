@@ -15,6 +15,7 @@ from crankwork.kernel.compiled import CONVERGED, Kernel
 from crankwork.kernel.script import Script
 from crankwork.kernel.trace import Designs, Trace
 from crankwork.locale import Refusal
+from crankwork.page.joints import joints_of
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.report.drawing import film_of
 from crankwork.report.figures import drawings
@@ -227,10 +228,16 @@ class Live:
             self._replayed[mark] = np.array([found[key] for key in self._columns])
         return self._replayed[mark]
 
-    def moves_apart(self) -> bool:
-        """Return whether the machine moves otherwise in other designs."""
-        stated, *others = self._films
-        return any(_film(one) != _film(stated) for one in others)
+    def machine(self) -> tuple[bool, dict[str, Any] | None]:
+        """Return whether the machine moves otherwise in other designs, and how its joints follow if they do."""
+        films = [one for one in self._films if one is not None]
+        if all(_film(one) == _film(films[0]) for one in films[1:]):
+            return False, None
+        joints = joints_of(films, self._results)
+        keys = [key for pair in (joints or {"joints": {}})["joints"].values() for key in pair]
+        if not keys or any(not self.follows(key) and self.differs(key) for key in keys):
+            return True, None
+        return True, joints
 
     def data(self) -> tuple[dict[str, Any], str]:
         """Return what the browser calculates with, and the script that does."""
