@@ -369,7 +369,7 @@ cylinder.compression_ratio = {{ from = 8, to = 9 }}
 @pytest.mark.parametrize("key", ["mean_torque", "filling_factor.diagram"])
 @pytest.mark.parametrize("language", ["en", "ru", "vi"])
 def test_a_study_says_whether_it_is_compiled_and_why_not(tmp_path, monkeypatch, key, language):
-    monkeypatch.setattr(compiled, "_compiles", lambda: False)
+    monkeypatch.setattr(compiled, "compiles", lambda: False)
     machine = Path(__file__).parents[2] / "examples" / "petrol-four.toml"
     (tmp_path / "machine.toml").write_bytes(machine.read_bytes())
     (tmp_path / "study.toml").write_text(OF_CYCLE.format(key=key), encoding="utf-8")
