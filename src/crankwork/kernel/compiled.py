@@ -35,6 +35,8 @@ CONVERGED = 1e-12
 # breaks of laws and of those of other cylinders that a grid may have
 _MOST_BREAKS = 400
 _POLYNOMIALS = lobatto(16)
+# designs of which that is done together which does not depend on the crank angle
+_TOGETHER = 2048
 
 
 class Bulk(NamedTuple):
@@ -125,22 +127,31 @@ class Kernel:
 
     def run(self, designs: Array, found: Bulk, first: int, last: int) -> None:
         """Put the single values of some designs where they belong; threads may do so at the same time."""
-        if self.source.is_reduced and self._module is not None:
-            self._module.run(designs, found.values, found.left_out, *self._given, first, last)
-            return
+        for start in range(first, last, _TOGETHER):
+            some = designs[:, start : min(start + _TOGETHER, last)]
+            given = np.empty((self.source.given, some.shape[1]))
+            given[: len(some)] = some
+            self._arrays.designs(0, given)
+            if self.source.is_reduced and self._module is not None:
+                self._module.run(given, found.values, found.left_out, *self._given, start)
+            else:
+                self._run(given, found, start)
+
+    def _run(self, given: Array, found: Bulk, first: int) -> None:
+        last = first + given.shape[1]
         lanes = LANES if self._module is not None else min(LANES, last - first)
         store = np.empty((len(self.source.rows.of), lanes))
         kept = np.empty((len(self.source.columns.of), self.plan.grid.degrees.size, lanes))
         for start in range(first, last, lanes):
             end = min(start + lanes, last)
-            store[: len(designs)] = designs[:, np.minimum(np.arange(start, start + lanes), last - 1)]
+            store[: len(given)] = given[:, np.minimum(np.arange(start, start + lanes), last - 1) - first]
             left_out, reductions = np.zeros(lanes), self._exact
             for at, level in enumerate(self.plan.levels):
-                if self._module is not None:
+                if at and self._module is not None:
                     getattr(self._module, f"designs_{at}")(store.reshape(-1), kept, *self._given)
-                else:
+                elif at:
                     self._arrays.designs(at, store)
-                if at == 0 and self._edges is not None and self._exact is not None:
+                elif self._edges is not None and self._exact is not None:
                     reductions, left_out = self._moved(self._edges, self._exact, store, kept)
                 if self._module is not None:
                     getattr(self._module, f"level_{at}")(store.reshape(-1), kept, *self._given)

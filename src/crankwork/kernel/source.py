@@ -33,15 +33,16 @@ from crankwork.kernel.elementary import compiled, exp, half_turns, log, log_rati
 _RUN = """
 
 @compiled
-def run(designs, results, left_out, t, p, order, weights, degrees, first, last):
+def run(given, results, left_out, t, p, order, weights, degrees, first):
     s = np.empty({rows} * {lanes})
     b = np.empty(({columns}, {angles}, {lanes}))
-    for start in range(first, last, {lanes}):
-        for row in range(designs.shape[0]):
+    count = given.shape[1]
+    for start in range(0, count, {lanes}):
+        for row in range(given.shape[0]):
             for l in range({lanes}):
-                s[row * {lanes} + l] = designs[row, min(start + l, last - 1)]
+                s[row * {lanes} + l] = given[row, min(start + l, count - 1)]
 {levels}
-        for l in range(min({lanes}, last - start)):
+        for l in range(min({lanes}, count - start)):
 {outputs}
 """
 _ARGUMENTS = "s, b, t, p, order, weights, degrees"
@@ -72,6 +73,8 @@ class Source:
 
     `rows` are those of the store of a block of designs, `columns` those of what is kept at each angle, `delays` those
     of the places of earlier angles, `order` the places of angles loop by loop, `used` what of designs is stored.
+    The first `given` rows are what designs state and what follows of that alone, done for many of them by arrays: in
+    a cycle that is calculated these are hundreds of lines, each done once, and compiling them takes longer than that.
     With `is_reduced` reductions are done as the angles go by; otherwise their columns are kept, and something else
     reduces them.
     """
@@ -82,6 +85,11 @@ class Source:
         self.order: NDArray[np.intp] = np.zeros(0, dtype=np.intp)
         for at in range(plan.inputs):
             self.rows(("input", at))
+        self.used = self._used_elsewhere()
+        for one in plan.levels[0].designs:
+            if one.at in self.used and one.kind != "input":
+                self.rows(one.at)
+        self.given = len(self.rows.of)
         for one in (one for level in plan.levels for one in (*level.delayed, *level.reductions)):
             if one.kind == "reduction":
                 self.rows(self.place(one))
@@ -90,7 +98,6 @@ class Source:
                     self.columns(column.at)
         for at in plan.moved:
             self.columns(at)
-        self.used = self._used_elsewhere()
         levels = ("\n".join(self._level(at, one)) for at, one in enumerate(plan.levels))
         self.text = "\n\n\n".join([_HEAD, *levels]) + (self._run() if is_reduced else "\n")
 
@@ -116,11 +123,11 @@ class Source:
 
     def _run(self) -> str:
         every = range(len(self.plan.levels))
-        levels = [f"        {part}_{at}({_ARGUMENTS})" for at in every for part in ("designs", "level")]
-        outputs = []
+        levels = [f"        {part}_{at}({_ARGUMENTS})" for at in every for part in ("designs", "level")[not at :]]
+        outputs, place = [], "first + start + l"
         for at, (key, value) in enumerate(self.plan.outputs.items()):
             shown = _name(value, "") if value.is_constant else self._stored(self.place(value))
-            outputs.append(f"            {f'results[{at}, start + l]' if key else 'left_out[start + l]'} = {shown}")
+            outputs.append(f"            {f'results[{at}, {place}]' if key else f'left_out[{place}]'} = {shown}")
         angles = self.plan.grid.degrees.size if self.columns.of else 1
         sizes = {"rows": len(self.rows.of), "columns": max(len(self.columns.of), 1), "angles": angles, "lanes": LANES}
         return _RUN.format(levels="\n".join(levels), outputs="\n".join(outputs), **sizes)
@@ -132,10 +139,11 @@ class Source:
             yield f"@compiled\ndef loop_{at}_{part}({_ARGUMENTS}):"
             yield from self._loop(level, loop, running)
             yield "\n"
-        yield f"@compiled\ndef designs_{at}({_ARGUMENTS}):"
-        if level.designs:
-            yield from self._over_lanes(4, lambda lane: self._designs(level, lane))
-        yield "    return\n\n"
+        if at:
+            # those of the first level are given
+            yield f"@compiled\ndef designs_{at}({_ARGUMENTS}):"
+            yield from self._over_lanes(4, lambda lane: self._designs(level, lane) if level.designs else ["pass"])
+            yield "    return\n\n"
         yield f"@compiled\ndef level_{at}({_ARGUMENTS}):"
         if running:
             yield from self._over_lanes(
