@@ -7,6 +7,7 @@ side: what one waits for leaves room for the other.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Hashable, Iterable, Iterator
 from typing import Generic, TypeVar
 
@@ -19,6 +20,8 @@ from crankwork.kernel.plan import Level, Loop, Plan
 LANES = 64
 # what others wait for
 _SLOW = ("sqrt", "div", "exp", "log", "log_ratio")
+# rows that a loop may read in the places of others and still be turned into operations on several designs at once
+_FEW_ROWS = 12
 _INFIX = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
 _CALLED = {
     "sqrt": "math.sqrt", "exp": "exp", "log": "log", "log_ratio": "log_ratio", "sin": "math.sin", "cos": "math.cos",
@@ -134,11 +137,19 @@ class Source:
 
     def _level(self, at: int, level: Level) -> Iterator[str]:
         running = self._running(level) if self.is_reduced else []
-        for part, loop in enumerate(level.loops):
+        parts = dict[str, list[list[int]]]()
+        for loop in level.loops:
+            lines, rows = self._lines(level, loop, running)
+            start = self.order.size
+            self.order = np.concatenate([self.order, loop.angles])
+            parts.setdefault(lines, []).append([start, self.order.size, *rows])
+        calls = []
+        for number, (lines, of) in enumerate(parts.items()):
             # a function of its own: names that had a meaning in each loop would be told apart one by one
-            yield f"@compiled\ndef loop_{at}_{part}({_ARGUMENTS}):"
-            yield from self._loop(level, loop, running)
-            yield "\n"
+            yield f"@compiled\ndef loop_{at}_{number}({_ARGUMENTS}, parts):\n    for part in range(len(parts)):"
+            yield from (f"        row_{row} = parts[part][{row + 2}]" for row in range(len(of[0]) - 2))
+            yield f"{lines}\n\n"
+            calls.append(f"    loop_{at}_{number}({_ARGUMENTS}, {tuple(map(tuple, of))})")
         if at:
             # those of the first level are given
             yield f"@compiled\ndef designs_{at}({_ARGUMENTS}):"
@@ -150,7 +161,7 @@ class Source:
                 4,
                 lambda lane: [f"{self._stored(place, lane)} = {_START.get(word, '0.0')}" for place, word, _ in running],
             )
-        yield from (f"    loop_{at}_{part}({_ARGUMENTS})" for part in range(len(level.loops)))
+        yield from calls
         for place, word, _ in running:
             yield from self._finished(place, word)
         for one in level.reductions if self.is_reduced else ():
@@ -188,22 +199,39 @@ class Source:
         every = ((place, word, column) for place, (word, column) in found.items())
         return sorted(every, key=lambda one: not one[1].endswith("_angle"))
 
-    def _loop(self, level: Level, loop: Loop, running: list[tuple[tuple[str, int], str, Value]]) -> Iterator[str]:
-        start = self.order.size
-        self.order = np.concatenate([self.order, loop.angles])
-        yield f"    for i in range({start}, {self.order.size}):"
-        yield "        j = order[i]"
+    def _lines(
+        self, level: Level, loop: Loop, running: list[tuple[tuple[str, int], str, Value]]
+    ) -> tuple[str, list[int]]:
+        """Return what is done in a loop, and the rows that it reads if others of its kind read theirs."""
+        if not running:
+            lines, rows = _shape("\n".join(self._loop(level, loop, running, ("l",))))
+            if len(rows) <= _FEW_ROWS:
+                return lines, rows
+        # two lanes side by side where one waits
+        lanes = self._lanes if any(one.kind in _SLOW for one in loop.values) else ("l",)
+        return "\n".join(self._loop(level, loop, running, lanes)), []
+
+    @property
+    def _lanes(self) -> tuple[str, ...]:
+        """Lanes written side by side, two where every moment counts."""
+        return ("l", "h") if self.is_reduced else ("l",)
+
+    def _loop(
+        self, level: Level, loop: Loop, running: list[tuple[tuple[str, int], str, Value]], lanes: tuple[str, ...]
+    ) -> Iterator[str]:
+        yield "        for i in range(parts[part][0], parts[part][1]):"
+        yield "            j = order[i]"
         if any(word in ("mean", "integral") for _, word, _ in running):
-            yield "        weight = weights[j]"
+            yield "            weight = weights[j]"
         taken = _taken(loop.values, loop.columns)
         for one in taken:
             if one.by_angle and not one.by_design:
-                yield f"        t{one.at} = t[{self.plan.row_of_angle[one.at]}, j]"
+                yield f"            t{one.at} = t[{self.plan.row_of_angle[one.at]}, j]"
         yield from self._read(loop)
         value_of = dict(zip((one.at for one in level.columns), loop.columns, strict=True))
         kept = [at for at in value_of if at in self.columns.of]
         for at in kept:
-            yield f"        c{at} = b[{self.columns(at)}, j]"
+            yield f"            c{at} = b[{self.columns(at)}, j]"
 
         def lines(lane: str) -> Iterator[str]:
             yield from self._taken_lines(taken, lane)
@@ -216,15 +244,15 @@ class Source:
             for place, word, column in running:
                 yield self._step(place, word, _name(value_of[column.at], lane), lane)
 
-        yield from self._over_lanes(8, lines, waits=any(one.kind in _SLOW for one in loop.values))
+        yield from self._over_lanes(12, lines, lanes)
 
     def _read(self, loop: Loop) -> Iterator[str]:
         """Yield where columns stand that were kept before."""
         for one in loop.values:
             if one.kind == "delayed":
-                yield f"        b{one.at} = b[{self.columns(one.operands[0].at)}, p[{self.delays(one.detail)}, j]]"
+                yield f"            b{one.at} = b[{self.columns(one.operands[0].at)}, p[{self.delays(one.detail)}, j]]"
             elif one.kind == "moved":
-                yield f"        b{one.at} = b[{self.columns(one.detail.at)}, j]"
+                yield f"            b{one.at} = b[{self.columns(one.detail.at)}, j]"
 
     def _step(self, place: tuple[str, int], word: str, value: str, lane: str) -> str:
         """Return how a reduction goes on with the value at an angle."""
@@ -257,9 +285,11 @@ class Source:
         yield f"    for l in range({LANES}):"
         yield f"        {high} -= {low}"
 
-    def _over_lanes(self, indent: int, lines: Callable[[str], Iterable[str]], *, waits: bool = True) -> Iterator[str]:
-        """Yield a loop over lanes, two of them side by side where every moment counts and what one does `waits`."""
-        space, lanes = " " * indent, ("l", "h") if self.is_reduced and waits else ("l",)
+    def _over_lanes(
+        self, indent: int, lines: Callable[[str], Iterable[str]], lanes: tuple[str, ...] = ()
+    ) -> Iterator[str]:
+        """Yield a loop over lanes."""
+        space, lanes = " " * indent, lanes or self._lanes
         yield f"{space}for l in range({LANES // len(lanes)}):"
         if "h" in lanes:
             yield f"{space}    h = l + {LANES // 2}"
@@ -273,6 +303,19 @@ class Source:
         if one.kind == "choose":
             return f"{operands[1]} if {operands[0]} > 0.0 else {operands[2]}"
         return f"-{operands[0]}" if one.kind == "neg" else f"{_CALLED[one.kind]}({', '.join(operands)})"
+
+
+def _shape(lines: str) -> tuple[str, list[int]]:
+    """Return lines with names by the order in which they are met, and the rows of designs and of angles they read.
+
+    What is done with each law of a kind is one function then. A loop that reduces keeps its rows, because what it writes
+    must be told from what it reads, and so does one that reads many.
+    """
+    names, rows = dict[str, str](), dict[str, str]()
+    lines = re.sub(r"\b([lhtbc])(\d+)\b", lambda one: one[1] + names.setdefault(one[2], str(len(names))), lines)
+    for place in (r"(?<=\bs\[)\d+(?= \+ l\])", r"(?<=\bt\[)\d+(?=, j\])"):
+        lines = re.sub(place, lambda one: rows.setdefault(one[0], f"row_{len(rows)}"), lines)
+    return lines, [int(one) for one in rows]
 
 
 def _taken(values: Iterable[Value], others: Iterable[Value] = ()) -> list[Value]:
