@@ -144,12 +144,12 @@ class Source:
             self.order = np.concatenate([self.order, loop.angles])
             parts.setdefault(lines, []).append([start, self.order.size, *rows])
         calls = []
-        for number, (lines, of) in enumerate(parts.items()):
+        for kind, (lines, of) in enumerate(parts.items()):
             # a function of its own: names that had a meaning in each loop would be told apart one by one
-            yield f"@compiled\ndef loop_{at}_{number}({_ARGUMENTS}, parts):\n    for part in range(len(parts)):"
+            yield f"@compiled\ndef loop_{at}_{kind}({_ARGUMENTS}, parts):\n    for part in range(len(parts)):"
             yield from (f"        row_{row} = parts[part][{row + 2}]" for row in range(len(of[0]) - 2))
             yield f"{lines}\n\n"
-            calls.append(f"    loop_{at}_{number}({_ARGUMENTS}, {tuple(map(tuple, of))})")
+            calls.append(f"    loop_{at}_{kind}({_ARGUMENTS}, {tuple(map(tuple, of))})")
         if at:
             # those of the first level are given
             yield f"@compiled\ndef designs_{at}({_ARGUMENTS}):"
@@ -308,8 +308,8 @@ class Source:
 def _shape(lines: str) -> tuple[str, list[int]]:
     """Return lines with names by the order in which they are met, and the rows of designs and of angles they read.
 
-    What is done with each law of a kind is one function then. A loop that reduces keeps its rows, because what it writes
-    must be told from what it reads, and so does one that reads many.
+    What is done with each law of a kind is one function then. A loop that reduces keeps its rows, because what it
+    writes must be told from what it reads, and so does one that reads many.
     """
     names, rows = dict[str, str](), dict[str, str]()
     lines = re.sub(r"\b([lhtbc])(\d+)\b", lambda one: one[1] + names.setdefault(one[2], str(len(names))), lines)
