@@ -63,6 +63,8 @@ class Grid(NamedTuple):
 
     def earlier(self, by: float) -> NDArray[np.intp] | None:
         """Return where columns stand at each angle earlier by some degrees, or None if the grid has no such ones."""
+        if not by:
+            return np.arange(self.degrees.size)
         if not self.each:
             step = self.cycle / self.degrees.size
             places = by / step
