@@ -207,6 +207,23 @@ def test_a_row_of_the_table_moves_the_cursor_and_explains(opened) -> None:
     assert value.lstrip("−")[:4] in page.locator("#explanation .equation").first.inner_text()
 
 
+def test_keys_go_to_every_cell_of_a_table_and_explain_its_value(opened) -> None:
+    page = opened("spark-engine", reduced_motion="reduce")
+    place = "[document.activeElement.cellIndex, document.activeElement.parentElement.sectionRowIndex]"
+    cells = page.locator("#tables td[tabindex]")
+    cells.focus()
+    (column, row), before = page.evaluate(place), page.locator("#shown").inner_text()
+    for key in ("ArrowDown", "ArrowDown", "ArrowRight", "ArrowRight"):
+        page.keyboard.press(key)
+    assert cells.count() == 1
+    assert page.locator("#shown").inner_text() == before
+    assert page.evaluate(place) == [column + 2, row + 2]
+    value = page.evaluate("document.activeElement.textContent")
+    page.keyboard.press("Enter")
+    assert value.lstrip("−")[:4] in page.locator("#explanation .equation").first.inner_text()
+    assert "here" in (page.locator("#tables tbody tr").nth(row + 2).get_attribute("class") or "")
+
+
 def test_a_curve_is_hidden_by_its_row_of_the_legend(opened) -> None:
     page = opened("v8-diesel")
     figure = page.locator("[data-figure=piston_forces]")

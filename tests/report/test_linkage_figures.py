@@ -685,3 +685,10 @@ def test_every_plan_has_its_number_at_the_crank_pin_and_beside_each_guide(name, 
             apart = max(abs(one.left + one.width / 2 - other.left - other.width / 2) - (one.width + other.width) / 2,
                         abs(one.bottom - other.bottom) - (one.height + other.height) / 2)  # fmt: skip
             assert apart > -0.6, (texts[at].text,)
+
+
+@pytest.mark.parametrize("name", ["velocity_plan", "acceleration_plan", "force_plans"])
+def test_plans_tell_the_names_of_the_links_that_they_number(name):
+    results = analyse(read(Path(__file__).parents[2] / "examples" / "atkinson.toml"))
+    said = [found for one in _said(drawings(results, language="ru")[name]) for found in re.findall(r"\d – (\S+)", one)]
+    assert set(said) >= {"coupler", "rocker", "rod"}

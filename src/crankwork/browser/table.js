@@ -1,10 +1,14 @@
-// Tables over the crank angle: the row of the cursor is marked, a click goes to its point and explains the value.
+// Tables over the crank angle: the row of the cursor is marked, a click goes to its point and explains the value; so does
+// Enter in a cell, to which arrow keys go.
 import { fixed } from "./numbers.js";
 
 /** @typedef {import("./numbers.js").Column} Column */
 /** @typedef {import("./cursor.js").Cursor} Cursor */
 
 /** @typedef {{n: string, k: string[]}} TableData */
+
+/** Columns and rows that a key goes on. @type {Record<string, [number, number]>} */
+const NEAR_CELL = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 /**
  * Show one of some tables, chosen from a list.
@@ -29,6 +33,13 @@ export function showTables(room, tables, columns, cursor, explain, filed) {
     marked?.classList.add("here");
   }
 
+  /** Let the tabulator come to a cell, and to no other. @param {HTMLTableCellElement | undefined} cell */
+  function reach(cell) {
+    if (!cell) return;
+    table.querySelector("td[tabindex]")?.removeAttribute("tabindex");
+    cell.tabIndex = 0;
+  }
+
   function show() {
     const keys = tables[Number(choice.value)].k;
     const heads = keys.map((key) => {
@@ -42,9 +53,24 @@ export function showTables(room, tables, columns, cursor, explain, filed) {
     table.innerHTML = `<thead><tr>${heads.join("")}</tr></thead><tbody>${rows.join("")}</tbody>`;
     table.setAttribute("aria-label", tables[Number(choice.value)].n);
     mark();
+    reach(table.tBodies[0]?.rows[cursor.row]?.cells[0]);
   }
 
   choice.addEventListener("change", show);
+  table.addEventListener("keydown", (event) => {
+    const cell = event.target, step = NEAR_CELL[event.key];
+    if (!(cell instanceof HTMLTableCellElement)) return;
+    if (event.key === "Enter" || event.key === " ") cell.click();
+    else if (!step) return;
+    else {
+      const row = /** @type {HTMLTableRowElement} */ (cell.parentElement).sectionRowIndex + step[1];
+      const next = table.tBodies[0].rows[row]?.cells[cell.cellIndex + step[0]];
+      reach(next);
+      next?.focus();
+    }
+    event.preventDefault();
+    event.stopPropagation();
+  });
   table.addEventListener("click", (event) => {
     const cell = /** @type {Element} */ (event.target).closest("td, th");
     const row = cell?.parentElement;

@@ -38,7 +38,7 @@ from crankwork.sources import cite
 # of a page: height and width of its text, and what may stay empty for a figure that keeps to its section [pt]
 PAGE, _WIDTH, _EMPTY = 728.0, 481.0, 150.0
 # how high blocks may be beside what is estimated, and how much text a figure waits for until it stands anywhere [pt]
-_OFF, _LONG = np.linspace(0.965, 1.035, 15), 2.5 * PAGE
+_OFF, _LONG = np.linspace(0.965, 1.035, 15), 1.5 * PAGE
 # lines of text and of mathematics; what a line of a legend and a fraction have more; what stands after a paragraph [pt]
 _LINE, _MATHS, _ENTRY, _HIGHER, _AFTER = 16.0, 16.4, 2.3, 12.0, 6.0
 _CAPTION, _BEGINS = 17.0 + _LINE, 90.0
@@ -76,7 +76,7 @@ def _left(filled: Array, height: float) -> Array:
 def _stands(filled: Array, figure: float, waited: float) -> bool:
     """Return whether a figure that waits stands here: it leaves little empty, or does so on average and waited long."""
     left = _left(filled, figure)
-    return bool(left.max() <= _EMPTY or (waited > _LONG and left.mean() <= _EMPTY / 2))
+    return bool(left.max() <= _EMPTY or (waited > _LONG and left.mean() <= _EMPTY))
 
 
 def _after(filled: Array, block: Block, height: float) -> Array:

@@ -15,7 +15,15 @@ from crankwork.locale import say
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language
 from crankwork.report.figure_data import figure_title
-from crankwork.report.linkage_look import Style, displayed_values, math_symbol, position_sign, position_text, scale_text
+from crankwork.report.linkage_look import (
+    Style,
+    displayed_values,
+    key_of_links,
+    math_symbol,
+    position_sign,
+    position_text,
+    scale_text,
+)
 from crankwork.show.chart import TOP, Box, Graph, sign
 from crankwork.show.labels import label_marks
 from crankwork.show.paper import GREY, Paper, plain
@@ -47,7 +55,9 @@ def _figure(plans: list[ForcePlan], numbers: dict[str, int], degrees: float, sty
     upright = sum(bool(high > wide) for wide, high in spans)
     columns = 2 if here().width > _TWO and upright > max(1, len(plans) / 2) else 1
     rows = [plans[start : start + columns] for start in range(0, len(plans), columns)]
-    heights = [max(tall(columns * _HIGH), _ROW * max(len(one.forces) for one in row) + _HEAD) for row in rows]
+    heights = [
+        max(tall(columns * _HIGH), _ROW * max(len(one.forces) + len(one.links) for one in row) + _HEAD) for row in rows
+    ]
     paper = Paper(here().width, TOP + sum(heights) + _HEAD * len(rows) + _FOOT)
     top, wide, scales = TOP, here().width / columns, set[float]()
     for row, height in zip(rows, heights, strict=True):
@@ -90,6 +100,9 @@ def _plan(paper: Paper, plan: ForcePlan, place: Box, numbers: dict[str, int], la
         shown = number(float(f"{_size(one):.4g}"), language)
         text = f"{_symbol(one, numbers, language)} = {shown} {unit_name(row.unit, language)}"
         paper.text(left + width, top + _HEAD + 12 + _ROW * count, text, size=8.5)
+    names = {at: name for name, at in numbers.items()}
+    for count, key in enumerate(key_of_links(names, (numbers[one] for one in plan.links if one in numbers))):
+        paper.text(left + width, top + _HEAD + 12 + _ROW * (len(plan.forces) + count), key, size=8.5)
     return scale
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +16,7 @@ from crankwork.quantities import QUANTITIES, Language, Quantity
 from crankwork.report.language import symbol
 from crankwork.show.chart import Box, Graph, round_ticks
 from crankwork.show.paper import GREY, Paper, plain
-from crankwork.show.scene import DASH_DOT
+from crankwork.show.scene import DASH_DOT, printable
 from crankwork.units import from_si
 
 _DIGITS = 4
@@ -50,6 +51,12 @@ def math_symbol(sign: str, power: str = "") -> str:
     if _SIGNS.isdisjoint(index):
         return f"${sign}{power}$"
     return plain(f"{base} {index}") + (f"^{{{power[1:]}}}" if power else "")
+
+
+def key_of_links(names: Mapping[int, str], numbers: Iterable[int]) -> list[str]:
+    """Return which link each number of a plan is, since tables go by names."""
+    told = {one: printable(names[one], 20) for one in numbers if one in names}
+    return [f"{one} – {plain(name)}" for one, name in told.items() if name != str(one)]
 
 
 def position_text(degrees: float, style: Style) -> str:

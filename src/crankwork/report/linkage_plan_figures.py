@@ -17,6 +17,7 @@ from crankwork.report.language import symbol
 from crankwork.report.linkage_look import (
     PLAIN,
     Style,
+    key_of_links,
     math_symbol,
     position_sign,
     position_text,
@@ -94,7 +95,11 @@ def _figure(plan: Plan, kind: _Kind, degrees: float, style: Style, position: int
     room = side - 2 * _MARGIN, max(tall(_TALL) - 2 * _MARGIN, _LOWEST)
     scale = round_scale(float(points_per_mm() * max(width / room[0], height / room[1])))
     unit = points_per_mm() / scale
-    rows = [] if position is not None else _rows(seen, plan, kind, language)
+    rows = (
+        []
+        if position is not None
+        else [*_rows(seen, plan, kind, language), *key_of_links(dict(enumerate(style.links, start=1)), plan.turning)]
+    )
     high = max(float(height) * unit + 2 * _MARGIN, _ROW * len(rows) + 30) + 34
     paper = Paper(here().width, high)
     middle = (places.min(axis=0) + places.max(axis=0)) / 2
