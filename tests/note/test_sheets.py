@@ -275,6 +275,13 @@ def test_every_sheet_is_a_sound_dxf(name):
         assert {round(one, 6) for one in heights} <= {2.5, 3.5, 5.0, 7.0, 10.0, 14.0, 20.0}
 
 
+def test_the_pressure_of_the_surroundings_is_named_at_the_end_of_its_line():
+    drawing = sheets("petrol-four", "ru")[0].figure("indicator").drawing
+    inset = drawing.plots[1].box
+    (place,) = (one.place for one in drawing.items if isinstance(one, Text) and one.text == "/{p}_{0}")
+    assert place[0] == pytest.approx(inset.left + inset.width)
+
+
 def test_what_is_read_at_a_defence_is_as_large_as_that():
     for sheet in sheets("petrol-four", "ru"):
         for figure in sheet.figures:

@@ -73,9 +73,11 @@ def _inset(engine: EngineDrawn, graph: Graph, volume: Array, values: Array) -> G
         return None
     if box.height < _LOWEST:
         return None
+    inset = Graph(graph.paper, box, (0.0, graph.x[1]), ends, engine.language)
+    # on a sheet it is smaller, to a round scale
+    box = inset.box
     corners = box.left - _NUMBERS, box.left + box.width, box.top - 6, box.top + box.height + 6
     graph.paper.area([corners[0], corners[1], corners[1], corners[0]], [*corners[2:3] * 2, *corners[3:] * 2])
-    inset = Graph(graph.paper, box, (0.0, graph.x[1]), ends, engine.language)
     inset.frame(np.array([]), round_ticks(*ends, min(5, round(inset.box.height / 16))))
     inset.curve("gas_exchange", *_within(inset, volume, values))
     graph.paper.text(box.left + box.width, float(inset.down(0.0)) - 3, engine.symbol("ambient_pressure"), size=8,
