@@ -325,7 +325,8 @@ class Trace:
             return self.value(node.of, fixed=(fixed - node.by) % node.cycle)
         if self._is_shifted:
             return self.value(node.of, shift=shift - node.by)
-        return self.graph.delayed(self.value(node.of, shift=shift), node.by)
+        # the end of a cycle is its start for other cylinders, also for one that is no later
+        return self.graph.delayed(self.value(node.of, shift=shift), node.by or node.cycle)
 
     def _pieces(self, known: Known, node: Pieces, of: Any, shift: float, fixed: float | None) -> Value:  # noqa: ANN401
         laws = tuple(self._as_value(of(one)) for one in node.operands)
