@@ -132,8 +132,9 @@ class Histogram:
         if not values.size:
             return cls()
         low, high = float(values.min()), float(values.max())
-        # of equal values a bin as wide as their last digits but ten
-        exponent = max(math.frexp(max(high - low, abs(high), abs(low)) or 1.0)[1] - 44, _FINEST)
+        # of equal values a bin as wide as their last digits but ten, and of nothing the finest
+        size = max(high - low, abs(high), abs(low))
+        exponent = max(math.frexp(size)[1] - 44, _FINEST) if size else _FINEST
         exponent = max(exponent, math.frexp((high - low) / _BINS)[1] - 1 if high > low else exponent)
         while math.floor(high / 2.0**exponent) - math.floor(low / 2.0**exponent) >= _BINS:
             exponent += 1
