@@ -43,7 +43,7 @@ def test_cpp_written_by_hand_does_the_same_work(benchmark, designs, tmp_path):
 
 
 def test_a_v8_is_as_in_cpp_written_by_hand_and_most_of_its_speed(benchmark, tmp_path):
-    """Torque, crankpins and mains: 0.35 of the speed of C++ where columns are made again at every angle, 0.85 now."""
+    """Torque, crankpins and mains: 0.35 of the speed of C++ where columns are made again at every angle."""
     if shutil.which("g++") is None or not isinstance(benchmark["by_cpp"](tmp_path), tuple):
         pytest.skip("g++ or SLEEF is not installed")
     functions = {"ours": (benchmark["v8_kernel"](), 6400), "C++": (benchmark["by_cpp"](tmp_path)[1], 6400)}
