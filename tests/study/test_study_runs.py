@@ -302,7 +302,8 @@ def small_disk(tmp_path):
         return subprocess.run(asked, capture_output=True, check=False).returncode == 0
 
     if os.name != "posix" or os.geteuid() != 0 or not mounted("size=100k"):
-        pytest.skip("only who may mount has a small disk")
+        # nothing that could be installed grants it; a disk full by a stand-in is tested above
+        pytest.xfail("only who may mount has a small disk")
     yield disk, lambda: mounted("remount,size=4m")
     subprocess.run(["umount", "-l", str(disk)], check=True)
 
