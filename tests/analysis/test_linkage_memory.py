@@ -188,3 +188,29 @@ def test_a_machine_that_is_driven_by_gas_has_a_positive_share_of_its_work_in_mot
     assert memory["energy_fluctuation"].value == pytest.approx(
         memory["excess_work"].value / -memory["work_per_cycle"].value
     )
+
+
+DWELLS = """format = 2
+loads = [{ kind = "process", slider = "B", stroke = "growing", force = ["100 N"], acts = "forward" }]
+[guides]
+g1 = { angle = "0 deg" }
+g2 = { angle = "90 deg" }
+[links]
+rod = { joins = ["A", "B"], length = "200 mm" }
+[sliders]
+A = { guide = "g1", pin = "A", mass = "1 kg" }
+B = { guide = "g2", pin = "B", mass = "20 kg" }
+[driver]
+slider = "A"
+start = "50 mm"
+law = [{ kind = "parabolic", to = "100 mm", over = 0.5 }, { kind = "dwell", over = 0.5 }]
+period = "2 s"
+"""
+
+
+def test_force_and_acceleration_break_together_where_the_driver_comes_to_rest():
+    results = analyse(read_machine(DWELLS))
+    before, at, after = (float(results.value("joint_force.B", time)) for time in (1 - 1e-9, 1.0, 1 + 1e-9))
+    assert after == pytest.approx(100 / math.cos(math.pi / 6), rel=1e-12)  # at rest the rod alone bears the force
+    assert at == pytest.approx(before, rel=1e-6)
+    assert results.summary["joint_force_max.B"] == pytest.approx(after, rel=1e-12)

@@ -10,6 +10,7 @@ import numpy as np
 
 from crankwork.formula.expression import Value
 from crankwork.formula.known import Known, Pieces, absent, given, is_known, named
+from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.memory import angle_of, course_of
 from crankwork.kinematics.motion import Motion
 from crankwork.loads.applied import AppliedLoads, check_name, force_along_guide, force_at, torque_on
@@ -132,14 +133,20 @@ def _remembered(load: ProcessForce | ProcessForceAtPoint, way: _Way, motion: Mot
     over = course({"": way.position_1})
     (*ends, last), is_back = over.stretches("")
     # at rest it acts: a stretch on the way back does not own its end
-    ends = [_rounded(end, back=back) for end, back in zip(ends, is_back, strict=False)]
+    ends = [_rounded(end, over.breaks, back=back) for end, back in zip(ends, is_back, strict=False)]
     if is_back[-1] and not is_back[0]:
         ends, is_back = [*ends, math.nextafter(last, 0.0)], [*is_back, False]
     return Known(Pieces([*ends, last], tuple(absent(key) if back else force for back in is_back)), key)
 
 
-def _rounded(end: float, *, back: bool) -> float:
-    """Return where a stretch ends, a decimal where rounding alone keeps it from being one. [deg]"""
+def _rounded(end: float, breaks: Array, *, back: bool) -> float:
+    """Return where a stretch ends, a decimal where rounding alone keeps it from being one. [deg]
+
+    Where the law of the driver breaks, force and acceleration belong to the same side of it.
+    """
+    law = float(breaks[np.argmin(np.abs(breaks - end))])
+    if abs(law - end) < _AT_REST:
+        return law
     near = round(end, _DECIMALS)
     end = near if abs(near - end) < _AT_REST else end
     return math.nextafter(end, 0.0) if back else end
