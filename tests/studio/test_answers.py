@@ -21,7 +21,7 @@ def rows_of(answer):
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_every_example_opens_with_what_the_command_line_finds(path):
     answer = Studio("en", str(path), path.parent, reads=True).answer(
-        {"do": "show", "text": path.read_text("utf-8"), "figures": []}
+        {"do": "show", "text": path.read_text("utf-8"), "figures": None}
     )
     results = crankwork.analyse(crankwork.read(path))
     assert answer["refusals"] == []
@@ -35,18 +35,18 @@ def test_every_example_opens_with_what_the_command_line_finds(path):
 def test_a_field_typed_as_it_stands_changes_nothing(name):
     text = template(name)
     studio = Studio("en")
-    for key, row in rows_of(studio.answer({"do": "show", "text": text, "figures": []})).items():
-        found = studio.answer({"do": "set", "text": text, "fields": {key: row["value"]}, "figures": []})
+    for key, row in rows_of(studio.answer({"do": "show", "text": text, "figures": None})).items():
+        found = studio.answer({"do": "set", "text": text, "fields": {key: row["value"]}, "figures": None})
         assert found["text"] == text, key
 
 
 def test_a_field_changes_in_the_text_and_keeps_what_is_said_beside_it():
     text = template("engine")
-    found = Studio("en").answer({"do": "set", "text": text, "fields": {"crank.radius": "47,5 mm"}, "figures": []})
+    found = Studio("en").answer({"do": "set", "text": text, "fields": {"crank.radius": "47,5 mm"}, "figures": None})
     assert 'radius = "47,5 mm"' in found["text"]
     assert found["text"].count("#") == text.count("#")
     assert "decimal" in found["refusals"][0]["text"]
-    whole = Studio("en").answer({"do": "set", "text": text, "fields": {"crank.radius": "47.5 mm"}, "figures": []})
+    whole = Studio("en").answer({"do": "set", "text": text, "fields": {"crank.radius": "47.5 mm"}, "figures": None})
     assert whole["summary"]["stroke"] == pytest.approx(0.095)
 
 
@@ -56,7 +56,7 @@ def test_what_is_refused_is_told_as_the_command_line_tells_it(typed, language, t
     from crankwork.locale import told
 
     found = Studio(language, "machine.toml").answer(
-        {"do": "set", "text": template("engine"), "fields": {"crank.radius": typed}, "figures": []}
+        {"do": "set", "text": template("engine"), "fields": {"crank.radius": typed}, "figures": None}
     )
     with pytest.raises(crankwork.InputError) as error:
         crankwork.read_machine(found["text"], "machine.toml")
@@ -68,7 +68,7 @@ def test_what_is_refused_is_told_as_the_command_line_tells_it(typed, language, t
 
 
 def test_text_that_is_no_toml_is_refused_at_its_line():
-    found = Studio("en").answer({"do": "show", "text": "[crank]\nradius = 45 mm\n", "figures": []})
+    found = Studio("en").answer({"do": "show", "text": "[crank]\nradius = 45 mm\n", "figures": None})
     assert [one["line"] for one in found["refusals"]] == [2]
     assert "form" not in found
 
@@ -87,7 +87,7 @@ def test_a_shared_machine_comes_back_whole_and_a_damaged_one_is_refused():
 
 def test_files_that_a_text_names_are_read_only_where_that_is_allowed(tmp_path):
     text = template("engine").replace("[gas]", '[gas]\n[gas.measured]\nfile = "/etc/hostname"\n[spare]', 1)
-    asked = {"do": "show", "text": text, "figures": []}
+    asked = {"do": "show", "text": text, "figures": None}
     studio = Studio("en")
     assert studio.answer(asked)["named"] == ["/etc/hostname"]
     assert studio.answer(asked)["refusals"] == []

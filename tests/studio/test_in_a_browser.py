@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from crankwork.description.machine_file import template
+
 AXE = Path(sys.prefix) / "node" / "node_modules" / "axe-core" / "axe.min.js"
 
 
@@ -102,7 +104,14 @@ def test_text_is_typed_and_the_form_follows(seen):
     page.wait_for_selector("body:not(.stale)")
     page.locator("#form-tab").click()
     assert field(page, "crank.speed").input_value() == "250 rpm"
-    page.locator("#source").evaluate("one => one.value")
+    page.locator("#text-tab").click()
+    page.locator("#source").press("Control+End")
+    shown = page.locator("#shown").inner_text()
+    page.keyboard.type("# two words")
+    page.keyboard.press("ArrowLeft")
+    page.keyboard.type("k")
+    assert source(page).endswith("# two wordks")
+    assert page.locator("#shown").inner_text() == shown
 
 
 def test_the_machine_is_dragged_along_its_freedom_and_a_length_with_shift(seen):
@@ -183,8 +192,8 @@ def test_a_machine_is_exported_shared_and_opened_again(seen, tmp_path):
         page.select_option("#export", "tables.xlsx")
     assert Path(download.value.path()).read_bytes().startswith(b"PK")
     page.locator("#share").click()
-    page.wait_for_function("() => document.getElementById('notice').textContent.includes('crankwork:')")
-    word = page.locator("#notice").inner_text().split()[-1]
+    page.wait_for_selector("#notice:not([hidden])")
+    word = page.evaluate("navigator.clipboard.readText()")
     from crankwork.studio.answers import opened_share
 
     assert opened_share(word) == source(page)
@@ -319,3 +328,82 @@ def test_digits_set_the_length_of_the_next_link(seen):
     page.mouse.dblclick(*at(150, 120))
     page.wait_for_function("() => document.getElementById('source').value.includes('[positions]')")
     assert 'radius = "32.5 mm"' in source(page)
+
+
+def test_what_was_opened_from_elsewhere_is_not_saved_over_the_file(seen, start, tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(template("four-bar"), encoding="utf-8")
+    with start(tmp_path, str(path)) as one:
+        page = seen(one)
+        field(page, "crank.speed").fill("90 rpm")
+        field(page, "crank.speed").press("Enter")
+        settled(page)
+        page.locator("#title").click()
+        page.keyboard.press("Control+s")
+        page.wait_for_function("() => document.getElementById('notice').textContent.startsWith('Saved')")
+        mine = path.read_text("utf-8")
+        assert '"90 rpm"' in mine
+        begin(page, "engine")
+        with page.expect_download() as download:
+            page.locator("#save").click()
+        assert "[cylinder]" in Path(download.value.path()).read_text("utf-8")
+        assert path.read_text("utf-8") == mine
+        # undone, it is the file again
+        page.locator("#undo").click()
+        settled(page)
+        page.locator("#save").click()
+        page.wait_for_function("() => document.getElementById('notice').textContent.startsWith('Saved')")
+        assert path.read_text("utf-8") == mine
+
+
+def test_a_chain_goes_on_from_a_pin_and_keeps_what_was_typed(seen):
+    page = seen()
+    at = canvas(page)
+    for x, y in ((60, 120), (60, 90), (140, 60)):
+        page.mouse.click(*at(x, y))
+    page.mouse.dblclick(*at(150, 120))
+    page.wait_for_function("() => document.getElementById('source').value.includes('radius = \"30 mm\"')")
+    settled(page)
+    field(page, "crank.speed").fill("300 rpm")
+    field(page, "crank.speed").press("Enter")
+    settled(page)
+    at = canvas(page)
+    page.mouse.click(*at(140, 60))
+    page.mouse.click(*at(200, 60))
+    page.mouse.dblclick(*at(210, 120))
+    page.wait_for_function("() => document.getElementById('source').value.includes('\\n5 = ')")
+    settled(page)
+    assert '"300 rpm"' in source(page)
+    assert page.locator("#refusals li").count() == 0
+    assert page.locator('#film [data-part^="link."]').count() == 5
+
+
+def test_a_mass_comes_with_its_place(seen):
+    page = seen()
+    at = canvas(page)
+    for x, y in ((60, 120), (60, 90), (140, 60)):
+        page.mouse.click(*at(x, y))
+    page.mouse.dblclick(*at(150, 120))
+    page.wait_for_function("() => document.getElementById('source').value.includes('radius = \"30 mm\"')")
+    settled(page)
+    page.get_by_label("Add a field ... links.2", exact=True).select_option("links.2.mass")
+    settled(page)
+    assert page.locator("#refusals li").count() == 0
+    assert (
+        page.locator("#add option[value=torques]").count() + page.locator('.figures [data-name="torques"]').count() == 1
+    )
+
+
+def test_what_is_typed_while_an_answer_is_under_way_stays(seen):
+    page = seen()
+    begin(page, "whole-engine")
+    field(page, "crank.speed").fill("5000 rpm")
+    field(page, "crank.speed").press("Enter")
+    field(page, "rod.ratio").fill("0.3")
+    field(page, "rod.ratio").press("Enter")
+    page.locator("#text-tab").click()
+    page.locator("#source").evaluate("one => { one.value += '# more'; one.dispatchEvent(new Event('input')); }")
+    page.wait_for_timeout(1000)
+    settled(page)
+    text = source(page)
+    assert all(one in text for one in ('"5000 rpm"', "ratio = 0.3", "# more"))

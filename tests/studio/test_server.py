@@ -47,6 +47,9 @@ def test_who_asks_by_another_name_or_without_the_token_is_refused(started):
     assert asked(started, "/", Cookie="")[0] == 401
     assert asked(started, "/", Cookie="crankwork-1=abc")[0] == 401
     assert asked(started, "/?token=wrong", Cookie="")[0] == 401
+    # a cookie of a server that had this port before keeps nobody out
+    port = started.address.rpartition(":")[2].rstrip("/")
+    assert asked(started, f"/?token={started.token}", Cookie=f"crankwork-{port}=old")[0] == 303
     assert asked(started, "/export", "POST", body)[0] == 403
     assert asked(started, "/export", "POST", body, Origin="http://crankwork.example")[0] == 403
     assert asked(started, "/export", "POST", body, Origin=own)[0] == 200

@@ -27,7 +27,7 @@ export function bar(cursor, axis, seconds, turns) {
   });
   document.addEventListener("keydown", (event) => {
     const target = /** @type {Element} */ (event.target);
-    if (event.ctrlKey || event.altKey || event.metaKey || target.closest("input, select, button, summary, [role=button]")) return;
+    if (event.ctrlKey || event.altKey || event.metaKey || target.closest("input, select, textarea, button, summary, [role=button]")) return;
     if (event.key === "ArrowRight") cursor.step(1);
     else if (event.key === "ArrowLeft") cursor.step(-1);
     else if (event.key === "Home") cursor.snap(cursor.rows[0]);

@@ -22,8 +22,10 @@ export class Drag {
     this.tells = tells;
     /** @type {string} */
     this.part = "";
-    /** @type {{handle: Handle, from: [number, number], length: number, text: string} | undefined} */
+    /** @type {{handle: Handle, at: [number, number], way: [number, number], length: number, text: string} | undefined} */
     this.size = undefined;
+    /** From the screen to the drawing, as it was when the drag began. @type {DOMMatrix | undefined} */
+    this.matrix = undefined;
     room.addEventListener("pointerdown", (event) => this.start(event));
     room.addEventListener("pointermove", (event) => this.move(event));
     for (const end of ["pointerup", "pointercancel"]) room.addEventListener(end, () => this.end());
@@ -35,9 +37,7 @@ export class Drag {
    * @returns {[number, number]}
    */
   place(event) {
-    const matrix = this.tells.film()?.svg.getScreenCTM();
-    if (!matrix) return [0, 0];
-    const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(matrix.inverse());
+    const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(this.matrix);
     return [x, y];
   }
 
@@ -45,6 +45,7 @@ export class Drag {
   start(event) {
     const film = this.tells.film();
     if (event.button || !film || !(/** @type {Element} */ (event.target)).closest("svg")) return;
+    this.matrix = film.svg.getScreenCTM()?.inverse();
     const at = this.place(event);
     if (event.shiftKey) this.startSize(film, at);
     else this.startFreedom(film, at);
@@ -79,10 +80,12 @@ export class Drag {
     for (const handle of this.tells.handles()) {
       const [from, to] = [handle.from, handle.to].map((one) => film.place(one, now));
       if (!from || !to) continue;
-      const apart = beside(at, from, to);
-      if (apart >= best) continue;
+      const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
+      // of links that meet the one is meant that ends there
+      const apart = beside(at, from, to) + 0.02 * Math.hypot(to[0] - at[0], to[1] - at[1]);
+      if (apart >= best || !length) continue;
       best = apart;
-      this.size = { handle, from, length: Math.hypot(to[0] - from[0], to[1] - from[1]), text: "" };
+      this.size = { handle, at, way: [(to[0] - from[0]) / length, (to[1] - from[1]) / length], length, text: "" };
     }
   }
 
@@ -120,8 +123,9 @@ export class Drag {
   /** @param {[number, number]} at */
   resize(at) {
     if (!this.size) return;
-    const { handle, from, length } = this.size;
-    const number = handle.number * (Math.hypot(at[0] - from[0], at[1] - from[1]) / length) ** handle.power;
+    const { handle, at: start, way, length } = this.size;
+    const more = (at[0] - start[0]) * way[0] + (at[1] - start[1]) * way[1];
+    const number = handle.number * Math.max(1 + more / length, 0.02) ** handle.power;
     const text = `${Number(number.toPrecision(3))}${handle.unit ? ` ${handle.unit}` : ""}`;
     if (text === this.size.text) return;
     this.size.text = text;
@@ -130,6 +134,7 @@ export class Drag {
   }
 
   end() {
+    if (!this.part && !this.size) return;
     if (this.size?.text) this.tells.sized(this.size.handle.key, this.size.text, true);
     this.tells.said("");
     this.part = "";

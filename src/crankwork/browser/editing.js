@@ -1,6 +1,6 @@
 // One machine file, whoever changes it: its text, and one entry of its history for each gesture.
 
-/** @typedef {{name: string, text: string}} Entry */
+/** An entry: what made it, its text, the file that it is saved to. @typedef {{name: string, text: string, path: string}} Entry */
 
 const LONGEST = 200;
 
@@ -12,6 +12,8 @@ export class Editing {
     this.entries = [];
     this.at = -1;
     this.text = "";
+    /** The file that this text is saved to, none for one that came from elsewhere. */
+    this.path = "";
   }
 
   /**
@@ -29,7 +31,7 @@ export class Editing {
    */
   commit(name) {
     if (this.entries[this.at]?.text === this.text) return;
-    this.entries = [...this.entries.slice(0, this.at + 1), { name, text: this.text }].slice(-LONGEST);
+    this.entries = [...this.entries.slice(0, this.at + 1), { name, text: this.text, path: this.path }].slice(-LONGEST);
     this.at = this.entries.length - 1;
     this.changed(this);
   }
@@ -47,6 +49,7 @@ export class Editing {
     const entry = this.entries[this.at + by];
     if (!entry) return false;
     this.at += by;
+    this.path = entry.path;
     this.take(entry.text);
     return true;
   }

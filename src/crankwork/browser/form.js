@@ -2,15 +2,16 @@
 
 /**
  * A field: key, name and meaning, what stands in it; a choice has options, a number what a slider goes by.
- * @typedef {{key: string, name: string, value: string, means?: string, options?: string[], number?: number, unit?: string,
+ * @typedef {{key: string, name: string, value: string, also?: Record<string, string>, means?: string, options?: string[], number?: number, unit?: string,
  *   low?: number, high?: number, whole?: boolean}} Row
  */
 
 /** @typedef {{path: string, means: string, rows: Row[], more: Row[]}} Group */
 
 /**
- * What a form tells: a field as typed, whether its gesture goes on; a field that goes; one that is looked at.
- * @typedef {{typed: (key: string, value: string, ends: boolean) => void, gone: (key: string) => void}} Tells
+ * What a form tells: a field as typed, whether its gesture has ended; a field that goes; fields that come.
+ * @typedef {{typed: (key: string, value: string, ends: boolean) => void, gone: (key: string) => void,
+ *   added: (fields: Record<string, string>) => void}} Tells
  */
 
 export class Form {
@@ -30,10 +31,11 @@ export class Form {
 
   /** @param {Group[]} groups */
   show(groups) {
-    const shape = JSON.stringify(groups.map(({ path, rows, more }) => [path, rows.map(({ key, options }) => [key, options]), more.map(({ key }) => key)]));
-    if (shape !== this.shape) this.build(groups);
+    const shape = JSON.stringify(groups.map(({ path, rows, more }) => [path, rows.map(({ key, options, number }) => [key, options, number === undefined]), more.map(({ key }) => key)]));
+    const fresh = shape !== this.shape;
+    if (fresh) this.build(groups);
     this.shape = shape;
-    for (const row of groups.flatMap((group) => group.rows)) this.fill(row);
+    for (const row of groups.flatMap((group) => group.rows)) this.fill(row, fresh);
   }
 
   /** @param {Group[]} groups */
@@ -62,7 +64,7 @@ export class Form {
       more.append(new Option(this.words.more, ""), ...group.more.map((one) => new Option(one.name, one.key)));
       more.addEventListener("change", () => {
         const one = group.more.find(({ key }) => key === more.value);
-        if (one) this.tells.typed(one.key, one.value, true);
+        if (one) this.tells.added({ ...one.also, [one.key]: one.value });
       });
     }
     return made;
@@ -120,12 +122,21 @@ export class Form {
     return slider;
   }
 
-  /** @param {Row} row */
-  fill(row) {
+  /**
+   * @param {Row} row
+   * @param {boolean} fresh
+   */
+  fill(row, fresh) {
     const field = this.field(row.key);
-    if (field && this.held !== row.key && (field !== document.activeElement || field instanceof HTMLSelectElement)) field.value = row.value;
+    if (field && this.held !== row.key && (fresh || field !== document.activeElement || field instanceof HTMLSelectElement)) field.value = row.value;
     const slider = /** @type {HTMLInputElement | null} */ (this.room.querySelector(`[data-slides="${CSS.escape(row.key)}"]`));
     if (!slider || this.held === row.key || row.number === undefined) return;
+    slider.dataset.unit ??= row.unit ?? "";
+    // a thumb stays where it was left
+    if (slider.min && slider.dataset.unit === (row.unit ?? "") && row.number >= Number(slider.min) && row.number <= Number(slider.max)) {
+      slider.value = String(row.number);
+      return;
+    }
     const [low, high, step] = reach(row.number, row.low ?? -Infinity, row.high ?? Infinity, row.whole ?? false);
     [slider.min, slider.max, slider.step] = [low, high, step].map(String);
     slider.value = String(row.number);

@@ -100,11 +100,12 @@ export class Sketch {
     }
     this.typed = "";
     const there = this.near();
-    if (there && there === this.last) return;
-    const pin = there ?? this.add(!this.last);
-    if (this.last) this.links.push([this.last.name, pin.name]);
+    const before = this.last;
+    if (there && there === before) return;
+    const pin = there ?? this.add(!before);
+    if (before) this.links.push([before.name, pin.name]);
     this.last = pin;
-    if (there && this.links.length > 1) this.finish();
+    if (there && before && this.links.length > 1) this.finish();
     this.draw();
   }
 
@@ -154,9 +155,10 @@ export class Sketch {
     const moves = /** @type {Record<string, number[]>} */ ({ ArrowLeft: [-by, 0], ArrowRight: [by, 0], ArrowUp: [0, -by], ArrowDown: [0, by] });
     const pin = this.near();
     if (moves[event.key]) this.at = this.at.map((one, k) => one + moves[event.key][k]);
-    else if (event.key === "Enter" && (event.ctrlKey || pin === this.last) && this.last) this.end();
-    else if (event.key === "Enter") this.click();
-    else if (event.key === "Escape" || event.key === "Backspace") this.back();
+    else if (event.key === "Enter") {
+      if (pin !== this.last || !pin) this.click();
+      if (event.ctrlKey || pin === this.last) this.end();
+    } else if (["Escape", "Backspace", "Delete"].includes(event.key) || (event.ctrlKey && event.key === "z")) this.back();
     else if (/^[\d.,]$/.test(event.key)) this.typed += event.key;
     else if (pin && /^[gs]$/i.test(event.key)) this.change(pin, event.key.toLowerCase());
     else if (/^p$/i.test(event.key) && this.links.length && !this.last) {
@@ -177,7 +179,9 @@ export class Sketch {
   change(pin, kind) {
     if (kind === "g") pin.ground = !pin.ground;
     else {
-      pin.slides = pin.slides === undefined ? 0 : undefined;
+      const [origin] = this.pins;
+      const across = Math.abs(pin.x - origin.x) >= Math.abs(pin.y - origin.y);
+      pin.slides = pin.slides === undefined ? (across ? 0 : 90) : undefined;
       pin.ground = false;
     }
     if (!this.last) this.drawn(this.pins, this.links);
@@ -192,7 +196,12 @@ export class Sketch {
       if (link?.includes(pin.name)) this.links.pop();
       if (!this.links.some((one) => one.includes(pin.name))) this.pins = this.pins.filter((one) => one !== pin);
       this.last = link && this.pins.length ? this.pin(link[0] === pin.name ? link[1] : link[0]) : undefined;
-    } else this.links.pop();
+    } else {
+      // a link goes with the pins that it leaves alone
+      this.links.pop();
+      const held = new Set(this.links.flat());
+      this.pins = this.links.length ? this.pins.filter(({ name }) => held.has(name)) : [];
+    }
     this.draw();
   }
 
@@ -216,7 +225,7 @@ export class Sketch {
       const name = mark("text", { x: pin.x + 3, y: pin.y - 3 });
       name.textContent = pin.name;
       const ground = mark("path", { d: `M${pin.x} ${pin.y}l-4 7h8z` });
-      const guide = mark("path", { d: `M${pin.x - 7} ${pin.y + 4}h14M${pin.x - 5} ${pin.y - 3}h10v6h-10z` });
+      const guide = mark("path", { d: `M${pin.x - 7} ${pin.y + 4}h14M${pin.x - 5} ${pin.y - 3}h10v6h-10z`, transform: `rotate(${-(pin.slides ?? 0)} ${pin.x} ${pin.y})` });
       return [...(pin.ground ? [ground] : []), ...(pin.slides === undefined ? [] : [guide]), circle, name];
     });
     const [x, y] = this.at;

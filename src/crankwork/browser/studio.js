@@ -29,8 +29,8 @@ class StudioPage {
   constructor() {
     /** @type {Record<string, string>} */
     this.words = JSON.parse(room("words").textContent ?? "{}");
-    /** @type {string[]} */
-    this.wanted = [];
+    /** Names of the diagrams that are seen, those of its own choice at first. @type {string[] | null} */
+    this.wanted = null;
     /** @type {import("./pins.js").Pinned[]} */
     this.pins = [];
     /** @type {Cursor | undefined} */
@@ -40,8 +40,9 @@ class StudioPage {
     /** @type {Answer} */
     this.seen = {};
     this.reads = false;
+    /** How many machines were opened. */
+    this.opened = 0;
     this.kept = 0;
-    this.path = "";
     /** @type {Sketch | undefined} */
     this.sketch = undefined;
     /** What was drawn last. @type {{pins: any, links: any} | undefined} */
@@ -51,7 +52,8 @@ class StudioPage {
     this.editor = new Editor(room("source"), room("lines"), (text, ends) => this.typed(text, ends));
     this.form = new Form(room("form"), this.words, {
       typed: (key, value, ends) => this.set(key, value, ends),
-      gone: (key) => this.talk.ask({ do: "without", key, named: `− ${key}` }),
+      gone: (key) => this.talk.ask({ do: "without", key, of: this.opened, figures: this.wanted, reads: this.reads, named: `− ${key}` }),
+      added: (fields) => this.talk.ask({ do: "set", fields, of: this.opened, figures: this.wanted, reads: this.reads, named: `+ ${Object.keys(fields).join(", ")}` }),
     });
     this.drag = new Drag(room("film"), {
       film: () => this.film,
@@ -67,8 +69,9 @@ class StudioPage {
 
   /** @param {Editing} editing */
   edited(editing) {
-    sessionStorage.setItem("text", editing.text);
+    this.keep();
     this.editor.show(editing.text);
+    room("save").title = editing.path;
     const [undo, redo] = editing.names;
     for (const [id, name] of [["undo", undo], ["redo", redo]]) {
       const button = /** @type {HTMLButtonElement} */ (room(id));
@@ -77,13 +80,39 @@ class StudioPage {
     }
   }
 
+  /** Keep what is here beyond a reload: the document with its last steps, variants, diagrams. */
+  keep() {
+    const { text, path, entries, at } = this.editing;
+    const first = Math.max(0, at - 30);
+    const kept = { text, path, entries: entries.slice(first, at + 1), wanted: this.wanted, pins: this.pins };
+    try {
+      sessionStorage.setItem("studio", JSON.stringify(kept));
+    } catch {
+      // there is no room for the steps
+      sessionStorage.setItem("studio", JSON.stringify({ ...kept, entries: [], pins: [] }));
+    }
+  }
+
+  /** Take up what was here before a reload; return whether there was something. */
+  resume() {
+    const kept = JSON.parse(sessionStorage.getItem("studio") ?? "null");
+    if (!kept?.text) return false;
+    Object.assign(this, { wanted: kept.wanted, pins: kept.pins });
+    Object.assign(this.editing, { entries: kept.entries, at: kept.entries.length - 1, path: kept.path });
+    this.editing.take(kept.text);
+    this.editing.commit(this.words.text);
+    this.listPins();
+    this.show();
+    return true;
+  }
+
   /**
    * @param {string} key
    * @param {string} value
    * @param {boolean} ends
    */
   set(key, value, ends) {
-    this.talk.ask({ do: "set", fields: { [key]: value }, figures: this.wanted, reads: this.reads, named: ends ? `${key} = ${value}` : "" });
+    this.talk.ask({ do: "set", fields: { [key]: value }, of: this.opened, figures: this.wanted, reads: this.reads, named: ends ? `${key} = ${value}` : "" });
   }
 
   /**
@@ -92,7 +121,7 @@ class StudioPage {
    */
   typed(text, ends) {
     this.editing.text = text;
-    sessionStorage.setItem("text", text);
+    this.keep();
     if (ends) this.editing.commit(this.words.text);
     this.show();
   }
@@ -105,10 +134,11 @@ class StudioPage {
    * Take a text that comes from elsewhere.
    * @param {string} text
    * @param {string} name
+   * @param {string} path the file that it is saved to
    */
-  open(text, name) {
-    this.wanted = [];
-    this.form.shape = "";
+  open(text, name, path = "") {
+    this.fresh();
+    this.editing.path = path;
     this.editing.take(text);
     this.editing.commit(name);
     this.show();
@@ -121,16 +151,19 @@ class StudioPage {
   heard(answer, question) {
     if (answer.n === undefined) {
       // what this page had when it was left comes before the file
-      const own = sessionStorage.getItem("text");
-      this.path = answer.path ?? "";
-      room("save").title = this.path;
-      if (this.editing.at < 0) this.open(own ?? answer.text ?? "", this.words.open);
-      else this.show();
+      if (this.editing.at >= 0) this.show();
+      else if (!this.resume()) this.open(answer.text ?? "", this.words.open, answer.path);
       return;
     }
     if (question?.do === "explain" && answer.memories) return this.explain(answer);
     if (question?.do === "save") return this.saved(answer);
     if (question?.do === "disk") return this.disk(answer);
+    if (answer.long) return this.refused([{ key: "", line: 0, text: this.words.long }]);
+    if (question && ["set", "without", "sketch"].includes(question.do) && question.base !== this.editing.text) {
+      // the text went on meanwhile: what was asked for is done to what it is now, if it is the same machine
+      if (question.named && question.of === this.opened) this.talk.ask(question);
+      return;
+    }
     if (answer.text !== undefined) this.editing.take(answer.text);
     if (question?.do === "sketch" && answer.data) this.drawing(false);
     if (question?.named) this.editing.commit(String(question.named));
@@ -184,13 +217,17 @@ class StudioPage {
     const place = room("notice");
     place.hidden = !text;
     place.textContent = text;
-    if (!way) return;
-    const button = place.appendChild(document.createElement("button"));
-    button.textContent = way;
-    button.addEventListener("click", () => {
-      place.hidden = true;
-      go();
-    });
+    const add = (/** @type {string} */ name, /** @type {() => void} */ act) => {
+      const button = place.appendChild(document.createElement("button"));
+      button.textContent = name;
+      button.addEventListener("click", () => {
+        place.hidden = true;
+        act();
+      });
+      return button;
+    };
+    if (way) add(way, go);
+    add("×", () => {}).setAttribute("aria-label", this.words.dismiss);
   }
 
   /** @param {Answer} answer */
@@ -287,7 +324,7 @@ class StudioPage {
     close.textContent = "×";
     close.setAttribute("aria-label", `${this.words.without} ${title}`);
     close.addEventListener("click", () => {
-      this.wanted = this.wanted.filter((one) => one !== name);
+      this.wanted = (this.wanted ?? []).filter((one) => one !== name);
       made.remove();
       this.show();
     });
@@ -356,16 +393,18 @@ class StudioPage {
 
   /** @param {Answer} answer */
   saved(answer) {
-    if (answer.saved) return this.notice("");
-    if (answer.conflict) {
+    if (answer.saved) this.notice(`${this.words.saved} ${answer.saved}`);
+    else if (answer.conflict) {
       this.notice(`${answer.conflict}: ${this.words.conflict}`, this.words.anyway, () => this.talk.ask({ do: "save", anyway: true }));
-    } else if (answer.refusals) this.download("machine.toml", new Blob([this.editing.text]));
+    } else this.notice(answer.refusals?.[0]?.text ?? "");
   }
 
   /** @param {Answer} answer */
   disk(answer) {
-    if (answer.text !== undefined) this.open(answer.text, this.words.reread);
-    else if (answer.changed) this.notice(`${this.path}: ${this.words.changed}`, this.words.reread, () => this.talk.ask({ do: "disk", take: true }));
+    const { path } = this.editing;
+    if (answer.text !== undefined) this.open(answer.text, this.words.reread, path);
+    else if (answer.gone) this.notice(`${path}: ${this.words.gone}`, this.words.save, () => this.talk.ask({ do: "save", anyway: true }));
+    else if (answer.changed) this.notice(`${path}: ${this.words.changed}`, this.words.reread, () => this.talk.ask({ do: "disk", take: true }));
   }
 
   /**
@@ -375,7 +414,7 @@ class StudioPage {
   drawing(begins) {
     room("draw").setAttribute("aria-pressed", String(begins));
     const hint = /** @type {HTMLElement} */ (room("machine").querySelector(".hint"));
-    hint.textContent = begins ? this.words.sketch : this.words.hint;
+    hint.textContent = begins ? this.words.sketch : `${this.words.hint} ${this.drawn ? this.words.sketch_again : ""}`;
     if (!begins) {
       this.sketch = undefined;
       this.chip("");
@@ -385,9 +424,9 @@ class StudioPage {
     this.motion?.stop();
     this.film = undefined;
     const ask = (/** @type {any} */ pins, /** @type {any} */ links) => {
+      const again = Boolean(this.drawn);
       this.drawn = { pins, links };
-      this.wanted = [];
-      this.talk.ask({ do: "sketch", pins, links, named: this.words.draw });
+      this.talk.ask({ do: "sketch", pins, links, again, of: this.opened, figures: again ? this.wanted : null, named: this.words.draw });
     };
     this.sketch = new Sketch(room("film"), this.words, ask, (text) => this.chip(text));
     if (this.drawn) this.sketch.take(this.drawn.pins, this.drawn.links);
@@ -439,6 +478,7 @@ class StudioPage {
     const svgs = /** @type {NodeListOf<SVGSVGElement>} */ (room("diagrams").querySelectorAll("svg.drawing"));
     const pinned = { text: this.editing.text, summary: this.seen.summary, curves: curvesOf(svgs, this.seen.data.figures) };
     this.pins = [...this.pins, pinned].slice(-MOST_PINS);
+    this.keep();
     this.listPins();
     this.draw(this.seen);
   }
@@ -469,13 +509,16 @@ class StudioPage {
     const on = (/** @type {string} */ id, /** @type {() => void} */ act) => room(id).addEventListener("click", act);
     on("undo", () => this.editing.step(-1) && this.show());
     on("redo", () => this.editing.step(1) && this.show());
-    on("save", () => this.talk.ask({ do: "save" }));
+    on("save", () => {
+      if (this.editing.path) this.talk.ask({ do: "save" });
+      else this.download("machine.toml", new Blob([this.editing.text]));
+    });
     on("pin", () => this.pin());
     on("draw", () => this.drawing(!this.sketch));
     on("share", async () => {
       const word = await this.shared();
-      await navigator.clipboard?.writeText(word).catch(() => {});
-      this.notice(`${this.words.copied} ${word}`);
+      const copied = await navigator.clipboard?.writeText(word).then(() => true, () => false);
+      this.notice(copied ? this.words.copied : `${this.words.share}: ${word}`);
     });
     for (const name of ["form", "text"]) on(`${name}-tab`, () => this.tab(name));
     this.tab("form");
@@ -488,15 +531,19 @@ class StudioPage {
     });
     this.bindChoices();
     document.addEventListener("keydown", (event) => {
-      if (!(event.ctrlKey || event.metaKey) || event.altKey || event.target === room("source")) return;
+      if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
       const key = event.key.toLowerCase();
+      const typing = /** @type {HTMLElement} */ (event.target).matches("textarea, input:not([type=range])");
+      if (typing && key !== "s") return;
+      // what is typed in a field counts
+      if (typing) /** @type {HTMLElement} */ (event.target).blur();
       if (key === "z") room(event.shiftKey ? "redo" : "undo").click();
       else if (key === "y") room("redo").click();
       else if (key === "s") room("save").click();
       else return;
       event.preventDefault();
     });
-    addEventListener("focus", () => this.path && this.talk.ask({ do: "disk" }));
+    addEventListener("focus", () => this.editing.path && this.talk.ask({ do: "disk" }));
     document.addEventListener("paste", (event) => {
       const word = event.clipboardData?.getData("text").trim() ?? "";
       const inside = /** @type {Element} */ (event.target).closest("input, textarea");
@@ -508,10 +555,19 @@ class StudioPage {
 
   /** @param {Question} question a text from elsewhere, whose files are not read unasked */
   take(question) {
+    this.fresh();
+    this.editing.path = "";
+    this.talk.ask({ ...question, named: this.words.open });
+  }
+
+  /** Forget what belongs to the machine before: choices, what was drawn, what may be read. */
+  fresh() {
+    this.opened += 1;
     this.reads = false;
-    this.wanted = [];
+    this.wanted = null;
+    this.drawn = undefined;
     this.form.shape = "";
-    this.talk.ask({ ...question, figures: [], named: this.words.open });
+    if (this.sketch) this.drawing(false);
   }
 
   bindChoices() {
@@ -527,16 +583,13 @@ class StudioPage {
     chosen("export", (name) => void this.export(name));
     chosen("language", (language) => location.assign(`/?lang=${language}`), true);
     chosen("add", (name) => {
-      this.wanted = [...this.wanted, name];
+      this.wanted = [...(this.wanted ?? []), name];
       this.show();
     });
     const open = /** @type {HTMLInputElement} */ (room("open"));
     open.addEventListener("change", async () => {
       const file = open.files?.[0];
-      if (file) {
-        this.reads = false;
-        this.open(await file.text(), file.name);
-      }
+      if (file) this.open(await file.text(), file.name);
       open.value = "";
     });
   }

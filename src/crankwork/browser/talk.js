@@ -1,7 +1,10 @@
 // What the studio asks of the calculation: one question under way, the newest of those that wait.
 
-/** @typedef {{do: string, fields?: Record<string, string>, [key: string]: unknown}} Question */
+/** A question; its base is the text that it was asked of. @typedef {{do: string, fields?: Record<string, string>, base?: string, [key: string]: unknown}} Question */
 /** @typedef {{n?: number, text?: string, [key: string]: any}} Answer */
+
+// what the server takes; a machine file is far shorter
+const LONGEST_MESSAGE = 300_000;
 
 export class Talk {
   /**
@@ -53,7 +56,10 @@ export class Talk {
     this.asked = this.waiting.shift();
     if (!this.asked) return;
     this.number += 1;
-    this.socket.send(JSON.stringify({ text: this.text(), ...this.asked, n: this.number }));
+    this.asked.base = this.text();
+    const message = JSON.stringify({ text: this.asked.base, ...this.asked, base: undefined, n: this.number });
+    if (message.length < LONGEST_MESSAGE) this.socket.send(message);
+    else this.answered({ n: this.number, long: true });
   }
 
   /** @param {Answer} answer */

@@ -36,7 +36,7 @@ from crankwork.show.formats import FORMATS
 from crankwork.show.inline import inline_film, inline_svg
 from crankwork.studio.form import form, stated_text
 from crankwork.studio.handles import handles
-from crankwork.studio.sketch import sketched
+from crankwork.studio.sketch import redrawn, sketched
 
 SHARE = "crankwork:"
 _LINE = re.compile(r":(\d+)$")
@@ -88,7 +88,7 @@ class Studio:
             results = self._computed(text)
         except CrankworkError as error:
             return {**found, "refusals": self._told(error)}
-        return {**found, **self._seen(results, asked.get("figures", ()))}
+        return {**found, **self._seen(results, asked.get("figures"))}
 
     def _set(self, asked: Mapping[str, Any]) -> dict[str, Any]:
         """State what was typed into fields, and show what comes of it."""
@@ -117,6 +117,8 @@ class Studio:
 
     def _sketch(self, asked: Mapping[str, Any]) -> dict[str, Any]:
         text = sketched(asked, self.language)
+        if asked.get("again"):
+            text = redrawn(self._described(asked["text"]), self._described(text))
         return {"text": text, **self._show({**asked, "text": text})}
 
     def _explain(self, asked: Mapping[str, Any]) -> dict[str, Any]:
@@ -142,11 +144,11 @@ class Studio:
             self._text = text
         return self._results
 
-    def _seen(self, results: Results, wanted: Collection[str]) -> dict[str, Any]:
+    def _seen(self, results: Results, wanted: Collection[str] | None) -> dict[str, Any]:
         """Return what is seen of results: the machine, the figures that are wanted, single values."""
         language = self.language
         names = figure_names(results, language)
-        shown = drawings(results, language=language, only=set(wanted) or set(_first(names)))
+        shown = drawings(results, language=language, only=_first(names) if wanted is None else set(wanted))
         film = film_of(results, language=language, forces=True)
         data = page_data(results, shown, film, language)
         for name, one in shown.items():

@@ -96,7 +96,7 @@ def _slid(kind: object, stated: object) -> dict[str, Any]:
     return {}
 
 
-def _more(table: Table, path: str, stated: Mapping[str, Any], language: Language) -> Iterator[dict[str, str]]:
+def _more(table: Table, path: str, stated: Mapping[str, Any], language: Language) -> Iterator[dict[str, Any]]:
     """Yield the fields that a table may have beside what it states, each with a value to begin with."""
     for name, entry in table.keys.items():
         excluded = any(other in stated for other in entry.instead_of)
@@ -105,12 +105,26 @@ def _more(table: Table, path: str, stated: Mapping[str, Any], language: Language
             continue
         first = _first(entry.kind) if entry.default is None or isinstance(entry.default, By) else entry.default
         written, means = first if isinstance(first, str) else toml(first), table.meaning(name, language)
-        yield {"key": f"{path}.{name}".lstrip("."), "name": name, "value": written, "means": means}
+        row: dict[str, Any] = {"key": f"{path}.{name}".lstrip("."), "name": name, "value": written, "means": means}
+        if name == "mass" and "centre" in table.keys and "centre" not in stated and "joins" in stated:
+            # a mass means nothing without its place
+            row["also"] = {f"{path}.centre": _middle(stated)}
+        yield row
+
+
+def _middle(link: Mapping[str, Any]) -> str:
+    """Return the middle of a link that states its length, or else its first joint."""
+    found = Quantity(("length",), 0.0, 1e3).read(link.get("length"), "", Reader())
+    if found is None:
+        return str(link["joins"][0])
+    return toml([f"{from_si(found.value, found.unit) / 2:.4g} {found.unit}", f"0 {found.unit}"])
 
 
 def _first(kind: object) -> object:
     """Return a value to begin with."""
     match kind:
+        case Quantity(dimensions=("mass", *_)):
+            return "1 kg"
         case Quantity():
             return EXAMPLES[kind.dimensions[0]]
         case Number():

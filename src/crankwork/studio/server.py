@@ -92,14 +92,24 @@ class Rooms:
 
     def changed(self) -> bool:
         """Return whether the file is not as it was read or written here last."""
-        return bool(self.seen) and _digest(self.on_disk()) != self.seen
+        return bool(self.seen) and _digest(self._on_disk() or "") != self.seen
 
-    def on_disk(self) -> str:
-        """Return what stands in the file, nothing where it has gone."""
+    def disk(self, *, take: bool) -> dict[str, Any]:
+        """Return whether somebody else has changed the file, or what stands in it, which is known then."""
+        text = self._on_disk()
+        if text is None:
+            return {"gone": True}
+        if not take:
+            return {"changed": self.changed()}
+        self.seen = _digest(text)
+        return {"text": text}
+
+    def _on_disk(self) -> str | None:
+        """Return what stands in the file, None where it has gone."""
         try:
             return files.read_text(self.opening.path or "")
         except CrankworkError:
-            return ""
+            return None
 
 
 def _digest(text: str) -> str:
@@ -132,8 +142,10 @@ class _Guard:
         is_reading = asked.scope["type"] == "http" and asked.scope["method"] in ("GET", "HEAD")
         if not is_reading and not self._from_own_page(headers):
             return HTTPStatus.FORBIDDEN
-        known = asked.cookies.get(f"{_COOKIE}-{rooms.port}") or asked.query_params.get("token", "")
-        return None if secrets.compare_digest(known.encode(), rooms.token.encode()) else HTTPStatus.UNAUTHORIZED
+        # the cookie may be that of a server that was here before
+        told = asked.query_params.get("token", ""), asked.cookies.get(f"{_COOKIE}-{rooms.port}", "")
+        is_known = any(secrets.compare_digest(one.encode(), rooms.token.encode()) for one in told)
+        return None if is_known else HTTPStatus.UNAUTHORIZED
 
     def _from_own_page(self, headers: Headers) -> bool:
         return headers.get("origin", "") in {f"http://{one}" for one in self._rooms.hosts()}
@@ -246,7 +258,7 @@ def _asked(message: str) -> dict[str, Any] | None:
     wanted = _FIELDS.get(found["do"]) if isinstance(found.get("do"), str) else None
     if wanted is None or not all(isinstance(found.get(name), kind) for name, kind in wanted.items()):
         return None
-    listed = found.get("figures", [])
+    listed = found.get("figures") or []
     fields = found.get("fields", {})
     is_sound = isinstance(listed, list) and all(isinstance(one, str) for one in listed)
     return found if is_sound and all(isinstance(one, str) for one in fields.values()) else None
@@ -259,7 +271,7 @@ def _answer(rooms: Rooms, studio: Studio, asked: dict[str, Any]) -> dict[str, An
             case "save":
                 return rooms.save(asked)
             case "disk":
-                return {"text": rooms.on_disk()} if asked.get("take") else {"changed": rooms.changed()}
+                return rooms.disk(take=bool(asked.get("take")))
         return studio.answer(asked)
     except CrankworkError as error:
         return {"refusals": [{"text": told(error.args[0], studio.language), "key": "", "line": 0}]}

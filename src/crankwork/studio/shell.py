@@ -34,9 +34,9 @@ def shell(language: Language) -> str:
         "<main>",
         *_left(language), *_middle(language), *_right(language),
         f'<section id="results" aria-label="{_said("results", language)}"></section>',
-        "</main>",
         f'<aside id="explanation" tabindex="-1" hidden aria-label="{html.escape(say("page.explanation", language))}">',
         f'<button aria-label="{html.escape(say("page.close", language))}">×</button><div class="body"></div></aside>',
+        "</main>",
         '<p id="told" role="status" class="unseen"></p>',
         '<script src="studio.js"></script></body></html>\n',
     ])  # fmt: skip

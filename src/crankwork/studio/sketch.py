@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
+from crankwork.description.document import Description
 from crankwork.description.written import document
 from crankwork.errors import CrankworkError
 from crankwork.locale import Language, Refusal, say
@@ -60,6 +61,23 @@ def sketched(asked: Mapping[str, Any], language: Language) -> str:
     if positions:
         values["positions"] = positions
     return document(values)
+
+
+def redrawn(stated: Description, drawn: Description) -> str:
+    """Return a machine file with what a sketch has more than it; numbers that stand there stay."""
+    there, fresh = stated.values, drawn.values
+    for table in ("fixed_points", "links", "guides", "sliders", "positions"):
+        for name, one in fresh.get(table, {}).items():
+            if name not in there.get(table, {}):
+                stated[f"{table}.{name}"] = one
+                continue
+            if table == "guides" and one["angle"] != there[table][name].get("angle", "0 deg"):
+                stated[f"guides.{name}.angle"] = one["angle"]
+            points = one.get("points", {}) if table == "links" else {}
+            for point, place in points.items():
+                if point not in there[table][name].get("points", {}):
+                    stated[f"{table}.{name}.points.{point}"] = place
+    return stated.dump()
 
 
 def _read(asked: Mapping[str, Any]) -> tuple[dict[str, Pin], list[list[str]]]:
