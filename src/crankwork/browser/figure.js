@@ -1,6 +1,5 @@
 // A diagram to read: cursor and dots, the numbers under them, zoom, curves shown and hidden by the legend.
 import { Curve } from "./curves.js";
-import { Frame } from "./frame.js";
 import { told } from "./numbers.js";
 
 /** @typedef {import("./curves.js").Plot} Plot */
@@ -36,10 +35,6 @@ export class Figure {
     const paths = /** @type {SVGPathElement[]} */ ([...svg.querySelectorAll("path[data-curve]")]);
     this.curves = paths.filter((one) => one.dataset.curve !== "legend").map((one) => new Curve(one, data.plots));
     this.moving = this.curves.filter((one) => one.angles);
-    this.frames = data.plots.map((plot, k) => {
-      const group = /** @type {SVGGElement | null} */ (svg.querySelector(`g.frame[class$=" ${k}"]`));
-      return group ? new Frame(group, plot) : undefined;
-    });
     if (data.filed) svg.closest("figure")?.classList.add("filed");
     this.home = [svg.viewBox.baseVal.x, svg.viewBox.baseVal.y, svg.viewBox.baseVal.width, svg.viewBox.baseVal.height];
     // an image may hold nothing that is pressed
@@ -103,34 +98,6 @@ export class Figure {
       dot?.setAttribute("cy", String(place[1]));
     });
     if (this.reading && !this.reading.hidden) this.read();
-  }
-
-  /** Whether any of its curves follows the sliders. */
-  get follows() {
-    return this.curves.some((one) => one.made);
-  }
-
-  /** Go back to what the page was written with. */
-  back() {
-    for (const one of this.frames) one?.back();
-    for (const one of this.curves) if (one.plot) one.back();
-    if (this.moving.length) this.draw();
-  }
-
-  /**
-   * Draw the curves that follow the sliders, in scales that hold them, and the others where they are in these.
-   * @param {import("./lines.js").Lines} lines
-   */
-  follow(lines) {
-    this.data.plots.forEach((plot, k) => {
-      const own = this.curves.filter((one) => one.plot === plot);
-      if (!own.some((one) => one.made)) return;
-      const drawn = own.map((one) => ({ one, ...(one.made ? lines.of(one, plot) : { ...one.values(), angles: undefined }) }));
-      const frame = this.frames[k];
-      if (frame?.moves) frame.fit(ends(drawn.map(({ x }) => x)), ends(drawn.map(({ y }) => y)));
-      for (const { one, x, y, angles } of drawn) one.through(x, y, angles);
-    });
-    if (this.moving.length) this.draw();
   }
 
   /** Write the numbers at the cursor: of columns those of the table, of other curves those of the scale. */
@@ -288,20 +255,4 @@ export class Figure {
 function textBeside(row) {
   const next = row?.nextElementSibling;
   return next instanceof SVGGElement ? next.firstElementChild : next;
-}
-
-/**
- * Return the least and the largest of numbers.
- * @param {ArrayLike<number>[]} values
- * @returns {[number, number]}
- */
-function ends(values) {
-  let [low, high] = [Infinity, -Infinity];
-  for (const some of values) {
-    for (let k = 0; k < some.length; k += 1) {
-      if (some[k] < low) low = some[k];
-      if (some[k] > high) high = some[k];
-    }
-  }
-  return [low, high];
 }

@@ -58,7 +58,7 @@ def page(results: Results, language: Language = "en", place: Place | None = None
         f'<!DOCTYPE html>\n<html lang="{language}"><head><meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         f'<meta name="generator" content="{html.escape(provenance(results))}"><title>{title}</title>',
-        f"<style>{look()}{style('page', 'layout')}</style></head><body>",
+        f"<style>{look()}{style('page', 'layout', *(['sliders'] if steps else []))}</style></head><body>",
         f"<header><h1>{title}</h1><p>{html.escape(results_method(results, language))}</p></header>",
         *bar(language),
         '<div class="side">',
@@ -72,7 +72,7 @@ def page(results: Results, language: Language = "en", place: Place | None = None
         f"<footer><p>{html.escape(provenance(results))}</p></footer></main>",
         *_explanation_room(language),
         stored(data),
-        f"<script>{steps}{script('page')}</script></body></html>\n",
+        f"<script>{steps}{script('slid' if steps else 'page')}</script></body></html>\n",
     ]
     return "\n".join(parts).encode()
 

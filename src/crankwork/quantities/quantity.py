@@ -64,7 +64,10 @@ class Quantity(NamedTuple):
 
 def own_name(kind: str, name: str) -> str:
     """Return the name of what a quantity belongs to; the link that tells apart joints of one point follows a space."""
-    return name.replace("_", " ") if kind.startswith("joint_") else name
+    owner, dot, rest = name.partition(".")
+    of_joint = kind.startswith(("joint_", "doubled_area"))
+    # what acts on a link is told by the joint it comes from
+    return f"{owner.replace('_', ' ') if of_joint else owner}{dot}{rest.replace('_', ' ')}"
 
 
 def owned_name(name: str, owner: str) -> str:

@@ -1,0 +1,83 @@
+// The page: one cursor over the machine, the diagrams and the tables.
+import { bar } from "./bar.js";
+import { Cursor } from "./cursor.js";
+import { Explanation } from "./explain.js";
+import { choose, Film } from "./machine.js";
+import { unpacked } from "./numbers.js";
+import { showTables } from "./table.js";
+
+/**
+ * @typedef {{axis: string, rows: import("./numbers.js").Packed, columns: Record<string, import("./numbers.js").Packed>,
+ *   figures: Record<string, import("./figure.js").FigureData>, tables?: import("./table.js").TableData[],
+ *   memories?: import("./explain.js").Memories, film?: import("./machine.js").FilmData,
+ *   sliders?: import("./sliders.js").SlidersData}} PageData
+ */
+
+/**
+ * @typedef {import("./figure.js").Figure} Figure
+ * What sliders move: what is stored, columns, diagrams and the machine, the table that is shown.
+ * @typedef {{data: PageData, columns: Record<string, import("./numbers.js").Column>, cursor: Cursor, figures: Figure[],
+ *   film: Film | undefined, explanation: Explanation | null, tables: HTMLElement | null, show: (() => void) | undefined}} Opened
+ */
+
+/**
+ * Bring to life what the page holds.
+ * @param {typeof import("./figure.js").Figure} kind of its diagrams
+ * @param {(opened: Opened) => void} [slide] what binds its sliders
+ */
+export function openStored(kind, slide) {
+  const store = document.getElementById("data");
+  if (store) unfolded(store.textContent ?? "").then((text) => begin(JSON.parse(text), kind, slide));
+}
+
+/**
+ * Return a text that was compressed and written in letters.
+ * @param {string} letters
+ */
+function unfolded(letters) {
+  const bytes = Uint8Array.from(atob(letters.trim()), (one) => one.charCodeAt(0));
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).text();
+}
+
+/**
+ * @param {PageData} data
+ * @param {typeof import("./figure.js").Figure} kind
+ * @param {(opened: Opened) => void} [slide]
+ */
+function begin(data, kind, slide) {
+  document.documentElement.classList.add("live");
+  const columns = Object.fromEntries(Object.entries(data.columns).map(([key, one]) => [key, unpacked(one)]));
+  const axis = unpacked(data.rows);
+  columns[data.axis] = axis;
+  const cursor = new Cursor(axis.values);
+  /** @type {Figure[]} */
+  const figures = [];
+  for (const svg of /** @type {NodeListOf<SVGSVGElement>} */ (document.querySelectorAll("svg.drawing[data-figure]"))) {
+    const own = data.figures[svg.dataset.figure ?? ""];
+    if (own) figures.push(new kind(svg, own, columns, data.axis, cursor));
+  }
+  const room = document.getElementById("explanation");
+  const explanation = room && data.memories ? new Explanation(room, data.memories, columns, axis.symbol, cursor) : null;
+  for (const button of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-key]"))) {
+    button.addEventListener("click", () => explanation?.explain(button.dataset.key ?? ""));
+  }
+  const tables = document.getElementById("tables");
+  const filed = new Set(data.sliders?.filed);
+  const show = tables && data.tables && showTables(tables, data.tables, columns, cursor, (key) => explanation?.explain(key), filed);
+  const machine = /** @type {SVGSVGElement | null} */ (document.querySelector('[data-figure="machine"]'));
+  const motion = bar(cursor, axis, data.film?.seconds ?? 4, data.film?.turns ?? true);
+  const film = machine && data.film ? new Film(machine, data.film, cursor) : undefined;
+  if (film && motion) choose(film, motion);
+  slide?.({ data, columns, cursor, figures, film, explanation, tables, show: show || undefined });
+  reachWide();
+  addEventListener("resize", reachWide);
+  if (data.film && motion && !matchMedia("(prefers-reduced-motion: reduce)").matches) motion.start();
+}
+
+/** Let keys reach what is wider than its room, and nothing else. */
+function reachWide() {
+  for (const one of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("div.table, .lines"))) {
+    if (one.scrollWidth > one.clientWidth) one.tabIndex = 0;
+    else one.removeAttribute("tabindex");
+  }
+}
