@@ -110,7 +110,7 @@ def test_forces_per_area_need_the_bore(crankwork, machine_file, check_mistakes, 
         (("check",), "FILE: is missing; write it after the command"),
         (
             ("zoom", "my.toml"),
-            '"zoom": there is no such command; write new, check, run, report, page, draw, sweep, optimise, map, studio, ',
+            '"zoom": there is no such command; write new, check, run, report, page, draw, sweep, optimise, map, ',
         ),
         (("schema", "x"), "x: is not expected here; leave it out"),
     ],

@@ -35,7 +35,7 @@ _LEFT, _RIGHT = 35.0, 7.0
 _TALLS = tuple(0.3 * 1.16**at for at in range(21))
 # how much higher than in a text it is, for its width, and still looks as it should
 _HIGHEST = 1.6
-_GAP, _FEW = 7.0, 2
+_GAP, _FEW, _CLEAR = 7.0, 2, 1.0
 _SYMBOL = re.compile(r"/\{([^{}]+)\}")
 
 
@@ -89,15 +89,18 @@ def packed(
             score = math.fsum(map(_worth, placed_ones))
             if score > most:
                 best, most = placed_ones, score
-    return [_finished(one, field) for one in best]
+    return [_finished(one, field, taken[0]) for one in best]
 
 
-def _finished(fit: Fit, field: Box) -> Fit:
+def _finished(fit: Fit, field: Box, corner: Box) -> Fit:
     """Return a picture drawn whole where its rough drawing is, in the field."""
     with placed(fit.place._replace(is_rough=False)):
         whole = headed(fit.picture, fit.picture.draw(), fit.place.width * MM * LARGER, fit.place)
     left = fit.ink.left + (fit.ink.width - whole.ink.width) / 2
     top = max(fit.ink.top, field.bottom + whole.ink.height)
+    if left < corner.right and top > corner.bottom - _CLEAR:
+        # a heading does not touch the cell in the corner
+        top = corner.bottom - _CLEAR
     return _at(whole, min(max(left, field.left), field.right - whole.ink.width), top)
 
 
