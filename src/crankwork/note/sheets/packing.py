@@ -35,7 +35,7 @@ _LEFT, _RIGHT = 35.0, 7.0
 _TALLS = tuple(0.3 * 1.16**at for at in range(21))
 # how much higher than in a text it is, for its width, and still looks as it should
 _HIGHEST = 1.6
-_GAP, _FEW, _CLEAR = 7.0, 2, 1.0
+_GAP, _FEW, _CLEAR = 7.0, 2, 0.3
 _SYMBOL = re.compile(r"/\{([^{}]+)\}")
 
 
@@ -98,10 +98,12 @@ def _finished(fit: Fit, field: Box, corner: Box) -> Fit:
         whole = headed(fit.picture, fit.picture.draw(), fit.place.width * MM * LARGER, fit.place)
     left = fit.ink.left + (fit.ink.width - whole.ink.width) / 2
     top = max(fit.ink.top, field.bottom + whole.ink.height)
-    if left < corner.right and top > corner.bottom - _CLEAR:
-        # a heading does not touch the cell in the corner
-        top = corner.bottom - _CLEAR
-    return _at(whole, min(max(left, field.left), field.right - whole.ink.width), top)
+    left = min(max(left, field.left), field.right - whole.ink.width)
+    found = _at(whole, left, top)
+    words = [extent(one._replace(wide=WIDER)) for one in found.drawing.items if isinstance(one, Text)]
+    into = max((one.top - corner.bottom for one in words if one.left < corner.right), default=0.0)
+    # a heading does not touch the cell in the corner
+    return found if into <= 0 else _at(whole, left, top - into - _CLEAR)
 
 
 def _columns(field: Box, taken: tuple[Box, Box], layout: Layout) -> Iterator[Box]:
