@@ -5,11 +5,13 @@ from __future__ import annotations
 import importlib
 import os
 import pkgutil
+import shutil
 from collections.abc import Generator
 from typing import TypeVar
 
 import pytest
 from hypothesis import settings
+from playwright.sync_api import Browser, sync_playwright
 
 import crankwork
 from crankwork.formula.expression import FORMULAS, Formula
@@ -21,6 +23,7 @@ os.environ.pop("LC_ALL", None)
 os.environ.pop("LC_MESSAGES", None)
 os.environ["LANG"] = "C.UTF-8"
 
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 IN_CI = os.environ.get("CI") == "true"
 
 # Parallel tests share the processor, so a deadline would measure the neighbours.
@@ -56,3 +59,15 @@ def formulas() -> dict[str, Formula]:
         if not module.name.endswith("__main__"):
             importlib.import_module(module.name)
     return FORMULAS
+
+
+@pytest.fixture(scope="session")
+def browser() -> Generator[Browser]:
+    """A browser of this machine; there may be one in a process."""
+    program = next((path for name in BROWSERS if (path := shutil.which(name))), None)
+    if program is None:
+        pytest.skip("chromium is not installed")
+    with sync_playwright() as playwright:
+        running = playwright.chromium.launch(executable_path=program, args=["--no-sandbox"])
+        yield running
+        running.close()

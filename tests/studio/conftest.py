@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import shutil
 import subprocess
 import sys
 from collections.abc import Callable, Generator
@@ -13,11 +12,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 import pytest
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page
 
 from crankwork import cli
-
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
 
 class Started(NamedTuple):
@@ -60,18 +57,6 @@ def started(tmp_path_factory: pytest.TempPathFactory) -> Generator[Started]:
     with studio_of(tmp_path_factory.mktemp("studio")) as one:
         yield one
         assert one.complaints.read_text() == ""
-
-
-@pytest.fixture(scope="session")
-def browser() -> Generator[Browser]:
-    """A browser of this machine."""
-    program = next((path for name in BROWSERS if (path := shutil.which(name))), None)
-    if program is None:
-        pytest.skip("chromium is not installed")
-    with sync_playwright() as playwright:
-        running = playwright.chromium.launch(executable_path=program, args=["--no-sandbox"])
-        yield running
-        running.close()
 
 
 @pytest.fixture
