@@ -67,6 +67,37 @@ def test_what_is_refused_is_told_as_the_command_line_tells_it(typed, language, t
     assert "form" in found
 
 
+@pytest.mark.parametrize(
+    ("name", "kinds"),
+    [("press", {"motor", "friction", "torque", "spring", "links"}), ("slider-crank", {"gas", "flywheel"})],
+)
+def test_whatever_is_added_makes_a_machine_that_is_computed(name, kinds):
+    text, studio = template(name), Studio("en")
+    offered = studio.answer({"do": "show", "text": text, "figures": []})["additions"]
+    assert {key.partition(":")[0] for key, _ in offered} >= kinds
+    for key, _ in offered:
+        found = studio.answer({"do": "add", "text": text, "key": key, "figures": []})
+        assert found["refusals"] == [], key
+        assert found["added"], key
+        assert found["text"].count("#") == text.count("#")
+
+
+def test_a_drawn_four_bar_has_its_torque_curve_after_masses_and_a_load():
+    drawn = {"do": "sketch", "pins": [{"name": "O", "x": 60, "y": 120, "ground": True}, {"name": "A", "x": 60, "y": 90},
+             {"name": "B", "x": 140, "y": 60}, {"name": "C", "x": 150, "y": 120, "ground": True}],
+             "links": [["O", "A"], ["A", "B"], ["B", "C"]], "figures": []}  # fmt: skip
+    studio = Studio("en")
+    found = studio.answer(drawn)
+    for key in ("masses:", "torque:3"):
+        found = studio.answer({"do": "add", "text": found["text"], "key": key, "figures": list(found["figures"])})
+    assert "torques" in found["names"]
+    assert set(found["figures"]) & {"torques", "reduced_inertia"}
+    # a bar of 85.4 mm at 5 kg/m, about its middle
+    assert rows_of(found)["links.2.mass"]["value"] == "0.43 kg"
+    assert rows_of(found)["links.2.inertia"]["value"] == "2.6 kg*cm2"
+    assert found["summary"]["driving_torque_max"] > 0
+
+
 def test_text_that_is_no_toml_is_refused_at_its_line():
     found = Studio("en").answer({"do": "show", "text": "[crank]\nradius = 45 mm\n", "figures": None})
     assert [one["line"] for one in found["refusals"]] == [2]

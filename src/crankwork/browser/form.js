@@ -11,7 +11,7 @@
 /**
  * What a form tells: a field as typed, whether its gesture has ended; a field that goes; fields that come.
  * @typedef {{typed: (key: string, value: string, ends: boolean) => void, gone: (key: string) => void,
- *   added: (fields: Record<string, string>) => void}} Tells
+ *   added: (fields: Record<string, string>) => void, more: (addition: string, name: string) => void}} Tells
  */
 
 export class Form {
@@ -29,20 +29,47 @@ export class Form {
     this.held = "";
   }
 
-  /** @param {Group[]} groups */
-  show(groups) {
-    const shape = JSON.stringify(groups.map(({ path, rows, more }) => [path, rows.map(({ key, options, number }) => [key, options, number === undefined]), more.map(({ key }) => key)]));
+  /**
+   * @param {Group[]} groups
+   * @param {[string, string][]} additions what may be added to the machine: keys and names
+   */
+  show(groups, additions) {
+    const shape = JSON.stringify(groups.map(({ path, rows, more }) => [path, rows.map(({ key, options, number }) => [key, options, number === undefined]), more.map(({ key }) => key)])) + additions;
     const fresh = shape !== this.shape;
-    if (fresh) this.build(groups);
+    if (fresh) this.build(groups, additions);
     this.shape = shape;
     for (const row of groups.flatMap((group) => group.rows)) this.fill(row, fresh);
   }
 
-  /** @param {Group[]} groups */
-  build(groups) {
+  /**
+   * @param {Group[]} groups
+   * @param {[string, string][]} additions
+   */
+  build(groups, additions) {
     const active = /** @type {HTMLElement | null} */ (document.activeElement)?.dataset.of;
-    this.room.replaceChildren(...groups.map((group) => this.group(group)));
+    const more = this.choice(this.words.adds, additions, (key, name) => this.tells.more(key, name));
+    this.room.replaceChildren(...(additions.length ? [more] : []), ...groups.map((group) => this.group(group)));
     if (active) this.field(active)?.focus();
+  }
+
+  /**
+   * Return a list to choose from, which does not keep what was chosen.
+   * @param {string} words
+   * @param {[string, string][]} options
+   * @param {(key: string, name: string) => void} act
+   */
+  choice(words, options, act) {
+    const made = document.createElement("select");
+    made.className = "more";
+    made.setAttribute("aria-label", words);
+    made.append(new Option(words, ""), ...options.map(([key, name]) => new Option(name, key)));
+    made.addEventListener("change", () => {
+      const { value, selectedOptions } = made;
+      const name = selectedOptions[0].text;
+      made.value = "";
+      if (value) act(value, name);
+    });
+    return made;
   }
 
   /** @param {string} key */
@@ -58,14 +85,12 @@ export class Form {
     legend.title = group.means;
     made.append(...group.rows.map((row) => this.row(row)));
     if (group.more.length) {
-      const more = made.appendChild(document.createElement("select"));
-      more.className = "more";
-      more.setAttribute("aria-label", `${this.words.more} ${group.path}`);
-      more.append(new Option(this.words.more, ""), ...group.more.map((one) => new Option(one.name, one.key)));
-      more.addEventListener("change", () => {
-        const one = group.more.find(({ key }) => key === more.value);
+      const more = this.choice(this.words.more, group.more.map((one) => [one.key, one.name]), (key) => {
+        const one = group.more.find((other) => other.key === key);
         if (one) this.tells.added({ ...one.also, [one.key]: one.value });
       });
+      more.setAttribute("aria-label", `${this.words.more} ${group.path}`);
+      made.append(more);
     }
     return made;
   }

@@ -54,6 +54,7 @@ class StudioPage {
       typed: (key, value, ends) => this.set(key, value, ends),
       gone: (key) => this.talk.ask({ do: "without", key, of: this.opened, figures: this.wanted, reads: this.reads, named: `− ${key}` }),
       added: (fields) => this.talk.ask({ do: "set", fields, of: this.opened, figures: this.wanted, reads: this.reads, named: `+ ${Object.keys(fields).join(", ")}` }),
+      more: (key, name) => this.talk.ask({ do: "add", key, of: this.opened, figures: this.wanted, reads: this.reads, named: `+ ${name}` }),
     });
     this.drag = new Drag(room("film"), {
       film: () => this.film,
@@ -159,7 +160,7 @@ class StudioPage {
     if (question?.do === "save") return this.saved(answer);
     if (question?.do === "disk") return this.disk(answer);
     if (answer.long) return this.refused([{ key: "", line: 0, text: this.words.long }]);
-    if (question && ["set", "without", "sketch"].includes(question.do) && question.base !== this.editing.text) {
+    if (question && ["set", "without", "sketch", "add"].includes(question.do) && question.base !== this.editing.text) {
       // the text went on meanwhile: what was asked for is done to what it is now, if it is the same machine
       if (question.named && question.of === this.opened) this.talk.ask(question);
       return;
@@ -167,11 +168,13 @@ class StudioPage {
     if (answer.text !== undefined) this.editing.take(answer.text);
     if (question?.do === "sketch" && answer.data) this.drawing(false);
     if (question?.named) this.editing.commit(String(question.named));
-    if (answer.form) this.form.show(answer.form);
+    if (answer.form) this.form.show(answer.form, answer.additions ?? []);
+    if (answer.added?.length) this.form.field(answer.added[0])?.focus();
     this.refused(answer.refusals ?? []);
     this.named(answer.named);
     document.body.classList.toggle("stale", !answer.data);
     if (answer.data) this.draw(answer);
+    if (answer.brought) room("diagrams").querySelector(`[data-name="${answer.brought}"]`)?.scrollIntoView({ block: "nearest" });
     if (question?.do === "sketch" && answer.data) this.run();
     const told = answer.refusals?.[0]?.text ?? answer.doubt ?? "";
     if (room("told").textContent !== told) room("told").textContent = told;

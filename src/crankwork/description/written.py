@@ -99,6 +99,21 @@ def _with_new(source: str, places: Places, key: str, value: Any) -> str:  # noqa
     return with_value(source, around, {name: value})
 
 
+def with_entry(source: str, key: str, values: Mapping[str, Any]) -> str:
+    """Return a text with a table more in a list of tables.
+
+    Examples
+    --------
+    >>> with_entry('loads = [{ kind = "force" }]', "loads", {"kind": "spring"})
+    'loads = [{ kind = "force" }, { kind = "spring" }]'
+    """
+    found = Places(source).values.get(key)
+    if found is None:
+        return _with_block(source, key, values, "[[{}]]")
+    inside = source[found.start : found.end].rstrip("]").rstrip().rstrip(",")
+    return _replaced(source, found, f"{inside}{', ' * (inside != '[')}{toml(values)}]")
+
+
 def without(source: str, key: str) -> str:
     """Return a text without a key or a table, and without what is said beside it."""
     places = Places(source)
@@ -144,11 +159,11 @@ def _with_line(source: str, places: Places, around: str, pair: str) -> str:
     return f"{source[:at]}{gap}{pair}\n{source[at:]}"
 
 
-def _with_block(source: str, name: str, values: Mapping[str, Any]) -> str:
+def _with_block(source: str, name: str, values: Mapping[str, Any], head: str = "[{}]") -> str:
     """Return a text with a table at its end."""
     pairs = "".join(f"{key_text(key)} = {toml(one)}\n" for key, one in values.items())
     gap = "" if not source.strip() else "\n" if source.endswith("\n") else "\n\n"
-    return f"{source}{gap}[{'.'.join(map(key_text, name.split('.')))}]\n{pairs}"
+    return f"{source}{gap}{head.format('.'.join(map(key_text, name.split('.'))))}\n{pairs}"
 
 
 def _with_table(source: str, places: Places, key: str, value: Any) -> str:  # noqa: ANN401

@@ -34,6 +34,7 @@ from crankwork.report.workbook import workbook
 from crankwork.show.alt import described
 from crankwork.show.formats import FORMATS
 from crankwork.show.inline import inline_film, inline_svg
+from crankwork.studio.additions import additions, with_addition
 from crankwork.studio.form import form, stated_text
 from crankwork.studio.handles import handles
 from crankwork.studio.sketch import redrawn, sketched
@@ -59,7 +60,7 @@ class Studio:
         """Return what is answered to what a page asks for."""
         asks: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
             "show": self._show, "set": self._set, "without": self._without, "template": self._template,
-            "shared": self._shared, "sketch": self._sketch, "explain": self._explain,
+            "shared": self._shared, "sketch": self._sketch, "explain": self._explain, "add": self._add,
         }  # fmt: skip
         try:
             return asks[asked["do"]](asked)
@@ -87,8 +88,12 @@ class Studio:
         try:
             results = self._computed(text)
         except CrankworkError as error:
-            return {**found, "refusals": self._told(error)}
+            return {**found, "additions": self._additions(description, None), "refusals": self._told(error)}
+        found["additions"] = self._additions(description, results)
         return {**found, **self._seen(results, asked.get("figures"))}
+
+    def _additions(self, description: Description, results: Results | None) -> list[tuple[str, str]]:
+        return [(one.key, one.told(self.language)) for one in additions(description, results)]
 
     def _set(self, asked: Mapping[str, Any]) -> dict[str, Any]:
         """State what was typed into fields, and show what comes of it."""
@@ -120,6 +125,24 @@ class Studio:
         if asked.get("again"):
             text = redrawn(self._described(asked["text"]), self._described(text))
         return {"text": text, **self._show({**asked, "text": text})}
+
+    def _add(self, asked: Mapping[str, Any]) -> dict[str, Any]:
+        """Add what was chosen, and show what comes of it with a diagram that was not there before."""
+        description = self._described(asked["text"])
+        try:
+            results = self._computed(asked["text"])
+        except CrankworkError:
+            results = None
+        before = () if results is None else figure_names(results, self.language)
+        one = next((one for one in additions(description, results) if one.key == asked["key"]), None)
+        added = description if one is None else with_addition(description, one)
+        text = added.dump()
+        found = self._show({**asked, "text": text})
+        fresh = [name for name in found.get("names", ()) if name not in before]
+        if fresh and asked.get("figures") is not None:
+            brought = _first(fresh)[0]
+            found = self._show({**asked, "text": text, "figures": [*asked["figures"], brought]}) | {"brought": brought}
+        return {"text": text, "added": [key for key in added if key not in description], **found}
 
     def _explain(self, asked: Mapping[str, Any]) -> dict[str, Any]:
         """Return how a value came about."""

@@ -103,7 +103,7 @@ def _more(table: Table, path: str, stated: Mapping[str, Any], language: Language
         fits = all(stated.get(one) in wanted if wanted else one in stated for one, wanted in entry.only.items())
         if name in stated or excluded or not fits or not isinstance(entry.kind, _LEAVES):
             continue
-        first = _first(entry.kind) if entry.default is None or isinstance(entry.default, By) else entry.default
+        first = first_value(entry.kind) if entry.default is None or isinstance(entry.default, By) else entry.default
         written, means = first if isinstance(first, str) else toml(first), table.meaning(name, language)
         row: dict[str, Any] = {"key": f"{path}.{name}".lstrip("."), "name": name, "value": written, "means": means}
         if name == "mass" and "centre" in table.keys and "centre" not in stated and "joins" in stated:
@@ -120,7 +120,7 @@ def _middle(link: Mapping[str, Any]) -> str:
     return toml([f"{from_si(found.value, found.unit) / 2:.4g} {found.unit}", f"0 {found.unit}"])
 
 
-def _first(kind: object) -> object:
+def first_value(kind: object) -> object:
     """Return a value to begin with."""
     match kind:
         case Quantity(dimensions=("mass", *_)):
@@ -134,9 +134,9 @@ def _first(kind: object) -> object:
         case Flag():
             return True
         case NumberOr():
-            return _first(kind.quantity)
+            return first_value(kind.quantity)
         case WordOr():
-            return _first(kind.words)
+            return first_value(kind.words)
     return "..."
 
 

@@ -242,7 +242,7 @@ async def _send(socket_: WebSocket, answer: dict[str, Any]) -> None:
 
 _FIELDS: dict[str, dict[str, type]] = {
     "show": {"text": str}, "set": {"text": str, "fields": dict}, "without": {"text": str, "key": str},
-    "explain": {"text": str, "key": str}, "template": {"name": str},
+    "explain": {"text": str, "key": str}, "add": {"text": str, "key": str}, "template": {"name": str},
     "shared": {"word": str}, "sketch": {"pins": list, "links": list}, "save": {"text": str}, "disk": {},
 }  # fmt: skip
 
