@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 
 from crankwork.analysis import origins
@@ -12,6 +12,8 @@ from crankwork.formula.known import Found, Known, absent, given
 from crankwork.loads import gas
 from crankwork.loads.gas import gauge_pressure
 from crankwork.loads.pressure import at_angle, polytrope_origin, remembered_pressure
+from crankwork.loads.retold import StatedDiagram
+from crankwork.loads.valves import StatedValves
 
 
 def space_memory(solved: SolvedCylinder, moving: MovingCylinder) -> dict[str, Known]:
@@ -46,7 +48,7 @@ def gas_memory(solved: SolvedCylinder, space: WorkingSpace, moving: MovingCylind
     memory = moving.memory
     area = memory["piston_area"]
     volume = gas.cylinder_volume(memory["clearance_volume"], area, memory["piston_displacement"])
-    read = remembered_pressure(space.diagram, volume, _path(solved), _retold(solved, volume))
+    read = remembered_pressure(space.diagram, volume, _path(solved), _retold(solved, space, memory, volume))
     pressure = read.named("gas_pressure")
     if space.ambient:
         pressure = gauge_pressure(read, given("ambient_pressure", space.ambient, _ambient(solved)))
@@ -62,11 +64,22 @@ def gas_memory(solved: SolvedCylinder, space: WorkingSpace, moving: MovingCylind
     return {one.key: one for one in (volume, read, pressure, force)} | _ends_of_polytropes(solved, space, volume)
 
 
-def _retold(solved: SolvedCylinder, volume: Known) -> Callable[[], Known] | None:
-    """Return what tells a calculated pressure in knowns alone, where there are formulas for it."""
-    calculated = solved.machine.gas.calculated if solved.machine.gas is not None else None
-    remembered = getattr(calculated, "remembered", None)
-    return None if remembered is None else partial(remembered, volume, solved.stroke[1:])
+def _retold(
+    solved: SolvedCylinder, space: WorkingSpace, memory: Mapping[str, Known], volume: Known
+) -> Callable[[], Known] | None:
+    """Return what tells the pressure in knowns alone, where there are formulas for it."""
+    given_gas = solved.machine.gas
+    if given_gas is None or given_gas.measured is not None:
+        return None
+    if given_gas.calculated is not None:
+        remembered = getattr(given_gas.calculated, "remembered", None)
+        return None if remembered is None else partial(remembered, volume, solved.stroke[1:])
+    clearance = memory["clearance_volume"]
+    reach = clearance, clearance + memory["swept_volume"]
+    valves = None if given_gas.valves is None else StatedValves(given_gas.valves, "gas.valves")
+    stated = {} if valves is None else valves.at_points(given_gas.points)
+    told = StatedDiagram(given_gas.points, given_gas.pieces, given_gas.path, volume, reach, stated)
+    return partial(told.retold, space.diagram)
 
 
 def _ambient(solved: SolvedCylinder) -> str:

@@ -6,6 +6,7 @@ import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,6 +23,7 @@ from crankwork.loads.chamber import Chamber, Charge, Face, cycle_of, face_owners
 from crankwork.loads.indicator import DeadCentres, DiagramError, IndicatorDiagram, Segment, VolumeAt, solve_diagram
 from crankwork.loads.measured import Told
 from crankwork.loads.pressure import at_angle, remembered_pressure
+from crankwork.loads.retold import StatedDiagram
 from crankwork.loads.treated import Around, measured_diagram
 from crankwork.loads.valves import Flow, StatedValves
 from crankwork.locale import Refusal
@@ -269,8 +271,9 @@ def _space(name: str, chamber: Chamber, walls: tuple[_Wall, ...], over: OverCycl
     else:
         clearance = absent("clearance_volume")
     parts = [] if clearance.is_absent else [clearance]
+    turned = found[f"face_volume_min_angle.{name}"] * (180 / math.pi)
     for wall in walls:
-        start = at_angle(wall.position, least.at, f"slider_displacement.{wall.slider}.{name}")
+        start = at_angle(wall.position, least.at, f"slider_displacement.{wall.slider}.{name}", turned)
         part = gas.face_volume(wall.sense, wall.area, wall.position, start)
         parts.append(part.named(f"face_volume.{name}.{wall.slider}"))
     volume = total(f"cylinder_volume.{name}", parts)
@@ -338,10 +341,20 @@ def _of_its_own(
     else:
         found = {phase: _solved(chamber, space, begins + phase, path) for phase in dict.fromkeys(phases)}
         told += [_jump(point, phase + at, step, law) for phase, one in found.items() for point, at, step in one.jumps]
-    pressure = remembered_pressure(_joined(found, phases).later(begins), space.volume, path)
+    diagram = _joined(found, phases).later(begins)
+    retold = partial(_told(chamber, space, path, begins).retold, diagram) if len(found) == 1 and chamber.pieces else None
+    pressure = remembered_pressure(diagram, space.volume, path, retold)
     own = phases[: round(cycle / chamber.cycle)]
     done = chamber.factor * sum(found[one].work(_volume_from(space, begins + one)) for one in own)
     return pressure, Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}"), told
+
+
+def _told(chamber: Chamber, space: _Space, path: str, begins: float) -> StatedDiagram:
+    """Return what tells the pressure of a chamber in knowns alone."""
+    valves, clearance = stated_valves(path, chamber), space.clearance
+    stated = {} if valves is None else valves.at_points(chamber.points)
+    reach = clearance, clearance + space.swept
+    return StatedDiagram(chamber.points, chamber.pieces, path, space.volume, reach, stated, begins)
 
 
 def _ends_of_stroke(space: _Space, delay: float) -> tuple[float, float]:
@@ -471,7 +484,9 @@ def _polytropic(name: str, charge: Charge, whole: Known, exponent: Known, period
     if charge.mean_pressure is None:
         start = at_angle(whole, charge.angle, f"cylinder_volume.{name}.start")
     else:
-        start = at_angle(whole, over.largest_and_least[""][1].at, f"cylinder_volume.{name}.start")
+        least = over.extremes("")["_min_angle"]
+        by = least * (180 / math.pi)
+        start = at_angle(whole, by.value, f"cylinder_volume.{name}.start", by)
         trial = gas.polytropic_pressure(stated, start, whole, exponent)
         mean = OverCycle({"": trial}, CrankGrid.from_degrees, period).mean("", f"diagram_pressure.{name}.trial")
         stated = (stated * (stated / mean)).named(f"diagram_pressure.{name}.start")

@@ -38,10 +38,10 @@ def _of(key: str, path: str, name: str = "") -> str:
     return ".".join((key, *(one for one in (owner, name) if one)))
 
 
-def at_angle(column: Known, degrees: float, key: str) -> Known:
-    """Return what a column amounts to at one crank angle, under a name of its own."""
+def at_angle(column: Known, degrees: float, key: str, by: Known | None = None) -> Known:
+    """Return what a column amounts to at one crank angle, under a name of its own; `by`: that angle, if it follows."""
     value = float(replay(column, CrankGrid.from_degrees([degrees]))[0])
-    return Known(Found(value, "at", (column,), degrees), key)
+    return Known(Found(value, "at", (column,), degrees, by), key)
 
 
 def polytrope_origin(

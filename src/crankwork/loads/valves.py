@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -205,6 +205,15 @@ class StatedValves:
     def pressures(self) -> tuple[Known, Known]:
         """Pressures of suction and discharge. [Pa]"""
         return self._given("suction_pressure", "suction"), self._given("discharge_pressure", "discharge")
+
+    def at_points(self, points: Mapping[str, DiagramPoint]) -> dict[str, Known]:
+        """Return the pressures of points that have one."""
+        low, high = self.pressures
+        return {
+            name: high if one.pressure == self.valves.discharge else low
+            for name, one in points.items()
+            if one.pressure is not None
+        }
 
     @property
     def temperature(self) -> Known:

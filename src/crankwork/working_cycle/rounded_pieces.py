@@ -6,7 +6,6 @@ makes the three-point end slope the wanted one, lets it leave one law and join t
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -14,12 +13,11 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.formula.expression import Value
-from crankwork.formula.known import Known, KnownAngle, Pieces, is_known, plain
-from crankwork.kinematics.crank_grid import Array
-from crankwork.loads.between import cubic_between
+from crankwork.formula.known import Known, KnownAngle, Pieces, plain
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Law, Piece
 from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
+from crankwork.loads.retold import column, curve_laws
 
 # points that only shape a curve have names that begin with this mark
 AUXILIARY = "~"
@@ -96,23 +94,11 @@ def remembered(
             laws.append(law)
             continue
         knots = _shaped(part)
-        x, y = _columns(knots)
-        slopes = monotone_slopes(x, y)
-        for (x_i, y_i, s_i), (x_j, y_j, s_j) in itertools.pairwise(zip(x, y, slopes, strict=True)):
-            h = x_j - x_i
-            laws.append(cubic_between((y_i, y_j), (s_i * h, s_j * h), (degrees - x_i) / h))
-            ends.append(x_j)
+        curve = curve_laws([one.angle for one in knots], [one.pressure for one in knots], degrees)
+        for end, law in curve:
+            ends.append(end)
+            laws.append(law)
     return Known(Pieces([*ends[:-1], cycle], tuple(laws)), "diagram_pressure")
-
-
-def _columns(knots: Sequence[Named]) -> tuple[Array, Array]:
-    """Return angles and pressures of knots, of objects where they are knowns."""
-    columns = [[one.angle for one in knots], [one.pressure for one in knots]]
-    made = np.empty((2, len(knots)), dtype=object if is_known(*columns[0], *columns[1]) else float)
-    for row, column in zip(made, columns, strict=True):
-        for at, one in enumerate(column):
-            row[at] = one
-    return made[0], made[1]
 
 
 def _on_polytrope(part: Part, references: Mapping[str, tuple[Known, Known]], volume: Known) -> Known:
@@ -168,7 +154,7 @@ def _halves(part: Part, cut: float) -> tuple[Part, Part]:
     slope: Value = 0.0
     if part.law == "rounded":
         knots = _shaped(part)
-        x, y = _columns(knots)
+        x, y = column([one.angle for one in knots]), column([one.pressure for one in knots])
         curve, where = (x, y, monotone_slopes(x, y)), np.array([cut])
         pressure, slope = hermite(*curve, where)[0], hermite_slope(*curve, where)[0]
     else:

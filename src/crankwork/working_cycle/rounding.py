@@ -14,11 +14,11 @@ import numpy as np
 
 from crankwork.formula.known import Known
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Segment, VolumeAt, solve_diagram
+from crankwork.loads.retold import RememberedVolume
 from crankwork.working_cycle.calculated_cycle import Drawn, Notice
 from crankwork.working_cycle.gas_exchange import clipped
 from crankwork.working_cycle.rounded_pieces import Named, Part, remembered, without_auxiliary, written
 from crankwork.working_cycle.rounding_corners import (
-    RememberedVolume,
     RoundedCorners,
     Rounding,
     Timing,

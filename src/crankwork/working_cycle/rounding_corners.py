@@ -14,12 +14,11 @@ import numpy as np
 
 from crankwork.errors import CrankworkError
 from crankwork.formula.expression import Value
-from crankwork.formula.known import Found, Known, chosen, plain
-from crankwork.formula.replay import replay
-from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.formula.known import chosen, plain
 from crankwork.kinematics.extremes import reached
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import VolumeAt
+from crankwork.loads.retold import RememberedVolume
 from crankwork.locale import Refusal
 from crankwork.working_cycle.gas_exchange import from_before_zero
 from crankwork.working_cycle.rounded_pieces import Named, Part
@@ -77,31 +76,6 @@ class RoundedCorners(NamedTuple):
         if isinstance(self.volume_at, RememberedVolume):
             return self.volume_at.reached(volume, self.top, self.bottom)
         return reached(self.volume_at, volume, self.top, self.bottom)
-
-
-@dataclass(frozen=True)
-class RememberedVolume:
-    """The volume of a cylinder at single crank angles, remembered: what `VolumeAt` is in numbers. [deg] -> [m3]"""
-
-    volume: Known
-
-    def _numbers(self, degrees: Array) -> Array:
-        return replay(self.volume, CrankGrid.from_degrees(degrees))
-
-    def __call__(self, degrees: Any) -> Any:  # noqa: ANN401 - of numbers and knowns
-        """Return the volumes at crank angles, an array of knowns."""
-        angles = [plain(one) for one in degrees]
-        volumes = self._numbers(np.array(angles, dtype=float))
-        found = np.empty(len(angles), dtype=object)
-        for place, one in enumerate(degrees):
-            by = one if isinstance(one, Known) else None
-            found[place] = Known(Found(volumes[place], "at", (self.volume,), angles[place], by))
-        return found
-
-    def reached(self, volume: Known, start: float, end: float) -> Known:
-        """Return where the volume is reached between two crank angles. [deg]"""
-        angle = reached(self._numbers, volume.value, start, end)
-        return Known(Found(angle, "reached", (self.volume,), angle, volume))
 
 
 def corners_of(
