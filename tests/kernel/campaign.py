@@ -25,6 +25,8 @@ from crankwork.analysis import Results, analyse
 from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting
 from crankwork.errors import CrankworkError
+from crankwork.formula.known import Arithmetic, Found, Known, Total, Use
+from crankwork.formula.replay import replay
 from crankwork.kernel import compiled
 from crankwork.kernel.compiled import CONVERGED, Kernel
 from crankwork.kernel.trace import Designs, NotCompiledError, Trace
@@ -38,10 +40,15 @@ FIELDS, PART, COMPARED = 2, 0.01, 3
 LIMITS = {"value": 1e-12, "integral": 1e-10, "angle": 1e-7}
 _INTEGRALS = ("flywheel", "excess", "energy", "rim", "whole_inertia", "work", "reduced_inertia_mean")
 _SECONDS = 120
+_NEAR_DEAD = 1e-6
 
 
 class Comparison(NamedTuple):
-    """A machine compared: how many values compile, the worst of each kind, why the others do not."""
+    """A machine compared: how many values compile, the worst of each kind, why the others do not.
+
+    `left_out` and `near_dead` are designs left to analyses, and those nearer to a dead position than 1e-6; `values` how
+    many were compared of each kind.
+    """
 
     name: str
     compiled: int = 0
@@ -49,6 +56,8 @@ class Comparison(NamedTuple):
     left_out: int = 0
     reasons: Mapping[str, str] = {}
     absent: str = ""
+    near_dead: int = 0
+    values: Mapping[str, int] = {}
 
     @property
     def is_same(self) -> bool:
@@ -138,6 +147,7 @@ def _worst(found: Comparison, machine: Machine, kernel: Kernel, draw: np.random.
     """Return how far designs between those traced are apart at most."""
     designs = machine.now * (1 + PART * draw.uniform(-1, 1, (COMPARED, machine.now.size)))
     bulk, worst, left_out = kernel(designs.T), dict[str, tuple[float, str]](), 0
+    near_dead, counted = 0, collections.Counter[str]()
     for at, design in enumerate(designs):
         if bulk.left_out[at] > CONVERGED or not np.isfinite(bulk.values[:, at]).all():
             left_out += 1
@@ -146,14 +156,50 @@ def _worst(found: Comparison, machine: Machine, kernel: Kernel, draw: np.random.
             results = machine.results(dict(zip(machine.fields, design.tolist(), strict=True)))
         except CrankworkError:
             continue
+        if _from_dead_position(results.summary) < _NEAR_DEAD:
+            near_dead += 1
+            continue
         for key, value in zip(kernel.keys, bulk.values[:, at].tolist(), strict=True):
             kind, summary = _kind(key), results.summary
-            apart = abs(value - summary.get(key, np.nan)) / _size(key, summary)
+            apart, size = abs(value - summary.get(key, np.nan)), _size(key, summary)
+            if not apart <= LIMITS[kind] * size:
+                # of a small difference of large numbers rounding is left
+                size = max(size, _size_of(results.memory[key], results))
+            apart /= size
             if kind == "angle" and "ratio" not in key and not apart <= LIMITS[kind]:
                 apart = _missed(key, value, results)
+            counted[kind] += 1
             if not apart <= worst.get(kind, (-1.0, ""))[0]:
                 worst[kind] = apart, f"{key}: {summary.get(key)!r} and {value!r}"
-    return found._replace(worst=worst, left_out=left_out)
+    return found._replace(worst=worst, left_out=left_out, near_dead=near_dead, values=counted)
+
+
+def _from_dead_position(summary: Mapping[str, float]) -> float:
+    """Return how far a linkage stays from links in line, and from a guide across its link. [rad]"""
+    away = [min(value, math.pi - value) for key, value in summary.items() if key.startswith("transmission_angle")]
+    away += [math.pi / 2 - value for key, value in summary.items() if key.startswith("pressure_angle")]
+    return min(away, default=math.inf)
+
+
+def _size_of(known: Known, results: Results) -> float:
+    """Return the size of the numbers that a single value is the sum or difference of: what rounding goes by."""
+    node = known.node
+    match node:
+        case Found(operands=operands) if any(one.varies for one in operands):
+            columns = np.abs([replay(one, results.grid) for one in operands if one.varies])
+            return float(np.prod(np.max(columns, axis=1)))
+        case Use() | Arithmetic():
+            function = node.formula.function if isinstance(node, Use) else node.function
+            inputs = [one.value if isinstance(one, Known) else one for one in node.inputs]
+            found = abs(known.value)
+            for at, one in enumerate(node.inputs):
+                if isinstance(one, Known):
+                    beside = [value + 1e-30j * (at == place) for place, value in enumerate(inputs)]
+                    found += abs(np.imag(function(*beside)) / 1e-30) * _size_of(one, results)
+            return float(found)
+        case Total(operands=operands):
+            return sum(_size_of(one, results) for one in operands)
+    return 0.0 if known.varies else abs(known.value)
 
 
 def _kind(key: str) -> str:
@@ -198,6 +244,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("files", nargs="*")
     parser.add_argument("--count", type=int, default=0)
+    parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--vary", type=lambda one: one.split(","), default=(), help="numbers by key, commas between")
     parser.add_argument("--arrays", action="store_true", help="do not compile the loops")
@@ -208,9 +255,10 @@ def main() -> int:
     jobs: list[tuple[str, Callable[[], str]]] = [(one, Path(one).read_text) for one in asked.files]
     jobs += [
         (f"{asked.seed}:{at}", lambda at=at: plausible_file(asked.seed, at).text)  # type: ignore[misc]
-        for at in range(asked.count)
+        for at in range(asked.first, asked.count)
     ]
     counted, reasons, apart = collections.Counter[str](), collections.Counter[str](), 0
+    worst = dict[str, tuple[float, str]]()
     warnings.simplefilter("ignore")
     signal.signal(signal.SIGALRM, _late)
     began = time.monotonic()
@@ -222,14 +270,20 @@ def main() -> int:
             found = Comparison(name, worst={"value": (np.inf, f"{type(error).__name__}: {error}")})
         signal.alarm(0)
         counted["absent" if found.absent else "compiled" if found.compiled else "not compiled"] += 1
-        counted.update({"values": found.compiled, "other values": len(found.reasons), "left out": found.left_out})
+        counted.update({"keys": found.compiled, "other keys": len(found.reasons), "left out": found.left_out})
+        counted.update({"near dead": found.near_dead, **found.values})
+        for kind, one in found.worst.items():
+            if found.is_same:
+                worst[kind] = max(worst.get(kind, (0.0, "")), (one[0], f"{name} {one[1]}"))
         reasons.update({one.partition(":")[0] for one in found.reasons.values()})
         if not found.is_same or asked.files:
             apart += not found.is_same
-            told(name, found.absent, found.compiled, len(found.reasons), dict(found.worst))
+            told(name, found.absent, found.compiled, len(found.reasons), found.left_out, dict(found.worst))
         if asked.reasons:
             for key, reason in found.reasons.items():
                 told("   ", key, reason)
+    for kind, one in worst.items():
+        told(kind, *one)
     told(f"{len(jobs)} machines in {time.monotonic() - began:.0f} s, {apart} apart; {dict(counted)}; {dict(reasons)}")
     return min(apart, 100)
 

@@ -74,11 +74,9 @@ def _retold(
     if given_gas.calculated is not None:
         remembered = getattr(given_gas.calculated, "remembered", None)
         return None if remembered is None else partial(remembered, volume, solved.stroke[1:])
-    clearance = memory["clearance_volume"]
-    reach = clearance, clearance + memory["swept_volume"]
+    size = memory["clearance_volume"], memory["swept_volume"]
     valves = None if given_gas.valves is None else StatedValves(given_gas.valves, "gas.valves")
-    stated = {} if valves is None else valves.at_points(given_gas.points)
-    told = StatedDiagram(given_gas.points, given_gas.pieces, given_gas.path, volume, reach, stated)
+    told = StatedDiagram(given_gas.points, given_gas.pieces, given_gas.path, volume, *size, valves)
     return partial(told.retold, space.diagram)
 
 

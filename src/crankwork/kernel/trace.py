@@ -396,9 +396,7 @@ class Trace:
         match node.word:
             case "at" if node.by is not None and self._designs.differs[id(node.by.node)]:
                 return self._at(node.operands[0], self.value(node.by))
-            case "at" if len({one.at for one in self._designs.twins(node) if isinstance(one, Found)}) > 1:
-                raise NotCompiledError("ends", known.key)
-            case "at":
+            case "at" if len({getattr(one, "at", None) for one in self._designs.twins(node)}) == 1:
                 return self.value(node.operands[0], fixed=node.at)
             case "reached" if node.by is not None:
                 return self._reached(node, self.value(node.by))

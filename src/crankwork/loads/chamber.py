@@ -7,12 +7,20 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, VolumeAt
+from crankwork.formula.known import Found, Known, given
+from crankwork.formula.over_cycle import OverCycle
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.loads import gas
+from crankwork.loads.indicator import DiagramError, DiagramPoint, IndicatorDiagram, Piece, VolumeAt
 from crankwork.loads.measured import MeasuredPressure
+from crankwork.loads.pressure import at_angle
 from crankwork.loads.valves import Valves
+from crankwork.locale import Refusal
 from crankwork.mechanism.dyads import Branch
 
 _TURN = 360.0
+# share of the largest below which a volume is nothing
+NOTHING = 1e-12
 
 
 class PressureOfHeat(Protocol):
@@ -113,3 +121,46 @@ def face_owners(name: str, chamber: Chamber) -> tuple[str, ...]:
     if len(chamber.faces) == 1:
         return (name,)
     return tuple(f"{name}.{one.slider}" for one in chamber.faces)
+
+
+def charge_mass(name: str, charge: Charge, whole: Known, constant: Known, period: float) -> Known:
+    """Return the mass of a charge whose parts keep their temperatures."""
+    key = f"gas_mass.{name}"
+    if charge.mass is not None:
+        return given(key, charge.mass, f"charges.{name}.mass")
+    over = _course(name, whole, period)
+    if charge.mean_pressure is None:
+        start = at_angle(whole, charge.angle, f"reduced_volume.{name}.start")
+    else:
+        mean = math.radians(period) / over.integral("inverse")
+        start = Known(Found(mean, "harmonic_mean", (whole,)), f"reduced_volume.{name}.mean")
+    return gas.charge_mass(_stated(name, charge), start, constant).named(key)  # type: ignore[no-any-return]
+
+
+def charge_pressure(name: str, charge: Charge, whole: Known, exponent: Known, period: float) -> Known:
+    """Return the pressure of a charge that follows a polytrope."""
+    over, stated = _course(name, whole, period), _stated(name, charge)
+    if charge.mean_pressure is None:
+        start = at_angle(whole, charge.angle, f"cylinder_volume.{name}.start")
+    else:
+        by = over.extremes("")["_min_angle"] * (180 / math.pi)
+        start = at_angle(whole, by.value, f"cylinder_volume.{name}.start", by)
+        trial = gas.polytropic_pressure(stated, start, whole, exponent)
+        mean = OverCycle({"": trial}, CrankGrid.from_degrees, period).mean("", f"diagram_pressure.{name}.trial")
+        stated = (stated * (stated / mean)).named(f"diagram_pressure.{name}.start")
+    return gas.polytropic_pressure(stated, start, whole, exponent)  # type: ignore[no-any-return]
+
+
+def _stated(name: str, charge: Charge) -> Known:
+    if charge.mean_pressure is not None:
+        return given(f"diagram_pressure.{name}.mean", charge.mean_pressure, f"charges.{name}.mean_pressure")
+    return given(f"diagram_pressure.{name}.start", charge.pressure or math.nan, f"charges.{name}.pressure")
+
+
+def _course(name: str, whole: Known, period: float) -> OverCycle:
+    """Follow the whole volume of a charge, and its inverse; refuse one that vanishes."""
+    over = OverCycle({"": whole}, CrankGrid.from_degrees, period)
+    largest, least = over.largest_and_least[""]
+    if least.value <= NOTHING * largest.value:
+        raise DiagramError(f"charges.{name}", Refusal("charge_empty", angle=least.at))
+    return OverCycle({"": whole, "inverse": 1 / whole}, CrankGrid.from_degrees, period)

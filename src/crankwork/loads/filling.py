@@ -19,7 +19,18 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import Motion
 from crankwork.loads import gas
 from crankwork.loads.applied import AppliedLoads, force_on_slider, together
-from crankwork.loads.chamber import Chamber, Charge, Face, cycle_of, face_owners, least_common, own_cycle
+from crankwork.loads.chamber import (
+    NOTHING,
+    Chamber,
+    Charge,
+    Face,
+    charge_mass,
+    charge_pressure,
+    cycle_of,
+    face_owners,
+    least_common,
+    own_cycle,
+)
 from crankwork.loads.indicator import DeadCentres, DiagramError, IndicatorDiagram, Segment, VolumeAt, solve_diagram
 from crankwork.loads.measured import Told
 from crankwork.loads.pressure import at_angle, remembered_pressure
@@ -31,8 +42,6 @@ from crankwork.mechanism.driver import Law
 from crankwork.mechanism.mechanism import Mechanism
 
 _TURN = 360.0
-# share of the largest below which a volume is nothing
-_NOTHING = 1e-12
 # share of the swept volume by which one may change at rest
 _STILL = 1e-9
 # dead centres that are nearer are one [deg]
@@ -255,7 +264,7 @@ def _area(face: Face, owner: str, path: str, pi: float) -> Known:
 def _space(name: str, chamber: Chamber, walls: tuple[_Wall, ...], over: OverCycle, period: float) -> _Space:
     travel, rate = f"face_volume.{name}", f"cylinder_volume_1.{name}"
     largest, least = over.largest_and_least[travel]
-    if largest.value - least.value <= _NOTHING * max(largest.value, -least.value):
+    if largest.value - least.value <= NOTHING * max(largest.value, -least.value):
         raise DiagramError(f"chambers.{name}", Refusal("chamber_still"))
     found = over.extremes(travel)
     swept = (found[f"face_volume_max.{name}"] - found[f"face_volume_min.{name}"]).named(f"swept_volume.{name}")
@@ -342,19 +351,21 @@ def _of_its_own(
         found = {phase: _solved(chamber, space, begins + phase, path) for phase in dict.fromkeys(phases)}
         told += [_jump(point, phase + at, step, law) for phase, one in found.items() for point, at, step in one.jumps]
     diagram = _joined(found, phases).later(begins)
-    retold = partial(_told(chamber, space, path, begins).retold, diagram) if len(found) == 1 and chamber.pieces else None
+    stated = StatedDiagram(
+        chamber.points,
+        chamber.pieces,
+        path,
+        space.volume,
+        space.clearance,
+        space.swept,
+        stated_valves(path, chamber),
+        begins,
+    )
+    retold = partial(stated.retold, diagram) if len(found) == 1 and chamber.pieces else None
     pressure = remembered_pressure(diagram, space.volume, path, retold)
     own = phases[: round(cycle / chamber.cycle)]
     done = chamber.factor * sum(found[one].work(_volume_from(space, begins + one)) for one in own)
     return pressure, Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}"), told
-
-
-def _told(chamber: Chamber, space: _Space, path: str, begins: float) -> StatedDiagram:
-    """Return what tells the pressure of a chamber in knowns alone."""
-    valves, clearance = stated_valves(path, chamber), space.clearance
-    stated = {} if valves is None else valves.at_points(chamber.points)
-    reach = clearance, clearance + space.swept
-    return StatedDiagram(chamber.points, chamber.pieces, path, space.volume, reach, stated, begins)
 
 
 def _ends_of_stroke(space: _Space, delay: float) -> tuple[float, float]:
@@ -453,56 +464,12 @@ def _sealed(
     if charge.exponent is not None:
         whole = total(f"cylinder_volume.{name}", [volume for _, volume, _, _ in parts])
         exponent = given(f"polytropic_exponent.{name}", charge.exponent, f"{path}.exponent")
-        return _polytropic(name, charge, whole, exponent, period), []
+        return charge_pressure(name, charge, whole, exponent, period), []
     reduced = []
     for owner, volume, kelvin, place in parts:
         temperature = given(f"cylinder_temperature.{owner}", kelvin or math.nan, f"{place}.temperature")
         reduced.append(gas.reduced_volume(volume, temperature).named(f"reduced_volume.{owner}"))
     whole = total(f"reduced_volume.{name}", reduced)
     constant = given(f"specific_gas_constant.{name}", charge.gas_constant or math.nan, f"{path}.gas_constant")
-    mass = _mass(name, charge, whole, constant, period)
+    mass = charge_mass(name, charge, whole, constant, period)
     return gas.isothermal_pressure(mass, constant, whole), [mass]
-
-
-def _mass(name: str, charge: Charge, whole: Known, constant: Known, period: float) -> Known:
-    """Return the mass of a charge whose parts keep their temperatures."""
-    key = f"gas_mass.{name}"
-    if charge.mass is not None:
-        return given(key, charge.mass, f"charges.{name}.mass")
-    over = _course(name, whole, period)
-    if charge.mean_pressure is None:
-        start = at_angle(whole, charge.angle, f"reduced_volume.{name}.start")
-    else:
-        mean = math.radians(period) / over.integral("inverse")
-        start = Known(Found(mean, "harmonic_mean", (whole,)), f"reduced_volume.{name}.mean")
-    return gas.charge_mass(_stated(name, charge), start, constant).named(key)  # type: ignore[no-any-return]
-
-
-def _polytropic(name: str, charge: Charge, whole: Known, exponent: Known, period: float) -> Known:
-    """Return the pressure of a charge that follows a polytrope."""
-    over, stated = _course(name, whole, period), _stated(name, charge)
-    if charge.mean_pressure is None:
-        start = at_angle(whole, charge.angle, f"cylinder_volume.{name}.start")
-    else:
-        least = over.extremes("")["_min_angle"]
-        by = least * (180 / math.pi)
-        start = at_angle(whole, by.value, f"cylinder_volume.{name}.start", by)
-        trial = gas.polytropic_pressure(stated, start, whole, exponent)
-        mean = OverCycle({"": trial}, CrankGrid.from_degrees, period).mean("", f"diagram_pressure.{name}.trial")
-        stated = (stated * (stated / mean)).named(f"diagram_pressure.{name}.start")
-    return gas.polytropic_pressure(stated, start, whole, exponent)  # type: ignore[no-any-return]
-
-
-def _stated(name: str, charge: Charge) -> Known:
-    if charge.mean_pressure is not None:
-        return given(f"diagram_pressure.{name}.mean", charge.mean_pressure, f"charges.{name}.mean_pressure")
-    return given(f"diagram_pressure.{name}.start", charge.pressure or math.nan, f"charges.{name}.pressure")
-
-
-def _course(name: str, whole: Known, period: float) -> OverCycle:
-    """Follow the whole volume of a charge, and its inverse; refuse one that vanishes."""
-    over = OverCycle({"": whole}, CrankGrid.from_degrees, period)
-    largest, least = over.largest_and_least[""]
-    if least.value <= _NOTHING * largest.value:
-        raise DiagramError(f"charges.{name}", Refusal("charge_empty", angle=least.at))
-    return OverCycle({"": whole, "inverse": 1 / whole}, CrankGrid.from_degrees, period)

@@ -18,6 +18,7 @@ from crankwork.loads.between import cubic_between
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Segment
 from crankwork.loads.monotone import monotone_slopes
+from crankwork.loads.valves import StatedValves
 
 # crank angles nearer than this are one [deg]
 _SAME_ANGLE = 1e-6
@@ -68,16 +69,16 @@ class RememberedVolume:
 class StatedDiagram(NamedTuple):
     """What a diagram was solved from: points by name, laws between them, and where a description states these.
 
-    `volume` is that of the gas, `reach` its least and largest value. `stated` are pressures of points that something
-    else states; `begins` is the crank angle that points are counted from [deg].
+    `volume` is that of the gas; `begins` is the crank angle that points are counted from [deg].
     """
 
     points: Mapping[str, DiagramPoint]
     pieces: tuple[Piece, ...]
     path: str
     volume: Known
-    reach: tuple[Known, Known]
-    stated: Mapping[str, Known]
+    clearance: Known
+    swept: Known
+    valves: StatedValves | None = None
     begins: float = 0.0
 
     def retold(self, diagram: IndicatorDiagram) -> Known:
@@ -111,7 +112,8 @@ class _Told:
     def __init__(self, of: StatedDiagram, diagram: IndicatorDiagram) -> None:
         self._of, self._named, self._cycle = of, diagram.named, diagram.segments[-1].end
         self._volume_at = RememberedVolume(of.volume)
-        self._pressures, self._volumes = dict(of.stated), dict[str, Known]()
+        self._pressures = {} if of.valves is None else of.valves.at_points(of.points)
+        self._volumes: dict[str, Known] = {}
         self._polytropes: dict[int, _Polytrope] = {}
         segments = {one.piece: one for one in reversed(diagram.segments)}
         for number, piece in enumerate(of.pieces, start=1):
@@ -141,17 +143,18 @@ class _Told:
         reference = piece.reference or first
         path = f"{self._of.path}.pieces[{number}].exponent"
         exponent = segment.of[1] if segment.of else given("polytropic_exponent", piece.exponent or 0.0, path)
-        found = _Polytrope(self._pressure(reference), self._volume(reference, segment), exponent)
+        found = _Polytrope(self._pressure(reference), self._volume(reference), exponent)
         self._polytropes[number] = found
         ending = self._of.points[last]
         if ending.angle is None and ending.stroke is None and ending.pressure is not None:
             # the law with pressure and volume in each other's place
-            volume = polytropic_pressure(found.volume, found.pressure, self._pressure(last), 1 / exponent)
-            self._volumes.setdefault(last, volume)
+            turned = found.volume, found.pressure, self._pressure(last), 1 / exponent
+            self._volumes.setdefault(last, polytropic_pressure(*turned))
         for name, at in zip((first, last), segment.knots, strict=True):
             if name not in self._pressures and self._of.points[name].pressure is None:
                 angle = self._angle(name, float(at))
-                self._pressures[name] = polytropic_pressure(*found[:2], *self._volume_at([angle]), exponent)
+                volume = self._volume_at([angle])[0]
+                self._pressures[name] = polytropic_pressure(found.pressure, found.volume, volume, exponent)
 
     def _pressure(self, name: str) -> Known:
         if name not in self._pressures:
@@ -159,7 +162,7 @@ class _Told:
             self._pressures[name] = given("diagram_pressure", pressure or 0.0, path)
         return self._pressures[name]
 
-    def _volume(self, name: str, segment: Segment) -> Known:
+    def _volume(self, name: str) -> Known:
         """Return the volume of the state that a polytrope passes through."""
         point = self._of.points[name]
         if point.volume is not None:
@@ -174,12 +177,12 @@ class _Told:
     def _wanted(self, name: str, point: DiagramPoint) -> Known:
         """Return the volume that places a point."""
         if name not in self._volumes:
-            low, high = self._of.reach
             path = f"{self._of.path}.points.{name}"
             if point.stroke is None:
                 self._volumes[name] = given("cylinder_volume", point.volume or 0.0, f"{path}.volume")
             else:
-                self._volumes[name] = low + given("stroke_share", point.stroke, f"{path}.stroke") * (high - low)
+                share = given("stroke_share", point.stroke, f"{path}.stroke")
+                self._volumes[name] = self._of.clearance + share * self._of.swept
         return self._volumes[name]
 
     def _angle(self, name: str, degrees: float) -> Value:
