@@ -34,9 +34,11 @@ from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID
 
 _HEIGHT, _MARGIN, _LOWEST = 340.0, 1.12, 0.55
 # rays and circle of the mean of a polar diagram, and what is as narrow as a stick
-_RAYS, _RAY, _MEAN, _STICK = 30.0, "#b8b8b8", 0.7, 0.12
+_RAYS, _RAY, _MEAN, _STICK = 30.0, "#8c8c8c", 0.7, 0.12
 # marks nearer than this to another one have no number [pt]
 _CROWDED = 10.0
+# what numbers and title take beside polar diagrams of main journals [pt]
+_BESIDE = 60.0
 _LINES = (SOLID, DASHED, DASH_DOT, DOTTED)
 
 
@@ -270,17 +272,20 @@ def main_journal_polar(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]
     reach = 1.18 * float(engine.shown("main_journal_load", most)) or 1.0
     columns = min(len(diagrams), 2 if len(diagrams) in (2, 4) else 3)
     lines = -(-len(diagrams) // columns)
-    side, gap = (here().width - 52 - here().right + 22) / columns - 22, (22.0, 26.0)
+    side, gap = (here().width - _BESIDE - here().right + 22) / columns - 22, (22.0, 26.0)
     paper = Paper(here().width, TOP + 12 + lines * side + (lines - 1) * gap[1] + BOTTOM)
     graphs = {}
     for at, diagram in enumerate(diagrams):
         column, line = at % columns, at // columns
-        box = Box(52 + column * (side + gap[0]), TOP + 12 + line * (side + gap[1]), side, side)
+        box = Box(_BESIDE + column * (side + gap[0]), TOP + 12 + line * (side + gap[1]), side, side)
         has_below = at + columns >= len(diagrams)
         small_text(paper, box.left + side / 2, box.top - 5, row_name(f"main_journal.{at + 1}", engine.language))
         graphs[str(at + 1)] = _small_polar(engine, paper, box, diagram, reach, labels=(has_below, column == 0))
+        title = f"{engine.symbol('main_journal_load')}, {engine.unit('main_journal_load')}"
         if has_below:
-            graphs[str(at + 1)].x_title(f"{engine.symbol('main_journal_load')}, {engine.unit('main_journal_load')}")
+            graphs[str(at + 1)].x_title(title)
+        if column == 0:
+            graphs[str(at + 1)].y_title(title, 30.0)
     return paper, graphs
 
 

@@ -21,6 +21,8 @@ from crankwork.units import shown_in
 
 # between values of neighbouring bars [pt]
 _BETWEEN = 5.0
+# of the inertia force of a piston, what of free forces is told in words, and what is rounding
+_HARDLY, _LEFT = 1e-3, 1e-9
 
 
 class _Bars(NamedTuple):
@@ -123,30 +125,49 @@ def balance_orders(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     kinds = {name: parts for name, parts in kinds.items() if parts}
     order = ["reciprocating", "rotating", "balance_shafts", "counterweights", "residual", "knuckle_pins"]
     fills = [order.index(one) for one in kinds]
-    panels = ["force", "moment"] if engine.diagrams.is_spread else ["force"]
+    sizes = {
+        panel: {kind: {float(one.order): getattr(one, panel).largest for one in some} for kind, some in kinds.items()}
+        for panel in (("force", "moment") if engine.diagrams.is_spread else ("force",))
+    }
+    most = {one: max((max(some.values(), default=0.0) for some in sizes[one].values()), default=0.0) for one in sizes}
+    panels = [one for one in sizes if most[one] > _free(engine, one)] or ["force"]
     texts = [say(f"report.{kind}", language) for kind in kinds]
-    head = 13.4 * _swatch_lines(texts) + 5
+    head = 13.4 * (_swatch_lines(texts) + len(sizes) - len(panels)) + 5
     height = tall(150.0)
     paper = Paper(here().width, TOP + head + len(panels) * height + (len(panels) - 1) * 28 + BOTTOM)
     _swatches(paper, texts, fills)
+    for panel in (one for one in sizes if one not in panels):
+        key = f"free_{panel}"
+        with shown_in(units_of(engine.drawn.results, key, most[panel])):
+            # of forces that cancel rounding is left
+            size = f"≤ {engine.value(key, most[panel])}" if most[panel] > _LEFT * _inertia(engine) else "= 0"
+        free = f"{say(f'drawing.{key}', language)} {engine.symbol(key)}"
+        text = say("drawing.hardly_free", language, free=free, size=size)
+        paper.text(here().left, TOP + head - 9.4, text, size=8.5)
     orders = [float(one.order) for one in balance.reciprocating]
     graphs: dict[str, Graph] = {}
     for at, panel in enumerate(panels):
         key = f"free_{panel}"
-        largest = {
-            kind: {float(one.order): getattr(one, panel).largest for one in some} for kind, some in kinds.items()
-        }
-        most = max((value for some in largest.values() for value in some.values()), default=0.0)
-        with shown_in(units_of(engine.drawn.results, key, most)):
+        with shown_in(units_of(engine.drawn.results, key, most[panel])):
             bars = [
                 _Bars(kind, {order: float(engine.shown(key, value)) for order, value in some.items()})
-                for kind, some in largest.items()
+                for kind, some in sizes[panel].items()
             ]
             box = Box(here().left, TOP + head + at * (height + 28), here().inner, height)
             graphs[panel] = _bar_graph(engine, paper, box, bars, orders, fills)
             graphs[panel].y_title(f"{say(f'drawing.{key}', language)} {engine.symbol(key)}, {engine.unit(key)}")
     graphs[panels[-1]].x_title(say("report.order", language, order="$q$"))
     return paper, graphs
+
+
+def _inertia(engine: EngineDrawn) -> float:
+    """Return the largest inertia force of one piston. [N]"""
+    return float(np.max(np.abs(engine.drawn.columns["inertia_force"])))
+
+
+def _free(engine: EngineDrawn, panel: str) -> float:
+    """Return what a free force must be to be drawn, or a moment, which is a force over a metre. [N], [N m]"""
+    return (_HARDLY if panel == "force" else _LEFT) * _inertia(engine)
 
 
 def has_free_forces(engine: EngineDrawn) -> bool:
@@ -174,7 +195,10 @@ def balance_ellipses(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
         box = Box(start + (at % columns) * (side + gap), TOP + head + (at // columns) * (side + 52), side, side)
         graphs[str(order)] = _locus(engine, paper, box, before, after, is_balanced=is_balanced)
         small_text(paper, box.left + side / 2, box.top - 5, say("report.order", language, order=order))
-        graphs[str(order)].x_title(f"{engine.symbol('free_force')}, {engine.unit('free_force')}")
+        title = f"{engine.symbol('free_force')}, {engine.unit('free_force')}"
+        graphs[str(order)].x_title(title)
+        if not at % columns:
+            graphs[str(order)].y_title(title, 30.0)
     return paper, graphs
 
 

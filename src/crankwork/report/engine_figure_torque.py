@@ -70,7 +70,8 @@ def _of_cylinders(engine: EngineDrawn, count: int) -> list[Row]:
         numbers = ", ".join(str(at + 1) for at in range(first, count, len(_DASHES)))
         key = "drawing.cylinders" if "," in numbers else "drawing.cylinder"
         which = say(key, engine.language, number=numbers)
-        rows.append(Row(f"{engine.named('crank_torque')}, {which}", _DASHES[first], _THIN))
+        other = _LIGHTER if "," in numbers else ""
+        rows.append(Row(f"{engine.named('crank_torque')}, {which}", _DASHES[first], _THIN, other=other))
     return rows
 
 

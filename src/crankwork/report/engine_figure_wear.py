@@ -21,8 +21,6 @@ from crankwork.show.scene import DASH_DOT
 _DEEPEST = 0.45
 _FOOT, _GAP, _ROOM, _HEAD = 40.0, 14.0, 26.0, 14.0
 _HATCH = 4.0
-# Rings smaller than this say what they have to say above themselves. [pt]
-_SMALL = 200.0
 # on a sheet none takes the room of other diagrams [pt]
 _LARGEST = 270.0
 
@@ -47,8 +45,9 @@ def _rings(engine: EngineDrawn, listing: str, thing: str) -> tuple[Paper, Mappin
         (here().width - 24 - (across - 1) * _GAP) / across, tall(290.0), _LARGEST if here().is_sheet else math.inf
     )
     start = (here().width - across * side - (across - 1) * _GAP) / 2
-    is_small = side < _SMALL
-    head = (_HEAD if len(rings) > 1 else 0.0) + (10.0 if is_small else 0.0)
+    # across a ring its angle would stand on the worn surface
+    below = 10.0 * any(one.hole.arc < 360 for one in rings.values())
+    head = (_HEAD if len(rings) > 1 else 0.0) + below
     paper = Paper(here().width, TOP + lines * (side + head) + (lines - 1) * _GAP + _FOOT)
     deepest = max(float(one.sums.max()) for one in rings.values()) or 1.0
     graphs = {}
@@ -57,11 +56,11 @@ def _rings(engine: EngineDrawn, listing: str, thing: str) -> tuple[Paper, Mappin
         box = Box(start + (at % across) * (side + _GAP), top, side, side)
         graphs[name] = _ring(engine, paper, box, angles, one, deepest)
         if len(rings) > 1:
-            small_text(
-                paper, box.left + side / 2, top - 4 - 10 * is_small, row_name(f"{thing}.{name}", engine.language)
-            )
-        if is_small and one.hole.arc < 360:
-            small_text(paper, box.left + side / 2, top - 3, _hole_words(engine, one.hole.angle))
+            small_text(paper, box.left + side / 2, top - 4 - below, row_name(f"{thing}.{name}", engine.language))
+        if one.hole.arc < 360:
+            angle = engine.number(one.hole.angle, 4)
+            hole = say("drawing.oil_hole_at", engine.language, angle=angle)
+            small_text(paper, box.left + side / 2, top - 3, hole)
     unit = engine.unit("wear_sum")
     largest = say("drawing.largest", engine.language, value=f"{engine.number(deepest, 4)} {unit}")
     text = f"{engine.symbol('wear_sum')} – {largest}; {say('drawing.worn', engine.language)}"
@@ -96,12 +95,12 @@ def _ring(engine: EngineDrawn, paper: Paper, box: Box, angles: Array, ring: Wear
     cross = np.array([[-0.12, 0, 0.12, 0], [0, -0.12, 0, 0.12]])
     centre = [graph.across(cross[:, 0]), graph.down(cross[:, 1]), graph.across(cross[:, 2]), graph.down(cross[:, 3])]
     paper.segments(np.column_stack(centre), width=0.6)
-    _hole(engine, graph, ring)
+    _hole(graph, ring)
     return graph
 
 
-def _hole(engine: EngineDrawn, graph: Graph, ring: WearRing) -> None:
-    """Draw the oil hole from the surface to the middle, and its angle."""
+def _hole(graph: Graph, ring: WearRing) -> None:
+    """Draw the oil hole from the surface to the middle."""
     hole = ring.hole
     if hole.arc == 360:
         return
@@ -112,14 +111,6 @@ def _hole(engine: EngineDrawn, graph: Graph, ring: WearRing) -> None:
         graph.paper.line(graph.across(wall[0]), graph.down(wall[1]), width=0.9)
     end = axis * 0.98
     graph.curve("oil_hole", [0.0, end[0]], [0.0, end[1]], DASH_DOT, width=0.6)
-    if graph.box.width >= _SMALL:
-        # under the middle where the hole goes up, over it where it goes down
-        level = -0.26 if axis[1] > -0.2 else 0.2
-        graph.boxed(float(graph.across(0.0)), float(graph.down(level)), _hole_words(engine, hole.angle), "middle", 7.5)
-
-
-def _hole_words(engine: EngineDrawn, angle: float) -> str:
-    return say("drawing.oil_hole_at", engine.language, angle=engine.number(angle, 4))
 
 
 def _hatch(graph: Graph, angles: Array, worn: Array) -> None:

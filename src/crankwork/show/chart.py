@@ -21,8 +21,8 @@ BOTTOM, TOP = 45.0, 10.0
 LEGEND_ROW = 13.4
 _TICK, _SMALL, _LEGEND = 8.5, 7.5, 8.5
 _FOOT_ROW = 9.0
-# from an axis to its numbers, with what is free between them and the title [pt]
-_CLEAR = 16.0
+# from an axis to its numbers, with what is free between them and the title [pt]; figures of readers' fonts are wider
+_CLEAR, _WIDE_FIGURES = 15.0, 1.3
 # largest numbers of axes that need no power of ten
 _SHORT = 0.01, 1e5
 # The styles of rows of a legend that explain an open circle, a dot, and an arrow.
@@ -41,12 +41,16 @@ class Box(NamedTuple):
 
 
 class Row(NamedTuple):
-    """A row of a legend: text, style (`CIRCLE`, `DOT`, `ARROW`), width of the line [pt] or 0 for none, its colour."""
+    """A row of a legend: text, style (`CIRCLE`, `DOT`, `ARROW`), width of the line [pt] or 0 for none, its colour.
+
+    `other`: colour of a second line that is dashed alike.
+    """
 
     text: str
     style: Style = SOLID
     width: float = 1.2
     colour: str = BLACK
+    other: str = ""
 
 
 def round_ticks(low: float, high: float, most: int = 8) -> Array:
@@ -187,7 +191,7 @@ class Graph:
             for value, at in zip(y_ticks, down, strict=True):
                 text = self._number(value, 1)
                 self.paper.text(left - 6, at + 3, text, size=_TICK, anchor="end")
-                self._numbers = max(self._numbers, WIDER * text_width(text, _TICK))
+                self._numbers = max(self._numbers, _WIDE_FIGURES * text_width(text, _TICK))
         ticks = [x_ticks.tolist(), y_ticks.tolist()]
         self._frame |= {
             "ticks": ticks,
@@ -275,9 +279,10 @@ def legend(paper: Paper, rows: Sequence[Row], top: float) -> None:
         elif row is not None and row.style == ARROW:
             paper.arrow((left, level + 6), (left + 20, level + 6), width=row.width)
         elif row is not None and row.width:
-            paper.line(
-                [left, left + 20], [level + 6] * 2, style=row.style, width=row.width, colour=row.colour, name="legend"
-            )
+            lines = [(6.0, row.colour)] if not row.other else [(4.0, row.colour), (8.0, row.other)]
+            for down, colour in lines:
+                at = [left, left + 20], [level + down] * 2
+                paper.line(*at, style=row.style, width=row.width, colour=colour, name="legend")
         paper.text(left + 27, level + 9, text, size=_LEGEND)
 
 
