@@ -15,14 +15,17 @@ from crankwork.locale.numbers import unit_name
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.quantities import QUANTITIES
 from crankwork.report.figure_data import figure_title
+from crankwork.report.language import symbol
 from crankwork.report.linkage_look import Style, displayed_values, position_text
-from crankwork.show.chart import Box, Graph, Row, round_ticks, sheet, sign
+from crankwork.show.chart import DOT, Box, Graph, Row, round_ticks, sheet, sign
 from crankwork.show.labels import label_marks
 from crankwork.show.paper import Paper, plain
 from crankwork.show.place import tall
-from crankwork.show.scene import DASHED, SOLID, Drawing
+from crankwork.show.scene import SOLID, Drawing
 
 _HIGH, _AROUND, _LINK = 300.0, 0.6, "#8c8c8c"
+# dashes that short centrodes show, too
+_ROLLING = (3.0, 1.5)
 # how much of its way a centre must be near to be drawn, and how far it must go there
 _SEEN, _SMALL = 0.3, 0.2
 # a coupler that turns less than this share of the crank has its centre far away
@@ -48,22 +51,26 @@ def centrodes(
         fixed, rolling = found[name]
         scale = float(displayed_values(QUANTITIES["point_x"], np.array(1.0)))
         places = {name: one.place[at] * scale for name, one in moved.points.items()}
+        letters = skeleton(mechanism, style.links).letters
+        # the letter that tables have, unless a point has it
+        centre = symbol("instant_centre_x", style.language).partition("_")[2]
+        centre += "₀" if centre in letters.values() else ""
         rows = [
             Row(say("drawing.fixed_centrode", style.language, link=plain(name))),
             Row(
-                f"{say('drawing.moving_centrode', style.language)}, {position_text(float(degrees[at]), style)}", DASHED
+                f"{say('drawing.moving_centrode', style.language)}, {position_text(float(degrees[at]), style)}",
+                _ROLLING,
             ),
+            Row(f"${centre}$ – {say('drawing.instant_centre', style.language)}", DOT),
         ]
         paper, box = sheet(tall(_HIGH), rows)
         graph = _graph(paper, box, np.vstack([one.place * scale for one in moved.points.values()]), style)
         _linkage(graph, skeleton(mechanism, style.links).members, places)
-        for key, path, dashes in (("fixed_centrode", fixed, SOLID), ("moving_centrode", rolling, DASHED)):
+        for key, path, dashes in (("fixed_centrode", fixed, SOLID), ("moving_centrode", rolling, _ROLLING)):
             graph.curve(key, *_within(graph, path * scale), dashes)
-        letters = skeleton(mechanism, style.links).letters
         marks = [(plain(letters[point]), *graph.point(*at)) for point, at in places.items() if point in letters]
         x, y = fixed[at] * scale
         if graph.x[0] < x < graph.x[1] and graph.y[0] < y < graph.y[1]:
-            centre = next(one for one in ("P", "Q", "P₀") if one not in letters.values())
             marks.append((f"${centre}$", *graph.point(float(x), float(y))))
         label_marks(paper, marks, frame=graph.box)
         unit = unit_name(QUANTITIES["point_x"].unit, style.language)

@@ -44,15 +44,18 @@ def curves(
     panels: Sequence[str | Sequence[str]],
     title: str,
     style: Style = PLAIN,
+    remark: str = "",
 ) -> Drawing:
     """Return quantities over the crank angle, one panel below the other.
 
     `columns`: values in SI by key, `joint_force.A` for what belongs to a point or link; `panels`: keys of each panel;
-    those of one panel share a unit.
+    those of one panel share a unit; `remark`: what stands beneath.
     """
-    sets = [_panel((one,) if isinstance(one, str) else tuple(one), columns) for one in panels]
-    if not sets:
+    every = [_panel((one,) if isinstance(one, str) else tuple(one), columns) for one in panels]
+    if not every:
         raise CrankworkError("curves need at least one key")
+    # what is zero throughout is said in words
+    sets = [one for one in every if any(np.any(columns[row.key]) for row in one)] or every
     shown = [[displayed_values(row, columns[row.key]) for row in one] for one in sets]
     # beside a panel among others there is no room for a name
     has_legends = any(_has_legend(one, style) for one in sets)
@@ -73,8 +76,13 @@ def curves(
         graph.y_title(_title(quantities, style, has_legend=has_legends))
         top += height + graph.box.height + _GAP
     dead = "; ".join(f"{number(round(one, 2), style.language)}°" for one in style.limits)
-    remark = say("drawing.dead_positions", style.language, angles=dead) if dead and not style.period else ""
-    sign(paper, style.method, remark)
+    zero = [math_symbol(row.symbol(style.language)) for one in every if one not in sets for row in one]
+    remarks = [
+        say("drawing.dead_positions", style.language, angles=dead) if dead and not style.period else "",
+        f"{' = '.join(zero)} = 0" if zero else "",
+        remark,
+    ]
+    sign(paper, style.method, "; ".join(one for one in remarks if one))
     return paper.drawing(title, style.language)
 
 
@@ -114,6 +122,8 @@ def _draw(graph: Graph, at: Array, quantities: Sequence[Quantity], values: Seque
 def _together(values: Sequence[Array]) -> list[list[int]]:
     """Return which curves of a panel fall together, so that they are drawn once."""
     size = max((float(np.ptp(one[np.isfinite(one)])) for one in values if np.isfinite(one).any()), default=0.0)
+    # constants differ by rounding
+    size += _ROUNDING * max((float(np.max(np.abs(one[np.isfinite(one)]), initial=0.0)) for one in values), default=0.0)
     found: list[list[int]] = []
     for at, one in enumerate(values):
         for some in found:

@@ -138,10 +138,11 @@ def speed_curve(degrees: Array, speed: Array, style: Style = PLAIN) -> Drawing:
     """Return the angular speed of the crank over one cycle, with its largest, mean and smallest value."""
     language, row = style.language, quantity_of("speed")
     low, high = float(np.min(speed)), float(np.max(speed))
-    levels = (high, "max", DOTTED), ((low + high) / 2, "m", DASHED), (low, "min", DOTTED)
-    mark = symbol("speed", language)
+    mean = symbol("mean_torque", language).partition("_")[2]
+    levels = (high, "max", DOTTED), ((low + high) / 2, mean, DASHED), (low, "min", DOTTED)
+    mark, unit = symbol("speed", language), unit_name(row.unit, language)
     shown = [
-        f"${mark}_{name}$ = {number(float(displayed_values(row, np.asarray(value))), language, digits=5)}"
+        f"${mark}_{name}$ = {number(float(displayed_values(row, np.asarray(value))), language, digits=5)} {unit}"
         for value, name, _ in levels
     ]
     shown.append(f"$δ$ = {number(2 * (high - low) / (high + low), language, digits=3)}")

@@ -21,7 +21,7 @@ from crankwork.mechanism.structure import structure
 from crankwork.quantities import Language
 from crankwork.report.chambers import chamber_figures
 from crankwork.report.figure_data import figure_title
-from crankwork.report.language import label
+from crankwork.report.language import label, symbol
 from crankwork.report.linkage_centrodes import centrodes
 from crankwork.report.linkage_curves import curves
 from crankwork.report.linkage_energy import speed_curve, wittenbauer
@@ -170,7 +170,12 @@ def _dynamics(degrees: Array, known: Mapping[str, Array], style: Style) -> Pictu
         )
     torques = any_nonzero(("static_torque", "dynamic_torque", "driving_torque"), known)
     if torques:
-        result["torques"] = partial(curves, degrees, known, [torques], label("driving_torque", style.language), style)
+        # a machine that nobody drives
+        gives = "driving_torque" in torques and np.nanmean(known["driving_torque"]) < 0
+        sign = f"${symbol('driving_torque', style.language)}$"
+        remark = say("drawing.gives_work", style.language, symbol=sign) if gives else ""
+        title = label("driving_torque", style.language)
+        result["torques"] = partial(curves, degrees, known, [torques], title, style, remark)
     result |= _friction(degrees, known, style)
     joints = any_nonzero((key for key in known if key.partition(".")[0] == "joint_force"), known)
     if joints:

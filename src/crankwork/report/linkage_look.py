@@ -32,6 +32,7 @@ class Style(NamedTuple):
     method: str = ""
     period: float = 0.0  # Of the law that drives; curves are over time then, and not over the crank angle [s]
     limits: tuple[float, ...] = ()  # Dead positions of a crank that turns back [deg]
+    turns: str = "crank"  # What the angle is of: a linkage has a crank, no crankshaft
 
 
 PLAIN = Style()
@@ -130,9 +131,8 @@ def drive_graph(
         x = float(graph.across(one))
         paper.line([x, x], [graph.box.top, graph.box.top + graph.box.height], style=DASH_DOT, width=0.8, colour=GREY)
     if is_last:
-        # a linkage has a crank, no crankshaft
         sign = math_symbol(QUANTITIES["crank_angle"].symbol(style.language))
-        angle = f"{say('drawing.angle_of_crank', style.language)} {sign}, °"
+        angle = f"{say(f'drawing.angle_of_{style.turns}', style.language)} {sign}, °"
         graph.x_title(axis_title(QUANTITIES["time"], style.language) if style.period else angle)
     return graph
 

@@ -131,7 +131,7 @@ def _remark(plan: Plan, kind: _Kind, language: Language) -> str:
         points, links = (plain(name) for name, _ in some), (str(link) for _, (link, _) in some)
         others = (plain(one) for _, (_, one) in some)
         joined = {"points": ", ".join(points), "links": ", ".join(links), "others": ", ".join(others)}
-        remarks.append(say("drawing.beneath", language, **joined))
+        remarks.append(say("drawing.beneath" if len(some) > 1 else "drawing.one_beneath", language, **joined))
     return "; ".join(remarks)
 
 

@@ -19,18 +19,21 @@ from crankwork.report.linkage_look import Style, angle_ticks, axis_title, displa
 from crankwork.report.summary import results_method
 from crankwork.show.chart import Box, Graph, Row, limits, round_ticks, sheet, sign, stretches
 from crankwork.show.labels import label_points
-from crankwork.show.paper import Paper, plain
+from crankwork.show.paper import Paper, plain, text_width
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing
 from crankwork.units import from_si
 
 _UPPER, _LOWER, _GAP = 216.0, 144.0, 16.0
 _MOST_TICKS = 12
 _MOST_NAMED = 24
+# letters of the work of a loop [pt], and how much wider than ours those of a reader may be
+_NAME, _WIDE = 7.5, 1.3
 
 
 def turning_pictures(results: Results, language: Language) -> dict[str, Callable[[], Drawing]]:
     """Return what draws each figure of a shaft."""
-    style, drawn = Style(language, (), results_method(results, language)), _shown(turning_diagram(results))
+    style = Style(language, (), results_method(results, language), turns="shaft")
+    drawn = _shown(turning_diagram(results))
     if drawn is None:
         loops = results.listings.get("energy_extremes")
         return {} if loops is None else {"loops": partial(_loops, loops.columns["kinetic_energy_change"], style)}
@@ -74,14 +77,12 @@ _LINES = (("turning_moment", "torque", SOLID), ("load_torque", "load", DASHED))
 def _rows(results: Results, language: Language) -> list[Row]:
     turning = results.machine.turning
     given = {} if turning is None else turning.diagrams
-    return [
-        Row(
-            f"{math_symbol(QUANTITIES[key].symbol(language))} – {plain(QUANTITIES[key].label(language))}"
-            + (f" ({say('report.mean', language)})" if table not in given else ""),
-            line,
-        )
-        for key, table, line in _LINES
-    ]
+    rows = []
+    for key, table, line in _LINES:
+        name = plain(QUANTITIES[key].label(language))
+        name = name if table in given else say("drawing.constant", language, name=name)
+        rows.append(Row(f"{math_symbol(QUANTITIES[key].symbol(language))} – {name}", line))
+    return rows
 
 
 def _torques(paper: Paper, box: Box, drawn: TurningDiagram, language: Language) -> None:
@@ -104,8 +105,39 @@ def _torques(paper: Paper, box: Box, drawn: TurningDiagram, language: Language) 
     graph.y_title(f"{names}, {unit_name(QUANTITIES['turning_moment'].unit, language)}")
     if len(drawn.loops) <= _MOST_NAMED:
         for middle, height, work in drawn.loops:
-            x, y = graph.point(middle, height)
-            graph.boxed(x, y + 3, _work(work, language, signed=True), "middle", size=7.5)
+            _name_loop(graph, drawn, (middle, height), _work(work, language, signed=True))
+
+
+def _name_loop(graph: Graph, drawn: TurningDiagram, place: tuple[float, float], text: str) -> None:
+    """Write the work of a loop where the loop is tallest for it, upward if it is nowhere as wide as the text."""
+    over, x = drawn.torque > drawn.load, graph.across(drawn.degrees)
+    inside = next((one for one in stretches(over) + stretches(~over)
+                   if drawn.degrees[one][0] <= place[0] <= drawn.degrees[one][-1]), slice(0))  # fmt: skip
+    ends = graph.down(np.array([drawn.torque, drawn.load]))
+    upper, lower = ends.min(axis=0), ends.max(axis=0)
+    zero = float(graph.down(0.0))
+    middle, length, height = graph.point(*place), _WIDE * text_width(text, _NAME), 1.5 * _NAME
+    for wide, tall in ((length, height), (height, length)):
+        best, found = -math.inf, middle
+        for at in x[inside].tolist():
+            over_text = np.abs(x - at) <= wide / 2
+            top, bottom = float(upper[over_text].max()), float(lower[over_text].min())
+            if top < zero < bottom:
+                top, bottom = (zero, bottom) if bottom - zero > zero - top else (top, zero)
+            # of places with as much room that in the middle
+            worth = min(bottom - top, 2 * tall) - 0.01 * abs(at - middle[0])
+            if bottom - top > tall and worth > best:
+                best, found = worth, (at, (top + bottom) / 2)
+        if best > -math.inf:
+            break
+    else:
+        wide = length
+    if wide == length:
+        graph.boxed(found[0], found[1] + 0.35 * _NAME, text, "middle", _NAME)
+        return
+    sides = np.array([-0.5, 0.5, 0.5, -0.5]) * wide, np.array([-0.5, -0.5, 0.5, 0.5]) * tall
+    graph.paper.area(found[0] + sides[0], found[1] + sides[1])
+    graph.paper.upward_text(found[0] + 0.35 * _NAME, found[1], text, size=_NAME)
 
 
 def _work(work: float, language: Language, *, signed: bool = False) -> str:
