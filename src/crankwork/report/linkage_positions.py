@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Container, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.analysis.moving import moving
-from crankwork.analysis.skeleton import Pose, skeleton
+from crankwork.analysis.moving import Moving, moving
+from crankwork.analysis.skeleton import Pose, Skeleton, skeleton
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.report.figure_data import figure_title
 from crankwork.report.linkage_drawing import HATCH, corners, slot_middle, walls
@@ -34,11 +35,15 @@ _STEP = 2.0
 _STEPS, _APART, _MOST = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 30.0), 30.0, 12
 _MARGIN, _FOOT = 24.0, 50.0
 _TALLEST = 560.0
+# millimetres of a linkage in one of paper, times a power of ten
+_SCALES = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
 # points whose places have the numbers of the plans; of more nobody could tell which number is whose
 _NUMBERED = 6
 _THIN, _BLOCK, WHITE = "#8c8c8c", "#d9d9d9", "#ffffff"
 # size of the numbers beside guides, and places so near that their numbers stand together [pt]
 _NUMBER, _TOGETHER = 8.0, 2.5
+# of names of points [pt], what is free about them, and where they stand at a support [units of the picture]
+_LETTER, _CLEAR, _BY_SUPPORT = 9.0, 6.0, ((0.0, -33.0), (-24.0, -16.0), (24.0, -16.0))
 # parts are drawn smaller than on a screen: units of the picture in a point of the paper
 _UNITS = 1.5
 
@@ -69,10 +74,7 @@ def position_plans(
     main = int(np.argmin(np.abs(degrees - worked)))
     moved = moving(mechanism, np.union1d(np.append(np.arange(first, last, _STEP), last), degrees))
     plans = [int(np.argmin(np.abs(moved.degrees - one))) for one in degrees]
-    room = _UNITS * (here().width - 2 * _MARGIN)
-    drawn, scale = scene(shape, moved, room)
-    paper = round_scale(_least_scale(drawn, scale))
-    drawn, _ = scene(shape, moved, room * _UNITS * points_per_mm() * 1e3 / paper / scale)
+    drawn, paper = _scaled(shape, moved)
     sheet = _sheet(drawn, plans, main, style)
     _ground(sheet)
     for plan in plans:
@@ -91,7 +93,7 @@ def position_plans(
 
 def _sheet(drawn: Scene, plans: list[int], main: int, style: Style) -> _Sheet:
     """Return an empty sheet that holds the linkage at all angles, with a foot for the scale."""
-    places = corners(drawn)
+    places = _seen(drawn)
     (left, bottom), (right, top) = places.min(axis=0) - _MARGIN, places.max(axis=0) + _MARGIN
     spare = max(0.0, _UNITS * here().width - (right - left)) / 2
     left, right, bottom = left - spare, right + spare, bottom - _FOOT
@@ -101,11 +103,24 @@ def _sheet(drawn: Scene, plans: list[int], main: int, style: Style) -> _Sheet:
     return _Sheet(graph, drawn, plans, main)
 
 
-def _least_scale(drawn: Scene, scale: float) -> float:
-    """Return how many millimetres of the linkage a millimetre of paper must take at least."""
-    width, height = np.ptp(corners(drawn), axis=0)
-    fit = min((here().width - 2 * _MARGIN) / width, tall(_TALLEST) / height)
-    return float(points_per_mm() * 1e3 / (scale * fit))
+def _scaled(shape: Skeleton, moved: Moving) -> tuple[Scene, float]:
+    """Return a linkage as large as its paper takes it, and how many of its millimetres are one of paper."""
+    room = _UNITS * (here().width - 2 * _MARGIN)
+    drawn, scale = scene(shape, moved, room)
+    # walls, supports and pieces are as large at any scale, so that what joins their middles is less than all
+    paper = round_scale(_UNITS * points_per_mm() * 1e3 / scale, _SCALES)
+    while True:
+        drawn, _ = scene(shape, moved, room * _UNITS * points_per_mm() * 1e3 / paper / scale)
+        if np.all(np.ptp(_seen(drawn), axis=0) <= _UNITS * np.array([here().width - _MARGIN, tall(_TALLEST)])):
+            return drawn, paper
+        paper = round_scale(1.01 * paper, _SCALES)
+
+
+def _seen(drawn: Scene) -> Array:
+    """Return places that the parts of a linkage reach, without points of which nothing is drawn."""
+    shape = drawn.skeleton
+    named = {*shape.letters, *shape.pivots, *shape.coupler_points}
+    return corners(drawn._replace(points={name: at for name, at in drawn.points.items() if name in named}))
 
 
 def _ground(sheet: _Sheet) -> None:
@@ -234,8 +249,17 @@ def _texts(sheet: _Sheet, numbered_guides: Container[str]) -> None:
     at = plans[sheet.main]
     named = {letter: drawn.points[name][at] for name, letter in reversed([*drawn.skeleton.letters.items()])
              if name in drawn.points}  # fmt: skip
-    marks = [(_slanted(letter), *sheet.graph.point(*place)) for letter, place in named.items()]
-    label_marks(sheet.graph.paper, marks, size=9.0, dot=0.0)
+    pivots = {drawn.skeleton.letters.get(name, "") for name in drawn.skeleton.pivots}
+    found = {letter: _beneath(sheet, letter, named[letter]) for letter in pivots if letter in named}
+    supports = {letter: place for letter, place in found.items() if place is not None}
+    for letter, (x, y) in supports.items():
+        # other names keep clear of it
+        wide, high = _half(letter) / _UNITS
+        sheet.graph.paper.texts.append((letter, x - wide, y - high, x + wide, y + high))
+    marks = [
+        (_slanted(letter), *sheet.graph.point(*place)) for letter, place in named.items() if letter not in supports
+    ]
+    label_marks(sheet.graph.paper, marks, size=_LETTER, dot=0.0)
     numbered = [drawn.skeleton.driven] if drawn.skeleton.driven else []
     slides = [one for one in drawn.skeleton.members if one.guide and not one.guide.link and one.points]
     numbered += [one.points[0] for one in slides if one.name not in numbered_guides]
@@ -248,6 +272,30 @@ def _texts(sheet: _Sheet, numbered_guides: Container[str]) -> None:
         for count, plan in enumerate(plans)
     ]
     label_points(sheet.graph, points)
+    for letter, (x, y) in supports.items():
+        sheet.graph.boxed(x, y + 0.35 * letters(_LETTER), _slanted(letter), "middle", _LETTER)
+
+
+def _half(letter: str) -> Array:
+    """Return half the width and height of the name of a point. [units of the picture]"""
+    return _UNITS * np.array([text_width(_slanted(letter), _LETTER) / 2 + 2, 0.6 * letters(_LETTER)])
+
+
+def _beneath(sheet: _Sheet, letter: str, place: Array) -> tuple[float, float] | None:
+    """Return where the name of a fixed joint stands under its support or beside it, unless bold links are there."""
+    at, drawn = sheet.plans[sheet.main], sheet.drawn
+    bold = [np.array([node[at] for node in (*one.nodes, one.nodes[0])]) for one in drawn.bars]
+    shares = np.linspace(0.0, 1.0, 60)[:, None]
+    lines = [start + shares * (end - start) for one in bold for start, end in pairwise(one)]
+    slots = [one.line.place(end)[at] for one in drawn.slots for end in np.linspace(one.start, one.end, 60)]
+    seen = np.vstack([*lines, *slots, *(one.pose.origin[at] for one in drawn.blocks)])
+    half = _half(letter)
+    for foot in _BY_SUPPORT:
+        aside = np.sign(foot[0]) * half[0], -half[1] * (foot[0] == 0)
+        middle = place + np.array(foot) + aside
+        if not np.any(np.all(np.abs(seen - middle) < half + _CLEAR, axis=1)):
+            return sheet.graph.point(*middle)
+    return None
 
 
 def _slanted(name: str) -> str:

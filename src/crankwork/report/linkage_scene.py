@@ -125,13 +125,16 @@ def _slides(shape: Skeleton, moving: Moving, metres: dict[str, Array]) -> list[_
         if member.guide is None:
             continue
         line = guide_pose(member.guide, moving)
-        anchor = moving.frames[member.name].origin.place
-        if member.points:
+        anchor, far = moving.frames[member.name].origin.place, None
+        if member.points and member.has_rod:
+            # its rod goes towards what it carries
+            far = np.mean([np.mean(metres[name], axis=0) for name in member.points], axis=0)
+        elif member.points:
             seen = line.seen(metres[member.points[0]])
             if np.max(np.abs(seen[:, 1])) < 1e-6 * max(np.ptp(seen[:, 0]), 1e-6):
                 anchor = metres[member.points[0]]
         along = line.seen(anchor)[:, 0]
-        ahead = np.mean(anchor, axis=0) - middle
+        ahead = np.mean(anchor, axis=0) - middle if far is None else far - np.mean(anchor, axis=0)
         side = -1 if float(ahead @ line.along[0]) < -1e-9 else 1
         found.append(_Slide(member, line, anchor, along, side))
     return found

@@ -281,8 +281,8 @@ def legend(paper: Paper, rows: Sequence[Row], top: float) -> None:
         elif row is not None and row.width:
             lines = [(6.0, row.colour)] if not row.other else [(4.0, row.colour), (8.0, row.other)]
             for down, colour in lines:
-                at = [left, left + 20], [level + down] * 2
-                paper.line(*at, style=row.style, width=row.width, colour=colour, name="legend")
+                ends = [left, left + 20], [level + down] * 2
+                paper.line(*ends, style=row.style, width=row.width, colour=colour, name="legend")
         paper.text(left + 27, level + 9, text, size=_LEGEND)
 
 
