@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.studio.test_pmks import FOUR_BAR
 
 from crankwork.description.machine_file import template
 
@@ -198,14 +199,22 @@ def test_a_machine_is_exported_shared_and_opened_again(seen, tmp_path):
 
     assert opened_share(word) == source(page)
     begin(page, "engine")
+    pasted(page, word)
+    page.wait_for_function("() => document.getElementById('source').value.includes('coupler')")
+    settled(page)
+    assert source(page) == opened_share(word)
+    pasted(page, f"https://app.pmksplus.com/?{FOUR_BAR}")
+    page.wait_for_function("() => document.getElementById('source').value.includes('clockwise')")
+    settled(page)
+    assert page.locator('#film [data-part="joint.C"]').count() == 1
+
+
+def pasted(page, word):
     page.evaluate(
         "word => { const data = new DataTransfer(); data.setData('text', word);"
         " document.body.dispatchEvent(new ClipboardEvent('paste', {clipboardData: data, bubbles: true})); }",
         word,
     )
-    page.wait_for_function("() => document.getElementById('source').value.includes('coupler')")
-    settled(page)
-    assert source(page) == opened_share(word)
 
 
 def test_what_was_typed_is_there_after_a_reload(seen):

@@ -25,6 +25,9 @@ function room(id) {
   return /** @type {T} */ (document.getElementById(id));
 }
 
+// a machine as one word, of ours or of PMKS+
+const SHARED = /^(crankwork:\S+|(https?:\/\/\S*\?)?[\w-]{1,4}\.[\w,-]+\.[\w,-]+\.\w+\.\w+,\S+)$/;
+
 class StudioPage {
   constructor() {
     /** @type {Record<string, string>} */
@@ -550,7 +553,7 @@ class StudioPage {
     document.addEventListener("paste", (event) => {
       const word = event.clipboardData?.getData("text").trim() ?? "";
       const inside = /** @type {Element} */ (event.target).closest("input, textarea");
-      if (!word.startsWith("crankwork:") || inside) return;
+      if (!SHARED.test(word) || inside) return;
       event.preventDefault();
       this.take({ do: "shared", word });
     });
@@ -592,7 +595,9 @@ class StudioPage {
     const open = /** @type {HTMLInputElement} */ (room("open"));
     open.addEventListener("change", async () => {
       const file = open.files?.[0];
-      if (file) this.open(await file.text(), file.name);
+      const text = (await file?.text()) ?? "";
+      if (SHARED.test(text.trim())) this.take({ do: "shared", word: text });
+      else if (file) this.open(text, file.name);
       open.value = "";
     });
   }

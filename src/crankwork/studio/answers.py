@@ -37,6 +37,7 @@ from crankwork.show.inline import inline_film, inline_svg
 from crankwork.studio.additions import additions, with_addition
 from crankwork.studio.form import form, stated_text
 from crankwork.studio.handles import handles
+from crankwork.studio.pmks import from_pmks, is_pmks
 from crankwork.studio.sketch import redrawn, sketched
 
 SHARE = "crankwork:"
@@ -115,7 +116,7 @@ class Studio:
         return {"text": text, **self._show({**asked, "text": text})}
 
     def _shared(self, asked: Mapping[str, Any]) -> dict[str, Any]:
-        text = opened_share(asked["word"])
+        text = opened_share(asked["word"], self.language)
         # who sent it is not asked for files of this machine
         self._reads = False
         return {"text": text, **self._show({**asked, "text": text})}
@@ -254,8 +255,15 @@ def shared(text: str) -> str:
     return SHARE + base64.urlsafe_b64encode(squeezed).decode().rstrip("=")
 
 
-def opened_share(word: str) -> str:
-    """Return the machine file of a word that was sent."""
+def is_share(word: str) -> bool:
+    """Return whether a text may be a machine that was sent, and no name of a file."""
+    return word.startswith(SHARE) or is_pmks(word)
+
+
+def opened_share(word: str, language: Language = "en") -> str:
+    """Return the machine file of a word that was sent, here or by PMKS+."""
+    if is_pmks(word):
+        return from_pmks(word, language)
     letters = "".join(word.split()).removeprefix(SHARE)
     try:
         squeezed = base64.b64decode(letters + "=" * (-len(letters) % 4), altchars="-_", validate=True)

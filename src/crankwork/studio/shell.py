@@ -63,7 +63,7 @@ def _header(language: Language) -> list[str]:
         f'<select id="template" aria-label="{_said("template", language)}">',
         f'<option value="">{_said("template", language)}</option>{templates}</select>',
         f'<label class="button" tabindex="-1">{_said("open", language)}',
-        '<input id="open" type="file" accept=".toml,.txt,text/plain"></label>',
+        '<input id="open" type="file" accept=".toml,.txt,.pmks,text/plain"></label>',
         *(_button(name, language) for name in ("save", "undo", "redo", "share", "pin")),
         f'<span id="pins"></span><button id="draw" aria-pressed="false">{_said("draw", language)}</button>',
         f'<select id="export" aria-label="{_said("export", language)}">',

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from crankwork.description.document import Description
 from crankwork.description.written import document
-from crankwork.errors import CrankworkError
+from crankwork.errors import CrankworkError, InputError
 from crankwork.locale import Language, Refusal, say
 
 _SPEED = "60 rpm"
+Written = Callable[[float], str]
 
 
 class Pin(NamedTuple):
-    """A pin where it was drawn, downward as a screen counts [mm]; on the ground, or sliding in a direction [deg]."""
+    """A pin where it was drawn, downward as a screen counts; on the ground, or sliding in a direction [deg]."""
 
     name: str
     x: float
@@ -23,10 +24,9 @@ class Pin(NamedTuple):
     ground: bool = False
     slides: float | None = None
 
-    @property
-    def place(self) -> list[str]:
-        """Where it is, upward, as a file states it."""
-        return [_millimetres(self.x), _millimetres(-self.y)]
+    def place(self, written: Written) -> list[str]:
+        """Return where it is, upward, as a file states it."""
+        return [written(self.x), written(-self.y)]
 
 
 def sketched(asked: Mapping[str, Any], language: Language) -> str:
@@ -39,28 +39,50 @@ def sketched(asked: Mapping[str, Any], language: Language) -> str:
     first = next((link for link in links if len(link) == 2 and len(grounded.intersection(link)) == 1), None)
     if first is None:
         raise CrankworkError(Refusal("sketch_no_crank"))
-    pivot, pin = sorted(first, key=lambda name: name not in grounded)
+    driving = sorted(first, key=lambda name: name not in grounded)
+    others = {str(number): one for number, one in enumerate((one for one in links if one is not first), start=2)}
+    values = linkage(pins, driving, others, _millimetres, _SPEED)
+    return told_apart({"title": say("studio.own", language)} | values)
+
+
+def linkage(
+    pins: Mapping[str, Pin], driving: Sequence[str], links: Mapping[str, Sequence[str]], written: Written, speed: str
+) -> dict[str, Any]:
+    """Return what a machine file states of pins by name and of links as the pins they join, ends first."""
+    grounded = [name for name, one in pins.items() if one.ground]
+    pivot, pin = (pins[name] for name in driving[:2])
     values: dict[str, Any] = {
-        "format": 2,
-        "title": say("studio.own", language),
-        "fixed_points": {name: pins[name].place for name in pins if name in grounded},
-        "crank": {"pivot": pivot, "pin": pin, "radius": _length(pins[pivot], pins[pin]), "speed": _SPEED,
-                  "start": f"{_direction(pins[pivot], pins[pin]):.4g} deg"},
-        "links": {str(number): _link([pins[name] for name in link])
-                  for number, link in enumerate((one for one in links if one is not first), start=2)},
+        "fixed_points": {name: pins[name].place(written) for name in grounded},
+        "crank": {"pivot": pivot.name, "pin": pin.name, "radius": _length(pivot, pin, written), "speed": speed,
+                  "start": f"{_direction(pivot, pin):.6g} deg"} | _points([pins[name] for name in driving], written),
+        "links": {name: {"joins": list(link[:2]), "length": _length(pins[link[0]], pins[link[1]], written)}
+                  | _points([pins[one] for one in link], written) for name, link in links.items()},
     }  # fmt: skip
     slid = [one for one in pins.values() if one.slides is not None]
     if slid:
-        values["guides"] = {f"g{k}": {"through": one.place, "angle": f"{one.slides:.4g} deg"}
+        values["guides"] = {f"g{k}": {"through": one.place(written), "angle": f"{one.slides:.4g} deg"}
                             for k, one in enumerate(slid, start=1)}  # fmt: skip
         values["sliders"] = {one.name: {"guide": f"g{k}", "pin": one.name} for k, one in enumerate(slid, start=1)}
-    joined = [name for link in links if link is not first for name in link[:2]]
-    fixed = {*grounded, pin, *(one.name for one in slid)}
+    joined = [name for link in links.values() for name in link]
+    fixed = {*driving, *grounded, *(one.name for one in slid)}
     free = [name for name in dict.fromkeys(joined) if name not in fixed and joined.count(name) > 1]
-    positions = {name: pins[name].place for name in free} | {one.name: one.place for one in slid}
-    if positions:
-        values["positions"] = positions
-    return document(values)
+    positions = {name: pins[name].place(written) for name in [*free, *(one.name for one in slid)]}
+    return values | ({"positions": positions} if positions else {})
+
+
+def told_apart(values: dict[str, Any]) -> str:
+    """Return a machine file whose positions are those that settle which way a group is assembled."""
+    text = document({"format": 2} | values)
+    try:
+        Description(text).machine()
+    except InputError as error:
+        idle = [one.key for one in error.problems if getattr(one.message, "name", "") == "position_unused"]
+        left = {name: at for name, at in values.get("positions", {}).items() if f"positions.{name}" not in idle}
+        kept = {name: one for name, one in values.items() if name != "positions"}
+        return document({"format": 2} | kept | ({"positions": left} if left else {}))
+    except CrankworkError:
+        pass
+    return text
 
 
 def redrawn(stated: Description, drawn: Description) -> str:
@@ -97,23 +119,22 @@ def _read(asked: Mapping[str, Any]) -> tuple[dict[str, Pin], list[list[str]]]:
     return {name: one._replace(x=one.x - at.x, y=one.y - at.y) for name, one in known.items()}, links
 
 
-def _link(pins: Sequence[Pin]) -> dict[str, Any]:
-    """Return a link from its first pin to its second; further ones stand along and across it."""
+def _points(pins: Sequence[Pin], written: Written) -> dict[str, Any]:
+    found = along_across(pins, written)
+    return {"points": found} if found else {}
+
+
+def along_across(pins: Sequence[Pin], written: Written) -> dict[str, list[str]]:
+    """Return by name where further pins of a link are that runs from the first to the second."""
     start, end, *others = pins
-    link: dict[str, Any] = {"joins": [start.name, end.name], "length": _length(start, end)}
-    if others:
-        turn = math.radians(_direction(start, end))
-        cosine, sine = math.cos(turn), math.sin(turn)
-        away = {one.name: (one.x - start.x, start.y - one.y) for one in others}
-        link["points"] = {
-            name: [_millimetres(x * cosine + y * sine), _millimetres(y * cosine - x * sine)]
-            for name, (x, y) in away.items()
-        }
-    return link
+    turn = math.radians(_direction(start, end))
+    cosine, sine = math.cos(turn), math.sin(turn)
+    away = {one.name: (one.x - start.x, start.y - one.y) for one in others}
+    return {name: [written(x * cosine + y * sine), written(y * cosine - x * sine)] for name, (x, y) in away.items()}
 
 
-def _length(one: Pin, other: Pin) -> str:
-    return _millimetres(math.hypot(other.x - one.x, other.y - one.y))
+def _length(one: Pin, other: Pin, written: Written) -> str:
+    return written(math.hypot(other.x - one.x, other.y - one.y))
 
 
 def _direction(one: Pin, other: Pin) -> float:
