@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from crankwork.kinematics.crank_grid import CrankGrid, cos_multiple, sin_multiple
+from crankwork.kinematics.crank_grid import CrankGrid
 
 NEAR_QUARTERS = np.array([k * 90 + d for k in range(-4, 9) for d in (-1e-3, -1e-6, -1e-9, 1e-9, 1e-6, 1e-3)])
 
@@ -82,7 +82,8 @@ def test_multiples_of_the_angle_are_those_of_the_grid(order: int) -> None:
     degrees = np.arange(0, 721, 7.5)
     grid = CrankGrid.from_degrees(degrees)
     with mpmath.workdps(40):
-        for angle, sin, cos in zip(degrees, sin_multiple(grid, order), cos_multiple(grid, order), strict=True):
+        several = grid.multiple(order)
+        for angle, sin, cos in zip(degrees, several.sin, several.cos, strict=True):
             exact = mpmath.radians(order * mpmath.mpf(angle))
             assert abs(sin - mpmath.sin(exact)) < 2e-16
             assert abs(cos - mpmath.cos(exact)) < 2e-16

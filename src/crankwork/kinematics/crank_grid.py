@@ -176,13 +176,3 @@ def decimals(degrees: Array, reach: float) -> Array:
     """Return angles, decimals where rounding alone, no more than `reach`, keeps them from being such. [deg]"""
     near = np.round(degrees, _DECIMALS)
     return np.where(np.abs(degrees - near) <= reach, near, degrees)
-
-
-def sin_multiple(grid: CrankGrid, order: int) -> Array:
-    """Return the sine of `order` times the crank angle, shape (n,). [-]"""
-    return grid.multiple(order).sin
-
-
-def cos_multiple(grid: CrankGrid, order: int) -> Array:
-    """Return the cosine of `order` times the crank angle, shape (n,). [-]"""
-    return grid.multiple(order).cos

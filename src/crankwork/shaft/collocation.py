@@ -1,4 +1,4 @@
-"""One equation y' = f(x, y) on panels of Gauss points, all panels at once: from a start value, or periodic.
+"""One equation y' = f(x, y) on panels of Gauss points, all panels at once, closed over a period.
 
 On each panel y is a polynomial that satisfies the equation at the Gauss points, which is the implicit Runge-Kutta
 method of order 16. Newton's method acts on the whole row of panels; each is condensed to what it does to its start
@@ -83,17 +83,6 @@ def tails(values: Array) -> Array:
     return np.asarray(series[:, -1] + series[:, -2])
 
 
-def integrate(rate: Rate, edges: Array, start: float, *, guess: Array | None = None, positive: bool = False) -> Panels:
-    """Return the solution with a given first value (hairer_wanner_1996, sec. IV.5, Gauss methods).
-
-    `rate`: f(x, y), of arrays of any one shape; `edges`: panels to begin with; f is smooth inside each [unit of x],
-    shape (n + 1,); `guess`: values at the edges to begin with [unit of y], shape (n + 1,); `positive`: whether the
-    solution must stay above zero.
-    """
-    values = np.full_like(edges, start) if guess is None else guess
-    return _refined(rate, edges, values, start, positive=positive)
-
-
 def integrate_periodic(rate: Rate, edges: Array, guess: Array, *, positive: bool = False) -> Panels:
     """Return the solution whose last value is its first (hairer_wanner_1996, sec. IV.5, Gauss methods).
 
@@ -101,12 +90,9 @@ def integrate_periodic(rate: Rate, edges: Array, guess: Array, *, positive: bool
     [unit of x], shape (n + 1,); `guess`: values at the edges to begin with [unit of y], shape (n + 1,); `positive`:
     whether the solution must stay above zero.
     """
-    return _refined(rate, edges, guess, None, positive=positive)
-
-
-def _refined(rate: Rate, edges: Array, values: Array, start: float | None, *, positive: bool) -> Panels:
+    values = guess
     for _ in range(_ROUNDS):
-        solved = _newton(rate, edges, values, start, positive=positive)
+        solved = _newton(rate, edges, values, positive=positive)
         if not solved.converged:
             return solved
         bad = tails(solved.rate) * np.diff(edges) > TOLERANCE * np.max(np.abs(solved.values))
@@ -117,7 +103,7 @@ def _refined(rate: Rate, edges: Array, values: Array, start: float | None, *, po
     return solved
 
 
-def _newton(rate: Rate, edges: Array, values: Array, start: float | None, *, positive: bool) -> Panels:
+def _newton(rate: Rate, edges: Array, values: Array, *, positive: bool) -> Panels:
     h, x = np.diff(edges), panel_points(edges)
     y = values[:-1, None] + np.diff(values)[:, None] * NODES
     values = values.copy()
@@ -135,7 +121,7 @@ def _newton(rate: Rate, edges: Array, values: Array, start: float | None, *, pos
         own, by_start = answer[..., 0], answer[..., 1]
         added = h * ((f + slope * own) @ WEIGHTS) + values[:-1] - values[1:]
         factor = 1 + h * ((slope * by_start) @ WEIGHTS)
-        change, multiplier = _closed(added.tolist(), factor.tolist(), None if start is None else start - values[0])
+        change, multiplier = _closed(added.tolist(), factor.tolist())
         move = own + by_start * change[:-1, None]
         part = _allowed(y, move, values, change) if positive else 1.0
         held += part < 1
@@ -149,18 +135,15 @@ def _newton(rate: Rate, edges: Array, values: Array, start: float | None, *, pos
     return Panels(edges, values, x, y, np.full_like(y, np.nan), converged=False, multiplier=multiplier)
 
 
-def _closed(added: list[float], factor: list[float], first: float | None) -> tuple[Array, float]:
-    """Return the changes at all edges, e -> factor e + added, from the first or closing on itself."""
+def _closed(added: list[float], factor: list[float]) -> tuple[Array, float]:
+    """Return the changes at all edges, e -> factor e + added, closing on themselves, and the product of the factors."""
     total, constant = 1.0, 0.0
-    if first is None:
-        for a, b in zip(added, factor, strict=True):
-            total, constant = total * b, constant * b + a
-        first = constant / (1 - total) if total != 1 else np.nan
-    changes, product = [first], 1.0
+    for a, b in zip(added, factor, strict=True):
+        total, constant = total * b, constant * b + a
+    changes = [constant / (1 - total) if total != 1 else np.nan]
     for a, b in zip(added, factor, strict=True):
         changes.append(changes[-1] * b + a)
-        product *= b
-    return np.array(changes), product
+    return np.array(changes), total
 
 
 def _allowed(y: Array, move: Array, values: Array, change: Array) -> float:

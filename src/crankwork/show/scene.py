@@ -245,18 +245,6 @@ def literal(name: str) -> str:
     return name.translate(_BRACES)
 
 
-def indexed(symbol: str) -> str:
-    """Return a symbol `base_index` of the table of quantities as text with an index.
-
-    Examples
-    --------
-    >>> indexed("v_п.ср"), indexed("β")
-    ('v_{п.ср}', 'β')
-    """
-    base, _, index = symbol.partition("_")
-    return f"{base}_{{{index}}}" if index else base
-
-
 def printable(name: str, longest: int = 24) -> str:
     """Return a name from outside with a box for what cannot be printed, and shortened."""
     name = name if len(name) <= longest else f"{name[: longest - 1]}…"
