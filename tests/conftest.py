@@ -10,6 +10,7 @@ from collections.abc import Generator
 from typing import TypeVar
 
 import pytest
+from coverage import Coverage
 from hypothesis import settings
 from playwright.sync_api import Browser, sync_playwright
 
@@ -24,11 +25,27 @@ os.environ.pop("LC_MESSAGES", None)
 os.environ["LANG"] = "C.UTF-8"
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+MEASURED: set[str] = set()
 IN_CI = os.environ.get("CI") == "true"
 
 # Parallel tests share the processor, so a deadline would measure the neighbours.
 settings.register_profile("crankwork", deadline=None, derandomize=IN_CI)
 settings.load_profile("crankwork")
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, bool, bool]:
+    """Measure coverage in the first case of a test, none of Hypothesis: it takes long, and the rest runs the same lines."""
+    test, measuring = item.nodeid.partition("[")[0], Coverage.current()
+    drawn = getattr(getattr(item, "obj", None), "is_hypothesis_test", False)
+    if measuring is None or not (drawn or test in MEASURED):
+        MEASURED.add(test)
+        return (yield)
+    measuring.stop()
+    try:
+        return (yield)
+    finally:
+        measuring.start()
 
 
 @pytest.hookimpl(wrapper=True)
