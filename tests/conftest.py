@@ -35,7 +35,7 @@ settings.load_profile("crankwork")
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, bool, bool]:
-    """Measure coverage in the first case of a test, none of Hypothesis: it takes long, and the rest runs the same lines."""
+    """Measure coverage in the first case of a test, none of Hypothesis: the others run the same lines twice as long."""
     test, measuring = item.nodeid.partition("[")[0], Coverage.current()
     drawn = getattr(getattr(item, "obj", None), "is_hypothesis_test", False)
     if measuring is None or not (drawn or test in MEASURED):
