@@ -14,6 +14,7 @@ from crankwork.cylinders.layout import Layout, Place
 from crankwork.cylinders.throw import throw_mechanism
 from crankwork.kinematics.crank_grid import Array
 from crankwork.machine import Engine, Machine
+from crankwork.working_cycle.pressures import CornerPressure
 
 _TURN = 360.0
 # on pins and wall of a cylinder
@@ -109,11 +110,13 @@ def _columns(results: Results | None, degrees: Array) -> dict[str, Array]:
 
 
 def _fires(machine: Machine, engine: Engine, place: Place) -> float | None:
-    """Return when a cylinder fires, in four strokes a turn after it breathes. [deg]"""
+    """Return when a cylinder fires, in four strokes a turn after it breathes: its dead centre, or when it is ignited. [deg]"""
     gas = engine.gases[place.number - 1] if engine.gases else machine.gas
     # without a calculated cycle two strokes may be those of a compressor
     burns = machine.engine is not None or (gas is not None and (gas.calculated is not None or gas.cycle > _TURN))
     if not burns or place.number in engine.misfires:
         return None
     later = _TURN if machine.cycle > _TURN else 0.0
-    return (place.firing_angle + place.top + later) % machine.cycle
+    timing = gas.calculated.timing if gas is not None and isinstance(gas.calculated, CornerPressure) else None
+    advance = timing.ignition_advance if timing is not None else 0.0
+    return (place.firing_angle + place.top + later - advance) % machine.cycle

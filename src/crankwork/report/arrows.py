@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -14,12 +15,16 @@ from crankwork.report.language import displayed
 from crankwork.report.sketch import Sketch
 from crankwork.show.moving import Part, part
 from crankwork.show.place import round_scale
-from crankwork.show.scene import Pen, Polyline, Text
+from crankwork.show.scene import Box, Circle, Pen, Polyline, Text, extent, moved
 
 # of the largest arrow, of a head, half the width of a shaft [mm]
 _LONGEST, _HEAD, _HALF = 32.0, 3.2, 0.28
 # height of letters, and how far they are from a tip [mm]
 _LETTERS, _CLEAR = 3.2, 4.0
+# where nothing moves: what is too short to be seen, what is free around a name [mm]
+_SHORTEST, _FREE = 1.6, 0.7
+# how a name stands to its force, turned from its way [deg], and how far off
+_TURNS, _REACHES = (0.0, 45.0, -45.0, 80.0, -80.0, 120.0, -120.0), (1.0, 1.4, 1.9, 2.5)
 _NO_LINE = Pen(0.0)
 
 
@@ -36,27 +41,62 @@ class Arrow(NamedTuple):
     label: str = ""
 
 
-def with_forces(sketch: Sketch, arrows: Sequence[Arrow]) -> Sketch:
-    """Return a sketch with forces upon it, and how many units of force a millimetre of them is."""
-    largest = max((float(np.max(np.abs(one.force))) for one in arrows), default=0.0)
+def with_forces(sketch: Sketch, arrows: Sequence[Arrow], frame: int | None = None) -> Sketch:
+    """Return a sketch with forces upon it, and how many units of force a millimetre of them is.
+
+    `frame`: the only one that is looked at; its forces are as long as there is room, and their names clear of others.
+    """
+    at = slice(None) if frame is None else slice(frame, frame + 1)
+    largest = max((float(np.max(np.abs(one.force[at]))) for one in arrows), default=0.0)
     if not largest > 0:
         return sketch
     scale = round_scale(displayed("piston_force", largest) / _LONGEST)
     found, parts = [sketch.low[None], sketch.high[None]], list(sketch.parts)
+    taken = [] if frame is None else [extent(item) for one in parts for item in one.at(_of(one, frame))
+                                      if isinstance(item, Text | Circle)]  # fmt: skip
     for one in arrows:
         length = displayed("piston_force", 1.0) * one.force / scale
+        if frame is not None and abs(length[frame]) < _SHORTEST:
+            continue
         turns = np.radians(one.turn)
         ways = np.column_stack([np.cos(turns), np.sin(turns)]) * np.sign(length)[:, None]
         ends = one.place + np.abs(length)[:, None] * ways
         parts += _arrow(one, length, ends)
-        found.append(ends)
+        found.append(ends[at])
         if one.label:
             text = Text((0.0, -_LETTERS / 2), one.label, _LETTERS, "middle", halo=True)
-            found += [ends + _CLEAR * ways + side * _CLEAR for side in (1, -1)]
+            away = _CLEAR * ways
+            if frame is not None:
+                away, box = _beside(text, ends[frame], ways[frame], taken)
+                taken.append(box)
+            found += [(ends + away + side * _CLEAR)[at] for side in (1, -1)]
             # a force that is too short for its head has no name
-            parts.append(part(f"force.{one.name}.text", [text], ends + _CLEAR * ways, tint=np.abs(length) > _HEAD))
+            shown = np.abs(length) > (_HEAD if frame is None else _SHORTEST)
+            parts.append(part(f"force.{one.name}.text", [text], ends + away, tint=shown))
     places = np.vstack(found)
     return sketch._replace(parts=parts, low=places.min(axis=0), high=places.max(axis=0), force_scale=scale)
+
+
+def _of(one: Part, frame: int) -> int:
+    """Return which row of its track a part has at a frame."""
+    return frame if len(one.shift) > 1 else 0
+
+
+def _beside(text: Text, tip: Array, way: Array, taken: Sequence[Box]) -> tuple[Array, Box]:
+    """Return how far from its tip the name of a force stands clear of what is written, and what it covers. [mm]"""
+    ways = []
+    for turn, reach in product(_TURNS, _REACHES):
+        cos, sin = np.cos(np.radians(turn)), np.sin(np.radians(turn))
+        away = reach * _CLEAR * np.array([cos * way[0] - sin * way[1], sin * way[0] + cos * way[1]])
+        box = extent(moved(text, *(tip + away))).inset(-_FREE, -_FREE, -_FREE, -_FREE)
+        over = sum(
+            max(0.0, min(box.right, one.right) - max(box.left, one.left))
+            * max(0.0, min(box.top, one.top) - max(box.bottom, one.bottom))
+            for one in taken
+        )
+        ways.append((over + 0.3 * reach + 0.002 * abs(turn), away, box))
+    _, away, box = min(ways, key=lambda one: one[0])
+    return away, box
 
 
 def _arrow(one: Arrow, length: Array, ends: Array) -> list[Part]:

@@ -15,6 +15,8 @@ from crankwork.errors import CrankworkError, GeometryError
 from crankwork.locale import Refusal, capital, say
 from crankwork.locale.numbers import number, unit_name
 from crankwork.machine import Machine
+from crankwork.mechanism.joints import joints, names_of_pivots
+from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import Language
@@ -25,12 +27,12 @@ from crankwork.report.linkage_look import scale_text
 from crankwork.report.sketch import Sketch
 from crankwork.show.film import Told
 from crankwork.show.formats import FILMS, FORMATS
-from crankwork.show.moving import MovingDrawing
-from crankwork.show.paper import marked
-from crankwork.show.scene import TEXT, Box, Drawing, Item, Text, line, text_width
+from crankwork.show.moving import MovingDrawing, Part, part
+from crankwork.show.paper import WIDER, marked
+from crankwork.show.scene import SMALL, TEXT, Box, Drawing, Item, Text, line, text_width
 from crankwork.show.theme import Theme
 
-_MARGIN, _FOOT, _ROW, _NARROWEST = 8.0, 14.0, 8.0, 80.0
+_MARGIN, _FOOT, _ROW, _KEY, _NARROWEST = 8.0, 14.0, 8.0, 4.5, 80.0
 # about a view that is looked at alone [mm]
 _AROUND = 4.0
 # a still shows the crank at this angle
@@ -40,7 +42,7 @@ _TURN = 360.0
 _FRAMES, _FRAMES_OF_CYCLE = 72, 120
 
 
-def moving_drawing(
+def moving_drawing(  # noqa: PLR0913 - a machine, and how it is shown
     machine: Results | Machine | Mechanism,
     *,
     language: Language = "en",
@@ -48,13 +50,14 @@ def moving_drawing(
     frames: int = 0,
     way: Course | None = None,
     forces: bool = False,
+    still: int | None = None,
 ) -> MovingDrawing:
     """Return the mechanism of a machine as a drawing that moves, one cycle after the other, or to and fro.
 
     Lengths are to scale and the motion is exact at each frame. Gas, firing and forces are shown of results. Links have
     the numbers of the structure, or follow group after group where only a mechanism is known. `seconds`: time of a
     turn; `frames`: of a cycle, else as many as the eye asks for; `way`: how the crank moves, that of a machine let go
-    in its own time; `forces`: whether arrows show those in pins and joints.
+    in its own time; `forces`: whether arrows show those in pins and joints; `still`: the only frame that is looked at.
     """
     if (frames and frames < 8) or not 0 < seconds < math.inf:
         raise CrankworkError("a moving drawing needs at least 8 frames and a time above zero")
@@ -67,16 +70,18 @@ def moving_drawing(
     time = _time(way, seconds, language)
     if engine is not None and whole is not None:
         labels = {key: marked(f"${symbol(key, language)}$") for key in FORCES}
-        sketch = engine_sketch(whole, engine, labels if forces else None)
+        sketch = engine_sketch(whole, engine, labels if forces else None, still)
+        keys = [f"{labels[key]} – {label(key, language)}" for key in engine.cylinders[0].forces]
         about = [*_lengths(way.mechanism, whole, language), time]
     else:
         shape = skeleton(way.mechanism, _links(whole))
         columns = _columns(results, way.degrees, forces=forces) if results is not None else {}
         sketch = linkage_sketch(
-            shape, moving(way.mechanism, way.degrees), whole, columns, _named_forces(columns, language)
+            shape, moving(way.mechanism, way.degrees), whole, columns, _named_forces(columns, language), still
         )
+        keys = _acting(way.mechanism, shape, _named_forces(columns, language), language)
         about = [*_lengths(way.mechanism, None, language), *_members(shape), time]
-    return _film(sketch, way, seconds, whole, "; ".join(about), language)
+    return _film(sketch, way, seconds, whole, "; ".join(about), keys, language)
 
 
 def film_of(
@@ -116,12 +121,13 @@ def drawn(  # noqa: PLR0913 - what is drawn, and how
     way = _course(machine, machine.mechanism, 0)
     if at is not None:
         way, rest = _through(way, results.degrees_of(at))
-    film = moving_drawing(results, language=language, forces=forces, way=way)
+    still = None if at is None else rest
+    film = moving_drawing(results, language=language, forces=forces, way=way, still=still)
     if forces and not any(one.name.startswith("force.") for one in film.parts):
         raise CrankworkError(Refusal("forces_unknown"))
     if at is None and ending in FILMS:
         return FILMS[ending](film, theme, told)
-    return FORMATS[ending](film.still(None if at is None else rest), theme)
+    return FORMATS[ending](film.still(still), theme)
 
 
 def _through(way: Course, at: float) -> tuple[Course, int]:
@@ -163,26 +169,37 @@ def _passage(way: Course, seconds: float) -> float:
     return way.own_time or seconds * max(1.0, float(turns))
 
 
-def _film(
-    sketch: Sketch, way: Course, seconds: float, whole: Machine | None, about: str, language: Language
+def _film(  # noqa: PLR0913 - a sketch, how it moves, and what is said of it
+    sketch: Sketch,
+    way: Course,
+    seconds: float,
+    whole: Machine | None,
+    about: str,
+    keys: Sequence[str],
+    language: Language,
 ) -> MovingDrawing:
-    """Return a sketch on its paper, with a scale and the crank angle beneath it."""
+    """Return a sketch on its paper, with a scale and the crank angle beneath it; `keys`: what its forces are."""
     (wide, tall), middle = sketch.high - sketch.low, (sketch.low + sketch.high) / 2
     width, readouts = max(float(wide), _NARROWEST) + 2 * _MARGIN, _readouts(way, language)
-    bar, below, foot = _scale_bar(sketch.scale, 0.3 * width, language), list[Item](), _FOOT
+    bar, below, foot = _scale_bar(sketch.scale, 0.3 * width, language), list[Part](), _FOOT
     if sketch.force_scale:
         text = marked(scale_text("μ_F", sketch.force_scale, key_unit("piston_force"), language))
         # in a row of its own where it would stand on the length of the bar or on the crank angle
         taken = text_width(text) + 2 * max(0.3 * width, *map(text_width, readouts)) + 2 * _MARGIN
         row = _ROW if taken > width - 2 * _MARGIN else 0.0
         foot += row
-        below.append(Text((width / 2, _MARGIN + row), text, TEXT, "middle"))
+        texts = [Text((width / 2, _MARGIN + row), text, TEXT, "middle")]
+        rows = _rows(keys, (width - 2 * _MARGIN) / WIDER)
+        texts += [Text((_MARGIN, foot + 1.5 + _KEY * at), one, SMALL) for at, one in enumerate(reversed(rows))]
+        foot += _KEY * len(rows) + 1.5
+        # left out with the forces
+        below.append(part("force.scale", texts, (0.0, 0.0)))
     height = float(tall) + 2 * _MARGIN + foot
     placed = sketch.moved(np.array([width / 2, (height + foot) / 2]) - middle)
-    frames, items = len(way.degrees) - 1, (*placed.items, *bar, *below)
+    frames, items = len(way.degrees) - 1, (*placed.items, *bar)
     ground = Drawing(_title(whole.title if whole else "", language), language, width, height, items)
     return MovingDrawing(
-        ground, tuple(placed.parts), way.degrees, _passage(way, seconds), readouts,
+        ground, (*placed.parts, *below), way.degrees, _passage(way, seconds), readouts,
         (width - _MARGIN, _MARGIN), round(frames * _STILL / (way.degrees[-1] or _TURN)) % frames if way.turns else 0,
         way.turns, about, _views(placed, height, language), _choices(placed, language),
     )  # fmt: skip
@@ -194,6 +211,28 @@ def _named_forces(columns: Mapping[str, Array], language: Language) -> dict[str,
     sign = symbol("joint_force", language)
     told = {name: name.replace("_", ",") for name in names}
     return {name: marked(f"${sign}_{one}$") if one.replace(",", "").isalnum() else "" for name, one in told.items()}
+
+
+def _acting(mechanism: Mechanism, shape: Skeleton, symbols: Mapping[str, str], language: Language) -> list[str]:
+    """Return which link acts on which in the joints that forces are drawn in."""
+    numbers = {name: at for at, name in numbered(shape)} | {GROUND: 0}
+    pivots = names_of_pivots(mechanism)
+    found = [(symbols.get(pivots.get(one.name, one.name)), numbers.get(one.other), numbers.get(one.link))
+             for one in joints(mechanism)]  # fmt: skip
+    told = [f"{sign} {other} → {link}" for sign, other, link in found if sign and None not in (other, link)]
+    return [f"{say('drawing.acts_on', language)} {told[0]}", *told[1:]] if told else []
+
+
+def _rows(texts: Sequence[str], width: float) -> list[str]:
+    """Return texts one after the other, as many in a row as have room. [mm]"""
+    rows: list[str] = []
+    for one in texts:
+        joined = f"{rows[-1]}; {one}" if rows else one
+        if rows and text_width(joined, SMALL) <= width:
+            rows[-1] = joined
+        else:
+            rows.append(one)
+    return rows
 
 
 def _views(sketch: Sketch, height: float, language: Language) -> tuple[tuple[str, Box], ...]:

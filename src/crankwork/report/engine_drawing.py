@@ -26,10 +26,13 @@ _LABEL = 3.5
 _FLASH = 40.0
 
 
-def engine_sketch(machine: Machine, engine: EngineMoving, forces: Mapping[str, str] | None = None) -> Sketch:
+def engine_sketch(
+    machine: Machine, engine: EngineMoving, forces: Mapping[str, str] | None = None, frame: int | None = None
+) -> Sketch:
     """Return an engine as it is drawn over all its angles.
 
-    `forces`: what is written at those of the first cylinder, by key, where forces are drawn on all in front.
+    `forces`: what is written at those of the first cylinder, by key, where forces are drawn on all in front; `frame`:
+    the only one that is looked at.
     """
     size = sizes(machine, engine)
     scale = _scale(engine, size, _rows(engine))
@@ -42,7 +45,7 @@ def engine_sketch(machine: Machine, engine: EngineMoving, forces: Mapping[str, s
     if forces is not None:
         first, *others = drawn.fronts()
         arrows = [*forces_of(first, forces), *(each for one in others for each in forces_of(one, {}))]
-        side = with_forces(side, arrows)
+        side = with_forces(side, arrows, frame)
     return _beside([side.seen(), *rows])._replace(scale=scale, force_scale=side.force_scale)
 
 
@@ -244,7 +247,7 @@ class _Engine:
         return self._flash_part(one, at)
 
     def _flash_part(self, one: CylinderMoving, at: ArrayLike) -> Part:
-        """Return a star that is seen from the dead centre at which a cylinder fires."""
+        """Return a star that is seen from when a cylinder fires."""
         rays = np.radians(np.arange(16) * 22.5)
         radii = np.where(np.arange(16) % 2, 0.07, 0.16) * self._size.bore
         outline = np.column_stack([np.cos(rays), np.sin(rays)]) * radii[:, None]

@@ -33,8 +33,9 @@ def linkage_sketch(
     machine: Machine | None = None,
     columns: Mapping[str, Array] | None = None,
     forces: Mapping[str, str] | None = None,
+    frame: int | None = None,
 ) -> Sketch:
-    """Return a linkage as it is drawn over all its angles.
+    """Return a linkage as it is drawn over all its angles; `frame`: the only one that is looked at.
 
     `columns`: gas of the chambers of a machine, and forces in joints where they are to be drawn, by key, shape (n,);
     `forces`: what is written at them, by joint.
@@ -58,7 +59,7 @@ def linkage_sketch(
     low, high = places.min(axis=0), places.max(axis=0)
     sketch = Sketch([*items, *walls, *ground(drawn)], parts, low, high, scale * UNIT)
     points = {name: at * UNIT for name, at in drawn.points.items()}
-    return with_forces(sketch, forces_in_joints(columns or {}, points, forces or {}))
+    return with_forces(sketch, forces_in_joints(columns or {}, points, forces or {}), frame)
 
 
 def _text(text: str, *, slanted: bool) -> Text:

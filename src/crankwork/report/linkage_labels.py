@@ -17,6 +17,10 @@ from crankwork.report.linkage_scene import SLOT, Scene
 _TURNS = np.radians([45, 135, 315, 225, 90, 0, 180, 270, 20, 70, 110, 160, 200, 250, 290, 340])
 _AROUND = np.column_stack([np.cos(_TURNS), np.sin(_TURNS)])
 _REACHES = (15.0, 19.0, 24.0, 30.0)
+# a centre of mass nearer than this to a joint has no name
+_JOINT = 10.0
+# under a support and beside it, where no link goes
+_SUPPORTS = (0.0, -43.0), (-27.0, -12.0), (27.0, -12.0)
 _EVERY = 3
 _STEP = 7.0
 # a number nearer than this to a link is read as that of the link
@@ -107,13 +111,15 @@ def _wanted(drawn: Scene) -> Iterator[tuple[str, str, list[tuple[Array, float]]]
     shape = drawn.skeleton
     seen: set[str] = set()
     for name, letter in shape.letters.items():
-        if name in drawn.points and letter not in seen:
+        if name in drawn.points and letter not in seen and not _is_crossed(drawn, name):
             seen.add(letter)
             wide = 4.4 * (len(letter) - 1)
+            supports = _SUPPORTS if name in shape.pivots else ()
             yield (
                 letter,
                 "",
-                [
+                [(drawn.points[name] + spot, 0.0) for spot in supports]
+                + [
                     (drawn.points[name] + (reach + wide * abs(way[0])) * way, 0.4 * (reach - 15) + 0.2 * rank)
                     for reach in _REACHES
                     for rank, way in enumerate(_AROUND)
@@ -129,6 +135,14 @@ def _wanted(drawn: Scene) -> Iterator[tuple[str, str, list[tuple[Array, float]]]
         yield str(one.number), one.name, list(_number_ways(drawn, one.name))
         if one.rod:
             yield str(one.rod), rod_name(one.name), list(_number_ways(drawn, rod_name(one.name)))
+
+
+def _is_crossed(drawn: Scene, name: str) -> bool:
+    """Return whether a joint goes over a centre of mass, whose name would be in a heap with its own."""
+    at, others = drawn.points[name], [one for one in drawn.skeleton.letters if one not in drawn.skeleton.centres]
+    return name in drawn.skeleton.centres and any(
+        np.hypot(*(drawn.points[one] - at).T).min() < _JOINT for one in others if one in drawn.points
+    )
 
 
 def _number_ways(drawn: Scene, name: str) -> Iterator[tuple[Array, float]]:
