@@ -385,7 +385,7 @@ def test_arrows_of_forces_balance_at_the_piston_pin_and_at_the_crank(name):
     with_rotation = np.column_stack([arm[:, 1], -arm[:, 0]]) / np.hypot(*arm.T)[:, None]
     pushed = np.sum(rod * with_rotation, axis=1)[:, None] * with_rotation
     np.testing.assert_allclose(across, pushed, atol=1e-6 * size)
-    assert any("μ" in one.text for one in film.ground.items if isinstance(one, Text))
+    assert any("μ" in one.text for one in film.still().items if isinstance(one, Text))
     told = [
         _part(film, f"force.{key}.1.text") for key in ("piston_force", "side_force", "rod_force", "tangential_force")
     ]

@@ -110,7 +110,7 @@ def _columns(results: Results | None, degrees: Array) -> dict[str, Array]:
 
 
 def _fires(machine: Machine, engine: Engine, place: Place) -> float | None:
-    """Return when a cylinder fires, in four strokes a turn after it breathes: its dead centre, or when it is ignited. [deg]"""
+    """Return when a cylinder fires, in four strokes a turn after it breathes: at its dead centre, or ignited. [deg]"""
     gas = engine.gases[place.number - 1] if engine.gases else machine.gas
     # without a calculated cycle two strokes may be those of a compressor
     burns = machine.engine is not None or (gas is not None and (gas.calculated is not None or gas.cycle > _TURN))

@@ -27,10 +27,12 @@ from crankwork.report.linkage_look import (
 from crankwork.show.chart import TOP, Box, Graph, sign
 from crankwork.show.labels import label_marks
 from crankwork.show.paper import GREY, Paper, plain
-from crankwork.show.place import here, points_per_mm, round_scale, tall
+from crankwork.show.place import FINE, here, points_per_mm, round_scale, tall
 from crankwork.show.scene import SOLID, Drawing
 
-_HIGH, _HEAD, _MARGIN, _LIST, _ROW, _FOOT = 150.0, 16.0, 22.0, 150.0, 13.5, 34.0
+_HEAD, _MARGIN, _LIST, _ROW, _FOOT = 16.0, 22.0, 150.0, 13.5, 34.0
+# the tallest plan, and all of them together [pt]
+_HIGHEST, _WHOLE = 230.0, 560.0
 # a paper wider than this has two plans side by side [pt]
 _TWO = 560.0
 # how far apart forces are drawn that lie along each other, and what is as near as that [pt]
@@ -55,9 +57,11 @@ def _figure(plans: list[ForcePlan], numbers: dict[str, int], degrees: float, sty
     upright = sum(bool(high > wide) for wide, high in spans)
     columns = 2 if here().width > _TWO and upright > max(1, len(plans) / 2) else 1
     rows = [plans[start : start + columns] for start in range(0, len(plans), columns)]
-    heights = [
-        max(tall(columns * _HIGH), _ROW * max(len(one.forces) + len(one.links) for one in row) + _HEAD) for row in rows
-    ]
+    most = tall(min(_HIGHEST, _WHOLE / len(rows)))
+    heights = []
+    for row in rows:
+        listed = max(len(one.forces) + len(one.links) for one in row)
+        heights.append(max(_ROW * listed + _HEAD, *(_needed(one, most, columns) for one in row)))
     paper = Paper(here().width, TOP + sum(heights) + _HEAD * len(rows) + _FOOT)
     top, wide, scales = TOP, here().width / columns, set[float]()
     for row, height in zip(rows, heights, strict=True):
@@ -71,13 +75,23 @@ def _figure(plans: list[ForcePlan], numbers: dict[str, int], degrees: float, sty
     return paper.drawing(f"{title}, {position_text(degrees, style)}", style.language)
 
 
+def _scale(plan: ForcePlan, width: float, height: float) -> float:
+    """Return the scale at which a polygon has room beside its list. [displayed unit/mm]"""
+    room = np.array([width - _LIST - 2 * _MARGIN, height - 2 * _MARGIN])
+    return round_scale(float(points_per_mm() * np.max(np.ptp(_ends(plan), axis=0) / room)), FINE)
+
+
+def _needed(plan: ForcePlan, most: float, columns: int) -> float:
+    """Return how tall a plan is, which is no taller than `most`. [pt]"""
+    scale = _scale(plan, here().width / columns, most)
+    return float(np.ptp(_ends(plan), axis=0)[1]) * points_per_mm() / scale + 2 * _MARGIN
+
+
 def _plan(paper: Paper, plan: ForcePlan, place: Box, numbers: dict[str, int], language: Language) -> float:
     """Draw the polygon of a group to its own scale, which is returned, and its forces beside it."""
     left, top, width, height = place
+    row, ends, scale = QUANTITIES["joint_force"], _ends(plan), _scale(plan, width, height)
     width -= _LIST
-    row, ends = QUANTITIES["joint_force"], _ends(plan)
-    room = np.array([width - 2 * _MARGIN, height - 2 * _MARGIN])
-    scale = round_scale(float(points_per_mm() * np.max(np.ptp(ends, axis=0) / room)))
     unit = points_per_mm() / scale
     middle = (ends.min(axis=0) + ends.max(axis=0)) / 2 * unit
     x, y = (middle[0] - width / 2, middle[0] + width / 2), (middle[1] - height / 2, middle[1] + height / 2)

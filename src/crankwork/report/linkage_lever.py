@@ -22,10 +22,10 @@ from crankwork.report.linkage_plan_figures import draw_vectors, node_name
 from crankwork.show.chart import Box, Graph, sign
 from crankwork.show.labels import label_marks
 from crankwork.show.paper import GREY, WIDER, Paper, fitted_lines, plain, text_width
-from crankwork.show.place import here, points_per_mm, round_scale, tall
+from crankwork.show.place import FINE, here, points_per_mm, round_scale, tall
 from crankwork.show.scene import DASH_DOT, DASHED, Drawing
 
-_TALL, _MARGIN, _ROW, _FOOT = 300.0, 30.0, 14.0, 14.0
+_TALL, _MARGIN, _ROW, _FOOT = 400.0, 30.0, 14.0, 14.0
 # length of the arrow of a force, which is not to scale
 _FORCE, _PRIME = 40.0, "′"
 # width of the lines of the plan, of those in a plan without forces
@@ -58,7 +58,7 @@ def _figure(lever: Lever, numbers: dict[str, int], degrees: float, style: Style)
     places = np.vstack([np.zeros(2), *lever.plan.nodes.values(), *(one.force.foot for one in forces)])
     (left, bottom), (right, top) = places.min(axis=0), places.max(axis=0)
     room = np.maximum(np.array([here().width, tall(_TALL)]) - 2 * (_MARGIN + _FORCE), _LOWEST)
-    scale = round_scale(float(points_per_mm() * max((right - left) / room[0], (top - bottom) / room[1])))
+    scale = round_scale(float(points_per_mm() * max((right - left) / room[0], (top - bottom) / room[1])), FINE)
     unit = points_per_mm() / scale
     high = (top - bottom) * unit + 2 * (_MARGIN + _FORCE)
     rows = _rows(lever, forces, numbers, scale, language)

@@ -25,8 +25,8 @@ from crankwork.report.linkage_look import (
 )
 from crankwork.show.chart import Box, Graph, sign
 from crankwork.show.labels import label_points
-from crankwork.show.paper import Paper, plain
-from crankwork.show.place import here, points_per_mm, round_scale, tall
+from crankwork.show.paper import WIDER, Paper, plain, text_width
+from crankwork.show.place import FINE, here, points_per_mm, round_scale, tall
 from crankwork.show.scene import DASH_DOT, DASHED, SOLID, Drawing
 from crankwork.show.scene import Style as Dashes
 
@@ -92,14 +92,21 @@ def _figure(plan: Plan, kind: _Kind, degrees: float, style: Style, position: int
     width, height = np.maximum(np.ptp(places, axis=0), 1e-12)
     # only beside one plan there is room for a list
     side = here().width - (_BESIDE if position is None else 0.0)
-    room = side - 2 * _MARGIN, max(tall(_TALL) - 2 * _MARGIN, _LOWEST)
-    scale = round_scale(float(points_per_mm() * max(width / room[0], height / room[1])))
-    unit = points_per_mm() / scale
     rows = (
         []
         if position is not None
         else [*_rows(seen, plan, kind, language), *key_of_links(dict(enumerate(style.links, start=1)), plan.turning)]
     )
+    # long names stand beside the outermost ends, those of one end together
+    ends: dict[tuple[float, ...], str] = {}
+    for name, at in plan.nodes.items():
+        place = tuple(np.round(at / max(longest, 1e-12), 3).tolist())
+        ends[place] = f"{ends[place]}, {node_name(name)}" if place in ends else node_name(name)
+    beside = max([_MARGIN, *(WIDER * text_width(plain(one), 8.0) + 12 for one in ends.values())])
+    high = max(tall(_TALL), _ROW * len(rows))
+    room = side - 2 * min(beside, side / 4), max(high - 2 * _MARGIN, _LOWEST)
+    scale = round_scale(float(points_per_mm() * max(width / room[0], height / room[1])), FINE)
+    unit = points_per_mm() / scale
     high = max(float(height) * unit + 2 * _MARGIN, _ROW * len(rows) + 30) + 34
     paper = Paper(here().width, high)
     middle = (places.min(axis=0) + places.max(axis=0)) / 2

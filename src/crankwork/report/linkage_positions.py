@@ -26,7 +26,7 @@ from crankwork.report.linkage_scene import SLOT, Rail, Scene, scene
 from crankwork.show.chart import Box, Graph, sign
 from crankwork.show.labels import label_marks, label_points
 from crankwork.show.paper import BLACK, Paper, plain, text_width
-from crankwork.show.place import here, letters, points_per_mm, round_scale, tall
+from crankwork.show.place import FINE, here, letters, points_per_mm, round_scale, tall
 from crankwork.show.scene import DASH_DOT, SOLID, Drawing
 from crankwork.show.scene import Style as Dashes
 
@@ -35,8 +35,6 @@ _STEP = 2.0
 _STEPS, _APART, _MOST = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 30.0), 30.0, 12
 _MARGIN, _FOOT = 24.0, 50.0
 _TALLEST = 560.0
-# millimetres of a linkage in one of paper, times a power of ten
-_SCALES = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
 # points whose places have the numbers of the plans; of more nobody could tell which number is whose
 _NUMBERED = 6
 _THIN, _BLOCK, WHITE = "#8c8c8c", "#d9d9d9", "#ffffff"
@@ -108,12 +106,12 @@ def _scaled(shape: Skeleton, moved: Moving) -> tuple[Scene, float]:
     room = _UNITS * (here().width - 2 * _MARGIN)
     drawn, scale = scene(shape, moved, room)
     # walls, supports and pieces are as large at any scale, so that what joins their middles is less than all
-    paper = round_scale(_UNITS * points_per_mm() * 1e3 / scale, _SCALES)
+    paper = round_scale(_UNITS * points_per_mm() * 1e3 / scale, FINE)
     while True:
         drawn, _ = scene(shape, moved, room * _UNITS * points_per_mm() * 1e3 / paper / scale)
         if np.all(np.ptp(_seen(drawn), axis=0) <= _UNITS * np.array([here().width - _MARGIN, tall(_TALLEST)])):
             return drawn, paper
-        paper = round_scale(1.01 * paper, _SCALES)
+        paper = round_scale(1.01 * paper, FINE)
 
 
 def _seen(drawn: Scene) -> Array:

@@ -38,6 +38,9 @@ class Place(NamedTuple):
 
 _TEXT = Place()
 
+# of a drawing that is to be as large as its paper takes it
+FINE = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
+
 _PLACE: ContextVar[Place] = ContextVar("place", default=_TEXT)
 
 
@@ -74,7 +77,7 @@ def points_per_mm() -> float:
 
 
 def round_scale(least: float, among: Sequence[float] = (1, 2, 2.5, 4, 5)) -> float:
-    """Return the smallest of 1, 2, 2.5, 4, 5 times a power of ten that is not less; `among`: of others.
+    """Return the smallest of 1, 2, 2.5, 4, 5 times a power of ten that is not less; `among`: of others, as `FINE`.
 
     Examples
     --------
