@@ -11,7 +11,7 @@ from crankwork.formula.known import Found, Known, OfAngle, Pieces, given
 from crankwork.formula.replay import Program
 from crankwork.kernel import compiled as compiled_kernels
 from crankwork.kernel.compiled import Kernel
-from crankwork.kernel.derivative import Derivatives
+from crankwork.kernel.derivative import PARTIALS, ByAngle
 from crankwork.kernel.graph import COMPUTE, Graph, number
 from crankwork.kernel.graph import in_order as values_in_order
 from crankwork.kernel.trace import Designs, NotCompiledError, Trace
@@ -323,10 +323,9 @@ def test_derivatives_by_the_angle_are_those_of_differences_with_forty_digits():
         polytropic_pressure(2.0, 3.0, 1.0 + ratio * cos, 1.3) * np.sqrt(1.0 - (ratio * sin) ** 2) / (2.0 + np.exp(cos))
     )
     column = column + np.arctan(sin / (3.0 + cos)) + np.log(2.0 + sin) + np.tan(ratio * sin) + np.arcsin(ratio * cos)
-    slope = Derivatives(graph, "angle").of(column)
-    by_ratio = Derivatives(graph, 0).of(column)
+    slope = ByAngle(graph).of(column)
     degrees = np.array([17.0, 93.0, 211.0, 340.0])
-    found, found_ratio = played([slope, by_ratio], [0.3], degrees, 360.0)
+    (found,) = played([slope], [0.3], degrees, 360.0)
 
     def exactly(angle, q):
         s, c = mpmath.sin(angle), mpmath.cos(angle)
@@ -334,11 +333,29 @@ def test_derivatives_by_the_angle_are_those_of_differences_with_forty_digits():
         return first + mpmath.atan(s / (3 + c)) + mpmath.log(2 + s) + mpmath.tan(q * s) + mpmath.asin(q * c)
 
     with mpmath.workdps(40):
-        for one, value, other in zip(degrees.tolist(), found, found_ratio, strict=True):
+        for one, value in zip(degrees.tolist(), found, strict=True):
             at = mpmath.radians(one)
             assert value == pytest.approx(float(mpmath.diff(lambda x: exactly(x, mpmath.mpf("0.3")), at)), rel=1e-12)
-            expected = mpmath.diff(lambda q, at=at: exactly(at, q), mpmath.mpf("0.3"))
-            assert other == pytest.approx(float(expected), rel=1e-12)
+
+
+@pytest.mark.elsewhere
+@pytest.mark.parametrize("name", PARTIALS)
+def test_derivatives_of_operations_are_those_of_differences_with_forty_digits(name):
+    mpmath = pytest.importorskip("mpmath")
+    exactly = {
+        "add": mpmath.fadd, "sub": mpmath.fsub, "mul": mpmath.fmul, "div": mpmath.fdiv, "neg": mpmath.fneg,
+        "half_turns": lambda near, angle: mpmath.nint((near - angle) / mpmath.pi),
+        "log_ratio": lambda x, y: mpmath.log(x / y), "arcsin": mpmath.asin, "arccos": mpmath.acos,
+        "arctan": mpmath.atan,
+    }  # fmt: skip
+    function = exactly.get(name) or getattr(mpmath, name)
+    of = [0.3, 0.7][: 2 if name in ("add", "sub", "mul", "div", "half_turns", "log_ratio") else 1]
+    found = PARTIALS[name](COMPUTE[name](*of), *of)
+    with mpmath.workdps(40):
+        for at, one in enumerate(found):
+            order = tuple(int(at == other) for other in range(len(of)))
+            expected = mpmath.diff(function, tuple(map(mpmath.mpf, of)), order)
+            assert one == pytest.approx(float(expected), rel=1e-14, abs=1e-30)
 
 
 def test_a_cached_kernel_is_not_written_again(monkeypatch, tmp_path):

@@ -401,10 +401,11 @@ def _is_root(known: Known) -> bool:
     return known.varies and isinstance(known.node, Use) and known.node.formula.is_root
 
 
-def integrals_of_roots(coefficients: Array, limits: Array) -> Array:
+def integrals_of_roots(coefficients: Array, limits: Array, slopes: Array | None = None) -> Array:
     """Return the means of the roots of polynomials from -1 to 1, on parts of them where a root has a corner.
 
-    `coefficients`: those of Legendre polynomials, shape (n, 16); `limits`: what a mean may miss, shape (n,).
+    `coefficients`: those of Legendre polynomials, shape (n, 16); `limits`: what a mean may miss, shape (n,); `slopes`:
+    what the means change with coefficients is added to these, in their shape.
     """
     result = np.zeros(len(coefficients))
     # what rounding leaves a polynomial unsure by
@@ -421,6 +422,12 @@ def integrals_of_roots(coefficients: Array, limits: Array) -> Array:
         enough = np.maximum(limits[of], little / np.maximum(least + np.sqrt(little), 1e-300))
         is_coarse = (np.abs(fitted[:, -2]) + np.abs(fitted[:, -1]) + _LITTLE * missed > enough) & (cut < _CUTS)
         np.add.at(result, of, np.where(is_coarse, 0.0, (high - low) / 2 * fitted[:, 0]))
+        if slopes is not None:
+            u = (low + high)[:, None] / 2 + (high - low)[:, None] / 2 * _NODES
+            weights = np.where(is_coarse, 0.0, high - low)[:, None] * _WEIGHTS / 8
+            with np.errstate(divide="ignore", invalid="ignore"):
+                weights = np.where(roots[:, : _NODES.size] > 0, weights / roots[:, : _NODES.size], 0.0)
+            np.add.at(slopes, of, np.einsum("nq,nqj->nj", weights, legendre.legvander(u, _NODES.size - 1)))
         of = np.tile(of[is_coarse], _PARTS)
         between = np.linspace(low[is_coarse], high[is_coarse], _PARTS + 1)
         low, high = between[:-1].ravel(), between[1:].ravel()

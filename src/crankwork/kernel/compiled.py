@@ -7,6 +7,7 @@ import importlib.util
 import inspect
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cached_property
 from types import ModuleType
 from typing import Any, NamedTuple
 
@@ -16,13 +17,14 @@ from numpy.typing import NDArray
 from crankwork import files
 from crankwork.formula.known import Delayed, Found, Known, Procedure, breaks_of, in_order
 from crankwork.kernel.arrays import Arrays
+from crankwork.kernel.gradient import Gradient
 from crankwork.kernel.graph import Value, number
 from crankwork.kernel.grid import Edges, Grid, between, closed, divided, even, lobatto, nodes_between
 from crankwork.kernel.plan import Plan
-from crankwork.kernel.reduced import Reduced
+from crankwork.kernel.reduced import Block, Reduced
 from crankwork.kernel.reductions import Even, Exact
 from crankwork.kernel.script import Script
-from crankwork.kernel.slopes import apart, in_part, slopes_of
+from crankwork.kernel.slopes import Taking, apart, in_part
 from crankwork.kernel.source import LANES, RUNNING, Source
 from crankwork.kernel.trace import Designs, NotCompiledError, Trace
 
@@ -52,9 +54,9 @@ class Kernel:
     `memories` are that of the stated design, then two for each field, of a smaller and a larger value of it alone, and
     others; `fields` what the fields are in each, shape (memories, fields) [SI]. With `steps` so many evenly spaced
     crank angles are looked at; otherwise extremes and integrals are those of polynomials between the breaks of laws, as
-    in an analysis. With `is_sloped` derivatives by the fields are found too, with `parts` largest and least values in
-    so many parts of the cycle; `is_for_few`: carried out with arrays, where compiling takes longer than the few designs
-    that are asked for. Columns among the keys are kept, at `rows` too [deg], for what carries the plan out elsewhere.
+    in an analysis. With `parts` largest and least values in so many parts of the cycle are found too; `is_for_few`:
+    carried out with arrays, where compiling takes longer than the few designs that are asked for. Columns among the
+    keys are kept, at `rows` too [deg], for what carries the plan out elsewhere.
     `NotCompiledError` says why a calculation cannot be compiled.
     """
 
@@ -68,7 +70,6 @@ class Kernel:
         cycle: float,
         start: float = 0.0,
         steps: int | None = None,
-        is_sloped: bool = False,
         parts: int = 0,
         is_for_few: bool = False,
         rows: Array | None = None,
@@ -77,7 +78,7 @@ class Kernel:
         self.fields = fields.shape[1]
         wanted = {key: memories[0][key] for key in keys}
         every = list(in_order(wanted.values()))
-        if (steps or is_sloped) and any(isinstance(one.node, Procedure) for one in every):
+        if steps and any(isinstance(one.node, Procedure) for one in every):
             raise NotCompiledError("procedure", next(iter(keys)))
         delays = sorted({one.node.by for one in every if isinstance(one.node, Delayed)})
         breaks = [breaks_of(_reduced([one[key] for key in keys]), cycle, start) for one in memories]
@@ -92,14 +93,12 @@ class Kernel:
                 grid = even(trace.zones(breaks[0]), steps)
             elif trace.moving and edges is not None:
                 edges = edges.following(trace.moving)
-                if edges is None or is_sloped:
+                if edges is None:
                     raise NotCompiledError("ends", keys[0])
                 grid = grid._replace(moves=edges.moves)
             self._edges = edges if trace.moving else None
             if parts:
                 outputs |= {in_part(key, at): of for key in keys for at, of in enumerate(apart(outputs[key], parts))}
-            if is_sloped:
-                outputs |= slopes_of(outputs, self.fields)
             guard = trace.guard(is_sampled=steps is not None)
             ends = [one for one, _ in trace.moving]
             guarded = outputs | ({} if guard is None else {"": guard})
@@ -137,34 +136,66 @@ class Kernel:
             else:
                 self._run(given, found, start)
 
+    def slopes(self, design: Array) -> tuple[Array, Array]:
+        """Return single values of a design, shape (keys,), and their derivatives by its fields, (keys, fields). [SI]"""
+        if any(one.detail.startswith("procedure") for level in self.plan.levels for one in level.reductions):
+            raise NotCompiledError("procedure", self.keys[0])
+        store, kept = self._stores(1)
+        store[: self.fields] = design[:, None]
+        self._arrays.designs(0, store)
+        blocks = self._levels(store, kept, 1)[1]
+        edges = np.full(self.plan.grid.edges.size, -1) if self._edges is None else self._edges.ends
+        taking = [None if one is None else Taking(one, self.plan.grid, edges) for one in blocks]
+        values = [self._of_output(one, store[:, 0]) for key, one in self.plan.outputs.items() if key]
+        return np.array(values), self._gradient(store, taking)
+
+    @cached_property
+    def _gradient(self) -> Gradient:
+        return Gradient(self.source)
+
+    def _stores(self, lanes: int) -> tuple[Array, Array]:
+        """Return the stores of a block of designs, and of their columns."""
+        angles = self.plan.grid.degrees.size
+        return np.empty((len(self.source.rows.of), lanes)), np.empty((len(self.source.columns.of), angles, lanes))
+
     def _run(self, given: Array, found: Bulk, first: int) -> None:
         last = first + given.shape[1]
         lanes = LANES if self._module is not None else min(LANES, last - first)
-        store = np.empty((len(self.source.rows.of), lanes))
-        kept = np.empty((len(self.source.columns.of), self.plan.grid.degrees.size, lanes))
+        store, kept = self._stores(lanes)
         for start in range(first, last, lanes):
             end = min(start + lanes, last)
             store[: len(given)] = given[:, np.minimum(np.arange(start, start + lanes), last - 1) - first]
-            left_out, reductions = np.zeros(lanes), self._exact
-            for at, level in enumerate(self.plan.levels):
-                if at and self._module is not None:
-                    getattr(self._module, f"designs_{at}")(store.reshape(-1), kept, *self._given)
-                elif at:
-                    self._arrays.designs(at, store)
-                elif self._edges is not None and self._exact is not None:
-                    reductions, left_out = self._moved(self._edges, self._exact, store, kept)
-                if self._module is not None:
-                    getattr(self._module, f"level_{at}")(store.reshape(-1), kept, *self._given)
-                else:
-                    self._arrays.level(at, store, kept)
-                left_out = np.maximum(left_out, self._reduced(level, store, kept, reductions, end - start))
+            left_out = self._levels(store, kept, end - start)[0]
             for row, (key, value) in enumerate(self.plan.outputs.items()):
-                of = number(value) if value.is_constant else store[self.source.rows(self.source.place(value))]
+                of = self._of_output(value, store)
                 if key:
                     found.values[row, start:end] = of[: end - start] if isinstance(of, np.ndarray) else of
                 else:
                     left_out = np.maximum(left_out, of)
             found.left_out[start:end] = left_out[: end - start]
+
+    def _of_output(self, value: Value, store: Array) -> Any:  # noqa: ANN401 - of a design a number, of many an array
+        return number(value) if value.is_constant else store[self.source.rows(self.source.place(value))]
+
+    def _levels(self, store: Array, kept: Array, count: int) -> tuple[Array, list[Block | None]]:
+        """Calculate the levels of so many designs; return what is left out of them, and their reductions."""
+        left_out, reductions, blocks = np.zeros(store.shape[1]), self._exact, []
+        module = self._module if store.shape[1] == LANES else None
+        for at, level in enumerate(self.plan.levels):
+            if at and module is not None:
+                getattr(module, f"designs_{at}")(store.reshape(-1), kept, *self._given)
+            elif at:
+                self._arrays.designs(at, store)
+            elif self._edges is not None and self._exact is not None:
+                reductions, left_out = self._moved(self._edges, self._exact, store, kept)
+            if module is not None:
+                getattr(module, f"level_{at}")(store.reshape(-1), kept, *self._given)
+            else:
+                self._arrays.level(at, store, kept)
+            block = self._reduced(level, store, kept, reductions, count)
+            left_out = left_out if block is None else np.maximum(left_out, block.left_out)
+            blocks.append(block)
+        return left_out, blocks
 
     def _moved(self, edges: Edges, exact: Exact, store: Array, kept: Array) -> tuple[Exact, Array]:
         """Put what depends on the crank angle where panels lie in each design; return reductions over them.
@@ -177,11 +208,14 @@ class Kernel:
         degrees, weights = nodes_between(ends, _POLYNOMIALS)
         middles = np.broadcast_to(plan.grid.middles[moves, None, None], degrees[moves].shape)
         angles = np.flatnonzero(moves[plan.grid.panel])
-        for at, one in plan.moved.items():
-            found = plan.at(one.detail, degrees[moves].ravel(), middles.ravel())
-            kept[source.columns(at), angles] = found.reshape(angles.size, -1)
+        leaves = [one.detail for one in plan.moved.values()]
+        found = plan.at(leaves, degrees[moves].ravel(), middles.ravel())
+        for at, one in zip(plan.moved, leaves, strict=True):
+            kept[source.columns(at), angles] = found[one.at].reshape(angles.size, -1)
         is_other = np.any(np.diff(ends, axis=0) < 0, axis=0)
-        return exact.moved_to(ends, weights.reshape(-1, weights.shape[-1])), np.where(is_other, np.inf, 0.0)
+        lanes = store.shape[1]
+        moved = exact.moved_to(ends, degrees.reshape(-1, lanes), weights.reshape(-1, lanes))
+        return moved, np.where(is_other, np.inf, 0.0)
 
     def script(self) -> Script:
         """Return the plan in the language of browsers."""

@@ -71,8 +71,7 @@ class Grid(NamedTuple):
             if abs(places - round(places)) > _SAME / step:
                 return None
             return (np.arange(self.degrees.size) - round(places)) % self.degrees.size
-        middles = np.mod(self.middles - by - self.start, self.cycle) + self.start
-        panel = np.searchsorted(self.edges, middles, side="right") - 1
+        panel, middles = self.panels_earlier(by)
         widths = np.diff(self.edges)
         fits = (np.abs(self.middles[panel] - middles) < _SAME) & (np.abs(widths[panel] - widths) < _SAME)
         if not fits.all():
@@ -86,6 +85,11 @@ class Grid(NamedTuple):
         if np.max(np.abs(rows[found] - at)) > _SAME:
             return None
         return np.concatenate([nodes, self.nodes + found])
+
+    def panels_earlier(self, by: float) -> tuple[NDArray[np.intp], Array]:
+        """Return in which panel the middle of each lies earlier by some degrees, and at which angle. [deg]"""
+        middles = np.mod(self.middles - by - self.start, self.cycle) + self.start
+        return np.searchsorted(self.edges, middles, side="right") - 1, middles
 
     def with_rows(self, rows: Array) -> Grid:
         """Return the grid with rising angles of tables behind its nodes; one at an edge belongs to what ends there."""
@@ -136,6 +140,13 @@ class Edges(NamedTuple):
         """Which panels lie elsewhere in other designs."""
         moving = self.of >= 0
         return np.repeat(moving[1:] | moving[:-1], self.parts)
+
+    @property
+    def ends(self) -> NDArray[np.intp]:
+        """Which of the ends each edge of a panel is, -1 where it is none."""
+        found = np.full(int(self.parts.sum()) + 1, -1)
+        found[np.append(0, np.cumsum(self.parts))] = self.of
+        return found
 
     def at(self, ends: Array) -> Array:
         """Return the edges of designs whose laws end at some crank angles, shape (edges, lanes) of (ends, lanes)."""

@@ -155,29 +155,34 @@ class Plan:
             row = self.row_of_angle[value.at] = len(self._rows)
             self.of_angle.append(value)
             self._rows.append(np.zeros(self.grid.degrees.size))
-        made: dict[int, Any] = {}
-        for one in in_order([value]):
-            if one.kind == "constant":
-                made[one.at] = number(one)
-            elif one.kind == "angle":
-                made[one.at] = self.function_of_angle(one, angles)
-            else:
-                with np.errstate(all="ignore"):
-                    made[one.at] = COMPUTE[one.kind](*(made[other.at] for other in one.operands))
-        self._rows[row][angles] = made[value.at]
+        self._rows[row][angles] = self.function_of_angle(value, angles)
 
     def function_of_angle(self, value: Value, angles: NDArray[np.intp] | slice) -> Array:
         """Return what depends on the crank angle alone at some angles of the grid."""
-        return self.at(value, self.grid.degrees[angles], self.grid.middles[self.grid.panel[angles]])
+        of = self.at([value], self.grid.degrees[angles], self.grid.middles[self.grid.panel[angles]])
+        return np.asarray(of[value.at], dtype=float)
 
-    def at(self, value: Value, degrees: Array, middles: Array) -> Array:
+    def at(self, values: Iterable[Value], degrees: Array, middles: Array) -> dict[int, Any]:
         """Return what depends on the crank angle alone at angles, each in a panel with that middle. [deg]"""
-        function, multiple, shift = value.detail
-        if function not in ("reading", "within"):
-            column: Array = getattr(self._angles_at(degrees).multiple(multiple).shifted(shift), function)
-            return column
-        own = degrees + shift + self._turn(middles, shift)
-        return own if function == "within" else np.asarray(value.graph.functions[multiple](own), dtype=float)
+        made: dict[int, Any] = {}
+        angles = self._angles_at(degrees)
+        for one in in_order(values):
+            if one.kind == "constant":
+                made[one.at] = number(one)
+            elif one.kind != "angle":
+                with np.errstate(all="ignore"):
+                    made[one.at] = COMPUTE[one.kind](*(made[other.at] for other in one.operands))
+            else:
+                function, multiple, shift = one.detail
+                own = degrees + shift + self._turn(middles, shift)
+                match function:
+                    case "within":
+                        made[one.at] = own
+                    case "reading":
+                        made[one.at] = np.asarray(one.graph.functions[multiple](own), dtype=float)
+                    case _:
+                        made[one.at] = getattr(angles.multiple(multiple).shifted(shift), function)
+        return made
 
 
 def _at_this_angle(value: Value) -> bool:

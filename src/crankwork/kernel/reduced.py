@@ -1,8 +1,9 @@
-"""What columns of a block of designs come to: reductions, and how those change with what designs state."""
+"""What columns of a block of designs come to: reductions, and what each of them takes of its columns."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,11 +16,22 @@ from crankwork.kernel.source import Source
 Array = NDArray[np.float64]
 
 
+class Extreme(NamedTuple):
+    """Where columns are the largest; `columns` are these, smooth ones, shape (1, angles, lanes)."""
+
+    columns: Array
+    peaks: Peaks
+
+    @property
+    def place(self) -> tuple[int, float]:
+        """Panel and place of the first lane."""
+        return int(self.peaks.panel[0, 0]), float(self.peaks.u[0, 0])
+
+
 class Reduced:
     """The reductions of the levels of a plan.
 
-    The word of a reduction is what it is, in which of `parts` of the cycle if it is not the whole, and `slope` for how
-    it changes: `max 3 slope`, of a column and its derivative.
+    The word of a reduction is what it is, and in which of `parts` of the cycle if it is not the whole: `max 3`.
     """
 
     def __init__(self, source: Source, reductions: Even | Exact, parts: int) -> None:
@@ -28,22 +40,22 @@ class Reduced:
 
     def __call__(
         self, level: Level, store: Array, kept: Array, reductions: Even | Exact | None, count: int
-    ) -> Array | float:
-        """Put reductions of columns into the store; return what polynomials leave out of them, shape (lanes,).
+    ) -> Block | None:
+        """Put reductions of columns into the store, and return what was found of these; None where there are none.
 
         `reductions`: those of other edges than the stated ones; `count`: how many lanes are designs that are asked for.
         """
         every = [one for one in level.reductions if one.detail != "column"]
         if not every:
-            return 0.0
-        block = _Block(self._source, reductions or self._reductions, self._starts, every, kept, count)
+            return None
+        block = Block(self._source, reductions or self._reductions, self._starts, every, kept, count)
         for one in every:
             store[self._source.rows(self._source.place(one))] = block.value(one)
-        return np.asarray(block.left_out.max(axis=0))
+        return block
 
 
-class _Block:
-    """The columns of some designs, and what was found of them."""
+class Block:
+    """The columns of some designs, and what was found of them; `left_out`: what polynomials leave out, by lanes."""
 
     def __init__(
         self,
@@ -54,7 +66,7 @@ class _Block:
         kept: Array,
         count: int,
     ) -> None:
-        self._source, self._exact, self._starts, self._count = source, reductions, starts, count
+        self._source, self.reductions, self._starts, self._count = source, reductions, starts, count
         self._kept = kept[:, : source.plan.grid.nodes]
         reduced = {one.at: one for reduction in every for one in _looked_at(reduction)}
         self._row_of = {at: row for row, at in enumerate(reduced)}
@@ -62,96 +74,91 @@ class _Block:
         # a root has a corner where it vanishes, and its square has none
         self._is_root = is_root = np.array([one.kind == "sqrt" for one in reduced.values()])
         self._smooth = np.where(is_root[:, None, None], self._columns**2, self._columns)
-        self.left_out = reductions.left_out(self._smooth)
-        self._cycle = np.radians(source.plan.grid.cycle)
+        self.left_out: Array = reductions.left_out(self._smooth).max(axis=0)
+        self.cycle = np.radians(source.plan.grid.cycle)
         self._integral = reductions.integrals(self._columns)
         if is_root.any() and any(one.detail == "mean" for one in every):
             self._integral[is_root] = reductions.of_roots(self._smooth[is_root])
         self._peaks: dict[tuple[float, bool], Peaks] = {}
-        self._ranges: dict[int, tuple[Peaks, Peaks]] = {}
+        self._ranges: dict[Value, tuple[Extreme, Extreme]] = {}
         self._procedures: dict[tuple[str, tuple[Value, ...]], Array] = {}
 
     def value(self, one: Value) -> Array:
         """Return what a reduction comes to, shape (lanes,)."""
-        word, *more = one.detail.split()
-        part = more[0] if more and more[0] != "slope" else ""
-        row = self._row_of[one.operands[0].at]
-        if word == "procedure":
-            return np.asarray(self._by_procedure(one)[int(more[1])])
-        if word == "tangents":
-            return self._tangents(one, is_slope=bool(more))
-        change = self._column(one.operands[1]) if len(one.operands) > 1 else None
-        match word:
+        match one.detail.split()[0]:
+            case "procedure":
+                return np.asarray(self._by_procedure(one)[int(one.detail.split()[2])])
             case "mean" | "integral":
-                integral = self._integral[row] if change is None else self._exact.integrals(change)[0]
-                return np.asarray(integral / (self._cycle if word == "mean" else 1.0))
-            case "range":
-                return self._range(row, change)
-        return self._extreme(row, word, part, change)
+                integral = self._integral[self._row_of[one.operands[0].at]]
+                return np.asarray(integral / (self.cycle if one.detail == "mean" else 1.0))
+            case "range" | "tangents":
+                up, down = self.range(one)
+                return np.asarray(up.peaks.value[0] + down.peaks.value[0])
+        found, is_angle = self.extreme(one)
+        if is_angle:
+            return np.asarray(found.peaks.angle[0])
+        value: Array = (1.0 if one.detail.startswith("max") else -1.0) * found.peaks.value[0]
+        return np.asarray(np.sqrt(np.maximum(value, 0.0)) if self.is_root(one.operands[0]) else value)
 
-    def _range(self, row: int, change: Array | None) -> Array:
-        if row not in self._ranges:
-            work = self._work(self._columns[row : row + 1])
-            self._ranges[row] = self._exact.largest(work), self._exact.largest(-work)
-        up, down = self._ranges[row]
-        if change is None:
-            return np.asarray(up.value[0] + down.value[0])
-        work = self._work(change)
-        return np.asarray(self._exact.at(work, up)[0] - self._exact.at(work, down)[0])
+    @property
+    def followed(self) -> Exact:
+        """The reductions, which are those of polynomials."""
+        if not isinstance(self.reductions, Exact):
+            raise TypeError("evenly spaced angles are not followed")
+        return self.reductions
+
+    def is_root(self, column: Value) -> bool:
+        """Return whether of a column the square is looked at."""
+        return bool(self._is_root[self._row_of[column.at]])
+
+    def range(self, one: Value) -> tuple[Extreme, Extreme]:
+        """Return where the work of a column, or what tangents of the mass-energy curve cut off, is most and least."""
+        if one not in self._ranges:
+            above = below = self._work(self.column(one.operands[0]))
+            if one.detail == "tangents":
+                # the work of a load is negative
+                inertia, *slopes = map(self.column, one.operands[1:])
+                above, below = (-above - slope * inertia for slope in slopes)
+            self._ranges[one] = (
+                Extreme(above, self.reductions.largest(above)),
+                Extreme(-below, self.reductions.largest(-below)),
+            )
+        return self._ranges[one]
 
     def _by_procedure(self, one: Value) -> Array:
         """Return what a function finds of columns, shape (values, lanes)."""
         _, function, _ = one.detail.split()
         key = function, one.operands
-        if not isinstance(self._exact, Exact):
-            raise TypeError("procedures take polynomials")
         if key not in self._procedures:
-            series = self._exact.series(self._kept[[self._source.columns(column.at) for column in one.operands]])
+            series = self.followed.series(self._kept[[self._source.columns(column.at) for column in one.operands]])
             call, lanes = one.graph.functions[int(function)], np.minimum(np.arange(series.shape[-1]), self._count - 1)
-            edges = np.broadcast_to(self._exact.edges, (series.shape[1] + 1, lanes.size))
+            edges = np.broadcast_to(self.followed.edges, (series.shape[1] + 1, lanes.size))
             found = np.array([call(edges[:, lane], series[..., lane]) for lane in range(self._count)])
             self._procedures[key] = found[lanes].T
         return self._procedures[key]
 
-    def _column(self, value: Value) -> Array:
+    def column(self, value: Value) -> Array:
+        """Return a column, shape (1, angles, lanes)."""
         return self._kept[[self._source.columns(value.at)]]
-
-    def _tangents(self, one: Value, *, is_slope: bool) -> Array:
-        """Return what tangents of the mass-energy curve cut off its axis; the work of a load is negative."""
-        torque, inertia, *slopes = map(self._column, one.operands[:4])
-        work = -self._work(torque)
-        above, below = (work - slope * inertia for slope in slopes)
-        up, down = self._exact.largest(above), self._exact.largest(-below)
-        if not is_slope:
-            return np.asarray(up.value[0] + down.value[0])
-        torque, inertia_1, *slopes_1 = map(self._column, one.operands[4:])
-        changes = [
-            -self._work(torque) - slope * inertia_1 - slope_1 * inertia
-            for slope, slope_1 in zip(slopes, slopes_1, strict=True)
-        ]
-        return np.asarray(self._exact.at(changes[0], up)[0] - self._exact.at(changes[1], down)[0])
 
     def _work(self, column: Array) -> Array:
         """Return the integral of a column about its mean, over the angles."""
-        return self._exact.running(column - self._exact.integrals(column)[:, None] / self._cycle)
+        return self.reductions.running(column - self.reductions.integrals(column)[:, None] / self.cycle)
 
-    def _extreme(self, row: int, word: str, part: str, change: Array | None) -> Array:
+    def extreme(self, one: Value) -> tuple[Extreme, bool]:
+        """Return where a column, or its square, is the largest or the least, and whether the angle is wanted."""
+        word, *part = one.detail.split()
         kind, _, angle = word.partition("_")
-        sign = 1.0 if kind == "max" else -1.0
+        sign, row = 1.0 if kind == "max" else -1.0, self._row_of[one.operands[0].at]
         if (sign, bool(part)) not in self._peaks:
             starts = self._starts if part else (0,)
-            self._peaks[sign, bool(part)] = self._exact.largest_in(sign * self._smooth, starts)
-        peaks = self._peaks[sign, bool(part)].part(int(part or 0)).of(row)
-        if change is None:
-            value = sign * peaks.value[0]
-            value = np.sqrt(np.maximum(value, 0.0)) if self._is_root[row] else value
-            return np.asarray(peaks.angle[0] if angle else value)
-        found = self._exact.moved(self._smooth[[row]], change, peaks) if angle else self._exact.at(change, peaks)
-        return np.asarray(found[0])
+            self._peaks[sign, bool(part)] = self.reductions.largest_in(sign * self._smooth, starts)
+        peaks = self._peaks[sign, bool(part)].part(int(part[0]) if part else 0)
+        return Extreme(self._smooth[[row]], peaks.of(row)), bool(angle)
 
 
 def _looked_at(one: Value) -> tuple[Value, ...]:
     """Return the columns of a reduction that polynomials must follow."""
     if one.detail.startswith("procedure"):
         return one.operands
-    return one.operands[:2] if one.detail.startswith("tangents") else one.operands[:1]
+    return one.operands[:2] if one.detail == "tangents" else one.operands[:1]

@@ -25,10 +25,6 @@ _EQUAL = 8 * float(np.finfo(float).eps)
 _ROUNDING = 1e-12
 
 
-# of a change of a polynomial over its panel, what is no longer level
-_LEVEL = 1e-6
-
-
 class Peaks(NamedTuple):
     """The largest of columns, the crank angles where they stand [rad], and in which panel where from -1 to 1.
 
@@ -88,14 +84,6 @@ class Even:
         value = np.take_along_axis(columns, place, axis=1)
         return Peaks(value, np.radians(self._grid.degrees)[place], place, 0.0 * value)
 
-    def at(self, columns: Array, peaks: Peaks) -> Array:
-        """Return columns where the largest of others stand, shape (columns, lanes)."""
-        return np.asarray(np.take_along_axis(columns, peaks.panel[:, None], axis=1)[:, 0])
-
-    def moved(self, _columns: Array, _slopes: Array, peaks: Peaks) -> Array:
-        """Return nothing of how the angles of the largest change, which are always those of the grid."""
-        return np.full(peaks.value.shape, np.nan)
-
 
 class Exact:
     """Reductions over the nodes of polynomials, of columns of shape (columns, angles, lanes)."""
@@ -105,22 +93,22 @@ class Exact:
         self._nodes, self._to_coefficients = polynomials.nodes, polynomials.coefficients
         self._half = np.radians(np.diff(grid.edges))[:, None] / 2
         self._middle = np.radians(grid.edges[1:] + grid.edges[:-1])[:, None] / 2
-        self._weights = grid.weights
+        self._degrees, self._weights = grid.degrees[: grid.nodes], grid.weights
         # integral from the left end of a panel to each node, of values at the nodes
         integrals = [legendre.legint(one, lbnd=-1) for one in np.eye(count)]
-        self._to_integrals = (
-            legendre.legvander(polynomials.nodes, count) @ np.array(integrals).T @ self._to_coefficients
-        )
+        self._integrals = np.array(integrals).T @ self._to_coefficients
+        self._to_integrals = legendre.legvander(polynomials.nodes, count) @ self._integrals
         derivative = np.pad(legendre.legder(np.eye(count)), ((0, 1), (0, 0)))
         self._slope = derivative
         self._bend = derivative @ derivative
 
-    def moved_to(self, edges: Array, weights: Array) -> Exact:
+    def moved_to(self, edges: Array, degrees: Array, weights: Array) -> Exact:
         """Return the same between edges that each design has elsewhere, shape (edges, lanes), (angles, lanes)."""
         found = copy.copy(self)
         vars(found).update(
             _half=np.radians(np.diff(edges, axis=0)) / 2,
             _middle=np.radians(edges[1:] + edges[:-1]) / 2,
+            _degrees=degrees,
             _weights=weights,
         )
         return found
@@ -143,13 +131,15 @@ class Exact:
 
     def of_roots(self, squares: Array) -> Array:
         """Return the integrals of the roots of columns, shape (columns, lanes)."""
-        values = self.panels(squares)
-        coefficients = np.moveaxis(np.matmul(self._to_coefficients, values), 2, 3)
-        limits = np.broadcast_to(
-            _ROUNDING * np.sqrt(np.abs(squares).max(axis=1))[:, None], coefficients.shape[:3]
-        )  # fmt: skip
-        found = integrals_of_roots(coefficients.reshape(-1, self._nodes.size), limits.reshape(-1))
+        coefficients = np.moveaxis(self.series(squares), 2, 3)
+        found = integrals_of_roots(coefficients.reshape(-1, self.each), self._limits(squares, coefficients))
         return np.asarray(2 * (self._half * found.reshape(coefficients.shape[:3])).sum(axis=1))
+
+    @staticmethod
+    def _limits(squares: Array, coefficients: Array) -> Array:
+        """Return what the mean of each root may miss, in one row."""
+        limits = _ROUNDING * np.sqrt(np.abs(squares).max(axis=1))[:, None]
+        return np.broadcast_to(limits, coefficients.shape[:3]).reshape(-1)
 
     def running(self, columns: Array) -> Array:
         """Return the integrals of columns from the start of the cycle to each angle, in their shape."""
@@ -218,31 +208,51 @@ class Exact:
         value, angle = (np.where(np.isfinite(top), one, np.nan) for one in (best, first))
         return Peaks(value, angle, inside, at)
 
-    def at(self, columns: Array, peaks: Peaks) -> Array:
-        """Return columns where the largest of others stand, shape (columns, lanes)."""
-        return np.asarray(legendre.legval(peaks.u, self._coefficients(columns, peaks), tensor=False))
-
-    def moved(self, columns: Array, slopes: Array, peaks: Peaks) -> Array:
-        """Return how the angles of the largest change where columns do with these slopes [rad].
-
-        An extreme where a law breaks stays there; the slope by the angle vanishes at any other.
-        """
-        own, change = self._coefficients(columns, peaks), self._coefficients(slopes, peaks)
-        slope, bend = (
-            legendre.legval(peaks.u, np.tensordot(one, own, 1), tensor=False) for one in (self._slope, self._bend)
-        )
-        by_field = legendre.legval(peaks.u, np.tensordot(self._slope, change, 1), tensor=False)
-        is_corner = np.abs(slope) > _LEVEL * np.abs(own[1:]).sum(axis=0)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return np.where(
-                is_corner, 0.0, -by_field / bend * self._of(self._half, peaks.panel, np.arange(change.shape[-1]))
-            )
-
     @staticmethod
     def _of(panels: Array, panel: NDArray[np.intp], lane: NDArray[np.intp]) -> Array:
         return np.asarray(panels[panel, lane if panels.shape[1] > 1 else 0])
 
-    def _coefficients(self, columns: Array, peaks: Peaks) -> Array:
-        """Return polynomials where the largest stand, shape (degrees, columns, lanes)."""
-        values = np.take_along_axis(self.panels(columns), peaks.panel[:, None, None], axis=1)[:, 0]
-        return np.moveaxis(np.matmul(self._to_coefficients, values), 1, 0)
+    # what follows is of the first lane alone
+
+    @property
+    def each(self) -> int:
+        """How many nodes a panel has."""
+        return int(self._nodes.size)
+
+    @property
+    def nodes(self) -> tuple[Array, Array]:
+        """The crank angles of nodes [deg], and what an integral over the crank angle takes of each [rad]."""
+        first = (one if one.ndim == 1 else one[:, 0] for one in (self._degrees, self._weights))
+        return next(first), next(first)
+
+    def of_panel(self, panel: int) -> slice:
+        """Return where the nodes of a panel stand."""
+        return slice(panel * self.each, (panel + 1) * self.each)
+
+    def up_to(self, panel: int, u: float) -> Array:
+        """Return what the integral from the start of the cycle to a place in a panel takes of each node. [rad]"""
+        found, at = self.nodes[1].copy(), self.of_panel(panel)
+        found[at] = self._half[panel, 0] * (_legendre(u, self.each + 1) @ self._integrals)
+        found[at.stop :] = 0.0
+        return found
+
+    def at_roots(self, squares: Array) -> Array:
+        """Return what the integral of the root of a column takes of each node of this, shape (1, angles, 1). [rad]"""
+        coefficients = np.moveaxis(self.series(squares), 2, 3)
+        slopes = np.zeros((coefficients.shape[1], self.each))
+        integrals_of_roots(coefficients.reshape(-1, self.each), self._limits(squares, coefficients), slopes)
+        return (2 * self._half[:, :1] * (slopes @ self._to_coefficients)).ravel()
+
+    def around(self, panel: int, u: float) -> tuple[Array, Array, Array]:
+        """Return what a value in a panel, its first and second derivative take of each of the nodes. [1, 1/rad ...]"""
+        at, half = _legendre(u, self.each), self._half[panel, 0]
+        first, second = (at @ one @ self._to_coefficients for one in (self._slope, self._bend))
+        return at @ self._to_coefficients, first / half, second / half**2
+
+
+def _legendre(u: float, count: int) -> Array:
+    """Return so many of Legendre's polynomials at a place."""
+    found = [1.0, u]
+    for n in range(1, count - 1):
+        found.append(((2 * n + 1) * u * found[n] - n * found[n - 1]) / (n + 1))
+    return np.array(found)

@@ -37,7 +37,7 @@ from crankwork.formula.known import (
     in_order,
 )
 from crankwork.formula.replay import Angles
-from crankwork.kernel.derivative import Derivatives
+from crankwork.kernel.derivative import ByAngle
 from crankwork.kernel.graph import End, Graph, Value
 from crankwork.kernel.graph import in_order as values_in_order
 
@@ -224,7 +224,7 @@ class Trace:
         self._guards: list[Value] = []
         self._ends: dict[int, tuple[End, Array]] = {}
         self._made: dict[tuple[int, float | None, float], Value] = {}
-        self._by_angle = Derivatives(self.graph, "angle")
+        self._by_angle = ByAngle(self.graph)
 
     def compiling(self, keys: Iterable[str]) -> list[str]:
         """Return those of some keys that compile, that designs differ in, and that need loops and extremes alone.

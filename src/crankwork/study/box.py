@@ -13,7 +13,7 @@ from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting
 from crankwork.errors import CrankworkError, UnknownKeyError
 from crankwork.kernel.compiled import Kernel
-from crankwork.kernel.slopes import by_field, in_part
+from crankwork.kernel.slopes import in_part
 from crankwork.kernel.trace import NotCompiledError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Refusal
@@ -112,7 +112,7 @@ class Box:
         for at, place in enumerate(places):
             try:
                 varied = around(self.design(place), 1.0 if at == 0 else _AROUND)
-                kernel = varied.kernel(is_sloped=True, parts=PARTS, is_for_few=True)
+                kernel = varied.kernel(parts=PARTS, is_for_few=True)
                 varied.check_at(kernel, self.design(self.start))
             except NotCompiledError as error:
                 reason = reason or error.reason
@@ -222,16 +222,16 @@ class Box:
     def _near(self, place: Array) -> Near:
         """Return what the kernel says of a place."""
         kernel: Kernel = self._kernel  # type: ignore[assignment]
-        fields = range(self.low.size)
-        found = dict(zip(kernel.keys, kernel(self.design(place)[:, None]).values[:, 0], strict=True))
-        span = self.high - self.low
-        nothing = float("nan")
-        of = [[in_part(key, at) for at in range(PARTS)] for key in self.keys]
-        slopes = np.array([[found[by_field(key, at)] for at in fields] for key in self.keys])
-        parts = np.array([[found.get(one, nothing) for one in row] for row in of])
-        changes = np.array([[[found.get(by_field(one, at), nothing) for at in fields] for one in row] for row in of])
-        values = np.array([found[key] for key in self.keys])
-        return Near(values, np.nan_to_num(slopes * span), (parts, np.nan_to_num(changes * span)))
+        values, slopes = kernel.slopes(self.design(place))
+        slopes = np.nan_to_num(slopes * (self.high - self.low))
+        count, shape = len(self.keys), (len(self.keys), PARTS)
+        parts = np.full(shape, np.nan), np.zeros((*shape, place.size))
+        row_of = {key: row for row, key in enumerate(kernel.keys)}
+        for row, key in enumerate(self.keys):
+            if in_part(key, 0) in row_of:
+                of = slice(row_of[in_part(key, 0)], row_of[in_part(key, 0)] + PARTS)
+                parts[0][row], parts[1][row] = values[of], slopes[of]
+        return Near(values[:count], slopes[:count], parts)
 
     def _analysed(self, place: Array) -> Array:
         try:
