@@ -42,15 +42,37 @@ def test_a_field_typed_as_it_stands_changes_nothing(name):
 
 def test_a_field_changes_in_the_text_and_keeps_what_is_said_beside_it():
     text = template("engine")
-    found = Studio("en").answer({"do": "set", "text": text, "fields": {"crank.radius": "47,5 mm"}, "figures": None})
-    assert 'radius = "47,5 mm"' in found["text"]
+    found = Studio("en").answer({"do": "set", "text": text, "fields": {"crank.radius": "47,5,0 mm"}, "figures": None})
+    assert 'radius = "47,5,0 mm"' in found["text"]
     assert found["text"].count("#") == text.count("#")
-    assert "decimal" in found["refusals"][0]["text"]
+    assert found["refusals"]
     whole = Studio("en").answer({"do": "set", "text": text, "fields": {"crank.radius": "47.5 mm"}, "figures": None})
     assert whole["summary"]["stroke"] == pytest.approx(0.095)
 
 
-@pytest.mark.parametrize("typed", ["50", "-3 mm", "0 mm", "", "abc", "1.7 cms", "1,7 cm"])
+@pytest.mark.parametrize(
+    ("stated", "typed", "language", "comes"),
+    [
+        ("45 mm", "50", "en", "50 mm"),
+        ("45 mm", "4,75 cm", "en", "4.75 cm"),
+        ("45 mm", "47,125", "ru", "47.125 mm"),
+        # it may be told by thousands
+        ("45 mm", "1,700 mm", "en", "1,700 mm"),
+        ("45 ± 0.1 mm", "47", "vi", "47 ± 0.1 mm"),
+        ("45 mm ± 1 %", "47", "en", "47 mm ± 1 %"),
+    ],
+)
+def test_a_number_typed_keeps_unit_and_tolerance(stated, typed, language, comes):
+    text = template("engine").replace('radius = "45 mm"', f'radius = "{stated}"')
+    studio = Studio(language)
+    found = studio.answer({"do": "set", "text": text, "fields": {"crank.radius": typed}, "figures": []})
+    assert f'radius = "{comes}"' in found["text"]
+    row = rows_of(found)["crank.radius"]
+    assert row["value"] == comes
+    assert ("after" in row) == (found["refusals"] == [])
+
+
+@pytest.mark.parametrize("typed", ["-3 mm", "0 mm", "", "abc", "1.7 cms", "1.7.0 cm"])
 @pytest.mark.parametrize("language", ["en", "ru", "vi"])
 def test_what_is_refused_is_told_as_the_command_line_tells_it(typed, language, tmp_path):
     from crankwork.locale import told
@@ -62,7 +84,7 @@ def test_what_is_refused_is_told_as_the_command_line_tells_it(typed, language, t
         crankwork.read_machine(found["text"], "machine.toml")
     assert [one["text"] for one in found["refusals"]] == error.value.lines(lambda one: told(one, language))
     lines = found["text"].splitlines()
-    assert lines[found["refusals"][0]["line"] - 1].startswith(f'radius = "{typed}"' if typed != "50" else "radius = 50")
+    assert lines[found["refusals"][0]["line"] - 1].startswith(f'radius = "{typed}"')
     assert "data" not in found
     assert "form" in found
 
@@ -80,6 +102,14 @@ def test_whatever_is_added_makes_a_machine_that_is_computed(name, kinds):
         assert found["refusals"] == [], key
         assert found["added"], key
         assert found["text"].count("#") == text.count("#")
+
+
+def test_values_are_in_the_units_that_the_file_asks_for():
+    text = f'units = "imperial"\n{template("slider-crank")}'
+    found = Studio("en").answer({"do": "show", "text": text, "figures": []})
+    assert found["scales"]["stroke"] == pytest.approx((1 / 0.0254, "in"))
+    assert "<td>in" in found["values"]
+    assert "<td>mm" not in found["values"]
 
 
 def test_a_drawn_four_bar_has_its_torque_curve_after_masses_and_a_load():

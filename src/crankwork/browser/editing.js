@@ -14,6 +14,22 @@ export class Editing {
     this.text = "";
     /** The file that this text is saved to, none for one that came from elsewhere. */
     this.path = "";
+    /** The text that was saved last, or opened from its file. */
+    this.kept = "";
+  }
+
+  /** Whether something was done that is not in a file. */
+  get unsaved() {
+    return this.text !== this.kept && (this.at > 0 || Boolean(this.path));
+  }
+
+  /**
+   * Remember what was saved.
+   * @param {string} text
+   */
+  keep(text) {
+    this.kept = text;
+    this.changed(this);
   }
 
   /**

@@ -2,11 +2,11 @@
 
 /**
  * A field: key, name and meaning, what stands in it; a choice has options, a number what a slider goes by.
- * @typedef {{key: string, name: string, value: string, also?: Record<string, string>, means?: string, options?: string[], number?: number, unit?: string,
+ * @typedef {{key: string, name: string, label: string, value: string, also?: Record<string, string>, means?: string, options?: string[], number?: number, unit?: string, after?: string,
  *   low?: number, high?: number, whole?: boolean}} Row
  */
 
-/** @typedef {{path: string, means: string, rows: Row[], more: Row[]}} Group */
+/** @typedef {{path: string, means: string, label: string, rows: Row[], more: Row[]}} Group */
 
 /**
  * What a form tells: a field as typed, whether its gesture has ended; a field that goes; fields that come.
@@ -25,6 +25,8 @@ export class Form {
     this.words = words;
     this.tells = tells;
     this.shape = "";
+    /** What stands in the file, by key. @type {Map<string, string>} */
+    this.stated = new Map();
     /** The field whose slider is held. */
     this.held = "";
   }
@@ -82,11 +84,12 @@ export class Form {
     const made = document.createElement("fieldset");
     const legend = made.appendChild(document.createElement("legend"));
     legend.textContent = group.path || this.words.whole;
+    if (group.label !== group.path) legend.append(key(group.label));
     legend.title = group.means;
     made.append(...group.rows.map((row) => this.row(row)));
     if (group.more.length) {
-      const more = this.choice(this.words.more, group.more.map((one) => [one.key, one.name]), (key) => {
-        const one = group.more.find((other) => other.key === key);
+      const more = this.choice(this.words.more, group.more.map((one) => [one.key, one.label]), (chosen) => {
+        const one = group.more.find((other) => other.key === chosen);
         if (one) this.tells.added({ ...one.also, [one.key]: one.value });
       });
       more.setAttribute("aria-label", `${this.words.more} ${group.path}`);
@@ -100,7 +103,8 @@ export class Form {
     const made = document.createElement("div");
     made.className = "field";
     const label = made.appendChild(document.createElement("label"));
-    label.textContent = row.name;
+    label.textContent = row.label;
+    if (row.label !== row.name) label.append(key(row.name));
     label.title = row.means ?? "";
     const id = `field-${row.key}`;
     label.htmlFor = id;
@@ -114,6 +118,13 @@ export class Form {
     const gone = document.createElement("button");
     gone.className = "gone";
     gone.textContent = "×";
+    // fields follow one another; keys take one away from within
+    gone.tabIndex = -1;
+    gone.title = "Ctrl+Delete";
+    made.addEventListener("keydown", (event) => {
+      if (event.key === "Delete" && event.ctrlKey) this.tells.gone(row.key);
+      else if (event.key === "Escape" && input instanceof HTMLInputElement) input.value = this.stated.get(row.key) ?? input.value;
+    });
     gone.setAttribute("aria-label", `${this.words.without} ${row.key}`);
     gone.addEventListener("click", () => this.tells.gone(row.key));
     made.append(gone);
@@ -131,10 +142,10 @@ export class Form {
     const slider = document.createElement("input");
     slider.type = "range";
     slider.dataset.slides = row.key;
-    slider.setAttribute("aria-label", `${row.name}${row.unit ? `, ${row.unit}` : ""}`);
+    slider.setAttribute("aria-label", `${row.label}${row.unit ? `, ${row.unit}` : ""}`);
     slider.addEventListener("input", () => {
       this.held = row.key;
-      const text = `${slider.value}${slider.dataset.unit ? ` ${slider.dataset.unit}` : ""}`;
+      const text = `${slider.value}${slider.dataset.after ?? ""}`;
       const field = this.field(row.key);
       if (field) field.value = text;
       this.tells.typed(row.key, text, false);
@@ -152,10 +163,12 @@ export class Form {
    * @param {boolean} fresh
    */
   fill(row, fresh) {
+    this.stated.set(row.key, row.value);
     const field = this.field(row.key);
     if (field && this.held !== row.key && (fresh || field !== document.activeElement || field instanceof HTMLSelectElement)) field.value = row.value;
     const slider = /** @type {HTMLInputElement | null} */ (this.room.querySelector(`[data-slides="${CSS.escape(row.key)}"]`));
     if (!slider || this.held === row.key || row.number === undefined) return;
+    slider.dataset.after = row.after ?? "";
     slider.dataset.unit ??= row.unit ?? "";
     // a thumb stays where it was left
     if (slider.min && slider.dataset.unit === (row.unit ?? "") && row.number >= Number(slider.min) && row.number <= Number(slider.max)) {
@@ -180,6 +193,14 @@ export class Form {
       one.title = own?.text ?? "";
     }
   }
+}
+
+/**
+ * Return a word of the file, small beside what it means.
+ * @param {string} word
+ */
+function key(word) {
+  return Object.assign(document.createElement("span"), { className: "key", textContent: word });
 }
 
 /**

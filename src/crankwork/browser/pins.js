@@ -1,9 +1,12 @@
 // Variants that were pinned: their curves dashed behind those of now, at the scales of now; what values differ by.
 import { Curve } from "./curves.js";
+import { printed } from "./numbers.js";
 
 /** @typedef {import("./figure.js").FigureData} FigureData */
 
-/** @typedef {{text: string, summary: Record<string, number>, curves: Record<string, {name: string, d: string, plot: import("./curves.js").Plot}[]>}} Pinned */
+/** @typedef {{text: string, fields: Record<string, string>, summary: Record<string, number>, curves: Record<string, {name: string, d: string, plot: import("./curves.js").Plot}[]>}} Pinned */
+
+const SVG = "http://www.w3.org/2000/svg";
 
 /** How many there may be. */
 export const MOST_PINS = 4;
@@ -29,24 +32,43 @@ export function curvesOf(figures, data) {
 }
 
 /**
- * Draw the curves of a variant behind those of now, where their quantities stand on the same graph.
+ * Draw the curves of a variant behind those of now, where their quantities stand on the same graph, with its number.
  * @param {SVGSVGElement} svg
  * @param {Pinned} pinned
  * @param {FigureData} data
+ * @param {number} number
  */
-export function haunt(svg, pinned, data) {
+export function haunt(svg, pinned, data, number) {
   for (const { name, d, plot } of pinned.curves[svg.dataset.figure ?? ""] ?? []) {
     const now = data.plots.find((one) => one.t[0] === plot.t[0] && one.t[1] === plot.t[1]);
     if (!now) continue;
     const [across, right] = onto(plot.x, now.x, plot.box[0], plot.box[2], now.box[0], now.box[2]);
     const [down, below] = onto([plot.y[1], plot.y[0]], [now.y[1], now.y[0]], plot.box[1], plot.box[3], now.box[1], now.box[3]);
-    const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
+    const path = document.createElementNS(SVG, "path");
     path.setAttribute("d", d);
-    path.setAttribute("class", "ghost");
+    path.setAttribute("class", `ghost ghost-${number}`);
     path.dataset.curve = name;
     path.setAttribute("transform", `matrix(${across} 0 0 ${down} ${right} ${below})`);
     svg.prepend(path);
+    // numbers stand apart from one another along the curves
+    const at = path.getPointAtLength(path.getTotalLength() * (0.15 + 0.2 * number));
+    const told = document.createElementNS(SVG, "text");
+    told.textContent = String(number);
+    told.setAttribute("class", "ghost-number");
+    told.setAttribute("x", String(at.x * across + right));
+    told.setAttribute("y", String(at.y * down + below));
+    svg.append(told);
   }
+}
+
+/**
+ * Return in words which fields of a variant are not those of now.
+ * @param {Record<string, string>} then
+ * @param {Record<string, string>} now
+ */
+export function changed(then, now) {
+  const keys = [...new Set([...Object.keys(then), ...Object.keys(now)])].filter((key) => then[key] !== now[key]);
+  return keys.map((key) => `${key}: ${then[key] ?? "–"}`).join("\n");
 }
 
 /**
@@ -64,12 +86,15 @@ function onto(then, now, start, length, first, wide) {
 }
 
 /**
- * Return what a value differs by from that of a variant, in per cent.
+ * Return what a value differs by from that of a variant: in per cent, but angles, and what was small, in their unit.
  * @param {number} now
  * @param {number | undefined} then
+ * @param {[number, string]} scale the factor that shows it, and the unit
  */
-export function differs(now, then) {
-  if (then === undefined || !then || Math.abs(now - then) < 5e-4 * Math.abs(then)) return "";
-  const percent = (100 * (now - then)) / Math.abs(then);
-  return `${percent > 0 ? "+" : "−"}${Math.abs(percent).toPrecision(2)} %`;
+export function differs(now, then, [factor, unit]) {
+  if (then === undefined || Math.abs(now - then) <= 5e-4 * Math.abs(then)) return "";
+  const [sign, apart] = [now > then ? "+" : "−", Math.abs(now - then)];
+  if (unit === "°" || apart > Math.abs(then)) return `${sign}${printed(apart * factor, 3)}${unit === "°" ? "" : "\u00a0"}${unit}`;
+  const percent = (100 * apart) / Math.abs(then);
+  return `${sign}${printed(percent, percent < 1 ? 1 : 2)} %`;
 }

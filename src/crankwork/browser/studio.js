@@ -9,7 +9,7 @@ import { Figure } from "./figure.js";
 import { Form } from "./form.js";
 import { choose, Film } from "./machine.js";
 import { unpacked } from "./numbers.js";
-import { curvesOf, differs, haunt, MOST_PINS } from "./pins.js";
+import { changed, curvesOf, differs, haunt, MOST_PINS } from "./pins.js";
 import { Sketch } from "./sketch.js";
 import { Talk } from "./talk.js";
 
@@ -75,13 +75,24 @@ class StudioPage {
   edited(editing) {
     this.keep();
     this.editor.show(editing.text);
-    room("save").title = editing.path;
+    this.headed();
     const [undo, redo] = editing.names;
     for (const [id, name] of [["undo", undo], ["redo", redo]]) {
       const button = /** @type {HTMLButtonElement} */ (room(id));
       button.disabled = !name;
       button.title = name;
     }
+  }
+
+  /** Say in the title what stands here, and whether it is as it was saved. */
+  headed() {
+    const { editing } = this;
+    const title = this.seen.title || "crankwork";
+    room("title").textContent = title;
+    document.title = `${editing.unsaved ? "• " : ""}${title}`;
+    const save = room("save");
+    save.classList.toggle("unsaved", editing.unsaved);
+    save.title = [editing.path, editing.unsaved ? this.words.unsaved : ""].filter(Boolean).join(": ");
   }
 
   /** Keep what is here beyond a reload: the document with its last steps, variants, diagrams. */
@@ -143,6 +154,7 @@ class StudioPage {
   open(text, name, path = "") {
     this.fresh();
     this.editing.path = path;
+    if (path) this.editing.kept = text;
     this.editing.take(text);
     this.editing.commit(name);
     this.show();
@@ -160,7 +172,7 @@ class StudioPage {
       return;
     }
     if (question?.do === "explain" && answer.memories) return this.explain(answer);
-    if (question?.do === "save") return this.saved(answer);
+    if (question?.do === "save") return this.saved(answer, question);
     if (question?.do === "disk") return this.disk(answer);
     if (answer.long) return this.refused([{ key: "", line: 0, text: this.words.long }]);
     if (question && ["set", "without", "sketch", "add"].includes(question.do) && question.base !== this.editing.text) {
@@ -242,8 +254,7 @@ class StudioPage {
     const { data } = answer;
     const columns = Object.fromEntries(Object.entries(data.columns).map(([key, one]) => [key, unpacked(/** @type {any} */ (one))]));
     const axis = (columns[data.axis] = unpacked(data.rows));
-    room("title").textContent = answer.title || "crankwork";
-    document.title = answer.title || "crankwork";
+    this.headed();
     this.follow(axis, data);
     if (!this.sketch) this.machine(answer.film, data.film);
     this.figures(answer, columns);
@@ -356,7 +367,7 @@ class StudioPage {
     drawn.innerHTML = answer.figures[name];
     const svg = drawn.querySelector("svg");
     if (!svg || !this.cursor) return;
-    for (const one of this.pins) haunt(svg, one, answer.data.figures[name]);
+    for (const [k, one] of this.pins.entries()) haunt(svg, one, answer.data.figures[name], k + 1);
     new Figure(svg, answer.data.figures[name], columns, answer.data.axis, this.cursor);
     if (view) svg.setAttribute("viewBox", view);
     svg.classList.toggle("near", Boolean(view));
@@ -377,7 +388,7 @@ class StudioPage {
     for (const button of /** @type {NodeListOf<HTMLElement>} */ (own.querySelectorAll("[data-key]"))) {
       const key = button.dataset.key ?? "";
       const pinned = this.pins[this.pins.length - 1];
-      const change = pinned ? differs(answer.summary[key], pinned.summary[key]) : "";
+      const change = pinned ? differs(answer.summary[key], pinned.summary[key], answer.scales[key]) : "";
       if (change) button.after(Object.assign(document.createElement("ins"), { textContent: ` ${change}` }));
       button.addEventListener("click", () => this.talk.ask({ do: "explain", key }));
     }
@@ -397,10 +408,16 @@ class StudioPage {
     chip.textContent = text;
   }
 
-  /** @param {Answer} answer */
-  saved(answer) {
-    if (answer.saved) this.notice(`${this.words.saved} ${answer.saved}`);
-    else if (answer.conflict) {
+  /**
+   * @param {Answer} answer
+   * @param {Question} question
+   */
+  saved(answer, question) {
+    if (answer.saved) {
+      this.editing.keep(question.base ?? "");
+      this.notice(`${this.words.saved} ${answer.saved}`);
+      setTimeout(() => room("notice").textContent?.startsWith(this.words.saved) && this.notice(""), 4000);
+    } else if (answer.conflict) {
       this.notice(`${answer.conflict}: ${this.words.conflict}`, this.words.anyway, () => this.talk.ask({ do: "save", anyway: true }));
     } else this.notice(answer.refusals?.[0]?.text ?? "");
   }
@@ -482,11 +499,16 @@ class StudioPage {
   pin() {
     if (!this.seen.data) return;
     const svgs = /** @type {NodeListOf<SVGSVGElement>} */ (room("diagrams").querySelectorAll("svg.drawing"));
-    const pinned = { text: this.editing.text, summary: this.seen.summary, curves: curvesOf(svgs, this.seen.data.figures) };
+    const pinned = { text: this.editing.text, fields: this.fields(), summary: this.seen.summary, curves: curvesOf(svgs, this.seen.data.figures) };
     this.pins = [...this.pins, pinned].slice(-MOST_PINS);
     this.keep();
     this.listPins();
     this.draw(this.seen);
+  }
+
+  /** What the form has now, by key. @returns {Record<string, string>} */
+  fields() {
+    return Object.fromEntries(this.form.stated);
   }
 
   /** Let each variant that is pinned be taken again or let go. */
@@ -497,6 +519,8 @@ class StudioPage {
         const take = document.createElement("button");
         take.textContent = String(k + 1);
         take.setAttribute("aria-label", `${this.words.pinned} ${k + 1}`);
+        take.className = `pin-${k + 1}`;
+        take.addEventListener("pointerenter", () => (take.title = changed(one.fields ?? {}, this.fields()) || this.words.same));
         take.addEventListener("click", () => this.open(one.text, `${this.words.pinned} ${k + 1}`));
         const gone = document.createElement("button");
         gone.textContent = "×";
@@ -517,7 +541,10 @@ class StudioPage {
     on("redo", () => this.editing.step(1) && this.show());
     on("save", () => {
       if (this.editing.path) this.talk.ask({ do: "save" });
-      else this.download("machine.toml", new Blob([this.editing.text]));
+      else {
+        this.download("machine.toml", new Blob([this.editing.text]));
+        this.editing.keep(this.editing.text);
+      }
     });
     on("pin", () => this.pin());
     on("draw", () => this.drawing(!this.sketch));

@@ -26,6 +26,10 @@ _TURNING = (
     "task", "moments", "energy", "flywheel", "law_of_motion", "comparison", "checks", "conclusion", "sources",
 )  # fmt: skip
 _WORDS = Text(300)
+_HEAD = (
+    "ministry", "institution", "faculty", "department", "work", "subject", "subtitle", "variant", "designation",
+)  # fmt: skip
+_PEOPLE = ("group", "supervisor", "checked_by", "standards_by", "approved_by", "city")
 
 
 class Day(NamedTuple):
@@ -69,23 +73,9 @@ def document_key(sections: tuple[str, ...]) -> Key:
     """Return the key of the table for machines whose notes have these sections."""
     return Key(
         Table("document", {
-            "ministry": Key(_WORDS),
-            "institution": Key(_WORDS),
-            "faculty": Key(_WORDS),
-            "department": Key(_WORDS),
-            "work": Key(_WORDS),
-            "subject": Key(_WORDS),
-            "subtitle": Key(_WORDS),
-            "variant": Key(_WORDS),
-            "designation": Key(_WORDS),
-            "author": Key(OneOrMore(_WORDS, most=12)),
-            "student_number": Key(OneOrMore(_WORDS, most=12)),
-            "group": Key(_WORDS),
-            "supervisor": Key(_WORDS),
-            "checked_by": Key(_WORDS),
-            "standards_by": Key(_WORDS),
-            "approved_by": Key(_WORDS),
-            "city": Key(_WORDS),
+            **dict.fromkeys(_HEAD, Key(_WORDS)),
+            **dict.fromkeys(("author", "student_number"), Key(OneOrMore(_WORDS, most=12))),
+            **dict.fromkeys(_PEOPLE, Key(_WORDS)),
             "year": Key(Number(1900, 2200, whole=True), instead_of=("date",)),
             "date": Key(Day(), instead_of=("year",)),
             "sections": Key(OneOrMore(Section(sections), most=40)),

@@ -19,6 +19,7 @@ from crankwork.description.machine_file import template
 from crankwork.description.origins import origins_of
 from crankwork.errors import CrankworkError, InputError
 from crankwork.locale import Language, Refusal, told
+from crankwork.locale.numbers import unit_name
 from crankwork.note.contents import note_of, sheets_of, written_note
 from crankwork.note.explain import place_text
 from crankwork.note.live import controls, page_data
@@ -28,6 +29,7 @@ from crankwork.page.memories import Memories
 from crankwork.report.drawing import drawn, film_of
 from crankwork.report.figure_data import figure_title
 from crankwork.report.figures import drawings, figure_names
+from crankwork.report.language import displayed, key_unit
 from crankwork.report.notices import notice_text
 from crankwork.report.summary import results_method, warning_text
 from crankwork.report.workbook import workbook
@@ -39,6 +41,7 @@ from crankwork.studio.form import form, stated_text
 from crankwork.studio.handles import handles
 from crankwork.studio.pmks import from_pmks, is_pmks
 from crankwork.studio.sketch import redrawn, sketched
+from crankwork.units import shown_in
 
 SHARE = "crankwork:"
 _LINE = re.compile(r":(\d+)$")
@@ -91,7 +94,8 @@ class Studio:
         except CrankworkError as error:
             return {**found, "additions": self._additions(description, None), "refusals": self._told(error)}
         found["additions"] = self._additions(description, results)
-        return {**found, **self._seen(results, asked.get("figures"))}
+        with shown_in(results.machine.units):
+            return {**found, **self._seen(results, asked.get("figures"))}
 
     def _additions(self, description: Description, results: Results | None) -> list[tuple[str, str]]:
         return [(one.key, one.told(self.language)) for one in additions(description, results)]
@@ -100,7 +104,7 @@ class Studio:
         """State what was typed into fields, and show what comes of it."""
         description = self._described(asked["text"])
         for key, one in asked["fields"].items():
-            description[key] = stated_text(description, key, one)
+            description[key] = stated_text(description, key, one, self.language)
         text = description.dump()
         return {"text": text, **self._show({**asked, "text": text})}
 
@@ -153,8 +157,9 @@ class Studio:
         def place(path: str, numbers: Iterable[float]) -> str:
             return place_text(origin(path, numbers), self.language)
 
-        columns = page_data(results, {}, None, self.language)["columns"]
-        return {"memories": Memories(results, self.language, place, columns).of([key]), "key": key}
+        with shown_in(results.machine.units):
+            columns = page_data(results, {}, None, self.language)["columns"]
+            return {"memories": Memories(results, self.language, place, columns).of([key]), "key": key}
 
     def _described(self, text: str) -> Description:
         if len(text.encode("utf-8", "replace")) > files.MAX_MACHINE_FILE:
@@ -187,6 +192,7 @@ class Studio:
             "values": "".join(values(results, results.memory, language)),
             "notices": [notice_text(one.code, one.values, language) for one in results.notices],
             "summary": dict(results.summary),
+            "scales": {key: _scale(key, language) for key in results.summary},
             "checks": [len(results.checks) - len(results.unmet), len(results.checks)],
             **({"doubt": warning} if warning else {}),
         }  # fmt: skip
@@ -208,6 +214,11 @@ class Studio:
 def _first(names: Sequence[str]) -> list[str]:
     """Return the figures that are seen before any was chosen: curves sooner than constructions."""
     return sorted(names, key=lambda name: name.endswith(("plan", "plans", "lever", "centrodes", "brix", "tolle")))[:3]
+
+
+def _scale(key: str, language: Language) -> tuple[float, str]:
+    """Return the factor by which a difference of a value is shown, and its unit."""
+    return displayed(key, 1.0) - displayed(key, 0.0), unit_name(key_unit(key), language)
 
 
 def _files(description: Description) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -14,6 +15,9 @@ from crankwork.errors import CrankworkError
 from crankwork.locale import Language
 from crankwork.units import EXAMPLES, from_si
 
+_NUMBER = re.compile(r"\s*[+-]?[0-9][0-9.,]*(?:[eE][+-]?[0-9]+)?\s*")
+_COMMA = re.compile(r"(\s*[+-]?[0-9]+),([0-9]+)(?![0-9.,])")
+_THOUSANDS = 3
 _LEAVES = (Quantity, Number, NumberOr, WordOr, Choice, Flag, Text)
 
 
@@ -24,7 +28,8 @@ def form(description: Description, language: Language) -> list[dict[str, Any]]:
     groups: dict[str, dict[str, Any]] = {}
     for key in description:
         path, table, entry = _place(kinds, key)
-        fresh = {"path": path, "means": _meaning(kinds, path, language), "rows": [], "more": []}
+        means = _meaning(kinds, path, language)
+        fresh = {"path": path, "means": means, "label": _label(path, means, language), "rows": [], "more": []}
         group = groups.setdefault(path, fresh)
         group["rows"].append(_row(description, key, table, entry, language))
     for path, group in groups.items():
@@ -66,8 +71,9 @@ def _row(description: Description, key: str, table: object, entry: Key | None, l
     name, stated = key.rpartition(".")[2], description[key]
     kind = entry.kind if entry else _kind(file_keys(description.values), key)
     written = stated if isinstance(stated, str) else toml(stated)
-    row: dict[str, Any] = {"key": key, "name": name, "value": written}
-    if isinstance(table, Table) and (means := table.meaning(name, language)):
+    means = table.meaning(name, language) if isinstance(table, Table) else ""
+    row: dict[str, Any] = {"key": key, "name": name, "label": _label(name, means, language), "value": written}
+    if means:
         row["means"] = means
     match kind:
         case Choice():
@@ -86,14 +92,26 @@ def _slid(kind: object, stated: object) -> dict[str, Any]:
         match one, stated:
             case Quantity(), str():
                 found = one.read(stated, "", Reader())
-                if isinstance(found, Measure) and "±" not in stated and "+-" not in stated:
+                if isinstance(found, Measure):
                     low, high = (float(from_si(end, found.unit)) for end in (one.low, one.high))
                     return {"number": float(from_si(found.value, found.unit)), "unit": found.unit,
-                            "low": low, "high": high}  # fmt: skip
+                            "after": _after(stated), "low": low, "high": high}  # fmt: skip
             case Number(), int() | float() if not isinstance(stated, bool):
                 whole = {"whole": True} if one.whole else {}
-                return {"number": float(stated), "unit": "", "low": one.low, "high": one.high, **whole}
+                return {"number": float(stated), "unit": "", "after": "", "low": one.low, "high": one.high, **whole}
     return {}
+
+
+def _label(name: str, means: str, language: Language) -> str:
+    """Return what a field is called: its own word where that is of the language, what it means elsewhere, shortly."""
+    first = re.split(r"[;:(,]| – ", means)[0].strip()
+    return first if first and language != "en" else name
+
+
+def _after(stated: str) -> str:
+    """Return what stands behind the number of a quantity: its unit, and what it may be off by."""
+    found = _NUMBER.match(stated)
+    return f" {stated[found.end() :]}" if found else ""
 
 
 def _more(table: Table, path: str, stated: Mapping[str, Any], language: Language) -> Iterator[dict[str, Any]]:
@@ -105,7 +123,8 @@ def _more(table: Table, path: str, stated: Mapping[str, Any], language: Language
             continue
         first = first_value(entry.kind) if entry.default is None or isinstance(entry.default, By) else entry.default
         written, means = first if isinstance(first, str) else toml(first), table.meaning(name, language)
-        row: dict[str, Any] = {"key": f"{path}.{name}".lstrip("."), "name": name, "value": written, "means": means}
+        row: dict[str, Any] = {"key": f"{path}.{name}".lstrip("."), "name": name, "value": written,
+                               "means": means, "label": _label(name, means, language)}  # fmt: skip
         if name == "mass" and "centre" in table.keys and "centre" not in stated and "joins" in stated:
             # a mass means nothing without its place
             row["also"] = {f"{path}.centre": _middle(stated)}
@@ -140,11 +159,21 @@ def first_value(kind: object) -> object:
     return "..."
 
 
-def stated_text(description: Description, key: str, typed: str) -> object:
-    """Return what a text typed into a field states: a text where one stands or belongs, what TOML reads otherwise."""
+def stated_text(description: Description, key: str, typed: str, language: Language = "en") -> object:
+    """Return what a text typed into a field states: a text where one stands or belongs, what TOML reads otherwise.
+
+    A number alone has the unit that stood there, and a comma is a decimal one, unless it may set thousands apart.
+    """
     kind = _kind(file_keys(description.values), key)
     if isinstance(kind, Text):
         return typed
+    if isinstance(kind, Quantity | Number | NumberOr):
+        comma = _COMMA.match(typed)
+        if comma and description.get("decimal_mark") != "," and (language != "en" or len(comma[2]) != _THOUSANDS):
+            typed = f"{comma[1]}.{comma[2]}{typed[comma.end() :]}"
+        stated = description.get(key)
+        if isinstance(stated, str) and _NUMBER.fullmatch(typed):
+            typed = typed.strip() + _after(stated)
     values: dict[str, Any]
     try:
         values = Description(f"value = {typed}\n").values if "\n" not in typed else {}

@@ -21,7 +21,7 @@ def handles(values: Mapping[str, Any], groups: Iterable[Mapping[str, Any]]) -> l
     listed = _of_linkage(values) if "links" in values or "sliders" in values else _of_crank_gear(values)
     return [
         {"key": one.key, "from": one.start, "to": one.end, "power": one.power,
-         "number": numbers[one.key]["number"], "unit": numbers[one.key]["unit"]}
+         "number": numbers[one.key]["number"], "unit": numbers[one.key]["after"].strip()}
         for one in listed
         if one.key in numbers
     ]  # fmt: skip
