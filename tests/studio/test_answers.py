@@ -112,12 +112,40 @@ def test_values_are_in_the_units_that_the_file_asks_for():
     assert "<td>mm" not in found["values"]
 
 
-def test_a_drawn_four_bar_has_its_torque_curve_after_masses_and_a_load():
-    drawn = {"do": "sketch", "pins": [{"name": "O", "x": 60, "y": 120, "ground": True}, {"name": "A", "x": 60, "y": 90},
-             {"name": "B", "x": 140, "y": 60}, {"name": "C", "x": 150, "y": 120, "ground": True}],
-             "links": [["O", "A"], ["A", "B"], ["B", "C"]], "figures": []}  # fmt: skip
+def drawn(**places):
+    """Return a sketch of a four-bar, some of its pins elsewhere."""
+    at = {"O": (60, 120), "A": (60, 90), "B": (140, 60), "C": (150, 120)} | places
+    pins = [{"name": name, "x": x, "y": y, "ground": name in "OC"} for name, (x, y) in at.items()]
+    return {"do": "sketch", "pins": pins, "links": [["O", "A"], ["A", "B"], ["B", "C"]], "figures": []}
+
+
+def test_a_pin_that_is_moved_changes_what_meets_there_and_nothing_else():
     studio = Studio("en")
-    found = studio.answer(drawn)
+    first = studio.answer(drawn())["text"].replace('"60 rpm"', '"90 rpm"').replace('"30 mm"', '"31 mm"')
+    moved = studio.answer({**drawn(B=(140, 50)), "before": drawn(), "text": first})
+    rows = {key: row["value"] for key, row in rows_of(moved).items()}
+    assert rows["links.2.length"] == "89.4 mm"
+    assert rows["links.3.length"] == "70.7 mm"
+    assert rows["positions.B"] == '["80 mm", "70 mm"]'
+    assert (rows["crank.radius"], rows["crank.speed"]) == ("31 mm", "90 rpm")
+    assert moved["refusals"] == []
+
+
+def test_a_pin_that_is_taken_out_takes_its_links_out_of_the_file():
+    more = drawn()
+    more["pins"] += [{"name": "D", "x": 100, "y": 40}]
+    more["links"] = [["O", "A"], ["A", "B", "D"], ["B", "C"]]
+    studio = Studio("en")
+    first = studio.answer(more)["text"]
+    assert "points" in first
+    found = studio.answer({**drawn(), "before": more, "text": first})
+    assert "D" not in found["text"]
+    assert found["refusals"] == []
+
+
+def test_a_drawn_four_bar_has_its_torque_curve_after_masses_and_a_load():
+    studio = Studio("en")
+    found = studio.answer(drawn())
     for key in ("masses:", "torque:3"):
         found = studio.answer({"do": "add", "text": found["text"], "key": key, "figures": list(found["figures"])})
     assert "torques" in found["names"]

@@ -149,6 +149,7 @@ def test_diagrams_are_chosen_pinned_and_compared(seen):
     shown = page.locator(".figures figure").count()
     page.select_option("#add", "velocity_plan")
     page.wait_for_selector('.figures [data-name="velocity_plan"] svg')
+    settled(page)
     assert page.locator(".figures figure").count() == shown + 1
     page.locator('.figures [data-name="velocity_plan"] .gone').click()
     settled(page)
@@ -157,11 +158,26 @@ def test_diagrams_are_chosen_pinned_and_compared(seen):
     field(page, "crank.speed").fill("120 rpm")
     field(page, "crank.speed").press("Enter")
     settled(page)
-    assert page.locator(".figures path.ghost").count() > 0
+    assert page.locator(".figures path.ghost-1").count() > 0
+    assert page.locator(".figures .ghost-number").first.text_content() == "1"
+    page.locator("#pins .pin-1").hover()
+    assert page.locator("#pins .pin-1").get_attribute("title") == "crank.speed: 100 rpm"
     assert page.locator("#results ins", has_text="+20 %").count() > 0
     page.locator("#pins button").first.click()
     settled(page)
     assert field(page, "crank.speed").input_value() == "100 rpm"
+
+
+def test_the_last_diagram_taken_away_stays_away(seen):
+    page = seen()
+    while page.locator(".figures figure").count():
+        page.locator(".figures .gone").first.click()
+        settled(page)
+    field(page, "crank.speed").fill("120 rpm")
+    field(page, "crank.speed").press("Enter")
+    settled(page)
+    assert page.title().startswith("•")
+    assert page.locator(".figures figure").count() == 0
 
 
 def test_one_cursor_leads_machine_diagrams_and_bar(seen):
@@ -294,6 +310,13 @@ def test_a_four_bar_is_drawn_in_six_actions_and_moves(seen):
     page.wait_for_function("() => document.getElementById('source').value.includes('points')")
     settled(page)
     assert page.locator('#film [data-part="joint.D"]').count() == 1
+    at = canvas(page)
+    page.mouse.move(*at(140, 60))
+    page.mouse.down()
+    page.mouse.move(*at(140, 50), steps=3)
+    page.mouse.up()
+    page.wait_for_function("() => document.getElementById('source').value.includes('\"89.4 mm\"')")
+    settled(page)
     assert page.locator("#undo").get_attribute("title") == "Draw"
 
 

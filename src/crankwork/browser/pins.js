@@ -6,8 +6,6 @@ import { printed } from "./numbers.js";
 
 /** @typedef {{text: string, fields: Record<string, string>, summary: Record<string, number>, curves: Record<string, {name: string, d: string, plot: import("./curves.js").Plot}[]>}} Pinned */
 
-const SVG = "http://www.w3.org/2000/svg";
-
 /** How many there may be. */
 export const MOST_PINS = 4;
 
@@ -44,19 +42,25 @@ export function haunt(svg, pinned, data, number) {
     if (!now) continue;
     const [across, right] = onto(plot.x, now.x, plot.box[0], plot.box[2], now.box[0], now.box[2]);
     const [down, below] = onto([plot.y[1], plot.y[0]], [now.y[1], now.y[0]], plot.box[1], plot.box[3], now.box[1], now.box[3]);
-    const path = document.createElementNS(SVG, "path");
+    const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
     path.setAttribute("d", d);
     path.setAttribute("class", `ghost ghost-${number}`);
     path.dataset.curve = name;
     path.setAttribute("transform", `matrix(${across} 0 0 ${down} ${right} ${below})`);
-    svg.prepend(path);
-    // numbers stand apart from one another along the curves
-    const at = path.getPointAtLength(path.getTotalLength() * (0.15 + 0.2 * number));
-    const told = document.createElementNS(SVG, "text");
+    const [left, top, wide, tall] = now.box;
+    const room = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+    for (const [key, value] of Object.entries({ x: left, y: top, width: wide, height: tall, viewBox: `${left} ${top} ${wide} ${tall}` })) room.setAttribute(key, String(value));
+    room.append(path);
+    svg.prepend(room);
+    // numbers stand apart from one another along the curves, where these are seen
+    const places = [0, 0.06, -0.06, 0.12, 0.4, 0.6].map((more) => path.getPointAtLength(path.getTotalLength() * (0.1 + 0.15 * number + more)));
+    const at = places.map(({ x, y }) => [x * across + right, y * down + below]).find(([x, y]) => x > left && x < left + wide && y > top && y < top + tall);
+    if (!at) continue;
+    const told = document.createElementNS("http://www.w3.org/2000/svg", "text");
     told.textContent = String(number);
     told.setAttribute("class", "ghost-number");
-    told.setAttribute("x", String(at.x * across + right));
-    told.setAttribute("y", String(at.y * down + below));
+    told.setAttribute("x", String(at[0]));
+    told.setAttribute("y", String(at[1]));
     svg.append(told);
   }
 }

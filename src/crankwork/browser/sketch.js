@@ -32,6 +32,9 @@ export class Sketch {
     this.typed = "";
     /** The link that is pressed, from which a point is drawn off. @type {string[] | undefined} */
     this.pressed = undefined;
+    /** The pin that is held, and where it was pressed. @type {Pin | undefined} */
+    this.moved = undefined;
+    this.from = this.at;
     this.svg = document.createElementNS(SPACE, "svg");
     this.svg.setAttribute("viewBox", `0 0 ${WIDE} ${TALL}`);
     this.svg.setAttribute("class", "drawing sketch");
@@ -68,20 +71,37 @@ export class Sketch {
   /** @param {PointerEvent} event */
   press(event) {
     this.place(event);
-    this.pressed = this.last || this.near() ? undefined : this.nearLink();
-    if (!this.pressed) this.click();
+    // a pin that stands there is moved, or begun from where it is let go at once
+    this.moved = this.last ? undefined : this.near();
+    this.from = this.at;
+    this.pressed = this.last || this.moved ? undefined : this.nearLink();
+    if (!this.pressed && !this.moved) this.click();
+    this.svg.setPointerCapture(event.pointerId);
     this.svg.focus();
   }
 
   /** @param {PointerEvent} event */
   point(event) {
     this.place(event);
+    if (this.moved && this.apart() > 1) [this.moved.x, this.moved.y] = this.at;
     this.draw();
+  }
+
+  /** How far the pointer is from where it was pressed. [mm] */
+  apart() {
+    return Math.hypot(this.at[0] - this.from[0], this.at[1] - this.from[1]);
   }
 
   /** @param {PointerEvent} event */
   release(event) {
     this.place(event);
+    if (this.moved) {
+      const isClick = this.apart() <= 1;
+      this.moved = undefined;
+      if (isClick) this.click();
+      else if (this.links.length) this.drawn(this.pins, this.links);
+      return;
+    }
     if (!this.pressed) return;
     const link = this.pressed;
     this.pressed = undefined;
@@ -158,7 +178,9 @@ export class Sketch {
     else if (event.key === "Enter") {
       if (pin !== this.last || !pin) this.click();
       if (event.ctrlKey || pin === this.last) this.end();
-    } else if (["Escape", "Backspace", "Delete"].includes(event.key) || (event.ctrlKey && event.key === "z")) this.back();
+    } else if (event.key === "Backspace" && this.typed) this.typed = this.typed.slice(0, -1);
+    else if (event.key === "Delete" && pin && !this.last) this.without(pin);
+    else if (["Escape", "Backspace", "Delete"].includes(event.key) || (event.ctrlKey && event.key === "z")) this.back();
     else if (/^[\d.,]$/.test(event.key)) this.typed += event.key;
     else if (pin && /^[gs]$/i.test(event.key)) this.change(pin, event.key.toLowerCase());
     else if (/^p$/i.test(event.key) && this.links.length && !this.last) {
@@ -186,6 +208,17 @@ export class Sketch {
     }
     if (!this.last) this.drawn(this.pins, this.links);
     else if (kind === "s") this.finish();
+  }
+
+  /**
+   * Take a pin out, with the links that it leaves alone.
+   * @param {Pin} pin
+   */
+  without(pin) {
+    this.links = this.links.map((link) => link.filter((name) => name !== pin.name)).filter((link) => link.length > 1);
+    const held = new Set(this.links.flat());
+    this.pins = this.pins.filter((one) => one !== pin && held.has(one.name));
+    if (this.links.length) this.drawn(this.pins, this.links);
   }
 
   /** Take the last click back. */

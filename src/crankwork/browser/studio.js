@@ -447,12 +447,13 @@ class StudioPage {
     this.motion?.stop();
     this.film = undefined;
     const ask = (/** @type {any} */ pins, /** @type {any} */ links) => {
-      const again = Boolean(this.drawn);
-      this.drawn = { pins, links };
-      this.talk.ask({ do: "sketch", pins, links, again, of: this.opened, figures: again ? this.wanted : null, named: this.words.draw });
+      const before = this.drawn;
+      // what goes on there changes in place
+      this.drawn = structuredClone({ pins, links });
+      this.talk.ask({ do: "sketch", ...this.drawn, before, of: this.opened, figures: before ? this.wanted : null, named: this.words.draw });
     };
     this.sketch = new Sketch(room("film"), this.words, ask, (text) => this.chip(text));
-    if (this.drawn) this.sketch.take(this.drawn.pins, this.drawn.links);
+    if (this.drawn) this.sketch.take(structuredClone(this.drawn.pins), structuredClone(this.drawn.links));
     this.sketch.svg.focus();
   }
 

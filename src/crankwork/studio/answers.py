@@ -127,8 +127,12 @@ class Studio:
 
     def _sketch(self, asked: Mapping[str, Any]) -> dict[str, Any]:
         text = sketched(asked, self.language)
-        if asked.get("again"):
-            text = redrawn(self._described(asked["text"]), self._described(text))
+        if asked.get("before"):
+            try:
+                before = self._described(sketched(asked["before"], self.language)).values
+            except CrankworkError:
+                before = {}
+            text = redrawn(self._described(asked["text"]), before, self._described(text).values)
         return {"text": text, **self._show({**asked, "text": text})}
 
     def _add(self, asked: Mapping[str, Any]) -> dict[str, Any]:

@@ -260,7 +260,11 @@ def _asked(message: str) -> dict[str, Any] | None:
         return None
     listed = found.get("figures") or []
     fields = found.get("fields", {})
-    is_sound = isinstance(listed, list) and all(isinstance(one, str) for one in listed)
+    is_sound = (
+        isinstance(found.get("before", {}), dict)
+        and isinstance(listed, list)
+        and all(isinstance(one, str) for one in listed)
+    )
     return found if is_sound and all(isinstance(one, str) for one in fields.values()) else None
 
 

@@ -85,21 +85,32 @@ def told_apart(values: dict[str, Any]) -> str:
     return text
 
 
-def redrawn(stated: Description, drawn: Description) -> str:
-    """Return a machine file with what a sketch has more than it; numbers that stand there stay."""
-    there, fresh = stated.values, drawn.values
+def redrawn(stated: Description, before: Mapping[str, Any], now: Mapping[str, Any]) -> str:
+    """Return a machine file with what has changed from one sketch to the next; all else that stands there stays."""
     for table in ("fixed_points", "links", "guides", "sliders", "positions"):
-        for name, one in fresh.get(table, {}).items():
-            if name not in there.get(table, {}):
+        was, there = before.get(table, {}), stated.values.get(table, {})
+        for name in was:
+            if name not in now.get(table, {}) and name in there:
+                del stated[f"{table}.{name}"]
+        for name, one in now.get(table, {}).items():
+            if name in there and isinstance(one, Mapping):
+                _merge(stated, f"{table}.{name}", was.get(name, {}), one)
+            elif one != was.get(name) or name not in there:
                 stated[f"{table}.{name}"] = one
-                continue
-            if table == "guides" and one["angle"] != there[table][name].get("angle", "0 deg"):
-                stated[f"guides.{name}.angle"] = one["angle"]
-            points = one.get("points", {}) if table == "links" else {}
-            for point, place in points.items():
-                if point not in there[table][name].get("points", {}):
-                    stated[f"{table}.{name}.points.{point}"] = place
+    _merge(stated, "crank", before.get("crank", {}), now["crank"])
     return stated.dump()
+
+
+def _merge(stated: Description, path: str, before: Mapping[str, Any], now: Mapping[str, Any]) -> None:
+    """State what has changed in a table."""
+    for name, one in now.items():
+        if name == "points":
+            _merge(stated, f"{path}.points", before.get(name, {}), one)
+        elif one != before.get(name) or f"{path}.{name}" not in stated:
+            stated[f"{path}.{name}"] = one
+    for name in before.keys() - now.keys():
+        if f"{path}.{name}" in stated:
+            del stated[f"{path}.{name}"]
 
 
 def _read(asked: Mapping[str, Any]) -> tuple[dict[str, Pin], list[list[str]]]:
