@@ -3,9 +3,16 @@
 from __future__ import annotations
 
 import html
+import re
 import unicodedata
 
-_BLANKS = "\t\n\v\f\r\x85\u2028\u2029"
+_BLANK = re.compile("[\t\n\v\f\r\x85\u2028\u2029]")
+# controls, halves of characters, what is none, and the byte order mark, which PDF/A forbids
+_NONE = re.compile(
+    "[\\x00-\\x1f\\x7f-\\x9f\\ud800-\\udfff\\ufdd0-\\ufdef\\ufeff"
+    + "".join(f"\\U{plane:04x}fffe\\U{plane:04x}ffff" for plane in range(17))
+    + "]"
+)
 
 
 def plain_text(text: str) -> str:
@@ -16,19 +23,7 @@ def plain_text(text: str) -> str:
     >>> plain_text("one\ntwo\x07")
     'one two'
     """
-    if text.isascii() and text.isprintable():
-        return text
-    composed = unicodedata.normalize("NFC", text)
-    spaced = "".join(" " if character in _BLANKS else character for character in composed)
-    return "".join(character for character in spaced if _is_allowed(character))
-
-
-def _is_allowed(character: str) -> bool:
-    code = ord(character)
-    if unicodedata.category(character) in ("Cc", "Cs"):
-        return False
-    # the byte order mark is no character of a text, and PDF/A forbids it
-    return code != 0xFEFF and code & 0xFFFE != 0xFFFE and not 0xFDD0 <= code <= 0xFDEF
+    return _NONE.sub("", _BLANK.sub(" ", unicodedata.normalize("NFC", text)))
 
 
 def typst_string(text: str) -> str:

@@ -66,16 +66,23 @@ _SETTINGS = """
 #let drawing(body, words) = figure(
   body, caption: words, numbering: none, supplement: none, kind: "drawing", placement: auto,
 )
-#let parts = counter("parts")
-#let again(count, words) = (table.cell(colspan: count, inset: 0pt, stroke: none, align: left, {
-  parts.step()
-  context if parts.get().first() > 1 { box(width: 0pt, height: 1.6em, place(left, box(width: 60mm, words))) }
-}),)
+#set page(foreground: context {
+  let begun = ()
+  for one in query(<begins>) {
+    let at = one.location().position()
+    if at.page == here().page() and one.value in begun { place(top + left, dx: 25mm, dy: at.y, one.value) }
+    begun.push(one.value)
+  }
+})
+#let again(count, words) = (
+  table.cell(colspan: count, inset: 0pt, stroke: none, block(height: 16pt, [#metadata(words)<begins>])),
+)
 #let above(words) = block(width: 100%, sticky: true, above: 1.4em, below: 0.6em, words)
+#let over(words) = block(width: 100%, sticky: true, above: 1.4em, below: 0.5em, { words; v(-16pt) })
 """
-_TOGETHER = 8
-# a line of an equation that is no wider is not measured, which takes long [em]
-_SURELY_FITS = 27.0
+_TOGETHER = 16
+# a line of an equation and its number that are estimated no wider are not measured, which takes long; of a letter [em]
+_SURELY_FITS, _LETTER = 33.5, 0.5
 # height of a line of a table [em], and what is free above and below it [pt]
 _LINE, _INSET = 0.66, 3.2
 # a word that may be wider than a column of the cover
@@ -163,12 +170,12 @@ def _equation(block: Equation, number: str, numbers: Numbering) -> Iterator[str]
     printed = printed_equation(block, numbers.language)
     source = equation_source(block)
     mark = "\u2002".join(([numbers.citation(source)] if source else []) + ([f"({number})"] if number else []))
-    drawn = []
+    drawn, free = [], _SURELY_FITS - _LETTER * len(mark)
     for k, line in enumerate(printed.lines):
         # what is read aloud is the whole equation once
         words = typst_string(printed.text if k == 0 else "…")
         set_line = f"math.equation(block: true, alt: {words}, $ {typst_box(line)} $)"
-        drawn.append(f"fitted({set_line})" if width(line) > _SURELY_FITS else set_line)
+        drawn.append(f"fitted({set_line})" if width(line) > free else set_line)
     yield f"#lines({typst_string(mark)}, {', '.join(drawn)})"
     if block.legend:
         cells = ", ".join(
@@ -186,7 +193,8 @@ def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     whole = len(block.rows) <= _TOGETHER
     if whole:
         yield "#block(breakable: false)["
-    yield f"#above({typst_string(caption('table', number, block.caption, numbers.language))})"
+    above = typst_string(caption("table", number, block.caption, numbers.language))
+    yield f"#{'above' if whole else 'over'}({above})"
     headings = ", ".join(f"[{_heading(runs, numbers)}]" for runs in block.headings)
     rows = ",\n".join(
         ", ".join(typst_string(cell) if isinstance(cell, str) else f"[{_run(cell, numbers)}]" for cell in row)
@@ -194,9 +202,8 @@ def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     )
     again = "" if whole else f"..again({count}, {typst_string(continued(number, numbers.language))}), "
     header = f"table.header({again}..({headings},).map(cell => table.cell(align: center + horizon, cell)))"
-    begin = "" if whole else "parts.update(0)\n"
     yield (
-        f"#{{\nset text(size: {size:g}pt, hyphenate: false)\nset par(justify: false, leading: 0.55em)\n{begin}"
+        f"#{{\nset text(size: {size:g}pt, hyphenate: false)\nset par(justify: false, leading: 0.55em)\n"
         f"align(center, table({_columns(block, size, marked=not whole)}, align: ({align},), {header},\n{rows}))\n}}"
     )
     if whole:
