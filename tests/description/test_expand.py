@@ -163,7 +163,7 @@ def numbers_of_an_engine_are_those_of_its_linkage(tmp_path, text, settings=()):
         same(
             of_linkage("reduced_inertia"), Program({"": whole_inertia})(CrankGrid.from_degrees(degrees))[""], "inertia"
         )
-    assert linkage.summary["mean_torque"] == pytest.approx(-work_per_angle(engine, machine), rel=1e-9)
+    assert linkage.summary["mean_torque"] == pytest.approx(work_per_angle(engine, machine), rel=1e-9)
 
 
 def work_per_angle(engine, machine):

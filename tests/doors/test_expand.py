@@ -63,20 +63,12 @@ def test_the_schema_says_what_keys_mean_in_every_language(crankwork, language, t
 
 
 @pytest.mark.parametrize(
-    ("language", "given", "needed"),
-    [
-        ("en", "mean crank torque", "mean driving torque needed"),
-        ("ru", "средний крутящий момент", "средний потребный движущий момент"),
-        ("vi", "mômen quay trung bình", "mômen dẫn động trung bình cần thiết"),
-    ],
+    ("language", "given"), [("en", "mean crank torque"), ("ru", "средний крутящий момент"), ("vi", "mômen quay trung bình")]
 )
-def test_what_an_engine_gives_and_its_driver_would_need_have_names_of_their_own(crankwork, language, given, needed):
+def test_the_linkage_that_an_engine_is_gives_its_torque_by_the_same_name(crankwork, language, given):
     Path("my.toml").write_text(template("engine"), "utf-8")
     Path("again.toml").write_text(crankwork("check", "my.toml", "--expand").out, "utf-8")
     told = [crankwork("run", name, "--lang", language).out for name in ("my.toml", "again.toml")]
-    lines = [
-        next(line for line in text.splitlines() if name in line)
-        for text, name in zip(told, (given, needed), strict=True)
-    ]
-    assert lines[1].split()[-2] == f"−{lines[0].split()[-2]}"
-    assert given not in told[1]
+    lines = [next(line.split() for line in text.splitlines() if given in line) for text in told]
+    assert lines[0] == lines[1]
+    assert float(lines[1][-2].replace(",", ".")) > 0

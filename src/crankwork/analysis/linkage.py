@@ -134,10 +134,15 @@ def linkage_columns(machine: Machine) -> Results:
 def _power_of_valves(machine: Machine, found: Mapping[str, Known]) -> dict[str, Known]:
     """Return the power that a compressor or pump without a motor of its own needs."""
     has_valves = any(one.valves is not None for one in machine.chambers.values())
-    if not has_valves or "motor_power" in found or "mean_torque" not in found or found["mean_torque"].value <= 0:
+    if not has_valves or "motor_power" in found or not _is_needed(found.get("mean_torque")):
         return {}
     of = absent("power_reserve", 1.0), found["mean_torque"], speed_of(machine), efficiency_of(machine.drive)
     return {"motor_power": needed_power(*of)}
+
+
+def _is_needed(mean: Known | None) -> bool:
+    """Return whether a mean torque is what the driver must give."""
+    return mean is not None and mean.key == "mean_driving_torque" and mean.value > 0
 
 
 def linkage_value(machine: Machine, key: str) -> Results:
@@ -305,12 +310,13 @@ def _summary(
     if is_whole and law is None:
         result |= time_ratios(over, {key: one.named(key) for key, one in result.items()})
     if (machine.loads or machine.chambers) and is_whole and law is None and "static_torque" in over.knowns:
-        result["mean_torque"] = over.mean("static_torque", "mean_torque")
+        needed = over.mean("static_torque", "mean_driving_torque")
+        # an engine gives torque, and what it gives is told
+        result["mean_torque"] = needed if needed.value >= 0 else (-needed).named("mean_torque")
     if is_whole:
         result |= {one.key: one for one in mean_values(over)}
     result |= gas_summary(solved)
-    # that of an engine, of the same key, is what it gives
-    return {key: one.named("mean_driving_torque" if key == "mean_torque" else key) for key, one in result.items()}
+    return {key: one if key == "mean_torque" else one.named(key) for key, one in result.items()}
 
 
 def _given_values(machine: Machine) -> dict[str, Known]:

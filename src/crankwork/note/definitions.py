@@ -51,7 +51,7 @@ def definition_text(key: str, language: Language) -> str:
 
 
 # of which torque the kinetic energy takes what is beyond the mean: its mean, and the sign that it has there
-_BEYOND = {"total_torque": ("mean_total_torque", ""), "static_torque": ("mean_torque", "−")}
+_BEYOND = {"total_torque": ("mean_total_torque", ""), "static_torque": ("mean_driving_torque", "−")}
 
 
 def integral_text(of: str, language: Language) -> str:

@@ -100,7 +100,7 @@ def conclusion(material: Material) -> Iterator[Block]:
     """Yield the main results as a table."""
     words = material.words
     yield words.heading("results" if material.order == "en" else "conclusion")
-    yield from main_numbers(material.summary, words)
+    yield from main_numbers(material.results, words)
     yield words.paragraph("conclusion", table=Reference("t:summary"))
     yield value_table("summary", [_row(material, key) for key in _main_keys(material)], words)
 

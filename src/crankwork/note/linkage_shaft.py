@@ -121,7 +121,7 @@ def conclusion(material: Material) -> Iterator[Block]:
     """Yield the main results as a table."""
     words, results = material.words, material.results
     yield words.heading("results" if material.options.order == "en" else "conclusion")
-    yield from main_numbers(results.summary, words)
+    yield from main_numbers(results, words)
     yield words.paragraph("conclusion", table=Reference("summary"))
     rows = [_row(key, material) for key in results.summary if not _is_angle(key)]
     titles: list[Runs] = [(words.column(one),) for one in ("quantity", "value", "unit")]

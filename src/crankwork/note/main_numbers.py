@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from crankwork.analysis import Results
 from crankwork.locale import say
 from crankwork.note.document import Block, ItemList, Math, Runs
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.words import NoteWords
-from crankwork.report.language import displayed, key_unit, label
+from crankwork.report.language import displayed, key_unit, label, told_as
 
 # in their order; of what links, joints and cylinders have the largest is told
 _KEYS = (
@@ -22,12 +23,13 @@ _SAME = {"indicated_power": ("effective_power", "engine_indicated_power"), "shaf
 _MOST = 10
 
 
-def main_numbers(summary: Mapping[str, float], words: NoteWords) -> Iterator[Block]:
+def main_numbers(results: Results, words: NoteWords) -> Iterator[Block]:
     """Yield the numbers that matter, one in a line."""
+    summary = results.summary
     some = [
         key for one in _KEYS if not any(other in summary for other in _SAME.get(one, ())) for key in _of(one, summary)
     ]
-    items = [_item(key, summary, words) for key in some[:_MOST]]
+    items = [_item(key, results, words) for key in some[:_MOST]]
     if items:
         yield words.paragraph("numbers")
         yield ItemList(tuple(items))
@@ -41,9 +43,9 @@ def _of(kind: str, summary: Mapping[str, float]) -> list[str]:
     return [max(parts, key=lambda key: abs(summary[key]))] if parts else []
 
 
-def _item(key: str, summary: Mapping[str, float], words: NoteWords) -> Runs:
+def _item(key: str, results: Results, words: NoteWords) -> Runs:
     unit = printed_unit(key_unit(key), words.language)
     name = say("report.exact", words.language) if key.endswith(".exact") else ""
-    told = label(key.removesuffix(".exact"), words.language) + (f", {name}" if name else "")
-    value = words.number(displayed(key, summary[key]), digits=5)
-    return (f"{told}, ", Math(words.symbol(key.removesuffix(".exact"))), f" = {value}\u00a0{unit}".rstrip("\u00a0"))
+    told = label(told_as(key, results).removesuffix(".exact"), words.language) + (f", {name}" if name else "")
+    value = words.number(displayed(key, results.summary[key]), digits=5)
+    return (f"{told}, ", Math(words.symbol(told_as(key, results).removesuffix(".exact"))), f" = {value}\u00a0{unit}".rstrip("\u00a0"))

@@ -130,7 +130,7 @@ def is_per_area(key: str) -> bool:
 
 
 def told_as(key: str, results: Results) -> str:
-    """Return the key whose name a single value has: of a linkage the mean torque is what its driver must give."""
+    """Return the key whose name a single value has: the mean torque of a linkage may be what its driver must give."""
     return results.memory[key].key if key == "mean_torque" else key
 
 
