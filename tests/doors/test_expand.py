@@ -63,7 +63,8 @@ def test_the_schema_says_what_keys_mean_in_every_language(crankwork, language, t
 
 
 @pytest.mark.parametrize(
-    ("language", "given"), [("en", "mean crank torque"), ("ru", "средний крутящий момент"), ("vi", "mômen quay trung bình")]
+    ("language", "given"),
+    [("en", "mean crank torque"), ("ru", "средний крутящий момент"), ("vi", "mômen quay trung bình")],
 )
 def test_the_linkage_that_an_engine_is_gives_its_torque_by_the_same_name(crankwork, language, given):
     Path("my.toml").write_text(template("engine"), "utf-8")

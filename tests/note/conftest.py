@@ -107,7 +107,7 @@ def sample(language: Language) -> Note:
         Equation(area, label="area", legend=legend(area, language)),
         Equation(speed),
         Equation(mass),
-        Equation(FORMULAS[forces.side_force.__name__], numbered=False),
+        Equation(FORMULAS[forces.side_force.__name__]),
         Table(HOSTILE, (("n",), ("x, ", Math("x_1")), ("text",)), rows, wide=True, align="crl", label="wide"),
         Figure(DRAWING, HOSTILE, HOSTILE, label="drawing"),
         ItemList(((HOSTILE,), (Math("ω"),))),

@@ -55,10 +55,10 @@ def test_sections_are_counted_by_level():
 
 
 def test_equations_tables_and_figures_are_counted_apart(drawing):
-    blocks = [Equation(STEP, label="e"), Table("t", (("a",),), [], label="t"), Equation(STEP, numbered=False),
-              Figure(drawing, "f", "f", label="f"), Equation(STEP, label="z")]  # fmt: skip
+    blocks = [Equation(STEP, label="e"), Table("t", (("a",),), [], label="t"), Table("", (("a",),), []),
+              Figure(drawing, "f", "f", label="f"), Table("u", (("a",),), []), Equation(STEP, label="z")]  # fmt: skip
     numbers = _numbered(*blocks)
-    assert numbers.blocks == ("1", "1", "", "1", "2")
+    assert numbers.blocks == ("1", "1", "1", "1", "2", "2")
     assert [numbers.reference(label) for label in "etfz"] == ["(1)", "1", "1", "(2)"]
 
 

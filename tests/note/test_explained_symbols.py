@@ -57,8 +57,13 @@ def unexplained(one: Note, language: str) -> list[str]:
         if not isinstance(block, Equation):
             continue
         known |= {entry.symbol for entry in block.legend}
+        kind = getattr(block.step, "key", "").partition(".")[0]
+        known |= {QUANTITIES[kind].symbol(language)} if kind in QUANTITIES and block.symbol in known else set()
         if isinstance(block.step, FormulaLine):
-            for printed, wanted in needed(block.step, language).items():
+            symbols = needed(block.step, language)
+            # one of a kind is explained for all of them
+            known |= {base for printed, wanted in symbols.items() for base in wanted if printed in known}
+            for printed, wanted in symbols.items():
                 if not ({printed} <= known or set(wanted) <= known):
                     missing.append(f"{printed} in {printed_equation(block, language).text}")
         known.add(block.symbol or equation_symbol(block.step, language))

@@ -64,8 +64,8 @@ def note_text(key: str, language: Language, **values: str) -> str:
 
 
 def caption(kind: str, number: str, title: str, language: Language) -> str:
-    """Return the line under a `figure` or over a `table`."""
-    return say(f"note.{kind}", language, number=number, title=title)
+    """Return the line under a `figure` or over a `table`; a table without a title goes on."""
+    return say(f"note.{kind}", language, number=number, title=title) if title else continued(number, language)
 
 
 def continued(number: str, language: Language) -> str:

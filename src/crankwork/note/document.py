@@ -103,7 +103,6 @@ class Equation:
 
     step: Line | Formula
     symbol: str = ""
-    numbered: bool = True
     label: str = ""
     legend: tuple[Explanation, ...] = ()
     defined: str = ""
@@ -114,7 +113,8 @@ class Equation:
 class Table:
     """A table: rows of finished text and symbols under headings; a wide one stands on a page turned on its side.
 
-    `align` has a letter per column, `l`, `c` or `r`; without it everything stands to the right.
+    `align` has a letter per column, `l`, `c` or `r`; without it everything stands to the right. Without a caption it is
+    more of the table before it.
     """
 
     caption: str

@@ -79,8 +79,7 @@ def cycle(material: Material) -> Iterator[Block]:
     if not material.cycle:
         return
     steps = [one for one in material.groups["cycle"].lines if not isinstance(one, ValueLine)]
-    numbered = material.order != "vi"
-    yield words.heading("cycle", numbered=numbered)
+    yield words.heading("cycle")
     rows = list(cycle_data_rows(material, [one for one in steps if isinstance(one, FormulaLine)]))
     if rows:
         yield words.paragraph("cycle_data", table=Reference("t:cycle_data"))
@@ -89,7 +88,7 @@ def cycle(material: Material) -> Iterator[Block]:
     for stage, some in _staged(steps).items():
         equations = material.worked(some)
         if equations:
-            yield words.heading(stage, 2, numbered=numbered)
+            yield words.heading(stage, 2)
         if equations and stage == "heat_release":
             yield words.paragraph("heat_release")
         yield from equations
@@ -178,8 +177,9 @@ def _exponents(found: Polytropes, words: EngineWords) -> Runs:
 
 
 def _polytrope_table(found: Polytropes, words: EngineWords) -> Table:
+    multiple = "/".join(map(words.symbol, ("cylinder_volume", "clearance_volume")))
     columns: list[tuple[Runs, Sequence[str]]] = [
-        ((Math("i"),), [words.number(one, digits=5) for one in found.multiples]),
+        ((Math(multiple),), [words.number(one, digits=5) for one in found.multiples]),
         _shown("cylinder_volume", found.volumes.tolist(), words),
     ]
     for name, pressures in found.pressures.items():

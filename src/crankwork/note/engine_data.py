@@ -34,7 +34,7 @@ def preface(material: Material) -> Iterator[Block]:
 def data(material: Material) -> Iterator[Block]:
     """Yield the input data and, except where it is a section of its own, the method."""
     words = material.words
-    yield words.heading("data", numbered=material.order != "vi")
+    yield words.heading("data")
     yield words.paragraph("data", table=Reference("t:data"))
     yield value_table("data", _rows(material), words)
     if material.order != "en":

@@ -38,7 +38,7 @@ def checks(material: Material) -> Iterator[Block]:
     found = errors(material)
     if not (results.checks or found or results.notices):
         return
-    yield words.heading("checks", numbered=material.order != "vi")
+    yield words.heading("checks")
     if results.checks:
         yield words.paragraph("checks", table=Reference("t:identities"))
         rows = [(_identity(key, words), words.number(100.0 * one, digits=2)) for key, one in results.checks.items()]
@@ -55,7 +55,7 @@ def checks(material: Material) -> Iterator[Block]:
 def comparison(material: Material) -> Iterator[Block]:
     """Yield the values and curves by other methods, or of another machine, beside those of this one."""
     words = material.words
-    heading = words.heading("comparison", numbered=material.order != "vi")
+    heading = words.heading("comparison")
     # two machines have pistons of their own
     compared = material.results.compared
     per_area = material.per_area and compared is not None and compared.is_of_methods

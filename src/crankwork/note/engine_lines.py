@@ -110,7 +110,7 @@ def engine_lines(results: Results, degrees: float = _DEGREES, force_degrees: flo
         Group("harmonics", _own(moving, results, _HARMONICS), at),
         Group("extremes", _own(moving, results, _EXTREMES)),
         Group("masses", _followed(moving, results, _MASSES)),
-        Group("gas", _own(loaded, results, (*_SPACE, *_points(results)))),
+        Group("gas", _own(loaded, results, (*_space(results), *_points(results)))),
         Group("forces", _followed(loaded, results, _FORCES if has_forces else ()), there),
         Group("reduction", _own(loaded, results, _REDUCTION if has_forces else ()), there),
         Group("force_extremes", _own(loaded, results, _FORCE_EXTREMES)),
@@ -145,6 +145,12 @@ def _own(moment: Moment, results: Results, keys: Iterable[str]) -> tuple[Line, .
 
 def _parts(results: Results, start: str) -> list[str]:
     return [key for key in results.memory if key.startswith(start)]
+
+
+def _space(results: Results) -> tuple[str, ...]:
+    """Return the sizes of the cylinder; a calculated cycle begins with the compression ratio."""
+    space = results.solved.space
+    return _SPACE[:-1] if space is not None and space.calculated is not None else _SPACE
 
 
 def _points(results: Results) -> list[str]:

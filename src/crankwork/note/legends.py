@@ -10,7 +10,7 @@ from crankwork.formula.lines import FormulaLine, symbols_of
 from crankwork.locale import has_text, say
 from crankwork.notation import ARGUMENTS, Argument, argument_unit
 from crankwork.note.document import Block, Equation, Explanation
-from crankwork.note.equations import own_key, value_symbol
+from crankwork.note.equations import equation_symbol, own_key, value_symbol
 from crankwork.note.printed_units import printed_unit
 from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.report.language import label
@@ -50,7 +50,8 @@ def legend(
                 own = entry.pattern == "{}" or name in named
                 meaning = _meaning(key, language)
                 # some names of quantities end in their unit
-                found[key] = Explanation(value_symbol(key, language), meaning.removesuffix(after) + after * own)
+                shown = value_symbol(own_key(named.get(name, key)), language)
+                found[key] = Explanation(shown, meaning.removesuffix(after) + after * own)
     return tuple(found.values())
 
 
@@ -60,24 +61,20 @@ def explained(blocks: Iterable[Block], language: Language, *, with_results: bool
     `with_results`: also the symbol on the left.
     """
     known: set[str] = set()
-    seen: set[str] = set()
     for block in blocks:
         if not isinstance(block, Equation):
             yield block
             continue
         step = block.step
-        left = set() if isinstance(step, Formula) or not with_results else {step.key.partition(".")[0]} & {*QUANTITIES}
-        own = tuple(Explanation(value_symbol(kind, language), label(kind, language)) for kind in left - known)
-        known |= left
-        if not isinstance(step, FormulaLine | Formula):
-            yield replace(block, legend=own, numbered=False)
-            continue
-        formula = step.formula if isinstance(step, FormulaLine) else step
-        # arithmetic that is written in place has no number, nor what comes again
-        is_first = bool(formula.source) and formula.name not in seen
-        seen.add(formula.name)
-        yield replace(block, legend=(*own, *legend(step, language, frozenset(known))), numbered=is_first)
-        known |= explained_keys(step)
+        left = "" if isinstance(step, Formula) or not with_results else step.key.partition(".")[0]
+        own: tuple[Explanation, ...] = ()
+        if left in QUANTITIES and left not in known:
+            own = (Explanation(block.symbol or equation_symbol(step, language), label(left, language)),)
+            known.add(left)
+        if isinstance(step, FormulaLine | Formula):
+            own += legend(step, language, frozenset(known))
+            known |= explained_keys(step)
+        yield replace(block, legend=own)
 
 
 def _unit(name: str, key: str) -> str:

@@ -18,6 +18,7 @@ from crankwork.note.document import Block, ItemList, Runs, Table
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_tables import equations
 from crankwork.note.linkage_words import Words
+from crankwork.report.language import called
 from crankwork.report.summary import results_method
 
 _ROMAN = ("0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
@@ -89,7 +90,7 @@ def _links(material: Material) -> Table:
         number = numbers[one.name]
         shared = [name for name in one.points if len(owners[name]) > 1]
         rows.append((
-            str(number), one.name, ", ".join(shared), _length(one, shared, words),
+            str(number), called(one.name, words.language), ", ".join(shared), _length(one, shared, words),
             words.shown("body_mass", one.mass) if one.mass else "–",
             words.shown("body_inertia", one.inertia) if one.inertia else "–", _centre(one, words),
         ))  # fmt: skip

@@ -61,7 +61,7 @@ def position_tables(
         shown = [*before, *some]
         rows = list(zip(*(one.entries for one in shown), strict=True))
         yield Table(
-            words.caption(caption, part),
+            words.caption(caption) if part == 1 else "",
             tuple(one.heading for one in shown),
             rows,
             align="c" * len(before) + "r" * len(some),

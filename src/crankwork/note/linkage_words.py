@@ -12,6 +12,7 @@ from crankwork.note.words import NoteWords
 from crankwork.quantities import QUANTITIES
 from crankwork.quantities.quantity import own_name
 from crankwork.report.figure_data import kind_of
+from crankwork.report.language import called
 from crankwork.report.language import symbol as key_symbol
 from crankwork.show.scene import Drawing
 
@@ -66,10 +67,9 @@ class Words(NoteWords):
         numbered = not key.startswith(("conclusion", "sources", "appendix"))
         return Heading(level, self.title(key), numbered=numbered, label=label)
 
-    def caption(self, key: str, part: int = 1) -> str:
-        """Return the caption of a table; from the second part on it says that it goes on."""
-        own = note_text(f"captions.{key}", self.language)
-        return own if part == 1 else say("captions.continued_part", self.language, caption=own, part=part - 1)
+    def caption(self, key: str) -> str:
+        """Return the caption of a table."""
+        return note_text(f"captions.{key}", self.language)
 
     def way(self, key: str) -> str:
         """Return the name of a way to find a flywheel."""
@@ -127,9 +127,12 @@ def owned_symbol(kind: str, shown: str, name: str, language: Language) -> str:
     >>> owned_symbol("joint_force_x", "R_x", "A", "en"), owned_symbol("point_x", "x", "upper rod.guide", "en")
     ('R_x,A', 'x_upper-rod,g')
     """
-    owner, *parts = own_name(kind, name).split(".")
+    told = own_name(kind, name)
+    # of the centre of mass of a link
+    owner, *parts = told.split(" ", 1) if told.startswith("S ") else told.split(".")
     marks = texts("marks", language)
-    name = subscript(".".join([owner, *(marks[one] if one in _PARTS else one for one in parts)]))
+    names = [called(owner, language), *(marks[one] if one in _PARTS else called(one, language) for one in parts)]
+    name = subscript(".".join(names))
     if "_i" in shown and not kind.startswith("indicated"):
         return shown.replace("_i", f"_{name}", 1)
     return f"{shown}{',' if '_' in shown else '_'}{name}"

@@ -46,6 +46,7 @@ def _of(kind: str, summary: Mapping[str, float]) -> list[str]:
 def _item(key: str, results: Results, words: NoteWords) -> Runs:
     unit = printed_unit(key_unit(key), words.language)
     name = say("report.exact", words.language) if key.endswith(".exact") else ""
-    told = label(told_as(key, results).removesuffix(".exact"), words.language) + (f", {name}" if name else "")
+    own = told_as(key, results).removesuffix(".exact")
+    told = label(own, words.language) + (f", {name}" if name else "")
     value = words.number(displayed(key, results.summary[key]), digits=5)
-    return (f"{told}, ", Math(words.symbol(told_as(key, results).removesuffix(".exact"))), f" = {value}\u00a0{unit}".rstrip("\u00a0"))
+    return (f"{told}, ", Math(words.symbol(own)), f" = {value}\u00a0{unit}".rstrip("\u00a0"))

@@ -64,11 +64,11 @@ def _section_number(heading: Heading, sections: list[int]) -> str:
 
 
 def _plain_number(block: Block, counts: Counter[str]) -> str:
-    counted = isinstance(block, Table | Figure) or (isinstance(block, Equation) and block.numbered)
+    counted = isinstance(block, Table | Figure | Equation)
     if not counted:
         return ""
     kind = type(block).__name__
-    counts[kind] += 1
+    counts[kind] += not (isinstance(block, Table) and not block.caption)
     return str(counts[kind])
 
 

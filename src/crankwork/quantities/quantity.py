@@ -63,7 +63,12 @@ class Quantity(NamedTuple):
 
 
 def own_name(kind: str, name: str) -> str:
-    """Return the name of what a quantity belongs to; the link that tells apart joints of one point follows a space."""
+    """Return the name of what a quantity belongs to; the link that tells apart joints of one point follows a space.
+
+    A centre of mass of a link has the letter S.
+    """
+    if name.endswith(".centre"):
+        return f"S {name.removesuffix('.centre')}"
     owner, dot, rest = name.partition(".")
     of_joint = kind.startswith(("joint_", "doubled_area"))
     # what acts on a link is told by the joint it comes from

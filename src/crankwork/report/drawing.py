@@ -21,7 +21,7 @@ from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import Language
 from crankwork.report.engine_drawing import engine_sketch
-from crankwork.report.language import displayed, for_readers, key_unit, label, symbol
+from crankwork.report.language import called, displayed, for_readers, key_unit, label, symbol
 from crankwork.report.linkage_drawing import linkage_sketch
 from crankwork.report.linkage_look import scale_text
 from crankwork.report.sketch import Sketch
@@ -80,7 +80,7 @@ def moving_drawing(  # noqa: PLR0913 - a machine, and how it is shown
             shape, moving(way.mechanism, way.degrees), whole, columns, _named_forces(columns, language), still
         )
         keys = _acting(way.mechanism, shape, _named_forces(columns, language), language)
-        about = [*_lengths(way.mechanism, None, language), *_members(shape), time]
+        about = [*_lengths(way.mechanism, None, language), *_members(shape, language), time]
     return _film(sketch, way, seconds, whole, "; ".join(about), keys, language)
 
 
@@ -300,9 +300,9 @@ def _lengths(mechanism: Mechanism, whole: Machine | None, language: Language) ->
     ]
 
 
-def _members(shape: Skeleton) -> list[str]:
+def _members(shape: Skeleton, language: Language) -> list[str]:
     """Return what the numbers stand for."""
-    return [f"{number} – {name}" for number, name in numbered(shape)]
+    return [f"{number} – {called(name, language)}" for number, name in numbered(shape)]
 
 
 def _time(way: Course, seconds: float, language: Language) -> str:

@@ -152,6 +152,11 @@ def _part(kind: str, name: str, language: Language) -> str:
     return say(key, language) if has_text(key) else own_name(kind, name)
 
 
+def called(link: str, language: Language) -> str:
+    """Return what a link is called: the crank has its name from the program."""
+    return say("report.crank", language) if link == "crank" else link
+
+
 def row_name(name: str, language: Language) -> str:
     """Return what a row of a listing is called: `crankpin.1` is crankpin 1."""
     kind, _, number = name.partition(".")

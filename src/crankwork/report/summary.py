@@ -12,6 +12,7 @@ from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import SUBJECTS, Language, subject
 from crankwork.report.comparison import comparison_data, comparison_text
 from crankwork.report.language import (
+    called,
     displayed,
     in_own_units,
     key_unit,
@@ -224,7 +225,7 @@ def _drawing_lines(machine: Machine, language: Language) -> list[str]:
     found, _ = structure(machine.drawn)
     if found is None:
         return [say("check.linkage", language)]
-    numbered = ", ".join(f"{number} {name}" for number, name in enumerate(found.links, start=1))
+    numbered = ", ".join(f"{number} {called(name, language)}" for number, name in enumerate(found.links, start=1))
     count, number = len(found.links), "I" * found.number if found.number < 4 else found.number
     return [
         say("check.links", language, count=count, names=numbered),

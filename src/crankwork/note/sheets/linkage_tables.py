@@ -17,7 +17,7 @@ from crankwork.mechanism.structure import Structure
 from crankwork.note.sheets.table import Column, numbers, table
 from crankwork.note.sheets.text import text_block
 from crankwork.quantities import Language
-from crankwork.report.language import symbol
+from crankwork.report.language import called, symbol
 from crankwork.report.linkage_look import Style, displayed_values, math_symbol, position_text, quantity_of
 from crankwork.report.linkage_plan_figures import node_name
 from crankwork.report.summary import results_method
@@ -91,7 +91,8 @@ def structure_block(at: Positions, found: Structure) -> Drawing:
         told = number(float(f"{speed:.6g}"), language)
         entries.append(f"${symbol('speed', language)}_1$ = {told} {unit_name('rad/s', language)}")
     entries.append(f"{say('report.method', language)}: {results_method(results, language)}")
-    links = [f"{number} – {plain(name.replace('_', ' '))}" for number, name in numbered(at.shape) if number]
+    names = ((number, called(name, language).replace("_", " ")) for number, name in numbered(at.shape) if number)
+    links = [f"{number} – {plain(name)}" for number, name in names]
     if any(not one.endswith(f" {one.partition(' ')[0]}") for one in links):
         entries.append(f"{say('columns.members', language)}: {', '.join(links)}")
     return text_block(entries, say("headings.structure", language), language)
