@@ -121,7 +121,8 @@ def test_a_vietnamese_note_has_the_twelve_sections():
     numbered = [block.text for block in note(SPARK, "vi").blocks if isinstance(block, Heading) and block.numbered]
     assert numbered[1:-1] == [
         "Đồ thị công", "Đồ thị Brick", "Đồ thị vận tốc v(α)", "Đồ thị gia tốc j(x)", "Đồ thị lực quán tính",
-        "Đồ thị khai triển lực khí thể, lực quán tính và hợp lực", "Đồ thị lực tiếp tuyến T, lực pháp tuyến Z, lực ngang N",
+        "Đồ thị khai triển lực khí thể, lực quán tính và hợp lực",
+        "Đồ thị lực tiếp tuyến T, lực pháp tuyến Z, lực ngang N",
         "Đồ thị tổng lực tiếp tuyến ΣT",
         "Đồ thị phụ tải tác dụng trên chốt khuỷu", "Đồ thị khai triển phụ tải Q–α",
         "Đồ thị phụ tải tác dụng lên đầu to thanh truyền", "Đồ thị mài mòn chốt khuỷu",
