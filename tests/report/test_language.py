@@ -41,4 +41,4 @@ def test_lengths_are_shown_in_millimetres_and_held_in_metres():
 def test_a_half_order_of_a_cycle_of_two_turns_is_an_order():
     assert label("free_force.0.5", "ru").endswith("порядок 0,5")
     assert label("free_force.2", "en") == "free force, order 2"
-    assert label("free_moment.residual.2", "en") == "free moment, left over, order 2"
+    assert label("free_moment.residual.2", "en") == "free moment, residual, order 2"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Protocol, TypeVar
@@ -13,6 +14,8 @@ from crankwork.note.document import Block, Contents, Heading, ItemList, Note, Pa
 from crankwork.note.legends import explained
 from crankwork.note.options import NoteOptions
 
+# what parts a number from its unit
+_NUMBER = re.compile(r"(?<=\d) (?=[^\W\d])")
 # headings of contents that fill a page to more than three fifths
 _OWN_PAGE = 24
 
@@ -54,7 +57,7 @@ def note_of_sections(
     if listed >= _OWN_PAGE:
         front.append(PageBreak())
     return Note(
-        options.title or material.machine.title or title,
+        _NUMBER.sub("\u00a0", options.title or material.machine.title or title),
         options.language,
         (*front, *(_complete(blocks) if chosen else blocks)),
         tuple(one for one in document.author if one.strip()),

@@ -52,6 +52,9 @@ def _upright(text: str) -> str:
         return text
     if text in ("°", "%"):
         return text
+    # a string keeps its distance
+    if text == "d":
+        return "upright(d)"
     return _PRIMES.get(text) or typst_string(text)
 
 

@@ -182,7 +182,7 @@ def _equation(block: Equation, number: str, numbers: Numbering) -> Iterator[str]
             f"{typst_string(where)}, [{_math(box, entry.symbol)}#{typst_string(words)}]"
             for (where, box, words), entry in zip(legend_rows(block, numbers.language), block.legend, strict=True)
         )
-        yield f"#grid(columns: 2, column-gutter: 0.6em, row-gutter: 0.7em, {cells})"
+        yield f"#block(breakable: false, grid(columns: 2, column-gutter: 0.6em, row-gutter: 0.7em, {cells}))"
 
 
 def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
@@ -197,7 +197,7 @@ def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     yield f"#{'above' if whole else 'over'}({above})"
     headings = ", ".join(f"[{_heading(runs, numbers)}]" for runs in block.headings)
     rows = ",\n".join(
-        ", ".join(typst_string(cell) if isinstance(cell, str) else f"[{_run(cell, numbers)}]" for cell in row)
+        ", ".join(typst_string(cell) if isinstance(cell, str) else f"[{_cell(cell, numbers)}]" for cell in row)
         for row in block.rows
     )
     again = "" if whole else f"..again({count}, {typst_string(continued(number, numbers.language))}), "
@@ -216,6 +216,14 @@ def _heading(runs: Runs, numbers: Numbering) -> str:
         case (Math(str(content)),) if isinstance(box := symbol_box(content), Fraction):
             return f"#math.equation(block: true, alt: {typst_string(content)}, $ {typst_box(box)} $);"
     return _runs(runs, numbers)
+
+
+def _cell(cell: Math, numbers: Numbering) -> str:
+    """Return mathematics in a table; a formula is as high as it is, which in a line of text it would not be."""
+    if not isinstance(cell.content, FormulaLine):
+        return _run(cell, numbers)
+    words = typst_string(line_parts(cell.content, numbers.language)[0])
+    return f"#math.equation(block: true, alt: {words}, $ {typst_box(formula_of(cell.content, numbers.language))} $);"
 
 
 def _columns(block: Table, size: float, *, marked: bool) -> str:
