@@ -98,7 +98,7 @@ def test_captions_follow_the_custom_of_each_language():
     assert [place_in_source("ch. 6, p. 7", one) for one in LANGUAGES] == [
         "ch. 6, p. 7",
         "гл. 6, с. 7",
-        "chương 6, tr. 7",
+        "ch. 6, tr. 7",
     ]
 
 

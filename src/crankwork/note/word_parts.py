@@ -37,7 +37,8 @@ EQUATION_WIDTH = 26.0
 _SIZES = (20, 18, 16, 14)
 # height of a row of one line, for every half point [pt]
 _ROW_HEIGHT = 0.6
-_MARK_WIDTH = 2150
+# of source and number, at least; of a letter of them [twip]
+_MARK_WIDTH, _MARK = 2150, 158
 _LEGEND = (
     '<w:tabs><w:tab w:val="left" w:pos="960"/></w:tabs><w:spacing w:after="0"/><w:ind w:left="960" w:hanging="960"/>'
 )
@@ -87,15 +88,16 @@ def equation_xml(block: Equation, number: str, numbers: Numbering, printed: Prin
         )
         for line in printed.lines
     )
-    left = TEXT_WIDTH - _MARK_WIDTH
+    marked = max(_MARK_WIDTH, _MARK * len(mark))
+    left = TEXT_WIDTH - marked
     place = "center" if len(printed.lines) == 1 else "bottom"
     right = paragraph(text_run(mark), "", f'{spacing}<w:jc w:val="right"/>')
     yield (
         f'<w:tbl><w:tblPr><w:tblW w:w="{TEXT_WIDTH}" w:type="dxa"/><w:tblLayout w:type="fixed"/>'
         '<w:tblCellMar><w:left w:w="0" w:type="dxa"/><w:right w:w="0" w:type="dxa"/></w:tblCellMar>'
         f'<w:tblDescription w:val="{xml_text(printed.text)}"/></w:tblPr>'
-        f'<w:tblGrid><w:gridCol w:w="{left}"/><w:gridCol w:w="{_MARK_WIDTH}"/></w:tblGrid>'
-        f"<w:tr><w:trPr><w:cantSplit/></w:trPr>{cell(left, lines, 'center')}{cell(_MARK_WIDTH, right, place)}</w:tr>"
+        f'<w:tblGrid><w:gridCol w:w="{left}"/><w:gridCol w:w="{marked}"/></w:tblGrid>'
+        f"<w:tr><w:trPr><w:cantSplit/></w:trPr>{cell(left, lines, 'center')}{cell(marked, right, place)}</w:tr>"
         "</w:tbl>"
     )
     if not block.legend:
