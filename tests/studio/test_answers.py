@@ -10,6 +10,8 @@ import crankwork
 from crankwork.description.machine_file import template, template_names
 from crankwork.errors import CrankworkError
 from crankwork.studio.answers import Studio, opened_share, shared
+from crankwork.studio.trials import StoppedError
+from crankwork.study.mapped import map_text, mapped
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
 
@@ -203,3 +205,43 @@ def test_a_machine_is_exported_as_what_its_name_says(name, start):
     data = Studio("ru").export(template("engine"), name)
     assert data.lstrip(b"\xef\xbb\xbf").startswith((start, b"<?xml"))
     assert len(data) > 1000
+
+
+def test_a_map_is_told_as_it_goes_on_and_ends_where_the_command_line_does():
+    shares = []
+    text = template("slider-crank")
+    asked = {"text": text, "over": {"crank.radius": "40..60 mm"}}
+    found = Studio("en").tried(asked, shares.append)
+    expected = map_text(mapped(crankwork.Description(text), ["crank.radius=40..60 mm"]), "en")
+    assert found["text"] == expected
+    assert shares == pytest.approx([k / 13 for k in range(1, 14)])
+    assert found["figures"]["map.stroke"][1].startswith("<svg")
+
+
+def test_designs_are_swept_and_the_best_is_named():
+    asked = {
+        "text": template("slider-crank"), "over": {"crank.radius": "40..60 mm"}, "count": "64",
+        "objectives": {"stroke": "maximise"},
+    }  # fmt: skip
+    shares = []
+    found = Studio("en").tried(asked, shares.append)
+    assert shares[-1] == 1.0
+    assert "119" in found["text"]
+    assert found["figures"]
+
+
+@pytest.mark.parametrize(
+    "asked", [{"over": {"crank.radius": "60..40 mm"}}, {"over": {}}, {"over": {"x": "1..2"}, "count": "9e9"}]
+)
+def test_what_cannot_be_tried_is_refused_in_words(asked):
+    found = Studio("en").tried({"text": template("slider-crank"), **asked}, lambda _: None)
+    assert all(";" in one["text"] for one in found["refusals"])
+    assert found["refusals"]
+
+
+def test_a_trial_that_nobody_waits_for_ends():
+    def told(_):
+        raise StoppedError
+
+    with pytest.raises(StoppedError):
+        Studio("en").tried({"text": template("slider-crank"), "over": {"crank.radius": "40..60 mm"}}, told)

@@ -439,3 +439,21 @@ def test_what_is_typed_while_an_answer_is_under_way_stays(seen):
     settled(page)
     text = source(page)
     assert all(one in text for one in ('"5000 rpm"', "ratio = 0.3", "# more"))
+
+
+def test_numbers_are_varied_with_progress_and_a_way_to_stop(seen):
+    page = seen()
+    page.locator("#trial summary").click()
+    trial = page.locator("#trial form")
+    trial.locator("select").first.select_option("crank.radius")
+    assert trial.locator("input").first.input_value() == "31.3..125 mm"
+    trial.locator("input").first.fill("50..60 mm:4")
+    trial.locator("button").click()
+    page.wait_for_selector("#trial details svg")
+    assert "largest" in page.locator("#trial .told").inner_text()
+    trial.locator("input").first.fill("50..60 mm:200")
+    trial.locator("button").click()
+    page.wait_for_function("() => document.querySelector('#trial progress').value > 0")
+    trial.locator("button").click()
+    page.wait_for_function("() => document.querySelector('#trial .told').textContent === 'Cancelled.'")
+    assert trial.locator("button").inner_text() == "Run"

@@ -12,6 +12,7 @@ import { unpacked } from "./numbers.js";
 import { changed, curvesOf, differs, haunt, MOST_PINS } from "./pins.js";
 import { Sketch } from "./sketch.js";
 import { Talk } from "./talk.js";
+import { Trial } from "./trial.js";
 
 /** @typedef {import("./talk.js").Answer} Answer */
 /** @typedef {import("./talk.js").Question} Question */
@@ -65,6 +66,11 @@ class StudioPage {
       handles: () => this.seen.handles ?? [],
       sized: (key, value, ends) => this.set(key, value, ends),
       said: (text) => this.chip(text),
+    });
+    this.trial = new Trial(room("trial"), this.words, {
+      rows: () => (this.seen.form ?? []).flatMap((/** @type {import("./form.js").Group} */ group) => group.rows),
+      values: () => [.../** @type {NodeListOf<HTMLElement>} */ (room("results").querySelectorAll("tr [data-key]"))].map((one) => [one.dataset.key ?? "", one.closest("tr")?.querySelector("th")?.textContent ?? ""]),
+      asked: () => ({ text: this.editing.text, reads: this.reads }),
     });
     this.bind();
     document.documentElement.classList.add("live");

@@ -41,6 +41,7 @@ from crankwork.studio.form import form, stated_text
 from crankwork.studio.handles import handles
 from crankwork.studio.pmks import from_pmks, is_pmks
 from crankwork.studio.sketch import redrawn, sketched
+from crankwork.studio.trials import tried
 from crankwork.units import shown_in
 
 SHARE = "crankwork:"
@@ -73,9 +74,21 @@ class Studio:
 
     def export(self, text: str, name: str, *, reads: bool = False) -> bytes:
         """Return the machine of a text as a file: its name says as what."""
-        if not (reads or self._reads) and (named := _files(self._described(text))):
-            raise CrankworkError(Refusal("studio_files", names=named))
+        self._check_files(self._described(text), reads=reads)
         return _written(self._computed(text), name, self.language)
+
+    def _check_files(self, description: Description, *, reads: bool) -> None:
+        if not (reads or self._reads) and (named := _files(description)):
+            raise CrankworkError(Refusal("studio_files", names=named))
+
+    def tried(self, asked: Mapping[str, Any], told: Callable[[float], None]) -> dict[str, Any]:
+        """Return what is found over ranges of numbers, or of designs drawn from them."""
+        try:
+            description = self._described(asked["text"])
+            self._check_files(description, reads=bool(asked.get("reads")))
+            return tried(description, asked, self.language, told)
+        except CrankworkError as error:
+            return {"refusals": self._told(error)}
 
     def _show(self, asked: Mapping[str, Any]) -> dict[str, Any]:
         """Return all that is seen of a text; what of it is known where it is refused."""

@@ -11,7 +11,7 @@ import socket
 import threading
 import time
 import webbrowser
-from collections.abc import Callable
+from collections.abc import AsyncIterator, Callable, Mapping
 from functools import partial
 from http import HTTPStatus
 from pathlib import Path
@@ -22,7 +22,7 @@ from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import Headers
 from starlette.requests import HTTPConnection, Request
-from starlette.responses import PlainTextResponse, RedirectResponse, Response
+from starlette.responses import PlainTextResponse, RedirectResponse, Response, StreamingResponse
 from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp, Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect
@@ -33,6 +33,7 @@ from crankwork.errors import CrankworkError
 from crankwork.locale import LANGUAGES, Language, Refusal, say, told
 from crankwork.studio.answers import Studio
 from crankwork.studio.shell import shell, styles
+from crankwork.studio.trials import StoppedError
 
 HOST = "127.0.0.1"
 # what one message may hold: a machine file, escaped, and what is asked of it [bytes]
@@ -158,6 +159,7 @@ def application(rooms: Rooms) -> ASGIApp:
         Route("/studio.js", partial(_script, rooms)),
         Route("/studio.css", _styles),
         Route("/export", partial(_export, rooms), methods=["POST"]),
+        Route("/trial", partial(_trial, rooms), methods=["POST"]),
         WebSocketRoute("/talk", partial(_talk, rooms)),
     ]
     return _Guard(Starlette(routes=routes), rooms)
@@ -196,23 +198,72 @@ async def _styles(_: Request) -> Response:
 
 async def _export(rooms: Rooms, asked: Request) -> Response:
     """Answer with a machine as a file."""
+    wanted = await _posted(asked, {"text": str, "name": str})
+    if isinstance(wanted, HTTPStatus):
+        return PlainTextResponse("", wanted)
+    language = _language(asked, rooms.language)
+    studio = rooms.studio(language)
+    try:
+        found = await run_in_threadpool(studio.export, wanted["text"], wanted["name"], reads=bool(wanted.get("reads")))
+    except CrankworkError as error:
+        return PlainTextResponse(told(error.args[0], language), HTTPStatus.UNPROCESSABLE_ENTITY)
+    return _sealed(found, "application/octet-stream", **{"Content-Disposition": "attachment"})
+
+
+async def _posted(asked: Request, fields: Mapping[str, type]) -> dict[str, Any] | HTTPStatus:
+    """Return what was sent, or what is answered where it makes no sense."""
     data = b""
     async for part in asked.stream():
         data += part
         if len(data) > _LONGEST:
-            return PlainTextResponse("", HTTPStatus.REQUEST_ENTITY_TOO_LARGE)
-    language = _language(asked, rooms.language)
+            return HTTPStatus.REQUEST_ENTITY_TOO_LARGE
     try:
-        wanted = json.loads(data)
-        text, name = str(wanted["text"]), str(wanted["name"])
-    except (ValueError, TypeError, KeyError):
-        return PlainTextResponse("", HTTPStatus.BAD_REQUEST)
-    studio = rooms.studio(language)
+        found = json.loads(data)
+    except (ValueError, RecursionError):
+        return HTTPStatus.BAD_REQUEST
+    is_sound = isinstance(found, dict) and all(isinstance(found.get(name), kind) for name, kind in fields.items())
+    return found if is_sound else HTTPStatus.BAD_REQUEST
+
+
+async def _trial(rooms: Rooms, asked: Request) -> Response:
+    """Answer with lines: how far a map or a sweep has come, and at last what it has found; it ends with who asked."""
+    wanted = await _posted(asked, {"text": str, "over": dict})
+    if isinstance(wanted, HTTPStatus):
+        return PlainTextResponse("", wanted)
+    studio = rooms.studio(_language(asked, rooms.language))
+    return StreamingResponse(_lines(studio, wanted), media_type="application/x-ndjson")
+
+
+async def _lines(studio: Studio, asked: dict[str, Any]) -> AsyncIterator[str]:
+    loop, stopped = asyncio.get_running_loop(), threading.Event()
+    waiting: asyncio.Queue[dict[str, Any]] = asyncio.Queue()
+
+    def tell(one: dict[str, Any]) -> None:
+        loop.call_soon_threadsafe(waiting.put_nowait, one)
+
+    def told(share: float) -> None:
+        if stopped.is_set():
+            raise StoppedError
+        tell({"done": share})
+
+    def work() -> None:
+        try:
+            tell({"found": studio.tried(asked, told)})
+        except StoppedError:
+            pass
+        except Exception:  # noqa: BLE001 - whatever fails in one calculation is told, and the page lives on
+            _log.exception("a trial failed")
+            tell({"found": {"refusals": [{"text": say("studio.failed", studio.language), "key": "", "line": 0}]}})
+
+    working = asyncio.create_task(run_in_threadpool(work))
     try:
-        found = await run_in_threadpool(studio.export, text, name, reads=bool(wanted.get("reads")))
-    except CrankworkError as error:
-        return PlainTextResponse(told(error.args[0], language), HTTPStatus.UNPROCESSABLE_ENTITY)
-    return _sealed(found, "application/octet-stream", **{"Content-Disposition": "attachment"})
+        one: dict[str, Any] = {}
+        while "found" not in one:
+            one = await waiting.get()
+            yield f"{json.dumps(one, ensure_ascii=False)}\n"
+        await working
+    finally:
+        stopped.set()
 
 
 async def _talk(rooms: Rooms, socket_: WebSocket) -> None:

@@ -98,5 +98,6 @@ def _middle(language: Language) -> list[str]:
 def _right(language: Language) -> list[str]:
     return [
         f'<section id="diagrams" aria-label="{html.escape(say("page.diagrams", language))}">',
-        f'<select id="add" aria-label="{_said("add", language)}"></select><div class="figures"></div></section>',
+        f'<select id="add" aria-label="{_said("add", language)}"></select><div class="figures"></div>',
+        f'<details id="trial"><summary>{_said("vary", language)}</summary></details></section>',
     ]

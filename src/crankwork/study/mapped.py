@@ -145,11 +145,19 @@ def _axis(values: dict[str, object], text: str) -> tuple[Sought, Places]:
     steps = int(match["steps"] or STEPS)
     if not _FEWEST <= steps <= _MOST:
         raise CrankworkError(Refusal("map_steps", most=str(_MOST)))
-    low, high = match["low"], match["high"]
-    unit = _NUMBER.sub("", high, count=1)
-    # a unit that stands once holds for both
-    low = f"{low}{unit}" if _NUMBER.fullmatch(low) else low
-    return sought, places(sought, low, high, steps)
+    return sought, places(sought, *ends_of(f"{match['low']}..{match['high']}"), steps)
+
+
+def ends_of(text: str) -> tuple[str, str]:
+    """Return both ends of a range; a unit that stands once holds for both.
+
+    Examples
+    --------
+    >>> ends_of("800..6000 rpm")
+    ('800 rpm', '6000 rpm')
+    """
+    low, _, high = (one.strip() for one in text.partition(".."))
+    return (f"{low}{_NUMBER.sub('', high, count=1)}" if _NUMBER.fullmatch(low) else low), high
 
 
 def _is_given(results: Results, key: str) -> bool:

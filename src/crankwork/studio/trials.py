@@ -1,0 +1,64 @@
+"""What a machine gives over ranges of its numbers, or for designs drawn from them, told as it goes on."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from crankwork import files
+from crankwork.description.document import Description
+from crankwork.description.written import document
+from crankwork.errors import CrankworkError
+from crankwork.locale import Language, Refusal
+from crankwork.show.inline import inline_svg
+from crankwork.show.scene import Drawing
+from crankwork.study.map_figures import map_drawings
+from crankwork.study.mapped import ends_of, map_text, mapped
+
+
+class StoppedError(Exception):
+    """Nobody waits for it any more."""
+
+
+def tried(
+    description: Description, asked: Mapping[str, Any], language: Language, told: Callable[[float], None]
+) -> dict[str, Any]:
+    """Return text and figures: of a map over `over`, ranges by key, or of so many designs, the best by an objective."""
+    over = {str(key): str(ends) for key, ends in asked["over"].items()}
+    if asked.get("count"):
+        return _swept(description, over, asked, language, told)
+    found = mapped(description, [f"{key}={ends}" for key, ends in over.items()], (), told)
+    return {"text": map_text(found, language), "figures": _figures(map_drawings(found, language))}
+
+
+def _swept(
+    description: Description, over: Mapping[str, str], asked: Mapping[str, Any], language: Language,
+    told: Callable[[float], None],
+) -> dict[str, Any]:  # fmt: skip
+    from crankwork.study.found_figures import found_drawings  # noqa: PLC0415 - only sweeps need its parts
+    from crankwork.study.found_text import found_text  # noqa: PLC0415
+    from crankwork.study.running import Where, run_study  # noqa: PLC0415
+    from crankwork.study.study_file import read_study  # noqa: PLC0415
+
+    ends = {key: dict(zip(("from", "to"), ends_of(text), strict=True)) for key, text in over.items()}
+    if not str(asked["count"]).isdecimal():
+        raise CrankworkError(Refusal("whole_range", value=str(asked["count"])[:20], low="1", high="1000000"))
+    text = document({
+        "machine": "machine.toml",
+        "designs": {"drawing": "sobol", "count": int(asked["count"])},
+        "vary": ends,
+        "objectives": {str(key): str(way) for key, way in asked.get("objectives", {}).items()},
+    })  # fmt: skip
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        files.write_files({Path(folder) / "machine.toml": description.dump().encode()})
+        study = read_study(text, "study", folder=Path(folder))
+        found = run_study(study, Path(folder) / "found", Where(1), told=lambda count: told(count / study.count))
+        drawn = found_drawings(study, found, language)
+        return {"text": found_text(study, found, language), "figures": _figures(drawn)}
+
+
+def _figures(drawn: Mapping[str, Drawing]) -> dict[str, tuple[str, str]]:
+    """Return figures by name, each with its title."""
+    return {name: (one.title, inline_svg(one, name, one.title)) for name, one in drawn.items()}
