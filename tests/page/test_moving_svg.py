@@ -22,6 +22,7 @@ _PLACE = """name => {
   const on = svg.getScreenCTM().inverse().multiply(inner.getScreenCTM());
   return [on.e, on.f, Math.atan2(on.b, on.a) * 180 / Math.PI];
 }"""
+_MOVED = f"([name, from]) => String(({_PLACE})(name)) !== String(from)"
 _STANDS = "document.getAnimations().every(one => one.playState === 'paused')"
 
 
@@ -64,17 +65,14 @@ def _compared(page, film, frame):
 
 def test_it_plays_and_a_click_stops_it(shown, film):
     page = shown()
-    first = page.evaluate(_PLACE, "side.crank.1")
-    page.wait_for_timeout(300)
-    assert page.evaluate(_PLACE, "side.crank.1") != first
+    page.wait_for_function(_MOVED, arg=["side.crank.1", page.evaluate(_PLACE, "side.crank.1")])
     page.mouse.click(200, 200)
     assert page.evaluate(_STANDS)
     stood = page.evaluate(_PLACE, "side.crank.1")
     page.wait_for_timeout(200)
     assert page.evaluate(_PLACE, "side.crank.1") == stood
     page.keyboard.press(" ")
-    page.wait_for_timeout(200)
-    assert page.evaluate(_PLACE, "side.crank.1") != stood
+    page.wait_for_function(_MOVED, arg=["side.crank.1", stood])
 
 
 def test_it_rests_where_motion_is_unwanted_and_keys_turn_it_frame_by_frame(shown, film):
@@ -87,8 +85,7 @@ def test_it_rests_where_motion_is_unwanted_and_keys_turn_it_frame_by_frame(shown
         frame += by
         _compared(page, film, frame)
     page.keyboard.press(" ")
-    page.wait_for_timeout(200)
-    assert not page.evaluate(_STANDS)
+    page.wait_for_function(f"!({_STANDS})")
 
 
 def test_opened_alone_it_has_a_bar_that_turns_it_and_a_button_that_stops_it(shown, film):
