@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import re
 from collections.abc import Mapping, Sequence
@@ -259,6 +260,12 @@ INDEX = 0.7
 
 def text_width(text: str, height: float = TEXT) -> float:
     """Return about how wide a text is, rather too much. [mm]"""
+    return _ems(text) * height / CAP_HEIGHT
+
+
+# sheets are laid out by trial, with the same words each time
+@functools.lru_cache(maxsize=4096)
+def _ems(text: str) -> float:
     width = 0.0
     for run in runs(text):
         for one in run.text:
@@ -266,7 +273,7 @@ def text_width(text: str, height: float = TEXT) -> float:
             # Cyrillic letters are wider than Latin ones
             ems += 0.05 if "Ѐ" <= one <= "ӿ" else 0.0
             width += ems * (INDEX if run.shift else 1.0)
-    return width * height / CAP_HEIGHT
+    return width
 
 
 def moved(item: Item, right: float, up: float, larger: float = 1.0) -> Item:
