@@ -19,6 +19,8 @@ class Loops:
 
     def __init__(self, loops, names):
         self.loops, self.names = loops, names  # each loop: {link: complex length}, constant
+        count = range(len(names))
+        self.others = [[one for one in count if one != left_out] for left_out in count]
 
     def value(self, angle):
         sums = [sum(z * np.exp(1j * angle[k]) for k, z in loop.items()) - end for loop, end in self.loops]
@@ -34,9 +36,8 @@ class Loops:
 
     def way(self, angle):
         """The directions are the minors of the Jacobian, each with one column left out."""
-        jacobian = self.jacobian(angle)
-        minors = [(-1) ** k * np.linalg.det(np.delete(jacobian, k, axis=1)) for k in range(len(angle))]
-        return np.array(minors)
+        minors = np.linalg.det(self.jacobian(angle)[:, self.others].swapaxes(0, 1))
+        return minors * (-1.0) ** np.arange(len(angle))
 
     def onto(self, angle):
         for _ in range(20):
