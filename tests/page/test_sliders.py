@@ -288,8 +288,10 @@ def test_the_machine_moves_with_its_lengths_and_back(opened, name, crank, ratio,
     assert [one for one in zip(*parts, strict=True) if one[0] != one[1]] == []
 
 
-@pytest.mark.parametrize("language", ["en", "ru", "vi"])
-@pytest.mark.parametrize(("width", "scheme"), [(1280, "light"), (360, "dark")])
+@pytest.mark.parametrize(
+    ("language", "width", "scheme"),
+    [("en", 1280, "light"), ("en", 360, "dark"), ("ru", 360, "light"), ("vi", 360, "dark")],
+)
 def test_everybody_can_use_the_sliders(opened, language, width, scheme):
     if not AXE.exists():
         pytest.skip("axe-core is not installed")

@@ -34,9 +34,11 @@ def test_every_example_opens_with_what_the_command_line_finds(path):
 
 
 @pytest.mark.parametrize("name", template_names())
-def test_a_field_typed_as_it_stands_changes_nothing(name):
+def test_a_field_typed_as_it_stands_changes_nothing(name, monkeypatch):
     text = template(name)
     studio = Studio("en")
+    # what is drawn is not looked at
+    monkeypatch.setattr(studio, "_seen", lambda *_: {})
     for key, row in rows_of(studio.answer({"do": "show", "text": text, "figures": None})).items():
         found = studio.answer({"do": "set", "text": text, "fields": {key: row["value"]}, "figures": None})
         assert found["text"] == text, key
@@ -185,6 +187,38 @@ def test_files_that_a_text_names_are_read_only_where_that_is_allowed(tmp_path):
     assert studio.answer({**asked, "reads": True})["refusals"] != []
     with pytest.raises(CrankworkError, match="read only if you allow it"):
         Studio("en").export(text, "note.html")
+
+
+def test_no_question_reads_a_file_before_that_is_allowed():
+    text = template("engine").replace("[gas]", '[gas]\n[gas.measured]\nfile = "/etc/hostname"\n[spare]', 1)
+    found = Studio("en").answer({"do": "explain", "text": text, "key": "swept_volume"})
+    assert "read only if you allow it" in found["refusals"][0]["text"]
+    assert Studio("en").answer({"do": "ahead", "text": text, "key": "crank.radius"}) == {}
+
+
+@pytest.mark.parametrize(
+    ("name", "key", "figures", "behind", "stays"),
+    [
+        ("four-bar", "crank.radius", ["links", "reduced_inertia", "velocity_plan"], ["velocity_plan"], False),
+        ("engine", "rod.length", ["kinematics", "pressure", "tolle"], ["tolle"], True),
+        ("slider-crank", "crank.speed", ["kinematics"], [], False),
+    ],
+)
+def test_what_a_page_calculates_itself_and_what_stays_behind(name, key, figures, behind, stays):
+    found = Studio("en").answer({"do": "ahead", "text": template(name), "key": key, "figures": figures})
+    ahead = found["ahead"]
+    assert (ahead["behind"], ahead["stays"]) == (behind, stays)
+    assert ahead["figures"].keys() == set(figures) - set(behind)
+    assert found["steps"].startswith("var steps=")
+    assert len(ahead["data"]["sliders"]["values"]) > 5
+
+
+def test_of_a_number_that_no_browser_follows_nothing_is_made():
+    studio = Studio("en")
+    for key in ("title", "crank.none"):
+        assert studio.answer({"do": "ahead", "text": template("engine"), "key": key, "figures": []}) == {}
+    swings = template("four-bar").replace('"62.5 mm"', '"100 mm"')
+    assert studio.answer({"do": "ahead", "text": swings, "key": "crank.radius", "figures": []}) == {}
 
 
 def test_a_value_is_explained_down_to_its_line():

@@ -1,4 +1,6 @@
 // Two drags of the machine, never confused: along its freedom, and, with Shift held, of a dimension.
+import { Limits } from "./limits.js";
+
 /** @typedef {import("./machine.js").Film} Film */
 /** @typedef {import("./cursor.js").Cursor} Cursor */
 
@@ -14,11 +16,13 @@ const CLOSE = 0.08;
 export class Drag {
   /**
    * @param {HTMLElement} room where the machine stands
+   * @param {Record<string, string>} words
    * @param {{film: () => Film | undefined, cursor: () => Cursor | undefined, handles: () => Handle[],
-   *   sized: (key: string, value: string, ends: boolean) => void, said: (text: string) => void}} tells
+   *   near: (key: string) => void, sized: (key: string, value: string, ends: boolean) => string, said: (text: string) => void}} tells
    */
-  constructor(room, tells) {
+  constructor(room, words, tells) {
     this.room = room;
+    this.limits = new Limits(words);
     this.tells = tells;
     /** @type {string} */
     this.part = "";
@@ -75,8 +79,19 @@ export class Drag {
    * @param {[number, number]} at
    */
   startSize(film, at) {
+    this.size = this.handle(film, at);
+    if (this.size) this.tells.near(this.size.handle.key);
+  }
+
+  /**
+   * Return the dimension that is meant at a place of the drawing.
+   * @param {Film} film
+   * @param {[number, number]} at
+   * @returns {typeof this.size}
+   */
+  handle(film, at) {
     const now = film.frame(this.angle(film));
-    let best = CLOSE * film.svg.viewBox.baseVal.width;
+    let [best, found] = [CLOSE * film.svg.viewBox.baseVal.width, /** @type {typeof this.size} */ (undefined)];
     for (const handle of this.tells.handles()) {
       const [from, to] = [handle.from, handle.to].map((one) => film.place(one, now));
       if (!from || !to) continue;
@@ -85,14 +100,20 @@ export class Drag {
       const apart = beside(at, from, to) + 0.02 * Math.hypot(to[0] - at[0], to[1] - at[1]);
       if (apart >= best || !length) continue;
       best = apart;
-      this.size = { handle, at, way: [(to[0] - from[0]) / length, (to[1] - from[1]) / length], length, text: "" };
+      found = { handle, at, way: [(to[0] - from[0]) / length, (to[1] - from[1]) / length], length, text: "" };
     }
+    return found;
   }
 
   /** @param {PointerEvent} event */
   move(event) {
     const film = this.tells.film();
     if (!film) return;
+    if (event.shiftKey && !event.buttons) {
+      this.matrix = film.svg.getScreenCTM()?.inverse();
+      const near = this.handle(film, this.place(event));
+      if (near) this.tells.near(near.handle.key);
+    }
     const at = this.place(event);
     if (this.size) this.resize(at);
     else if (this.part) this.turn(film, at);
@@ -118,6 +139,8 @@ export class Drag {
     const first = Math.floor(nearest);
     const angle = angles[first] + (nearest - first) * ((angles[Math.min(first + 1, last)] ?? angles[first]) - angles[first]);
     this.tells.cursor()?.move(angle / degrees);
+    const held = film.place(this.part, nearest);
+    if (held) this.tells.said(this.limits.show(film, this.tells.handles(), nearest, angle, held, at));
   }
 
   /** @param {[number, number]} at */
@@ -129,14 +152,15 @@ export class Drag {
     const text = `${Number(number.toPrecision(3))}${handle.unit ? ` ${handle.unit}` : ""}`;
     if (text === this.size.text) return;
     this.size.text = text;
-    this.tells.said(`${handle.key}: ${Number(handle.number.toPrecision(6))} → ${text}`);
-    this.tells.sized(handle.key, text, false);
+    const least = this.tells.sized(handle.key, text, false);
+    this.tells.said(`${handle.key}: ${Number(handle.number.toPrecision(6))} → ${text}${least}`);
   }
 
   end() {
     if (!this.part && !this.size) return;
     if (this.size?.text) this.tells.sized(this.size.handle.key, this.size.text, true);
     this.tells.said("");
+    this.limits.hide();
     this.part = "";
     this.size = undefined;
   }

@@ -20,6 +20,15 @@ export function unpacked(packed) {
 }
 
 /**
+ * Return the columns that are stored, with that which the tables go by.
+ * @param {{axis: string, rows: Packed, columns: Record<string, Packed>}} data
+ * @returns {Record<string, Column>}
+ */
+export function columnsOf({ axis, rows, columns }) {
+  return Object.fromEntries([...Object.entries(columns), [axis, rows]].map(([key, one]) => [key, unpacked(/** @type {Packed} */ (one))]));
+}
+
+/**
  * Return a number with a fixed count of decimals, as the language of the page writes it.
  * @param {number} value
  * @param {number} decimals

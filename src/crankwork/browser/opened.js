@@ -3,7 +3,7 @@ import { bar } from "./bar.js";
 import { Cursor } from "./cursor.js";
 import { Explanation } from "./explain.js";
 import { choose, Film } from "./machine.js";
-import { unpacked } from "./numbers.js";
+import { columnsOf } from "./numbers.js";
 import { showTables } from "./table.js";
 
 /**
@@ -46,9 +46,8 @@ function unfolded(letters) {
  */
 function begin(data, kind, slide) {
   document.documentElement.classList.add("live");
-  const columns = Object.fromEntries(Object.entries(data.columns).map(([key, one]) => [key, unpacked(one)]));
-  const axis = unpacked(data.rows);
-  columns[data.axis] = axis;
+  const columns = columnsOf(data);
+  const axis = columns[data.axis];
   const cursor = new Cursor(axis.values);
   /** @type {Figure[]} */
   const figures = [];

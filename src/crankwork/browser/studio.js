@@ -1,14 +1,15 @@
 // The studio: a machine file as form and as text, the machine, its diagrams, its values; all of one document.
+import { Ahead } from "./ahead.js";
 import { bar } from "./bar.js";
 import { Cursor } from "./cursor.js";
 import { Drag } from "./drag.js";
 import { Editing } from "./editing.js";
 import { Editor } from "./editor.js";
 import { Explanation } from "./explain.js";
-import { Figure } from "./figure.js";
+import { FollowingFigure } from "./following.js";
 import { Form } from "./form.js";
 import { choose, Film } from "./machine.js";
-import { unpacked } from "./numbers.js";
+import { columnsOf, fixed } from "./numbers.js";
 import { changed, curvesOf, differs, haunt, MOST_PINS } from "./pins.js";
 import { Sketch } from "./sketch.js";
 import { Talk } from "./talk.js";
@@ -46,7 +47,8 @@ class StudioPage {
     this.reads = false;
     /** How many machines were opened. */
     this.opened = 0;
-    this.kept = 0;
+    /** What follows the cursor, by where it stands. @type {Map<string, import("./cursor.js").Follower[]>} */
+    this.followers = new Map();
     /** @type {Sketch | undefined} */
     this.sketch = undefined;
     /** What was drawn last. @type {{pins: any, links: any} | undefined} */
@@ -60,11 +62,15 @@ class StudioPage {
       added: (fields) => this.talk.ask({ do: "set", fields, of: this.opened, figures: this.wanted, reads: this.reads, named: `+ ${Object.keys(fields).join(", ")}` }),
       more: (key, name) => this.talk.ask({ do: "add", key, of: this.opened, figures: this.wanted, reads: this.reads, named: `+ ${name}` }),
     });
-    this.drag = new Drag(room("film"), {
+    this.drag = new Drag(room("film"), this.words, {
       film: () => this.film,
       cursor: () => this.cursor,
       handles: () => this.seen.handles ?? [],
-      sized: (key, value, ends) => this.set(key, value, ends),
+      near: (key) => this.ahead.prepare(key),
+      sized: (key, value, ends) => {
+        this.set(key, value, ends);
+        return this.least();
+      },
       said: (text) => this.chip(text),
     });
     this.trial = new Trial(room("trial"), this.words, {
@@ -72,9 +78,56 @@ class StudioPage {
       values: () => [.../** @type {NodeListOf<HTMLElement>} */ (room("results").querySelectorAll("tr [data-key]"))].map((one) => [one.dataset.key ?? "", one.closest("tr")?.querySelector("th")?.textContent ?? ""]),
       asked: () => ({ text: this.editing.text, reads: this.reads }),
     });
+    this.ahead = new Ahead({
+      beside: (key) => this.beside(key),
+      ask: (key, beside) => this.aside.ask({ do: "ahead", text: this.seen.from, key, beside, figures: this.wanted, reads: this.reads }),
+      bound: (name, bind) => this.bound(name, bind),
+      figure: (name, found, columns) => {
+        const frame = /** @type {HTMLElement | null} */ (room("diagrams").querySelector(`.figures > [data-name="${name}"]`));
+        return frame ? this.figure(frame, name, found, columns) : undefined;
+      },
+      film: () => this.film,
+      cursor: () => this.cursor,
+    });
     this.bind();
     document.documentElement.classList.add("live");
-    this.talk = new Talk(() => this.editing.text, (answer, question) => this.heard(answer, question), (open) => this.notice(open ? "" : this.words.lost));
+    const text = () => this.editing.text;
+    this.talk = new Talk(text, (answer, question) => this.heard(answer, question), "waits", (open) => this.notice(open ? "" : this.words.lost));
+    // what is asked for ahead keeps nobody waiting
+    this.aside = new Talk(text, (answer, question) => question && this.ahead.heard(String(question.key), String(question.beside), answer), "prepares");
+  }
+
+  /**
+   * Return what the file and the page have beside a number, nothing where it cannot be moved.
+   * @param {string} key
+   */
+  beside(key) {
+    const rows = (this.seen.form ?? []).flatMap((/** @type {any} */ group) => group.rows);
+    const own = rows.find((/** @type {any} */ row) => row.key === key);
+    if (own?.number === undefined || document.body.classList.contains("stale")) return "";
+    const others = rows.filter((/** @type {any} */ row) => row !== own).map((/** @type {any} */ row) => [row.key, row.value]);
+    return JSON.stringify([this.opened, this.wanted, others]);
+  }
+
+  /** Return in words how near links come to a line, of a number that is held, where they come near. */
+  least() {
+    const least = this.ahead.least();
+    return least ? ` · ${this.words.least_angle.replace("{joint}", least.joint).replace("{angle}", fixed(least.angle, 1))}` : "";
+  }
+
+  /**
+   * Let something follow the cursor, in the place of what stood there before.
+   * @param {string} name
+   * @param {(cursor: Cursor) => void} bind
+   */
+  bound(name, bind) {
+    const { cursor } = this;
+    if (!cursor) return;
+    const old = this.followers.get(name) ?? [];
+    cursor.followers = cursor.followers.filter((one) => !old.includes(one));
+    const count = cursor.followers.length;
+    bind(cursor);
+    this.followers.set(name, cursor.followers.slice(count));
   }
 
   /** @param {Editing} editing */
@@ -133,7 +186,10 @@ class StudioPage {
    * @param {boolean} ends
    */
   set(key, value, ends) {
-    this.talk.ask({ do: "set", fields: { [key]: value }, of: this.opened, figures: this.wanted, reads: this.reads, named: ends ? `${key} = ${value}` : "" });
+    const behind = ends ? undefined : this.ahead.move(key, value);
+    if (behind && !behind.machine && !behind.figures.length) return;
+    const figures = behind ? behind.figures : this.wanted;
+    this.talk.ask({ do: "set", fields: { [key]: value }, of: this.opened, figures, held: Boolean(behind), reads: this.reads, named: ends ? `${key} = ${value}` : "" });
   }
 
   /**
@@ -194,11 +250,13 @@ class StudioPage {
     this.refused(answer.refusals ?? []);
     this.named(answer.named);
     document.body.classList.toggle("stale", !answer.data);
-    if (answer.data) this.draw(answer);
+    if (answer.data && question?.held) this.drawHeld(answer);
+    else if (answer.data) this.draw({ ...answer, from: answer.text ?? question?.base });
     if (answer.brought) room("diagrams").querySelector(`[data-name="${answer.brought}"]`)?.scrollIntoView({ block: "nearest" });
     if (question?.do === "sketch" && answer.data) this.run();
     const told = answer.refusals?.[0]?.text ?? answer.doubt ?? "";
     if (room("told").textContent !== told) room("told").textContent = told;
+    if (told && this.drag.size) this.chip(told);
   }
 
   /** @param {{key: string, text: string, line: number}[]} refusals */
@@ -254,12 +312,35 @@ class StudioPage {
     add("×", () => {}).setAttribute("aria-label", this.words.dismiss);
   }
 
+  /**
+   * Draw what does not follow a number by itself while that is held.
+   * @param {Answer} answer
+   */
+  drawHeld(answer) {
+    const columns = columnsOf(answer.data);
+    const before = room("film").querySelector("svg");
+    if (before && !this.sketch && this.ahead.held?.ready.ahead.stays) {
+      const view = before.getAttribute("viewBox") ?? "";
+      before.outerHTML = answer.film;
+      const svg = /** @type {SVGSVGElement} */ (room("film").querySelector("svg"));
+      // what is seen stands still under the pointer
+      svg.setAttribute("viewBox", view);
+      this.bound("machine", (cursor) => (this.film = new Film(svg, answer.data.film, cursor)));
+      if (/** @type {HTMLInputElement | null} */ (document.getElementById("traces"))?.checked) this.film?.trace();
+    }
+    for (const one of /** @type {NodeListOf<HTMLElement>} */ (room("diagrams").querySelectorAll(".figures > figure"))) {
+      const name = one.dataset.name ?? "";
+      if (answer.figures[name]) this.figure(one, name, answer, columns);
+    }
+  }
+
   /** @param {Answer} answer */
   draw(answer) {
+    this.ahead.release();
     this.seen = answer;
     const { data } = answer;
-    const columns = Object.fromEntries(Object.entries(data.columns).map(([key, one]) => [key, unpacked(/** @type {any} */ (one))]));
-    const axis = (columns[data.axis] = unpacked(data.rows));
+    const columns = columnsOf(data);
+    const axis = columns[data.axis];
     this.headed();
     this.follow(axis, data);
     if (!this.sketch) this.machine(answer.film, data.film);
@@ -276,9 +357,7 @@ class StudioPage {
   follow(axis, data) {
     const { cursor } = this;
     const same = cursor && cursor.rows.length === axis.values.length && cursor.rows.every((one, k) => one === axis.values[k]);
-    if (cursor && same) {
-      cursor.followers.length = this.kept;
-    } else {
+    if (!cursor || !same) {
       const was = cursor?.at;
       const runs = cursor?.runs;
       cursor?.stop();
@@ -286,7 +365,7 @@ class StudioPage {
       own.innerHTML = this.barText;
       this.cursor = new Cursor(axis.values);
       this.motion = bar(this.cursor, axis, data.film?.seconds ?? 4, data.film?.turns ?? true);
-      this.kept = this.cursor.followers.length;
+      this.followers.clear();
       if (was !== undefined) this.cursor.move(was);
       if (data.film && (runs ?? true)) this.run();
     }
@@ -314,7 +393,10 @@ class StudioPage {
     const details = own.querySelector("details");
     if (details && open) details.open = true;
     const svg = own.querySelector("svg");
-    this.film = svg && data && this.cursor ? new Film(svg, data, this.cursor) : undefined;
+    this.film = undefined;
+    this.bound("machine", (cursor) => {
+      this.film = svg && data ? new Film(svg, data, cursor) : undefined;
+    });
     if (this.film && this.motion) choose(this.film, this.motion);
   }
 
@@ -329,6 +411,7 @@ class StudioPage {
     /** @type {Map<string, Element>} */
     const there = new Map([...own.children].map((one) => [/** @type {HTMLElement} */ (one).dataset.name ?? "", one]));
     own.replaceChildren(...names.map((name) => there.get(name) ?? this.frame(name, answer.names[name])));
+    for (const gone of there.keys()) if (!names.includes(gone)) this.bound(gone, () => {});
     for (const [k, name] of names.entries()) this.figure(/** @type {HTMLElement} */ (own.children[k]), name, answer, columns);
     const add = /** @type {HTMLSelectElement} */ (room("add"));
     const others = Object.entries(answer.names).filter(([name]) => !names.includes(name));
@@ -363,6 +446,7 @@ class StudioPage {
    * @param {string} name
    * @param {Answer} answer
    * @param {Record<string, import("./numbers.js").Column>} columns
+   * @returns {FollowingFigure | undefined}
    */
   figure(frame, name, answer, columns) {
     const drawn = /** @type {HTMLElement} */ (frame.querySelector("div"));
@@ -372,13 +456,16 @@ class StudioPage {
     const focused = before === document.activeElement;
     drawn.innerHTML = answer.figures[name];
     const svg = drawn.querySelector("svg");
-    if (!svg || !this.cursor) return;
+    if (!svg || !this.cursor) return undefined;
     for (const [k, one] of this.pins.entries()) haunt(svg, one, answer.data.figures[name], k + 1);
-    new Figure(svg, answer.data.figures[name], columns, answer.data.axis, this.cursor);
+    /** @type {FollowingFigure | undefined} */
+    let made;
+    this.bound(name, (cursor) => (made = new FollowingFigure(svg, answer.data.figures[name], columns, answer.data.axis, cursor)));
     if (view) svg.setAttribute("viewBox", view);
     svg.classList.toggle("near", Boolean(view));
     for (const one of svg.querySelectorAll("[aria-pressed]")) if (off.includes(one.textContent)) one.dispatchEvent(new Event("click"));
     if (focused) svg.focus();
+    return made;
   }
 
   /** @param {Answer} answer */
@@ -569,6 +656,12 @@ class StudioPage {
       this.tab(next);
       room(`${next}-tab`).focus();
     });
+    for (const kind of ["pointerover", "pointerdown", "focusin"]) {
+      room("form").addEventListener(kind, (event) => {
+        const { slides } = /** @type {HTMLElement} */ (event.target).dataset;
+        if (slides) this.ahead.prepare(slides);
+      });
+    }
     this.bindChoices();
     document.addEventListener("keydown", (event) => {
       if (!(event.ctrlKey || event.metaKey) || event.altKey) return;

@@ -10,11 +10,13 @@ export class Talk {
   /**
    * @param {() => string} text what stands in the file when a question goes out
    * @param {(answer: Answer, question: Question | undefined) => void} heard
-   * @param {(open: boolean) => void} state
+   * @param {string} name of what it says of itself at the page: whether something is under way
+   * @param {(open: boolean) => void} [state]
    */
-  constructor(text, heard, state) {
+  constructor(text, heard, name, state) {
     this.text = text;
     this.heard = heard;
+    this.name = name;
     this.state = state;
     this.number = 0;
     /** @type {Question | undefined} */
@@ -27,10 +29,10 @@ export class Talk {
   open() {
     const { protocol, host, search } = location;
     this.socket = new WebSocket(`${protocol === "https:" ? "wss" : "ws"}://${host}/talk${search}`);
-    this.socket.addEventListener("open", () => this.state(true));
+    this.socket.addEventListener("open", () => this.state?.(true));
     this.socket.addEventListener("message", (event) => this.answered(JSON.parse(event.data)));
     this.socket.addEventListener("close", () => {
-      this.state(false);
+      this.state?.(false);
       if (this.asked) this.waiting.unshift(this.asked);
       this.asked = undefined;
       setTimeout(() => this.open(), 1000);
@@ -44,14 +46,14 @@ export class Talk {
   ask(question) {
     const last = this.waiting[this.waiting.length - 1];
     if (question.do === "set" && last?.do === "set") this.waiting.pop();
-    if (question.do === "show") this.waiting = this.waiting.filter((one) => one.do !== "show");
+    if (question.do === "show" || question.do === "ahead") this.waiting = this.waiting.filter((one) => one.do !== question.do);
     const fields = question.do === "set" && last?.do === "set" ? { ...last.fields, ...question.fields } : question.fields;
     this.waiting.push({ ...question, fields });
     this.next();
   }
 
   next() {
-    document.body.dataset.waits = String(Boolean(this.asked || this.waiting.length));
+    document.body.dataset[this.name] = String(Boolean(this.asked || this.waiting.length));
     if (this.asked || this.socket?.readyState !== WebSocket.OPEN) return;
     this.asked = this.waiting.shift();
     if (!this.asked) return;

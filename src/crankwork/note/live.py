@@ -90,12 +90,25 @@ def unpacked(column: Mapping[str, Any]) -> Array:
 
 @in_own_units
 def page_data(
-    results: Results, drawn: Mapping[str, Drawing], film: MovingDrawing | None, language: Language
+    results: Results,
+    drawn: Mapping[str, Drawing],
+    film: MovingDrawing | None,
+    language: Language,
+    *,
+    only_read: bool = False,
 ) -> dict[str, Any]:
-    """Return what a page keeps of results: columns at the rows of the tables, graphs of figures, the film."""
+    """Return what a page keeps of results: columns at the rows of the tables, graphs of figures, the film.
+
+    `only_read`: of the columns those that are read at the cursor of a figure.
+    """
     columns = without_rounding(results.columns, results.machine.speed)
     axis = "time" if results.period else "crank_angle"
-    known = {key: displayed_column(key, one) for key, one in columns.items() if key != "crank_angle"}
+    read = {curve for one in drawn.values() for plot in one.plots for curve in plot.curves} | {"time"}
+    known = {
+        key: displayed_column(key, one)
+        for key, one in columns.items()
+        if key != "crank_angle" and (key in read or not only_read)
+    }
     rows = known.pop("time") if results.period else results.grid.degrees
     return {
         "axis": axis,

@@ -35,7 +35,7 @@ def page(results: Results, language: Language = "en", place: Place | None = None
     `place` says where a value stands that comes from a path of its file; `moved`: what its reader may move.
     """
     live = None if moved is None else Live(moved, language=language)
-    drawn = drawings(results, language=language)
+    drawn = drawings(results, language=language) if live is None else live.drawn
     film = film_of(results, language=language, forces=True)
     data = page_data(results, drawn, film, language)
     for name, one in drawn.items():
@@ -48,11 +48,7 @@ def page(results: Results, language: Language = "en", place: Place | None = None
     marks, steps, is_filed = dict[str, list[str]](), "", False
     if live is not None:
         memories.follow(live)
-        marks = {name: _followed(live, name, data["figures"][name]) for name in drawn}
-        is_filed, joints = live.machine()
-        is_filed = is_filed and joints is None
-        data["sliders"], steps = _sliders_data(results, live, data)
-        data["sliders"] |= {} if joints is None else {"joints": joints}
+        marks, steps, is_filed = follow(live, results, data)
     title = html.escape(results.machine.title or "crankwork")
     parts = [
         f'<!DOCTYPE html>\n<html lang="{language}"><head><meta charset="utf-8">',
@@ -87,13 +83,21 @@ def _followed(live: Live, name: str, data: dict[str, Any]) -> list[str]:
     return marks if plots else []
 
 
-def _sliders_data(results: Results, live: Live, data: dict[str, Any]) -> tuple[dict[str, Any], str]:
-    """Return what the sliders of a page work with, and the steps of the calculation."""
+def follow(live: Live, results: Results, data: dict[str, Any]) -> tuple[dict[str, list[str]], str, bool]:
+    """Say in the data of a page what follows its sliders, and by what.
+
+    Return what becomes of the items of each figure, the steps of the calculation, whether the machine stays behind.
+    """
+    marks = {name: _followed(live, name, one) for name, one in data["figures"].items()}
+    moves, joints = live.machine()
     columns = {key: scale(key)[0] for key in data["columns"] if live.follows(key)}
     values = {key: scale(key) for key in results.summary if live.follows(key)}
-    filed = [key for key in data["columns"] if key not in columns and live.differs(key)]
+    filed = [key for key in (*data["columns"], *results.summary) if live.differs(key) and not live.follows(key)]
     found, steps = live.data()
-    return {**found, "columns": columns, "values": values, "filed": filed}, steps
+    data["sliders"] = {**found, "columns": columns, "values": values, "filed": filed}
+    if joints is not None:
+        data["sliders"]["joints"] = joints
+    return marks, steps, moves and joints is None
 
 
 def _sliders(live: Live, moved: Moved, language: Language) -> list[str]:

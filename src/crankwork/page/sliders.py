@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from crankwork.analysis import Array, Results
 from crankwork.errors import CrankworkError
-from crankwork.formula.known import Delayed, Given, Known, in_order
+from crankwork.formula.known import Delayed, Found, Given, Known, in_order
 from crankwork.kernel.compiled import CONVERGED, Kernel
 from crankwork.kernel.script import Script
 from crankwork.kernel.trace import Designs, Trace
-from crankwork.locale import Refusal
+from crankwork.locale import Language, Refusal
 from crankwork.page.joints import joints_of
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.report.drawing import film_of
@@ -31,6 +31,8 @@ _SAME_PLACE = 1e-6
 _LOOKED = 7.0
 # millimetres that nobody sees
 _UNSEEN = 1e-3
+# of parts that move, in millimetres and degrees
+_UNSEEN_MOVE = 0.05
 # rows that are calculated for the tables at most
 _MOST_ROWS = 1000
 # of an item: hidden, or faint, where sliders have moved
@@ -70,7 +72,8 @@ class Moved(NamedTuple):
 class Live:
     """What of a page follows its sliders."""
 
-    def __init__(self, moved: Moved, **drawn: Any) -> None:  # noqa: ANN401 - what drawings take
+    def __init__(self, moved: Moved, language: Language, only: Collection[str] | None = None) -> None:
+        """`only`: the names of the figures that are seen, of which none is drawn beside them."""
         self._moved, self._results = moved, moved.results
         self.memories = [dict(one.memory) for one in self._results]
         stated = self._results[0]
@@ -82,8 +85,9 @@ class Live:
         self._singles = [key for key in keys if not self.memories[0][key].varies]
         if not keys:
             raise CrankworkError(Refusal("slider_nothing", keys=[one.key for one in moved.sliders]))
-        self._drawings = [drawings(one, **drawn) for one in self._results]
-        self._films = [film_of(one, forces=True, **drawn) for one in self._results]
+        self._drawings = [drawings(one, language=language, only=only) for one in self._results]
+        self.drawn = self._drawings[0]
+        self._films = [film_of(one, language=language, forces=True) for one in self._results]
         self._replayed: dict[tuple[int, bytes], Array] = {}
         self._used: dict[str, None] = {}
 
@@ -135,11 +139,15 @@ class Live:
         every = [one.get(name) for one in self._drawings]
         drawn = every[0]
         assert drawn is not None  # noqa: S101 - the page has it
-        others = [one for one in every if one is not None]
-        plots = [self._plot(at, others) for at in range(len(drawn.plots))] if len(others) == len(every) else []
-        signs = [Counter(map(_signed, one.items)) for one in others[1:]]
-        is_same = [all(one[_signed(item)] > 0 for one in signs) for item in drawn.items]
-        differs = len(others) < len(every) or not all(is_same)
+        there = [one for one in every if one is not None]
+        plots = [self._plot(at, there) for at in range(len(drawn.plots))] if len(there) == len(every) else []
+        signs = [Counter(map(_signed, one.items)) for one in there[1:]]
+        staying = _staying(there)
+        is_same = [
+            (isinstance(item, Polyline) and item.name in staying) or all(one[_signed(item)] > 0 for one in signs)
+            for item in drawn.items
+        ]
+        differs = len(there) < len(every) or not all(is_same)
         live = {curve for one in plots for curve in one["curves"]}
         marks = [""] * len(drawn.items)
         for at, item in enumerate(drawn.items):
@@ -207,7 +215,7 @@ class Live:
         wanted = np.concatenate(values)
         seen = np.isfinite(wanted)
         wanted = wanted[seen]
-        if not wanted.any():
+        if not (self._columns and wanted.any()):
             return []
         every = np.concatenate([self._replay(at, one) for at, one in enumerate(degrees)], axis=1)[:, seen]
         with np.errstate(all="ignore"):
@@ -231,7 +239,7 @@ class Live:
     def machine(self) -> tuple[bool, dict[str, Any] | None]:
         """Return whether the machine moves otherwise in other designs, and how its joints follow if they do."""
         films = [one for one in self._films if one is not None]
-        if all(_film(one) == _film(films[0]) for one in films[1:]):
+        if all(_is_same_film(films[0], one) for one in films[1:]) and len(films) in (0, len(self._films)):
             return False, None
         joints = joints_of(films, self._results)
         keys = [key for pair in (joints or {"joints": {}})["joints"].values() for key in pair]
@@ -279,7 +287,10 @@ class Live:
             expected = np.array([one.value for one in known])
             # a place where a column is flat is known to the root of its digits
             is_place = "angle" in known[0].key or "time_ratio" in known[0].key
-            size = max(float(np.max(np.abs(expected))), _SAME)
+            # the mean of a column may be no more than its rounding
+            of = known[0].node.operands if isinstance(known[0].node, Found) else ()
+            columns = [self._results[0].columns.get(one.key, 0.0) for one in of]
+            size = max(float(np.max(np.abs(one))) for one in (expected, *columns, _SAME))
             if not np.all(np.abs(values - expected)[whole] <= (_SAME_PLACE if is_place else _SAME) * size):
                 raise CrankworkError(Refusal("slider_nothing", keys=[one.key for one in self._moved.sliders]))
 
@@ -290,11 +301,37 @@ def scale(key: str) -> list[float]:
     return [displayed(key, 1.0) - origin, origin]
 
 
-def _film(film: MovingDrawing | None) -> Mapping[str, Any] | None:
-    if film is None:
-        return None
-    parts = [one for one in film.parts if not one.name.startswith("force.")]
-    return {one.name: (np.rint(one.track / 0.05).tobytes(), tuple(map(_signed, one.items))) for one in parts}
+def _is_same_film(film: MovingDrawing, other: MovingDrawing) -> bool:
+    """Return whether nobody sees a difference between two films, arrows of forces apart."""
+    own, others = ({one.name: one for one in each.parts if not one.name.startswith("force.")} for each in (film, other))
+    return own.keys() == others.keys() and all(
+        one.track.shape == others[name].track.shape
+        and bool(np.all(np.abs(one.track - others[name].track) < _UNSEEN_MOVE))
+        and list(map(_signed, one.items)) == list(map(_signed, others[name].items))
+        for name, one in own.items()
+    )
+
+
+def _staying(drawn: Sequence[Drawing]) -> set[str]:
+    """Return the names of curves that are the same in every design but for rounding, which thins them otherwise."""
+    found, moving = set[str](), set[str]()
+    for plots in zip(*(one.plots for one in drawn), strict=False):
+        for name, curve in plots[0].curves.items():
+            others = [one.curves.get(name, ()) for one in plots[1:]]
+            is_same = all(len(one) == 2 and _are_near(curve, one) for one in others)
+            (found if is_same else moving).add(name)
+    return found - moving
+
+
+def _are_near(one: Sequence[Array], other: Sequence[Array]) -> bool:
+    """Return whether two curves are the same line; an extreme may add a point to either."""
+    (x, y), (across, up) = map(np.asarray, one), map(np.asarray, other)
+    if x.shape != across.shape:
+        if not (np.all(np.diff(x) >= 0) and np.all(np.diff(across) >= 0)):
+            return False
+        across, up = x, np.interp(x, across, up)
+    near = [_SAME_PLACE * np.max(np.abs(of[np.isfinite(of)]), initial=0.0) for of in (x, y)]
+    return np.allclose(x, across, rtol=0, atol=near[0]) and np.allclose(y, up, rtol=0, atol=near[1], equal_nan=True)
 
 
 def _signed(item: Item) -> tuple[Any, ...]:

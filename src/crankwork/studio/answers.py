@@ -37,6 +37,7 @@ from crankwork.show.alt import described
 from crankwork.show.formats import FORMATS
 from crankwork.show.inline import inline_film, inline_svg
 from crankwork.studio.additions import additions, with_addition
+from crankwork.studio.ahead import ahead
 from crankwork.studio.form import form, stated_text
 from crankwork.studio.handles import handles
 from crankwork.studio.pmks import from_pmks, is_pmks
@@ -60,12 +61,14 @@ class Studio:
         self._name, self._folder, self._reads = name, folder, reads
         self._text: str | None = None
         self._results: Results | None = None
+        self._read: tuple[str, Description] | None = None
 
     def answer(self, asked: Mapping[str, Any]) -> dict[str, Any]:
         """Return what is answered to what a page asks for."""
         asks: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
             "show": self._show, "set": self._set, "without": self._without, "template": self._template,
             "shared": self._shared, "sketch": self._sketch, "explain": self._explain, "add": self._add,
+            "ahead": self._ahead,
         }  # fmt: skip
         try:
             return asks[asked["do"]](asked)
@@ -74,7 +77,7 @@ class Studio:
 
     def export(self, text: str, name: str, *, reads: bool = False) -> bytes:
         """Return the machine of a text as a file: its name says as what."""
-        self._check_files(self._described(text), reads=reads)
+        self._reads = self._reads or reads
         return _written(self._computed(text), name, self.language)
 
     def _check_files(self, description: Description, *, reads: bool) -> None:
@@ -84,7 +87,7 @@ class Studio:
     def tried(self, asked: Mapping[str, Any], told: Callable[[float], None]) -> dict[str, Any]:
         """Return what is found over ranges of numbers, or of designs drawn from them."""
         try:
-            description = self._described(asked["text"])
+            description = self._fresh(asked["text"])
             self._check_files(description, reads=bool(asked.get("reads")))
             return tried(description, asked, self.language, told)
         except CrankworkError as error:
@@ -98,16 +101,20 @@ class Studio:
         except CrankworkError as error:
             return {"refusals": self._told(error)}
         self._reads = self._reads or bool(asked.get("reads"))
-        groups = form(description, self.language)
-        found: dict[str, Any] = {"form": groups, "handles": handles(description.values, groups), "refusals": []}
+        found: dict[str, Any] = {"refusals": []}
+        if not asked.get("held"):
+            groups = form(description, self.language)
+            found |= {"form": groups, "handles": handles(description.values, groups)}
         if not self._reads and (named := _files(description)):
             return {**found, "named": named}
         try:
             results = self._computed(text)
         except CrankworkError as error:
             return {**found, "additions": self._additions(description, None), "refusals": self._told(error)}
-        found["additions"] = self._additions(description, results)
         with shown_in(results.machine.units):
+            if asked.get("held"):
+                return found | self._drawn(results, asked.get("figures") or (), held=True)
+            found["additions"] = self._additions(description, results)
             return {**found, **self._seen(results, asked.get("figures"))}
 
     def _additions(self, description: Description, results: Results | None) -> list[tuple[str, str]]:
@@ -115,7 +122,7 @@ class Studio:
 
     def _set(self, asked: Mapping[str, Any]) -> dict[str, Any]:
         """State what was typed into fields, and show what comes of it."""
-        description = self._described(asked["text"])
+        description = self._fresh(asked["text"])
         for key, one in asked["fields"].items():
             description[key] = stated_text(description, key, one, self.language)
         text = description.dump()
@@ -123,7 +130,7 @@ class Studio:
 
     def _without(self, asked: Mapping[str, Any]) -> dict[str, Any]:
         """Take a field out, and show what comes of it."""
-        description = self._described(asked["text"])
+        description = self._fresh(asked["text"])
         del description[asked["key"]]
         text = description.dump()
         return {"text": text, **self._show({**asked, "text": text})}
@@ -145,7 +152,7 @@ class Studio:
                 before = self._described(sketched(asked["before"], self.language)).values
             except CrankworkError:
                 before = {}
-            text = redrawn(self._described(asked["text"]), before, self._described(text).values)
+            text = redrawn(self._fresh(asked["text"]), before, self._described(text).values)
         return {"text": text, **self._show({**asked, "text": text})}
 
     def _add(self, asked: Mapping[str, Any]) -> dict[str, Any]:
@@ -179,6 +186,12 @@ class Studio:
             return {"memories": Memories(results, self.language, place, columns).of([key]), "key": key}
 
     def _described(self, text: str) -> Description:
+        """Return a text as it is read, which nobody changes; of the same text once."""
+        if self._read is None or text != self._read[0]:
+            self._read = text, self._fresh(text)
+        return self._read[1]
+
+    def _fresh(self, text: str) -> Description:
         if len(text.encode("utf-8", "replace")) > files.MAX_MACHINE_FILE:
             raise CrankworkError(Refusal("path_large_kb", path=self._name or "text", size=files.MAX_MACHINE_FILE >> 10))
         return Description(text, self._name or "text", folder=self._folder)
@@ -186,26 +199,47 @@ class Studio:
     def _computed(self, text: str) -> Results:
         """Return the results of a text, of the same text once."""
         if self._results is None or text != self._text:
-            self._results = analyse(self._described(text).machine())
+            description = self._described(text)
+            self._check_files(description, reads=False)
+            self._results = analyse(description.machine())
             self._text = text
         return self._results
+
+    def _ahead(self, asked: Mapping[str, Any]) -> dict[str, Any]:
+        """Return what calculates a page while a number is held, nothing where no browser can."""
+        text, names = asked["text"], asked.get("figures") or ()
+        self._reads = self._reads or bool(asked.get("reads"))
+        try:
+            results, description = self._computed(text), self._described(text)
+            found, steps = ahead(results, description, asked["key"], names, self.language)
+        except CrankworkError:
+            return {}
+        return {"ahead": found, "steps": steps}
+
+    def _drawn(self, results: Results, wanted: Collection[str], *, held: bool = False) -> dict[str, Any]:
+        """Return the machine, and the figures that are wanted; while a number is `held` no more than is seen."""
+        shown = drawings(results, language=self.language, only=set(wanted))
+        film = film_of(results, language=self.language, forces=not held)
+        data = page_data(results, shown, film, self.language, only_read=held)
+        for name, one in shown.items():
+            data["figures"][name]["told"] = described(one)
+        figures = {name: inline_svg(one, name, one.title) for name, one in shown.items()}
+        chosen = () if film is None or held else controls(film, self.language)
+        return {
+            "data": data, "figures": figures,
+            "film": "" if film is None else inline_film(film, "machine") + "".join(chosen),
+        }  # fmt: skip
 
     def _seen(self, results: Results, wanted: Collection[str] | None) -> dict[str, Any]:
         """Return what is seen of results: the machine, the figures that are wanted, single values."""
         language = self.language
         names = figure_names(results, language)
-        shown = drawings(results, language=language, only=_first(names) if wanted is None else set(wanted))
-        film = film_of(results, language=language, forces=True)
-        data = page_data(results, shown, film, language)
-        for name, one in shown.items():
-            data["figures"][name]["told"] = described(one)
-        data["tables"] = tables(results, data, language)
+        found = self._drawn(results, _first(names) if wanted is None else wanted)
+        found["data"]["tables"] = tables(results, found["data"], language)
         warning = warning_text(results, language)
         return {
-            "title": results.machine.title, "method": results_method(results, language), "data": data,
+            **found, "title": results.machine.title, "method": results_method(results, language),
             "names": {name: figure_title(name, language) for name in names},
-            "figures": {name: inline_svg(one, name, one.title) for name, one in shown.items()},
-            "film": "" if film is None else inline_film(film, "machine") + "".join(controls(film, language)),
             "values": "".join(values(results, results.memory, language)),
             "notices": [notice_text(one.code, one.values, language) for one in results.notices],
             "summary": dict(results.summary),

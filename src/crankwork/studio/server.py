@@ -41,6 +41,8 @@ _LONGEST = 1 << 20
 _COOKIE = "crankwork"
 # for how long after the last page has gone the server waits for one to come back [s]
 _LINGERS = 3.0
+# scripts of calculations that are kept at most
+_SCRIPTS = 64
 _POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
@@ -65,6 +67,8 @@ class Rooms:
         self.pages, self.left = 0, time.monotonic()
         # of the file as it was read or written here last
         self.seen = _digest(opening.text) if opening.path else ""
+        # what pages calculate with, by its digest; they fetch it at once
+        self.steps: dict[str, str] = {}
 
     def hosts(self) -> tuple[str, ...]:
         """Return what a browser of this machine calls the server."""
@@ -90,6 +94,12 @@ class Rooms:
         files.write_files({path: text.encode()}, overwrite=True)
         self.seen = _digest(text)
         return {"saved": str(path)}
+
+    def script(self, steps: str) -> str:
+        """Keep a script for the page that was told of it, and return its name."""
+        name = _digest(steps)[:32]
+        self.steps = dict([*self.steps.items(), (name, steps)][-_SCRIPTS:])
+        return name
 
     def changed(self) -> bool:
         """Return whether the file is not as it was read or written here last."""
@@ -157,6 +167,7 @@ def application(rooms: Rooms) -> ASGIApp:
     routes = [
         Route("/", partial(_shell, rooms)),
         Route("/studio.js", partial(_script, rooms)),
+        Route("/steps/{name}.js", partial(_steps, rooms)),
         Route("/studio.css", _styles),
         Route("/export", partial(_export, rooms), methods=["POST"]),
         Route("/trial", partial(_trial, rooms), methods=["POST"]),
@@ -190,6 +201,11 @@ async def _shell(rooms: Rooms, asked: Request) -> Response:
 
 async def _script(_: Rooms, __: Request) -> Response:
     return _sealed(script("studio"), "text/javascript")
+
+
+async def _steps(rooms: Rooms, asked: Request) -> Response:
+    steps = rooms.steps.get(asked.path_params["name"])
+    return PlainTextResponse("", HTTPStatus.NOT_FOUND) if steps is None else _sealed(steps, "text/javascript")
 
 
 async def _styles(_: Request) -> Response:
@@ -293,8 +309,9 @@ async def _send(socket_: WebSocket, answer: dict[str, Any]) -> None:
 
 _FIELDS: dict[str, dict[str, type]] = {
     "show": {"text": str}, "set": {"text": str, "fields": dict}, "without": {"text": str, "key": str},
-    "explain": {"text": str, "key": str}, "add": {"text": str, "key": str}, "template": {"name": str},
-    "shared": {"word": str}, "sketch": {"pins": list, "links": list}, "save": {"text": str}, "disk": {},
+    "explain": {"text": str, "key": str}, "add": {"text": str, "key": str}, "ahead": {"text": str, "key": str},
+    "template": {"name": str}, "shared": {"word": str}, "sketch": {"pins": list, "links": list},
+    "save": {"text": str}, "disk": {},
 }  # fmt: skip
 
 
@@ -327,7 +344,8 @@ def _answer(rooms: Rooms, studio: Studio, asked: dict[str, Any]) -> dict[str, An
                 return rooms.save(asked)
             case "disk":
                 return rooms.disk(take=bool(asked.get("take")))
-        return studio.answer(asked)
+        found = studio.answer(asked)
+        return {**found, "steps": rooms.script(found["steps"])} if "steps" in found else found
     except CrankworkError as error:
         return {"refusals": [{"text": told(error.args[0], studio.language), "key": "", "line": 0}]}
     except Exception:  # noqa: BLE001 - whatever fails in one calculation is told, and the page lives on

@@ -18,7 +18,7 @@ EXPORTS = ("note.pdf", "note.docx", "note.html", "page.html", "tables.xlsx", "sh
 
 def styles() -> str:
     """Return the style sheet of the studio."""
-    return look() + style("page", "studio")
+    return look() + style("page", "sliders", "studio")
 
 
 def shell(language: Language) -> str:

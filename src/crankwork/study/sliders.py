@@ -31,16 +31,22 @@ _WITHIN = 0.97
 _TOGETHER = 0.3
 
 
-def moved(description: Description, asked: Sequence[str], overrides: Sequence[str | Setting], stated: Results) -> Moved:
+def moved(
+    description: Description,
+    asked: Sequence[str],
+    overrides: Sequence[str | Setting],
+    stated: Results,
+    around: float = _AROUND,
+) -> Moved:
     """Return the sliders that options ask for, `crank.speed=1000..6000rpm`, with the results of designs between them.
 
-    A range that nobody states is half of the number either way, within its limits; one that leads to where there is no
-    machine ends before that.
+    A range that nobody states is a share `around` of the number either way, within its limits; one that leads to where
+    there is no machine ends before that.
     """
     if len(asked) > _MOST:
         raise CrankworkError(Refusal("slider_many", most=str(_MOST)))
     values = description.values_with(overrides)
-    ranges = [_range(values, one) for one in asked]
+    ranges = [_range(values, one, around) for one in asked]
     keys = [number.key for number, *_ in ranges]
     if len(set(keys)) < len(keys):
         raise CrankworkError(Refusal("slider_twice", key=next(key for key in keys if keys.count(key) > 1)))
@@ -62,7 +68,8 @@ def moved(description: Description, asked: Sequence[str], overrides: Sequence[st
             raise CrankworkError(Refusal("slider_fixed", key=number.key)) from stop
         sliders.append(Slider(number.key, float(now[at]), ends[0], ends[1], number.unit, stop))
     together = _TOGETHER
-    while together > 1e-3:
+    # of one slider the ends say it all
+    while len(sliders) > 1 and together > 1e-3:
         row = now + together * np.array([one.high - one.now or one.low - one.now for one in sliders])
         try:
             results = machines.results(row)
@@ -73,7 +80,7 @@ def moved(description: Description, asked: Sequence[str], overrides: Sequence[st
     return Moved(tuple(sliders), np.array(rows), tuple(found))
 
 
-def _range(values: dict[str, object], text: str) -> tuple[Sought, float, float]:
+def _range(values: dict[str, object], text: str, around: float) -> tuple[Sought, float, float]:
     """Return the number that an option names, and between what it goes. [SI]"""
     match = _ASKED.fullmatch(text)
     if match is None:
@@ -90,7 +97,7 @@ def _range(values: dict[str, object], text: str) -> tuple[Sought, float, float]:
     if sought.now is None:
         raise CrankworkError(Refusal("slider_unstated", key=key))
     if match["low"] is None:
-        reach = _AROUND * abs(sought.now) or _AROUND * min(sought.high, 1.0)
+        reach = around * abs(sought.now) or around * min(sought.high, 1.0)
         return sought, max(sought.low, sought.now - reach), min(sought.high, sought.now + reach)
     low, high = match["low"], match["high"]
     unit = _NUMBER.sub("", high, count=1)

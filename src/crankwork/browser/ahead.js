@@ -1,0 +1,143 @@
+// What the studio calculates by itself while a number is held: asked for before the first move, and drawn at each.
+import { FollowingFigure } from "./following.js";
+import { Joints } from "./joints.js";
+import { Lines } from "./lines.js";
+import { columnsOf } from "./numbers.js";
+import { Live } from "./sliders.js";
+
+/** @typedef {import("./calculation.js").Steps} Steps */
+/** @typedef {import("./talk.js").Answer} Answer */
+
+/**
+ * A number that may be held: what the file says beside it, what was answered, the steps of its calculation.
+ * @typedef {{beside: string, ahead: any, steps: Steps | undefined}} Ready
+ */
+
+/**
+ * What is bound while a number is held: the calculation, its curves, figures that follow, joints of the machine.
+ * @typedef {{live: Live, lines: Lines, figures: FollowingFigure[], joints: Joints | undefined, degrees: number}} Bound
+ */
+
+// numbers that are kept ready
+const MOST_READY = 6;
+// below it a mechanism transmits poorly [deg]
+const POOR = 40;
+
+export class Ahead {
+  /**
+   * @param {{beside: (key: string) => string, ask: (key: string, beside: string) => void,
+   *   bound: (name: string, bind: (cursor: import("./cursor.js").Cursor) => void) => void,
+   *   figure: (name: string, ahead: any, columns: Record<string, import("./numbers.js").Column>) => FollowingFigure | undefined,
+   *   film: () => import("./machine.js").Film | undefined, cursor: () => import("./cursor.js").Cursor | undefined}} page
+   */
+  constructor(page) {
+    this.page = page;
+    /** @type {Map<string, Ready>} */
+    this.ready = new Map();
+    /** The number that is held, and what is bound to it. @type {{ready: Ready, bound: Bound} | undefined} */
+    this.held = undefined;
+  }
+
+  /**
+   * Ask for what a number takes that may soon be moved.
+   * @param {string} key
+   */
+  prepare(key) {
+    const beside = this.page.beside(key);
+    if (!beside || this.ready.get(key)?.beside === beside) return;
+    this.ready.delete(key);
+    this.ready.set(key, { beside, ahead: undefined, steps: undefined });
+    for (const old of [...this.ready.keys()].slice(0, -MOST_READY)) this.ready.delete(old);
+    this.page.ask(key, beside);
+  }
+
+  /**
+   * Take what was asked for; its script comes from the server, since no text may become one here.
+   * @param {string} key
+   * @param {string} beside
+   * @param {Answer} answer
+   */
+  heard(key, beside, answer) {
+    const ready = this.ready.get(key);
+    if (ready?.beside !== beside || !answer.ahead) return;
+    const script = document.createElement("script");
+    script.src = `steps/${answer.steps}.js`;
+    script.addEventListener("load", () => {
+      script.remove();
+      Object.assign(ready, { ahead: answer.ahead, steps: /** @type {{steps?: Steps}} */ (globalThis).steps });
+    });
+    document.head.append(script);
+  }
+
+  /**
+   * Draw what follows a number; return what stays behind, nothing where it is not calculated here.
+   * @param {string} key
+   * @param {string} text the number as typed, with its unit
+   * @returns {{figures: string[], machine: boolean} | undefined}
+   */
+  move(key, text) {
+    const ready = this.ready.get(key);
+    const [, number, unit] = /^(\S+)\s*(.*)$/.exec(text) ?? [];
+    if (!ready?.steps || ready.beside !== this.page.beside(key) || unit !== ready.ahead.unit) {
+      this.prepare(key);
+      return undefined;
+    }
+    if (this.held?.ready !== ready) this.hold(ready);
+    const { data, behind, stays } = ready.ahead;
+    const { live, lines, figures, joints, degrees } = /** @type {{ready: Ready, bound: Bound}} */ (this.held).bound;
+    const [field] = data.sliders.fields;
+    if (!live.take([Number(number) * field.scale + field.origin])) return undefined;
+    for (const one of figures) {
+      if (live.moved) one.follow(lines);
+      else one.back();
+    }
+    const cursor = this.page.cursor();
+    if (joints && cursor) joints.draw(cursor.at * degrees);
+    return { figures: behind, machine: stays };
+  }
+
+  /**
+   * Let figures, values and the machine follow a number.
+   * @param {Ready} ready
+   */
+  hold(ready) {
+    const { data, figures, behind } = ready.ahead;
+    const { sliders } = data;
+    for (const one of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("#results [data-key]"))) {
+      const key = one.dataset.key ?? "";
+      if (sliders.values[key]) one.dataset.value = key;
+      one.closest("tr")?.classList.toggle("filed", sliders.filed.includes(key));
+    }
+    const columns = columnsOf(data);
+    const film = this.page.film();
+    const degrees = film?.data.degrees ?? 1;
+    const live = new Live(sliders, /** @type {Steps} */ (ready.steps), columns);
+    const drawn = Object.keys(figures).filter((name) => !behind.includes(name)).flatMap((name) => this.page.figure(name, ready.ahead, columns) ?? []);
+    const joints = film && sliders.joints ? new Joints(film, live, sliders.joints) : undefined;
+    this.page.bound("joints", (cursor) => joints && cursor.follow(() => joints.draw(cursor.at * degrees)));
+    this.held = { ready, bound: { live, lines: new Lines(live.calculation, degrees), figures: drawn.filter((one) => one.follows), joints, degrees } };
+  }
+
+  /**
+   * Return the joint whose transmission angle becomes the worst, if it becomes poor. [deg]
+   * @returns {{joint: string, angle: number} | undefined}
+   */
+  least() {
+    if (!this.held) return undefined;
+    const { calculation, data } = this.held.bound.live;
+    const found = Object.entries(data.values).flatMap(([key, [factor, added]]) => {
+      const joint = /^transmission_angle_(?:min|max)\.(.+)$/.exec(key)?.[1];
+      const angle = calculation.values[data.calculation.values[key]] * factor + added;
+      return joint ? [{ joint, angle: Math.min(angle, 180 - angle) }] : [];
+    });
+    return found.filter(({ angle }) => angle < POOR).sort((one, other) => one.angle - other.angle)[0];
+  }
+
+  /** Leave what is drawn to what the server has answered. */
+  release() {
+    if (!this.held) return;
+    this.held = undefined;
+    this.page.bound("joints", () => {});
+    document.documentElement.classList.remove("moved");
+  }
+}

@@ -1,0 +1,42 @@
+"""What a page calculates by itself while a number is held: made before the first move, so that nothing waits for it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import Any
+
+from crankwork.analysis import Results
+from crankwork.description.document import Description
+from crankwork.locale import Language
+from crankwork.note.live import page_data
+from crankwork.page.document import follow
+from crankwork.page.sliders import FAINT, Live
+from crankwork.report.language import in_own_units
+from crankwork.show.alt import described
+from crankwork.show.inline import inline_svg
+from crankwork.study.sliders import moved
+
+# of a number, how far from it the designs lie that tell what follows it
+_NEAR = 0.02
+
+
+@in_own_units
+def ahead(
+    results: Results, description: Description, key: str, names: Collection[str], language: Language
+) -> tuple[dict[str, Any], str]:
+    """Return what is drawn anew of figures when a number is moved, what stays behind, and the steps of the calculation.
+
+    `behind`: figures that cannot follow, or only in part; `stays`: whether the machine does.
+    """
+    made = moved(description, [key], (), results, _NEAR)
+    live = Live(made, language, names)
+    data = page_data(results, live.drawn, None, language, only_read=True)
+    marks, steps, stays = follow(live, results, data)
+    behind = [name for name, one in data["figures"].items() if one.pop("filed", False) or FAINT in marks[name]]
+    for name, one in live.drawn.items():
+        data["figures"][name]["told"] = described(one)
+    figures = {
+        name: inline_svg(one, name, one.title, marks[name]) for name, one in live.drawn.items() if name not in behind
+    }
+    found = {"unit": made.sliders[0].unit, "behind": behind, "stays": stays, "data": data, "figures": figures}
+    return found, steps
