@@ -37,7 +37,7 @@ def test_types_of_all_modules_agree(node) -> None:
 
 
 def test_names_at_the_top_of_modules_are_told_apart() -> None:
-    tops = re.compile(r"^(?:export )?(?:class|function|const|let) (\w+)", re.MULTILINE)
+    tops = re.compile(r"^(?:export )?(?:async )?(?:class|function\*?|const|let) (\w+)", re.MULTILINE)
     names = Counter(name for one in modules() for name in tops.findall(read_resource("browser", f"{one}.js")))
     assert [name for name, count in names.items() if count > 1] == []
 

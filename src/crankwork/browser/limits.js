@@ -19,7 +19,7 @@ const LOOSE = 0.02;
  * @param {number} frame
  * @returns {Line[]}
  */
-export function linesOf(film, handles, frame) {
+export function pairsOf(film, handles, frame) {
   const joints = new Set(handles.flatMap(({ from, to }) => [from, to]));
   const found = [...joints].flatMap((joint) => {
     const own = handles.filter(({ from, to }) => from === joint || to === joint);
@@ -56,7 +56,7 @@ export class Limits {
     this.layer = film.svg.appendChild(document.createElementNS("http://www.w3.org/2000/svg", "g"));
     this.layer.classList.add("limits");
     if (Math.hypot(held[0] - at[0], held[1] - at[1]) > LOOSE * film.svg.viewBox.baseVal.width) this.line([held, at], "leash");
-    const lines = linesOf(film, handles, frame);
+    const lines = pairsOf(film, handles, frame);
     const near = lines.filter(({ apart }) => apart < IN_LINE);
     for (const { other } of near) this.line(other, "ghost");
     const [first] = lines;
