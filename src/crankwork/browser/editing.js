@@ -1,8 +1,13 @@
 // One machine file, whoever changes it: its text, and one entry of its history for each gesture.
 
-/** An entry: what made it, its text, the file that it is saved to. @typedef {{name: string, text: string, path: string}} Entry */
+/**
+ * An entry: what made it, its text, the file that it is saved to; the field whose slider made it, and when.
+ * @typedef {{name: string, text: string, path: string, slid?: string, at?: number}} Entry
+ */
 
 const LONGEST = 200;
+// between steps of one slider that are one gesture [ms]
+const SOON = 3000;
 
 export class Editing {
   /** @param {(editing: Editing) => void} changed */
@@ -44,10 +49,14 @@ export class Editing {
   /**
    * End a gesture: what it has made is one entry.
    * @param {string} name
+   * @param {string} [slid] the field whose slider has made it
    */
-  commit(name) {
-    if (this.entries[this.at]?.text === this.text) return;
-    this.entries = [...this.entries.slice(0, this.at + 1), { name, text: this.text, path: this.path }].slice(-LONGEST);
+  commit(name, slid) {
+    const last = this.entries[this.at];
+    if (last?.text === this.text) return;
+    const goesOn = slid && last?.slid === slid && Date.now() - (last.at ?? 0) < SOON;
+    const before = this.entries.slice(0, this.at + (goesOn ? 0 : 1));
+    this.entries = [...before, { name, text: this.text, path: this.path, slid, at: Date.now() }].slice(-LONGEST);
     this.at = this.entries.length - 1;
     this.changed(this);
   }

@@ -10,7 +10,7 @@
 
 /**
  * What a form tells: a field as typed, whether its gesture has ended; a field that goes; fields that come.
- * @typedef {{typed: (key: string, value: string, ends: boolean) => void, gone: (key: string) => void,
+ * @typedef {{typed: (key: string, value: string, ends: boolean, slid?: boolean) => void, gone: (key: string) => void,
  *   added: (fields: Record<string, string>) => void, more: (addition: string, name: string) => void}} Tells
  */
 
@@ -153,7 +153,7 @@ export class Form {
     slider.addEventListener("change", () => {
       this.held = "";
       const field = this.field(row.key);
-      if (field) this.tells.typed(row.key, field.value, true);
+      if (field) this.tells.typed(row.key, field.value, true, true);
     });
     return slider;
   }

@@ -57,7 +57,7 @@ class StudioPage {
     this.editing = new Editing((editing) => this.edited(editing));
     this.editor = new Editor(room("source"), room("lines"), (text, ends) => this.typed(text, ends));
     this.form = new Form(room("form"), this.words, {
-      typed: (key, value, ends) => this.set(key, value, ends),
+      typed: (key, value, ends, slid) => this.set(key, value, ends, slid),
       gone: (key) => this.talk.ask({ do: "without", key, of: this.opened, figures: this.wanted, reads: this.reads, named: `− ${key}` }),
       added: (fields) => this.talk.ask({ do: "set", fields, of: this.opened, figures: this.wanted, reads: this.reads, named: `+ ${Object.keys(fields).join(", ")}` }),
       more: (key, name) => this.talk.ask({ do: "add", key, of: this.opened, figures: this.wanted, reads: this.reads, named: `+ ${name}` }),
@@ -184,12 +184,14 @@ class StudioPage {
    * @param {string} key
    * @param {string} value
    * @param {boolean} ends
+   * @param {boolean} [slid]
    */
-  set(key, value, ends) {
+  set(key, value, ends, slid) {
     const behind = ends ? undefined : this.ahead.move(key, value);
     if (behind && !behind.machine && !behind.figures.length) return;
     const figures = behind ? behind.figures : this.wanted;
-    this.talk.ask({ do: "set", fields: { [key]: value }, of: this.opened, figures, held: Boolean(behind), reads: this.reads, named: ends ? `${key} = ${value}` : "" });
+    const named = ends ? `${key} = ${value}` : "";
+    this.talk.ask({ do: "set", fields: { [key]: value }, of: this.opened, figures, held: Boolean(behind), reads: this.reads, named, slid: slid ? key : "" });
   }
 
   /**
@@ -244,7 +246,7 @@ class StudioPage {
     }
     if (answer.text !== undefined) this.editing.take(answer.text);
     if (question?.do === "sketch" && answer.data) this.drawing(false);
-    if (question?.named) this.editing.commit(String(question.named));
+    if (question?.named) this.editing.commit(String(question.named), String(question.slid ?? ""));
     if (answer.form) this.form.show(answer.form, answer.additions ?? []);
     if (answer.added?.length) this.form.field(answer.added[0])?.focus();
     this.refused(answer.refusals ?? []);

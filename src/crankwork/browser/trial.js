@@ -19,9 +19,9 @@ export class Trial {
     /** @type {AbortController | undefined} */
     this.running = undefined;
     this.form = room.appendChild(document.createElement("form"));
-    this.told = Object.assign(document.createElement("pre"), { className: "told" });
+    this.told = Object.assign(document.createElement("pre"), { className: "told", tabIndex: 0, hidden: true });
     this.found = document.createElement("div");
-    room.append(this.told, this.found);
+    room.append(this.found, this.told);
     room.addEventListener("toggle", () => this.build());
     this.form.addEventListener("submit", (event) => {
       event.preventDefault();
@@ -69,24 +69,30 @@ export class Trial {
     this.running = new AbortController();
     this.button.textContent = this.words.trial_stop;
     this.bar.hidden = false;
-    this.told.textContent = "";
+    this.say("");
     this.found.replaceChildren();
     try {
       const answer = await fetch(`trial${location.search}`, { method: "POST", body: JSON.stringify(asked), signal: this.running.signal });
       for await (const one of linesOf(answer)) this.heard(one);
     } catch (error) {
-      this.told.textContent = this.running.signal.aborted ? this.words.stopped : String(error);
+      this.say(this.running.signal.aborted ? this.words.stopped : String(error));
     }
     this.running = undefined;
     this.button.textContent = this.words.trial_run;
     this.bar.hidden = true;
   }
 
+  /** @param {string} text */
+  say(text) {
+    this.told.textContent = text;
+    this.told.hidden = !text;
+  }
+
   /** @param {{done?: number, found?: {text?: string, figures?: Record<string, [string, string]>, refusals?: {text: string}[]}}} one */
   heard({ done, found }) {
     if (this.bar && done !== undefined) this.bar.value = done;
     if (!found) return;
-    this.told.textContent = found.text ?? (found.refusals ?? []).map(({ text }) => text).join("\n");
+    this.say(found.text ?? (found.refusals ?? []).map(({ text }) => text).join("\n"));
     const figures = Object.values(found.figures ?? {}).map(([title, drawn]) => {
       const made = document.createElement("details");
       made.appendChild(document.createElement("summary")).textContent = title;

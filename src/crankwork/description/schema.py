@@ -41,10 +41,16 @@ class ListOf(NamedTuple):
     def _advice(self, key: str) -> Refusal:
         if isinstance(self.entry, Table):
             return Refusal("list_of_tables", key=key)
+        match self.entry:
+            case Quantity(dimensions=(first, *_)):
+                example = f'"{units.EXAMPLES[first]}"'
+            case Number():
+                example = self.entry.example()
+            case _:
+                example = '"a"'
         if self.from_file:
-            return Refusal("list_or_file")
-        example = units.EXAMPLES[self.entry.dimensions[0]] if isinstance(self.entry, Quantity) else "a"
-        return Refusal("list_like", example=f'["{example}"]')
+            return Refusal("list_or_file", example=", ".join([example] * self.fewest))
+        return Refusal("list_like", example=f"[{example}]")
 
     def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of an array."""
