@@ -158,6 +158,15 @@ def test_a_drawn_four_bar_has_its_torque_curve_after_masses_and_a_load():
     assert rows_of(found)["links.2.mass"]["value"] == "0.43 kg"
     assert rows_of(found)["links.2.inertia"]["value"] == "2.6 kg*cm2"
     assert found["summary"]["driving_torque_max"] > 0
+    offered = [key for key, _ in found["additions"]]
+    rubbing = studio.answer({"do": "add", "text": found["text"], "key": "friction:", "figures": []})
+    assert set(offered) - {key for key, _ in rubbing["additions"]} == {
+        "friction:",
+        "links:B",
+        "slider:B",
+        "links:A",
+        "slider:A",
+    }
 
 
 def test_text_that_is_no_toml_is_refused_at_its_line():

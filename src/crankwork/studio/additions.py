@@ -146,7 +146,8 @@ def _rubbing(values: Mapping[str, Any], size: float, unit: str) -> Iterator[tupl
 
 def _dyads(values: Mapping[str, Any], results: Results, point: str, unit: str) -> Iterator[Addition]:
     """Yield two links, and a link with a sliding piece, that follow a point wherever it goes."""
-    if f"point_x.{point}" not in results.columns:
+    # a pin of three links has another name for each two
+    if f"point_x.{point}" not in results.columns or point in values.get("friction", {}).get("pins", {}):
         return
     x, y = (np.asarray(results.column(f"point_{axis}.{point}")) for axis in "xy")
     middle = (float(x.min() + x.max()) / 2, float(y.min() + y.max()) / 2)
