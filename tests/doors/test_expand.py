@@ -53,7 +53,7 @@ def test_a_file_is_written_out_alone(crankwork, also):
 
 
 @pytest.mark.parametrize(
-    ("language", "told"), [("en", "how fast it turns"), ("ru", "как быстро"), ("vi", "quay nhanh")]
+    ("language", "told"), [("en", "speed of rotation"), ("ru", "частота вращения"), ("vi", "số vòng quay")]
 )
 def test_the_schema_says_what_keys_mean_in_every_language(crankwork, language, told):
     schema = json.loads(crankwork("schema", "--lang", language).out)
