@@ -351,6 +351,10 @@ def test_every_field_is_reached_by_keys(seen):
         "add",
     } <= reached
     assert {one for one in reached if one.startswith("field-")} >= {"field-crank.radius", "field-links.coupler.length"}
+    page.evaluate("document.activeElement.blur()")
+    for key, field_ in (("/", "crank.radius"), ("ArrowDown", "crank.speed"), ("ArrowUp", "crank.radius")):
+        page.keyboard.press(key)
+        assert page.evaluate("document.activeElement.id") == f"field-{field_}"
 
 
 def canvas(page):

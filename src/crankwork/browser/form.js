@@ -74,6 +74,22 @@ export class Form {
     return made;
   }
 
+  /** Go to the first number. */
+  begin() {
+    const first = /** @type {HTMLElement | null} */ (this.room.querySelector("[data-slides]"));
+    this.field(first?.dataset.slides ?? "")?.focus();
+  }
+
+  /**
+   * Go from a field to the next one, or back.
+   * @param {Element} field
+   * @param {number} by
+   */
+  step(field, by) {
+    const every = /** @type {HTMLElement[]} */ ([...this.room.querySelectorAll("[data-of]")]);
+    every[every.findIndex((one) => one === field) + by]?.focus();
+  }
+
   /** @param {string} key */
   field(key) {
     return /** @type {HTMLInputElement | HTMLSelectElement | null} */ (this.room.querySelector(`[data-of="${CSS.escape(key)}"]`));
@@ -123,6 +139,7 @@ export class Form {
     gone.title = "Ctrl+Delete";
     made.addEventListener("keydown", (event) => {
       if (event.key === "Delete" && event.ctrlKey) this.tells.gone(row.key);
+      else if (event.target === input && input instanceof HTMLInputElement && /^Arrow(Up|Down)$/.test(event.key)) this.step(input, event.key === "ArrowDown" ? 1 : -1);
       else if (event.key === "Escape" && input instanceof HTMLInputElement) input.value = this.stated.get(row.key) ?? input.value;
     });
     gone.setAttribute("aria-label", `${this.words.without} ${row.key}`);

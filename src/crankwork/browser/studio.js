@@ -666,6 +666,12 @@ class StudioPage {
     }
     this.bindChoices();
     document.addEventListener("keydown", (event) => {
+      const inField = /** @type {Element} */ (event.target).matches("textarea, input, select");
+      if (event.key === "/" && !inField) {
+        this.tab("form");
+        this.form.begin();
+        event.preventDefault();
+      }
       if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
       const key = event.key.toLowerCase();
       const typing = /** @type {HTMLElement} */ (event.target).matches("textarea, input:not([type=range])");

@@ -74,9 +74,9 @@ def _header(language: Language) -> list[str]:
 
 def _left(language: Language) -> list[str]:
     tabs = "".join(
-        f'<button role="tab" id="{name}-tab" aria-controls="{name}" aria-selected="{str(name == "form").lower()}">'
+        f'<button role="tab" id="{name}-tab" aria-controls="{name}" aria-selected="{chosen}">'
         f"{_said(name, language)}</button>"
-        for name in ("form", "text")
+        for name, chosen in (("form", 'true" aria-keyshortcuts="/" title="/'), ("text", "false"))
     )
     return [
         f'<section id="description" aria-label="{_said("description", language)}"><div role="tablist">{tabs}</div>',
