@@ -147,7 +147,7 @@ HEADINGS = {
         "Качественные показатели механизма", "Силовой расчёт механизма", "Уравновешивание механизма",
         "Приведение масс и сил", "Статический, динамический и суммарный движущий моменты",
         "Выбор двигателя", "Расчёт маховика", "Закон движения кривошипа", "Проверка результатов", "Заключение",
-        "Список литературы", "Приложение. Результаты расчёта за оборот кривошипа",
+        "Список литературы", "Приложение А. Результаты расчёта за оборот кривошипа",
     ],
     "vi": [
         "Nhiệm vụ và số liệu cho trước", "Phân tích cấu trúc cơ cấu", "Phân tích động học cơ cấu",
@@ -316,7 +316,7 @@ def test_instant_centres_are_worked_where_their_link_turns_and_left_out_where_no
     assert [row[0] for row in shown.rows if row[2:] == ("–", "–")] == ["0", "6", "12"]
     worked = {one.step.key: one.step.value for one in found.blocks if isinstance(one, Equation)}
     # on the normal of the ram's guide in D, and on the lever through C
-    at = whole.columns_at([30.0])
+    at = whole.columns_at([330.0])
     assert worked["instant_centre_x.link"] == pytest.approx(at["point_x.D"][0], rel=1e-12)
     slope = np.tan(at["link_angle.lever"][0])
     height = at["point_y.C"][0] + slope * (worked["instant_centre_x.link"] - at["point_x.C"][0])

@@ -75,8 +75,8 @@ def positions(machine: Machine) -> Array:
 def worked_position(results: Results) -> float:
     """Return the position at which a linkage is worked and its plans are drawn. [deg]
 
-    Where loads act, that of the largest torque; where a law drives, one where the driver moves, and gets faster or
-    slower if it ever does; else the first after the start.
+    Where loads act, that of the largest torque in which all links turn that turn at all; where a law drives, one where
+    the driver moves, and gets faster or slower if it ever does; else the first after the start.
     """
     machine = results.machine
     angles = positions(machine)
@@ -88,7 +88,11 @@ def worked_position(results: Results) -> float:
         columns = results.columns_at(angles)
         # in a change point forces may not be determined
         known = np.all([np.isfinite(one) for key, one in columns.items() if not key.startswith(_IN_PLACES)], axis=0)
-        return float(angles[np.argmax(np.where(known, np.abs(columns["static_torque"]), -1.0))])
+        turning = [np.abs(one) for key, one in columns.items() if key.startswith("link_angular_velocity.")]
+        # half of the lines of a link that stands are of noughts
+        stands = np.any([one < 1e-3 * np.max(one) for one in turning], axis=0)
+        worth = np.where(known, np.abs(columns["static_torque"]), -1.0)
+        return float(angles[np.argmax(np.where(stands, worth - worth.max(), worth))])
     return float(angles[np.argmin(np.abs(angles - POSITION_STEP))])
 
 
