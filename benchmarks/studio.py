@@ -110,8 +110,8 @@ MOVED_OFTEN = """async ([key, count]) => {
 
 
 @contextmanager
-def studio(folder: Path, name: str) -> Generator[str]:
-    """Start the studio with a template or an example; its address with the token."""
+def studio(folder: Path, name: str) -> Generator[tuple[str, int]]:
+    """Start the studio with a template or an example; its address with the token, its process."""
     path = EXAMPLES / f"{name}.toml"
     if not path.exists():
         path = folder / path.name
@@ -120,7 +120,7 @@ def studio(folder: Path, name: str) -> Generator[str]:
     with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as running:  # noqa: S603
         try:
             assert running.stdout is not None  # noqa: S101 - it is a pipe
-            yield running.stdout.readline().strip()
+            yield running.stdout.readline().strip(), running.pid
         finally:
             running.kill()
 
@@ -147,20 +147,42 @@ def prepared(page: Page, key: str) -> None:
     page.wait_for_timeout(300)
 
 
-def latency(page: Page, name: str, keys: tuple[str, ...]) -> None:
+class Processor:
+    """Processor time of pages and of a server, which other work on the machine does not lengthen. [ms]"""
+
+    def __init__(self, browser: Browser, server: int) -> None:
+        self._talk, self._server = browser.new_browser_cdp_session(), server
+        self._before = self._now()
+
+    def _now(self) -> tuple[float, float]:
+        listed = self._talk.send("SystemInfo.getProcessInfo")["processInfo"]
+        ticks = Path(f"/proc/{self._server}/stat").read_text("utf-8").rpartition(")")[2].split()[11:13]
+        pages = sum(one["cpuTime"] for one in listed if one["type"] == "renderer")
+        return 1e3 * pages, 1e3 * sum(map(int, ticks)) / os.sysconf("SC_CLK_TCK")
+
+    def each(self, count: int) -> str:
+        """Say how much each of some moves took since this was asked last."""
+        before, self._before = self._before, self._now()
+        page, server = ((now - was) / count for was, now in zip(before, self._before, strict=True))
+        return f"processor {page:5.1f} ms in the page, {server:5.1f} ms in the server"
+
+
+def latency(page: Page, name: str, keys: tuple[str, ...], processor: Processor) -> None:
     """Print how long it is from a slider to the diagrams."""
     for key in keys:
         prepared(page, key)
+        processor.each(1)
         first, most, whole, at_most = page.evaluate(TIMED, [key, MOVES])
-        print(f"{name:20} {key:22} in the browser {first:6.1f}/{most:6.1f} ms, all {whole:6.1f}/{at_most:6.1f} ms")
+        taken = processor.each(MOVES)
+        print(f"{name:18} {key:21} followed {first:5.1f}/{most:5.1f} ms, all {whole:5.1f}/{at_most:5.1f} ms; {taken}")
 
 
-def frames(label: str, found: list[float]) -> None:
+def frames(label: str, found: list[float], taken: str) -> None:
     """Print how long frames were."""
     listed = sorted(found[20:])
     within = sum(one < 20 for one in listed) / len(listed)
     rate = 1000 * len(listed) / sum(listed)
-    print(f"{label:20} {rate:5.1f} frames a second, {100 * within:.1f} % under 20 ms, longest {listed[-1]:.1f} ms")
+    print(f"{label:18} {rate:5.1f} a second, {100 * within:.1f} % under 20 ms, longest {listed[-1]:.1f} ms; {taken}")
 
 
 def steadiness(page: Page, key: str) -> None:
@@ -186,17 +208,21 @@ def main(only: str) -> None:
         for name, keys in MOVED.items():
             if not re.search(only, name):
                 continue
-            with studio(Path(folder), name) as address:
-                page = opened(browser, address)
-                latency(page, name, keys)
+            with studio(Path(folder), name) as (address, server):
+                page, processor = opened(browser, address), Processor(browser, server)
+                latency(page, name, keys, processor)
                 if name == "stephenson-six-bar":
                     empty = browser.new_page()
                     empty.set_content(CIRCLE)
                     for _ in range(3):
-                        empty.bring_to_front()
-                        frames("empty page", empty.evaluate(TURNED, FRAMES))
-                        page.bring_to_front()
-                        frames("drag of a six-bar", page.evaluate(DRAGGED, ["joint.A", FRAMES]))
+                        for label, one, script_, arguments in (
+                            ("empty page", empty, TURNED, FRAMES),
+                            ("drag of a six-bar", page, DRAGGED, ["joint.A", FRAMES]),
+                        ):
+                            one.bring_to_front()
+                            processor.each(1)
+                            found = one.evaluate(script_, arguments)
+                            frames(label, found, processor.each(FRAMES))
                     steadiness(page, keys[0])
                 page.close()
         browser.close()
