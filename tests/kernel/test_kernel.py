@@ -2,6 +2,8 @@
 
 import itertools
 import math
+import runpy
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,57 +16,15 @@ from crankwork.kernel.compiled import Kernel
 from crankwork.kernel.derivative import PARTIALS, ByAngle
 from crankwork.kernel.graph import COMPUTE, Graph, number
 from crankwork.kernel.graph import in_order as values_in_order
+from crankwork.kernel.sums import shared
 from crankwork.kernel.trace import Designs, NotCompiledError, Trace
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.study.sought import sought_number
 
-ENGINE = """
-[crank]
-radius = "50 mm"
-speed = "2600 rpm"
-[rod]
-length = "190 mm"
-mass = "1.2 kg"
-small_end_share = 0.3
-[piston]
-mass = "0.8 kg"
-[cylinder]
-bore = "95 mm"
-compression_ratio = 9
-offset = "4 mm"
-[flywheel]
-fluctuation = 0.01
-[gas]
-ambient = "0.1 MPa"
-pressures = "absolute"
-cycle = "720 deg"
-pieces = [
- {law = "constant", points = ["r", "a"]},
- {law = "polytropic", points = ["a", "c"], exponent = 1.35},
- {law = "polytropic", points = ["z", "b"], exponent = 1.25},
- {law = "constant", points = ["s", "t"]},
-]
-[gas.points]
-r = {angle = "0 deg", pressure = "0.09 MPa"}
-a = {angle = "180 deg", pressure = "0.09 MPa"}
-c = {angle = "360 deg"}
-z = {angle = "360 deg", pressure = "5 MPa"}
-b = {angle = "540 deg"}
-s = {angle = "540 deg", pressure = "0.11 MPa"}
-t = {angle = "720 deg", pressure = "0.11 MPa"}
-"""
-EIGHT = """
-[engine]
-layout = "V"
-cylinders = 8
-bank_angle = "90 deg"
-firing_order = [1, 5, 4, 2, 6, 3, 7, 8]
-spacing = "150 mm"
-[bearings]
-main_diameter = "60 mm"
-main_length = "30 mm"
-"""
+BULK = runpy.run_path(str(Path(__file__).parents[2] / "benchmarks" / "bulk.py"))
+ENGINE = BULK["ENGINE"].replace("compression_ratio = 9\n", 'compression_ratio = 9\noffset = "4 mm"\n')
+EIGHT = BULK["V8"]
 FIVE = """
 [engine]
 layout = "inline"
@@ -311,6 +271,31 @@ def test_two_equal_ways_of_writing_are_one_operation():
     assert (a * b) / b is not None
     assert a**3 is a * (a * a)
     assert np.sqrt(a) is a**0.5
+
+
+def test_sums_of_columns_share_their_parts():
+    graph = Graph()
+    column, radius = graph.angle("sin", 1, 0.0) * graph.input(0), graph.input(1)
+    of = [graph.delayed(column, 90.0 * at) for at in range(4)]
+    torque = (of[0] * radius + of[1] * radius) + (of[2] * radius + of[3] * radius)
+    load = 0.5 * (of[0] + radius) + 0.5000000000000001 * (of[1] + radius) - 0.5 * of[2]
+    other = -of[2] + (of[1] + of[0]) * 0.25
+    roots = [torque, load * load, other]
+    by = shared(roots, list(values_in_order(roots, into=lambda one: one.kind != "delayed")))
+    assert set(by) == {torque.at, load.at, other.at}
+    numbers = {one.at: known for one, known in zip((*of, radius), (0.3, 0.7, 1.9, 2.3, 1.1), strict=True)}
+
+    def value(one):
+        if one.at not in numbers:
+            numbers[one.at] = number(one) if one.is_constant else COMPUTE[one.kind](*map(value, one.operands))
+        return numbers[one.at]
+
+    for one in (torque, load, other):
+        assert value(by[one.at]) == pytest.approx(value(one), rel=1e-15)
+    made = {one.at: one for one in values_in_order(by.values(), into=lambda one: one.kind != "delayed") if one.by_angle}
+    # of the first two the sum once, and the radius times one sum
+    assert sum(one.kind in ("add", "sub") for one in made.values()) == 6
+    assert sum(one.kind == "mul" for one in made.values()) == 3
 
 
 @pytest.mark.elsewhere

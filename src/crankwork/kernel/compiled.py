@@ -102,12 +102,14 @@ class Kernel:
             guard = trace.guard(is_sampled=steps is not None)
             ends = [one for one, _ in trace.moving]
             guarded = outputs | ({} if guard is None else {"": guard})
-            self.plan = Plan(guarded, grid, self.fields, angles_at, () if steps else ends, shares_divisions=is_compiled)
+            self.plan = Plan(guarded, grid, self.fields, angles_at, () if steps else ends, shares=is_compiled)
             is_running = all(one.detail in RUNNING for level in self.plan.levels for one in level.reductions)
             self.source = Source(self.plan, is_reduced=is_compiled and steps is not None and is_running)
             earlier = [grid.earlier(by) for by in self.source.delays.of]
             places = np.array(earlier, dtype=np.intp).reshape(len(earlier), grid.degrees.size)
-            self._given = self.plan.table, places, self.source.order, grid.weights, grid.degrees
+            # without signs, so that no place is looked at from the end
+            below = (one.astype(np.uintp) for one in (places, self.source.order))
+            self._given = self.plan.table, *below, grid.weights, grid.degrees
             self._module, self._arrays = None, Arrays(self.source, places)
             self._exact = None if steps else Exact(grid, _POLYNOMIALS)
             self._reduced = Reduced(self.source, self._exact or Even(grid), parts)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from crankwork.kernel.graph import COMPUTE, Value, in_order, number
 from crankwork.kernel.grid import Grid
+from crankwork.kernel.sums import shared
 
 Array = NDArray[np.float64]
 
@@ -49,11 +50,11 @@ class Plan:
         angles_at: Callable[[Any], Any],
         ends: Iterable[Value] = (),
         *,
-        shares_divisions: bool = True,
+        shares: bool = True,
     ) -> None:
         self.outputs, self.grid, self.inputs = dict(outputs), grid, inputs
         self.ends = tuple(ends)
-        self._angles_at, self._shares_divisions = angles_at, shares_divisions
+        self._angles_at, self._shares = angles_at, shares
         self.row_of_angle: dict[int, int] = {}
         self.of_angle: list[Value] = []
         self.moved: dict[int, Value] = {}
@@ -103,7 +104,9 @@ class Plan:
             chosen = {one.at: law for one, law in zip(used, laws, strict=True)}
             resolved = self._with_laws(columns, chosen, is_moving=is_moving)
             roots = [resolved[one.at] for one in columns]
-            roots = _with_few_divisions(roots) if self._shares_divisions else roots
+            if self._shares:
+                roots = _replaced(roots, shared(roots, in_order(roots, into=_at_this_angle)))
+                roots = _with_few_divisions(roots)
             every = list(in_order(roots, into=lambda one: one.by_design and _at_this_angle(one)))
             for one in every:
                 if one.by_angle and not one.by_design and one.kind != "delayed":

@@ -8,7 +8,8 @@ side: what one waits for leaves room for the other.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Hashable, Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from textwrap import indent
 from typing import Generic, TypeVar
 
 import numpy as np
@@ -17,7 +18,8 @@ from numpy.typing import NDArray
 from crankwork.kernel.graph import Value, number
 from crankwork.kernel.plan import Level, Loop, Plan
 
-LANES = 64
+# designs of a block: more where arrays go on with what is kept of them, fewer where that is to stay near
+LANES, _NEAR_LANES = 64, 32
 # what others wait for
 _SLOW = ("sqrt", "div", "exp", "log", "log_ratio")
 # rows that a loop may read in the places of others and still be turned into operations on several designs at once
@@ -31,11 +33,9 @@ _HEAD = """import math
 
 import numpy as np
 
-from crankwork.kernel.elementary import compiled, exp, half_turns, log, log_ratio, once
+from crankwork.kernel.elementary import compiled, exp, half_turns, inside, log, log_ratio, once
 """
-_RUN = """
-
-@compiled
+_RUN = """@compiled
 def run(given, results, left_out, t, p, order, weights, degrees, first):
     s = np.empty({rows} * {lanes})
     b = np.empty(({columns}, {angles}, {lanes}))
@@ -46,8 +46,7 @@ def run(given, results, left_out, t, p, order, weights, degrees, first):
                 s[row * {lanes} + l] = given[row, min(start + l, count - 1)]
 {levels}
         for l in range(min({lanes}, count - start)):
-{outputs}
-"""
+{outputs}"""
 _ARGUMENTS = "s, b, t, p, order, weights, degrees"
 # what a reduction is before the first angle
 _START = {"max": "-math.inf", "min": "math.inf"}
@@ -84,6 +83,7 @@ class Source:
 
     def __init__(self, plan: Plan, *, is_reduced: bool) -> None:
         self.plan, self.is_reduced = plan, is_reduced
+        self.lanes = _NEAR_LANES if is_reduced else LANES
         self.rows, self.columns, self.delays = Rows[Place](), Rows[int](), Rows[float]()
         self.order: NDArray[np.intp] = np.zeros(0, dtype=np.intp)
         for at in range(plan.inputs):
@@ -101,8 +101,7 @@ class Source:
                     self.columns(column.at)
         for at in plan.moved:
             self.columns(at)
-        levels = ("\n".join(self._level(at, one)) for at, one in enumerate(plan.levels))
-        self.text = "\n\n\n".join([_HEAD, *levels]) + (self._run() if is_reduced else "\n")
+        self.text = "\n\n\n".join([_HEAD, *self._functions()]) + "\n"
 
     def place(self, value: Value) -> Place:
         """Return under what a value of a design is stored."""
@@ -122,54 +121,68 @@ class Source:
         return used
 
     def _stored(self, key: Place, lane: str = "l") -> str:
-        return f"s[{self.rows(key) * LANES} + {lane}]"
+        return f"s[{self.rows(key) * self.lanes} + {lane}]"
 
-    def _run(self) -> str:
-        every = range(len(self.plan.levels))
-        levels = [f"        {part}_{at}({_ARGUMENTS})" for at in every for part in ("designs", "level")[not at :]]
+    def _functions(self) -> Iterator[str]:
+        """Yield one function for each loop; and what calls them, one for each step, or one that runs all."""
+        steps = dict[str, list[str]]()
+        for at, level in enumerate(self.plan.levels):
+            running = self._running(level) if self.is_reduced else []
+            calls = []
+            for kind, (lines, of) in enumerate(self._kinds(level, running).items()):
+                # a function of its own: names that had a meaning in each loop would be told apart one by one
+                rows = [f"        row_{row} = parts[part][{row + 2}]" for row in range(len(of[0]) - 2)]
+                head = f"@inside\ndef loop_{at}_{kind}({_ARGUMENTS}, parts):\n    for part in range(len(parts)):"
+                yield "\n".join([head, *rows, lines])
+                calls.append(f"    loop_{at}_{kind}({_ARGUMENTS}, {tuple(map(tuple, of))})")
+            if at:
+                # those of the first level are given
+                steps[f"designs_{at}"] = list(self._over_lanes(4, lambda lane: self._designs(level, lane), "l"))  # noqa: B023
+            steps[f"level_{at}"] = [*self._begun(running), *calls, *self._ended(level, running)]
+        if self.is_reduced:
+            yield self._run(indent("\n".join(line for step in steps.values() for line in step), "    "))
+            return
+        for name, step in steps.items():
+            yield "\n".join([f"@compiled\ndef {name}({_ARGUMENTS}):", *step, "    return"])
+
+    def _run(self, levels: str) -> str:
         outputs, place = [], "first + start + l"
         for at, (key, value) in enumerate(self.plan.outputs.items()):
             shown = _name(value, "") if value.is_constant else self._stored(self.place(value))
             outputs.append(f"            {f'results[{at}, {place}]' if key else f'left_out[{place}]'} = {shown}")
         angles = self.plan.grid.degrees.size if self.columns.of else 1
-        sizes = {"rows": len(self.rows.of), "columns": max(len(self.columns.of), 1), "angles": angles, "lanes": LANES}
-        return _RUN.format(levels="\n".join(levels), outputs="\n".join(outputs), **sizes)
+        sizes = {
+            "rows": len(self.rows.of),
+            "columns": max(len(self.columns.of), 1),
+            "angles": angles,
+            "lanes": self.lanes,
+        }
+        return _RUN.format(levels=levels, outputs="\n".join(outputs), **sizes)
 
-    def _level(self, at: int, level: Level) -> Iterator[str]:
-        running = self._running(level) if self.is_reduced else []
+    def _kinds(self, level: Level, running: list[tuple[tuple[str, int], str, Value]]) -> dict[str, list[list[int]]]:
+        """Return what is done in loops, and for each that does it its angles and the rows that it reads."""
         parts = dict[str, list[list[int]]]()
         for loop in level.loops:
             lines, rows = self._lines(level, loop, running)
             start = self.order.size
             self.order = np.concatenate([self.order, loop.angles])
             parts.setdefault(lines, []).append([start, self.order.size, *rows])
-        calls = []
-        for kind, (lines, of) in enumerate(parts.items()):
-            # a function of its own: names that had a meaning in each loop would be told apart one by one
-            yield f"@compiled\ndef loop_{at}_{kind}({_ARGUMENTS}, parts):\n    for part in range(len(parts)):"
-            yield from (f"        row_{row} = parts[part][{row + 2}]" for row in range(len(of[0]) - 2))
-            yield f"{lines}\n\n"
-            calls.append(f"    loop_{at}_{kind}({_ARGUMENTS}, {tuple(map(tuple, of))})")
-        if at:
-            # those of the first level are given
-            yield f"@compiled\ndef designs_{at}({_ARGUMENTS}):"
-            yield from self._over_lanes(4, lambda lane: self._designs(level, lane) if level.designs else ["pass"])
-            yield "    return\n\n"
-        yield f"@compiled\ndef level_{at}({_ARGUMENTS}):"
+        return parts
+
+    def _begun(self, running: list[tuple[tuple[str, int], str, Value]]) -> Iterator[str]:
         if running:
-            yield from self._over_lanes(
-                4,
-                lambda lane: [f"{self._stored(place, lane)} = {_START.get(word, '0.0')}" for place, word, _ in running],
-            )
-        yield from calls
+            first = [f"{self._stored(place)} = {_START.get(word, '0.0')}" for place, word, _ in running]
+            yield from self._over_lanes(4, lambda _: first, "l")
+
+    def _ended(self, level: Level, running: list[tuple[tuple[str, int], str, Value]]) -> Iterator[str]:
         for place, word, _ in running:
             yield from self._finished(place, word)
         for one in level.reductions if self.is_reduced else ():
             if one.detail == "range":
                 yield from self._range(one)
-        yield "    return"
 
     def _designs(self, level: Level, lane: str) -> Iterator[str]:
+        yield "pass"
         yield from self._taken_lines(_taken(level.designs), lane)
         for one in level.designs:
             made = self._stored(self.place(one), lane) if one.kind == "input" else self._expression(one, lane)
@@ -265,34 +278,32 @@ class Source:
     def _finished(self, place: tuple[str, int], word: str) -> Iterator[str]:
         stored = self._stored(place)
         if word == "mean":
-            yield f"    for l in range({LANES}):\n        {stored} /= {float(np.radians(self.plan.grid.cycle))!r}"
+            yield f"    for l in range({self.lanes}):\n        {stored} /= {float(np.radians(self.plan.grid.cycle))!r}"
         elif word.endswith("_angle"):
-            yield f"    for l in range({LANES}):\n        {stored} = math.radians(degrees[int({stored})])"
+            yield f"    for l in range({self.lanes}):\n        {stored} = math.radians(degrees[int({stored})])"
 
     def _range(self, one: Value) -> Iterator[str]:
         """Yield how far the integral of a column about its mean goes up and down."""
         at, angles = one.operands[0].at, self.plan.grid.degrees.size
         high, low, work, mean = (self._stored((word, at)) for word in ("range", "range_low", "range_work", "mean"))
-        yield f"    for l in range({LANES}):"
+        yield f"    for l in range({self.lanes}):"
         yield f"        {low} = {high} = {work} = 0.0"
         yield f"    c = b[{self.columns(at)}]"
         yield f"    for j in range({angles}):"
         yield f"        before, after = c[j], c[(j + 1) % {angles}]"
-        yield f"        for l in range({LANES}):"
+        yield f"        for l in range({self.lanes}):"
         yield f"            {work} += ((before[l] + after[l]) / 2 - {mean}) * weights[j]"
         yield f"            {low} = {work} if {work} < {low} else {low}"
         yield f"            {high} = {work} if {work} > {high} else {high}"
-        yield f"    for l in range({LANES}):"
+        yield f"    for l in range({self.lanes}):"
         yield f"        {high} -= {low}"
 
-    def _over_lanes(
-        self, indent: int, lines: Callable[[str], Iterable[str]], lanes: tuple[str, ...] = ()
-    ) -> Iterator[str]:
+    def _over_lanes(self, indent: int, lines: Callable[[str], Iterable[str]], lanes: Sequence[str]) -> Iterator[str]:
         """Yield a loop over lanes."""
-        space, lanes = " " * indent, lanes or self._lanes
-        yield f"{space}for l in range({LANES // len(lanes)}):"
+        space = " " * indent
+        yield f"{space}for l in range({self.lanes // len(lanes)}):"
         if "h" in lanes:
-            yield f"{space}    h = l + {LANES // 2}"
+            yield f"{space}    h = l + {self.lanes // 2}"
         for together in zip(*map(lines, lanes), strict=True):
             yield from (f"{space}    {line}" for line in together)
 
