@@ -38,7 +38,7 @@ from crankwork.sources import cite
 # of a page: height and width of its text, and what may stay empty for a figure that keeps to its section [pt]
 PAGE, _WIDTH, _EMPTY = 728.0, 481.0, 150.0
 # how high blocks may be beside what is estimated, and how much text a figure waits for until it stands anywhere [pt]
-_OFF, _LONG = np.linspace(0.965, 1.035, 15), 1.5 * PAGE
+_OFF, _LONG = np.linspace(0.97, 1.03, 15), 1.5 * PAGE
 # lines of text and of mathematics; what a line of a legend and a fraction have more; what stands after a paragraph [pt]
 _LINE, _MATHS, _ENTRY, _HIGHER, _AFTER = 16.0, 16.4, 2.3, 12.0, 6.0
 _CAPTION, _BEGINS = 17.0 + _LINE, 90.0
@@ -88,7 +88,8 @@ def _after(filled: Array, block: Block, height: float) -> Array:
         least = _BEGINS if isinstance(block, Table) else height + 2 * _LINE
         begins = np.where(filled + least > PAGE, 0.0, filled)
         high = high + 2 * _LINE * ((begins + high) // PAGE)
-    goes_on = isinstance(block, Table | Paragraph | ItemList | Contents)
+    # of an equation the lines that explain it
+    goes_on = isinstance(block, Table | Paragraph | ItemList | Contents) or bool(getattr(block, "legend", ()))
     return np.where(begins + high <= PAGE, begins + high, (begins + high) % PAGE if goes_on else high)
 
 

@@ -38,7 +38,7 @@ _SIZES = (20, 18, 16, 14)
 # height of a row of one line, for every half point [pt]
 _ROW_HEIGHT = 0.6
 # of source and number, at least; of a letter of them [twip]
-_MARK_WIDTH, _MARK = 2150, 158
+_MARK_WIDTH, _MARK = 2150, 122
 _LEGEND = (
     '<w:tabs><w:tab w:val="left" w:pos="960"/></w:tabs><w:spacing w:after="0"/><w:ind w:left="960" w:hanging="960"/>'
 )
