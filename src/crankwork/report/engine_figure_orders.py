@@ -23,6 +23,8 @@ from crankwork.units import shown_in
 _BETWEEN = 5.0
 # of the inertia force of a piston, what of free forces is told in words, and what is rounding
 _HARDLY, _LEFT = 1e-3, 1e-9
+# across the cylinders, what of a free force is nothing, and how wide it is shown then, of its height
+_LINE, _NARROW = 1e-6, 0.4
 
 
 class _Bars(NamedTuple):
@@ -205,9 +207,13 @@ def balance_ellipses(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
 def _locus(engine: EngineDrawn, paper: Paper, box: Box, before: Locus, after: Locus, *, is_balanced: bool) -> Graph:
     """Draw the loci of one order, the reference direction of the engine upward."""
     reach = 1.15 * float(engine.shown("free_force", max(before.largest, after.largest)))
-    graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language)
-    box, ticks = graph.box, round_ticks(-reach, reach, min(5, max(1, round(graph.box.width / 32))))
-    graph.frame(ticks, ticks)
+    aside = max(float(np.max(np.abs(one.across))) for one in (before, after))
+    # forces of an engine in line go to and fro along its cylinders
+    share = 1.0 if aside > _LINE * max(before.largest, after.largest) else _NARROW
+    box = box._replace(left=box.left + (1 - share) / 2 * box.width, width=share * box.width)
+    graph = Graph(paper, box, (-share * reach, share * reach), (-reach, reach), engine.language)
+    box, ticks = graph.box, round_ticks(-reach, reach, min(5, max(1, round(graph.box.height / 32))))
+    graph.frame(ticks[np.abs(ticks) < share * reach], ticks)
     middle = graph.point(0.0, 0.0)
     paper.segments(np.array([(middle[0], box.top, middle[0], box.top + box.height)]), width=0.8)
     drawn = [("before", before, DASHED if is_balanced else SOLID)] + ([("after", after, SOLID)] if is_balanced else [])
@@ -240,7 +246,7 @@ def torque_harmonics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     graph = _bar_graph(
         engine,
         paper,
-        Box(here().left, TOP + 19, here().inner, 200.0),
+        Box(here().left, TOP + 19, here().inner, height),
         bars,
         orders,
         [0, 4],

@@ -88,7 +88,7 @@ def accumulated_torque(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]
         graph.curve(f"journal_{at + 2}", engine.diagrams.degrees, values)
         graph.y_title(f"{engine.symbol('journal_torque')[:-1]}{at + 2}$, {engine.unit('journal_torque')}")
         name = row_name(f"main_journal.{at + 2}", engine.language)
-        small_text(paper, box.left + box.width - 3, box.top - 2, name, "end")
+        small_text(paper, graph.box.left + graph.box.width - 3, box.top - 2, name, "end")
         graphs[str(at + 2)] = graph
         top += graph.box.height + _PANEL_GAP
     graph.x_title(engine.title("crank_angle"))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -35,6 +36,8 @@ _TALL, _MARGIN, _BESIDE, _LIST, _ROW = 330.0, 26.0, 170.8, 150.0, 13.5
 _LOWEST, _UNDER = 40.0, 3
 # a linkage whose points have velocities or accelerations a billionth of this stands still
 _STILL = 1e-3
+# a plan smaller than this has a scale of its own [mm]
+_READ = 15.0
 _LOOKS: dict[Kind, tuple[float, Dashes]] = {
     "absolute": (1.6, SOLID), "relative": (0.9, SOLID), "tangential": (0.9, SOLID), "sliding": (0.9, SOLID),
     "normal": (0.9, DASHED), "coriolis": (0.9, DASH_DOT),
@@ -42,6 +45,9 @@ _LOOKS: dict[Kind, tuple[float, Dashes]] = {
 _MARKS: dict[Kind, str] = {
     "absolute": "", "relative": "", "normal": "^n", "tangential": "^{}", "coriolis": "^k", "sliding": "^r"
 }  # fmt: skip
+
+
+Size = tuple[float, float]
 
 
 class _Kind(NamedTuple):
@@ -56,13 +62,19 @@ class _Kind(NamedTuple):
     size: float
 
 
-def velocity_plan(
-    mechanism: Mechanism, moving: Moving, index: int, speed: float, style: Style = PLAIN, position: int | None = None
+def velocity_plan(  # noqa: PLR0913 - a machine, its state, and how it is shown
+    mechanism: Mechanism,
+    moving: Moving,
+    index: int,
+    speed: float,
+    style: Style = PLAIN,
+    position: int | None = None,
+    among: Sequence[Size] = (),
 ) -> Drawing:
-    """Return the velocity plan of a linkage at one crank angle; `position`: its number among others."""
+    """Return the velocity plan of a linkage at one crank angle; `position`: its number among others of these sizes."""
     kind = _Kind("velocity_plan", "v", "m/s", symbol("speed", style.language), "rad/s", "p", abs(speed))
     plan = velocities(mechanism, moving, index, speed, style.links)
-    return _figure(plan, kind, moving.degrees[index], style, position)
+    return _figure(plan, kind, moving.degrees[index], style, position, among)
 
 
 def acceleration_plan(  # noqa: PLR0913 - a machine, its state, and how it is shown
@@ -73,23 +85,42 @@ def acceleration_plan(  # noqa: PLR0913 - a machine, its state, and how it is sh
     angular_acceleration: float = 0.0,
     style: Style = PLAIN,
     position: int | None = None,
+    among: Sequence[Size] = (),
 ) -> Drawing:
-    """Return the acceleration plan of a linkage at one crank angle; `position`: its number among others."""
+    """Return the acceleration plan of a linkage at one crank angle; `position`: its number among others as large."""
     plan = accelerations(mechanism, moving, index, speed, angular_acceleration, style.links)
     pole = "q" if style.language == "en" else "π"
     kind = _Kind(
         "acceleration_plan", "a", "m/s2", symbol("angular_acceleration", style.language), "rad/s2", pole, speed**2
     )
-    return _figure(plan, kind, moving.degrees[index], style, position)
+    return _figure(plan, kind, moving.degrees[index], style, position, among)
 
 
-def _figure(plan: Plan, kind: _Kind, degrees: float, style: Style, position: int | None) -> Drawing:
+def size_of(plan: Plan) -> Size:
+    """Return how wide and tall a plan is, in its unit."""
+    longest = max((one.length for one in plan.vectors), default=0.0)
+    seen = [one for one in plan.vectors if one.length > 1e-9 * max(longest, _STILL)]
+    width, height = np.ptp(np.array([[0.0, 0.0], *(end for one in seen for end in (one.start, one.end))]), axis=0)
+    return float(width), float(height)
+
+
+def _scale(size: Size, among: Sequence[Size], room: tuple[float, float]) -> float:
+    """Return the scale of a plan: that of all, unless it would be too small to be read. [its unit/mm]"""
+    scales = [
+        round_scale(points_per_mm() * max(one[0] / room[0], one[1] / room[1], 1e-12), FINE) for one in (size, *among)
+    ]
+    return max(scales) if max(size) / max(scales) > _READ else scales[0]
+
+
+def _figure(
+    plan: Plan, kind: _Kind, degrees: float, style: Style, position: int | None, among: Sequence[Size]
+) -> Drawing:
     """Draw a plan, and beside it what its vectors and the turning of the links are."""
     language = style.language
     longest = max((one.length for one in plan.vectors), default=0.0)
     seen = [one for one in plan.vectors if one.length > 1e-9 * max(longest, _STILL)]
     places = np.array([[0.0, 0.0], *(end for one in seen for end in (one.start, one.end))])
-    width, height = np.maximum(np.ptp(places, axis=0), 1e-12)
+    height = max(size_of(plan)[1], 1e-12)
     # only beside one plan there is room for a list
     side = here().width - (_BESIDE if position is None else 0.0)
     rows = (
@@ -105,7 +136,7 @@ def _figure(plan: Plan, kind: _Kind, degrees: float, style: Style, position: int
     beside = max([_MARGIN, *(WIDER * text_width(plain(one), 8.0) + 12 for one in ends.values())])
     high = max(tall(_TALL), _ROW * len(rows))
     room = side - 2 * min(beside, side / 4), max(high - 2 * _MARGIN, _LOWEST)
-    scale = round_scale(float(points_per_mm() * max(width / room[0], height / room[1])), FINE)
+    scale = _scale(size_of(plan), among, room)
     unit = points_per_mm() / scale
     high = max(float(height) * unit + 2 * _MARGIN, _ROW * len(rows) + 30) + 34
     paper = Paper(here().width, high)

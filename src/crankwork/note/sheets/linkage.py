@@ -9,7 +9,7 @@ import numpy as np
 
 from crankwork.analysis import Results
 from crankwork.analysis.moving import Moving, moving, reached_angles
-from crankwork.analysis.plans import driver_rates
+from crankwork.analysis.plans import accelerations, driver_rates, velocities
 from crankwork.analysis.skeleton import skeleton
 from crankwork.locale import say
 from crankwork.mechanism.structure import structure
@@ -31,7 +31,7 @@ from crankwork.quantities import Language
 from crankwork.report.figure_data import kind_of
 from crankwork.report.linkage_figures import Pictures, linkage_pictures
 from crankwork.report.linkage_look import Style
-from crankwork.report.linkage_plan_figures import acceleration_plan, velocity_plan
+from crankwork.report.linkage_plan_figures import acceleration_plan, size_of, velocity_plan
 from crankwork.show.scene import Drawing
 
 # step of the motion that plans are taken from [deg], and how many figures a sheet has
@@ -93,17 +93,20 @@ def _plans(at: Positions, moved: Moving) -> Pictures:
     mechanism, style, language, scales = at.results.machine.mechanism, at.style, at.language, Scales()
     rates = driver_rates(at.results, at.columns)
 
+    every = range(len(at.degrees))
+    chosen = [one for one in _ACCELERATIONS if one < len(every)] or [0]
+    first, second = rates.first.tolist(), rates.second.tolist()
+    fast = [size_of(velocities(mechanism, moved, one, first[one], style.links)) for one in every]
+    faster = [size_of(accelerations(mechanism, moved, one, first[one], second[one], style.links)) for one in chosen]
+
     def moving_at(position: int) -> Drawing:
-        plan = velocity_plan(mechanism, moved, position, float(rates.first[position]), style, position)
+        plan = velocity_plan(mechanism, moved, position, first[position], style, position, fast)
         return scales.kept("v", position, plan)
 
     def accelerated(position: int) -> Drawing:
-        speed, second = float(rates.first[position]), float(rates.second[position])
-        plan = acceleration_plan(mechanism, moved, position, speed, second, style, position)
+        plan = acceleration_plan(mechanism, moved, position, first[position], second[position], style, position, faster)
         return scales.kept("a", position, plan)
 
-    every = range(len(at.degrees))
-    chosen = [one for one in _ACCELERATIONS if one < len(every)] or [0]
     moves = [one for one in every if rates.first[one]]
     plans: Pictures = {
         "velocity_plans": _grid("velocity_plans", [partial(moving_at, one) for one in every], 4, scales, language),

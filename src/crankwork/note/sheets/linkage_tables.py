@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from typing import NamedTuple
@@ -11,7 +12,7 @@ import numpy as np
 from crankwork.analysis import Array, Results
 from crankwork.analysis.rounding import without_rounding
 from crankwork.analysis.skeleton import Skeleton, numbered
-from crankwork.locale import say
+from crankwork.locale import decimal, say
 from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.structure import Structure
 from crankwork.note.sheets.table import Column, numbers, table
@@ -28,6 +29,8 @@ from crankwork.show.scene import Drawing
 _CLASSES = ("", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 # points whose plans are compared, and what a reading on paper is rounded to [mm]
 _MOST_COMPARED, _READING = 3, 1
+# of the largest velocity or acceleration of a table, what is none
+_NOTHING = 1e-6
 
 Draw = Callable[[], Drawing]
 
@@ -183,19 +186,28 @@ def compared_table(at: Positions, scales: Scales, some: Sequence[int]) -> Drawin
         exact = [float(at.columns[f"{key}.{name}"][position]) for position, name in lines]
         ends = [_read(value, scales.of(sign, position)) for value, (position, _) in zip(exact, lines, strict=True)]
         plans = [end * scales.of(sign, position) for end, (position, _) in zip(ends, lines, strict=True)]
-        off = [100 * (one - other) / other if other else 0.0 for one, other in zip(plans, exact, strict=True)]
+        # of what is nothing beside the others there is no share
+        least = _NOTHING * max(exact, default=0.0)
+        off = [100 * (one - other) / other if other > least else math.nan
+               for one, other in zip(plans, exact, strict=True)]  # fmt: skip
         per, mm = unit_name(unit, language), unit_name("mm", language)
         found += [
             Column(f"${sign}$ {say('sheets.on_plan', language)}, {mm}", [number(one, language) for one in ends]),
             Column(f"${sign}$ {say('sheets.graphic', language)}, {per}", numbers(plans, language)),
             Column(f"${sign}$ {say('sheets.analytic', language)}, {per}", numbers(exact, language)),
-            Column(f"Δ${sign}$, %", [number(float(f"{one:.2g}"), language) for one in off]),
+            Column(f"Δ${sign}$, %", [_share(one, language) for one in off]),
         ]
     before = [
         *at.first([position for position, _ in lines]),
         Column(say("columns.point", language), [node_name(plain(at.shape.letters[name])) for _, name in lines]),
     ]
     return table(before, found, say("sheets.compared", language), language)
+
+
+def _share(value: float, language: Language) -> str:
+    """Return a share to a hundredth of a percent, as lengths are read to a tenth of a millimetre."""
+    shown = f"{value:.2f}".replace("-0.00", "0.00")
+    return decimal(shown, language).replace("-", "−") if math.isfinite(value) else "–"
 
 
 def _read(value: float, scale: float) -> float:

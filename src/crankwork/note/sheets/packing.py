@@ -36,7 +36,7 @@ _TALLS = tuple(0.3 * 1.16**at for at in range(21))
 # how much higher than in a text it is, for its width, and still looks as it should
 _HIGHEST = 1.6
 _GAP, _FEW, _CLEAR = 7.0, 2, 0.3
-_SYMBOL = re.compile(r"/\{([^{}]+)\}")
+_SYMBOL = re.compile(r"/\{([^{}]+)\}([′″]*)")
 
 
 class Picture(NamedTuple):
@@ -248,7 +248,7 @@ def _axes(plot: Plot) -> Iterator[tuple[str, tuple[float, float], float]]:
 
 def _scale(drawing: Drawing, title: str, value: float) -> str:
     """Return a scale by the title of its axis, that has symbols and a unit; nothing where it has neither."""
-    symbols = list(dict.fromkeys(_SYMBOL.findall(title)))
+    symbols = list(dict.fromkeys(map("".join, _SYMBOL.findall(title))))
     if not symbols:
         return ""
     unit, millimetre = _unit(title), unit_name("mm", drawing.language)

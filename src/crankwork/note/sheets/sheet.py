@@ -14,7 +14,14 @@ from crankwork.errors import CrankworkError
 from crankwork.locale import say
 from crankwork.note.sheets.packing import Fit, Layout, Picture, packed
 from crankwork.note.sheets.text import text_block
-from crankwork.note.sheets.title_block import TitleBlock, corner_cell, size_of_block, size_of_corner, title_block
+from crankwork.note.sheets.title_block import (
+    TitleBlock,
+    corner_cell,
+    size_of_block,
+    size_of_corner,
+    title_block,
+    title_height,
+)
 from crankwork.quantities import Language
 from crankwork.show.place import Place, placed
 from crankwork.show.scene import Box, Drawing, Item, Polyline, rectangle
@@ -34,7 +41,7 @@ _LAYOUTS: dict[Size, tuple[Layout, ...]] = {
 }
 _MOST: dict[Size, int] = {"A0": 12, "A1": 8, "A2": 4, "A3": 2}
 # how tall graphs are at least, against those of a text
-_LEAST: dict[Size, float] = {"A0": 0.6, "A1": 0.6, "A2": 0.4, "A3": 0.3}
+_LEAST: dict[Size, float] = {"A0": 0.6, "A1": 0.6, "A2": 0.4, "A3": 0.45}
 _BINDING, _EDGE = 20.0, 5.0
 
 
@@ -159,7 +166,9 @@ def numbered(sheets: Sequence[Sheet], paper: Paper) -> tuple[Sheet, ...]:
     if paper.block is None:
         return tuple(sheets)
     first, count = paper.block.sheet, max(paper.block.sheets, len(sheets))
-    blocks = [paper.block._replace(sheet=first + at, sheets=count) for at in range(len(sheets))]
+    height = min((title_height(paper.block, one.title) for one in sheets), default=paper.block.title_height)
+    block = paper.block._replace(sheets=count, title_height=height)
+    blocks = [block._replace(sheet=first + at) for at in range(len(sheets))]
     return tuple(one._replace(paper=paper._replace(block=block)) for one, block in zip(sheets, blocks, strict=True))
 
 

@@ -17,6 +17,8 @@ from crankwork.show.scene import Drawing
 
 _ROW, _PAD, _BETWEEN, _DIGITS = 13.0, 4.0, 8.0, 4
 _THICK, _THIN = 1.0, 0.4
+# between a table and the frame of its sheet, on both sides together [pt]
+_FREE = 10.0
 # how much wider and taller than what it says a table is at most, to fill its place
 _WIDEST, _TALLEST = 1.7, 1.5
 # letters, and smaller ones where a column would not fit
@@ -46,7 +48,7 @@ def table(first: Sequence[Column], columns: Sequence[Column], title: str, langua
     )  # fmt: skip
     widths = np.array([sum(_width(one, size) for one in part) for part in parts])
     # as wide as what stands above and below it, if that is not much wider, and with rows as tall
-    wider = float(np.clip(here().width / widths.max(), 1.0, _WIDEST))
+    wider = float(np.clip((here().width - _FREE) / widths.max(), 1.0, _WIDEST))
     row, rows = _ROW * min(max(here().tall, 1.0), _TALLEST), len(first[0].cells) + 1
     hand = Paper(wider * float(widths.max()), len(parts) * (row * rows + _BETWEEN) - _BETWEEN)
     for at, part in enumerate(parts):
@@ -56,7 +58,7 @@ def table(first: Sequence[Column], columns: Sequence[Column], title: str, langua
 
 def _parts(first: Sequence[Column], columns: Sequence[Column], size: float) -> tuple[list[list[Column]], float] | None:
     """Return columns in parts that fit, about as many in each, or nothing where one does not."""
-    room = here().width - sum(_width(one, size) for one in first)
+    room = here().width - _FREE - sum(_width(one, size) for one in first)
     if max(_width(one, size) for one in columns) > room:
         return None
     count = next(at for at in range(1, len(columns) + 1) if all(

@@ -42,6 +42,7 @@ class TitleBlock(NamedTuple):
     mass: str = ""
     sheet: int = 1
     sheets: int = 1
+    title_height: float = 7.0  # At most, since all sheets of a set have one
 
 
 def block_of(document: Document, form: Language, author: str = "") -> TitleBlock:
@@ -100,6 +101,13 @@ def title_block(block: TitleBlock, title: str, paper: str, place: Box) -> list[I
     return items
 
 
+def title_height(block: TitleBlock, title: str) -> float:
+    """Return how tall the letters of a title are where it has its place to itself. [mm]"""
+    wide, high = (100.0, 14.0) if block.form == "en" else (70.0, 25.0)
+    letters = (one.height for one in _written(block.title or title, Box(0, 0, wide, high), block.title_height))
+    return min(letters, default=block.title_height)
+
+
 # thick lines between the columns of those who sign, and how far up they go
 _UPRIGHT = (17.0, 40.0, 55.0, 65.0)
 _FOOT: dict[Language, float] = {"ru": 55.0, "vi": 35.0}
@@ -137,7 +145,7 @@ def _form_1(block: TitleBlock) -> Iterator[_Cell]:
         yield _Cell(40, foot, 15, 5)
         yield _Cell(55, foot, 10, 5, text=block.date if row == 0 else "", most=SMALL)
     yield _Cell(65, 40, 120, 15, text=block.designation, most=7.0)
-    yield _Cell(65, 15, 70, 25, text=block.title, most=7.0)
+    yield _Cell(65, 15, 70, 25, text=block.title, most=block.title_height)
     yield _Cell(65, 0, 70, 15, text=block.subject if language == "ru" else block.department, most=TEXT)
     for left, width, key, text in (
         (135.0, 15.0, "letter", ""), (150.0, 17.0, "mass", block.mass), (167.0, 18.0, "scale", block.scale)
@@ -149,23 +157,26 @@ def _form_1(block: TitleBlock) -> Iterator[_Cell]:
         else:
             yield _Cell(left, 20, width, 15, text=text)
     yield _Cell(135, 15, 20, 5, f"{_say('sheet', language)} {block.sheet}", most=SMALL)
-    yield _Cell(155, 15, 30, 5, f"{_say('sheets', language)} {block.sheets}", most=SMALL)
+    # GOST 2.104 has the number of sheets on the first of them only
+    count = block.sheets if block.sheet == 1 or language != "ru" else ""
+    yield _Cell(155, 15, 30, 5, f"{_say('sheets', language)} {count}", most=SMALL)
     yield _Cell(135, 0, 50, 15, text=", ".join(one for one in (block.institution, block.group) if one))
 
 
 def _iso(block: TitleBlock, paper: str) -> Iterator[_Cell]:
     """Yield the cells of ISO 7200, 180 x 36 mm."""
+    creator = ", ".join(filter(None, (block.author, block.group)))
     rows = (
         (27.0, ((60.0, 44.0, "department", block.department), (104.0, 38.0, "supervisor", block.supervisor),
                 (142.0, 38.0, "course", block.subject))),
-        (18.0, ((60.0, 44.0, "creator", block.author), (104.0, 38.0, "note.cover_approved_by", block.approved_by),
-                (142.0, 38.0, "group", block.group))),
+        (18.0, ((60.0, 44.0, "creator", creator), (104.0, 38.0, "note.cover_approved_by", block.approved_by),
+                (142.0, 38.0, "document_type", _say("page.diagrams", "en")))),
         (9.0, ((100.0, 60.0, "number", block.designation), (160.0, 20.0, "format", paper))),
         (0.0, ((100.0, 15.0, "change", ""), (115.0, 30.0, "issued", block.date), (145.0, 15.0, "language", "en"),
                (160.0, 20.0, "sheet", f"{block.sheet}/{block.sheets}"))),
     )  # fmt: skip
     yield _Cell(0, 18, 60, 18, _say("owner", "en"), block.institution)
-    yield _Cell(0, 0, 100, 18, _say("title", "en"), block.title, 7.0)
+    yield _Cell(0, 0, 100, 18, _say("title", "en"), block.title, block.title_height)
     for foot, cells in rows:
         for left, width, key, text in cells:
             yield _Cell(left, foot, width, 9, _say(key, "en"), text)
@@ -187,14 +198,14 @@ def corner_cell(block: TitleBlock, place: Box) -> list[Item]:
     return [rectangle(place, "thick", 1.0), *_written(block.designation, place, 7.0, angle=180.0)]
 
 
-def _labelled(cell: _Cell, box: Box) -> list[Item]:
+def _labelled(cell: _Cell, box: Box) -> list[Text]:
     """Return the label of a cell in its upper left corner, and under it what it says."""
     wide = min(1.0, (box.width - 2) / max(_width(cell.label, SMALL), 1e-9))
     label = Text((box.left + 1, box.top - 1 - SMALL), cell.label, SMALL, wide=wide)
     return [label, *_written(cell.text, box.inset(0, 0, 0, 4.0), cell.most)]
 
 
-def _written(text: str, box: Box, most: float, angle: float = 0.0) -> list[Item]:
+def _written(text: str, box: Box, most: float, angle: float = 0.0) -> list[Text]:
     """Return a text in the middle of a box, as large as there is room for, on more rows and narrower if it is long."""
     text = literal(" ".join(printable(text, _LONGEST).split()))
     if not text:
