@@ -464,3 +464,13 @@ def test_text_is_as_wide_as_its_letters_and_breaks_between_words():
 
 def test_words_of_titles_are_escaped():
     assert b"<title>a &lt; b &amp; c</title>" in svg(Paper(10, 10).drawing("a < b & c"))
+
+
+def test_moments_that_cancel_are_told_in_words_instead_of_an_empty_panel(results, drawn):
+    paper, graphs = figure_list(drawn)["balance_orders"](drawn)
+    balance, inertia = drawn.diagrams.balance, np.max(np.abs(results.columns["inertia_force"]))
+    every = [*balance.reciprocating, balance.rotating, *balance.residual]
+    most = max(one.moment.largest for one in every)
+    said = " ".join(text for text, *_ in paper.texts)
+    assert ("moment" in graphs) == (most > 1e-9 * inertia)
+    assert ("= 0 in every order" in said) == (drawn.diagrams.is_spread and most < 1e-9 * inertia)

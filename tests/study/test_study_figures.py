@@ -8,6 +8,7 @@ import pytest
 from crankwork.description.document import Description
 from crankwork.description.machine_file import template
 from crankwork.locale import LANGUAGES
+from crankwork.quantities import QUANTITIES
 from crankwork.show.chart import Box, Graph, round_ticks, sheet
 from crankwork.show.contour import Field, contours
 from crankwork.show.paper import BLACK
@@ -137,3 +138,8 @@ def test_maps_can_be_read(language):
     # the velocity grows as the speed does, the least ratio of the rod does not depend on it
     assert set(drawn["map.rod_ratio"].plots[0].curves) == {"rod_ratio"}
     assert len(drawn["map.piston_velocity_max"].plots[0].curves) > 3
+    # axes have names and symbols of the field, not keys of the file
+    titles = drawn["map.piston_velocity_max"].plots[0].titles
+    for title, key in zip((titles["x"], titles["y"]), ("rotational_speed", "rod_length"), strict=True):
+        assert QUANTITIES[key].label(language) in title
+        assert f"/{{{QUANTITIES[key].symbol(language)[0]}}}" in title

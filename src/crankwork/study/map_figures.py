@@ -7,13 +7,14 @@ import numpy as np
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Language, capital, say
 from crankwork.locale.numbers import number, unit_name
-from crankwork.report.language import displayed_column, key_unit, label
+from crankwork.quantities import QUANTITIES, Quantity
+from crankwork.report.language import FILE_KEYS, displayed_column, key_unit, label
 from crankwork.show.chart import CIRCLE, Graph, Row, limits, round_ticks, sheet
 from crankwork.show.contour import Field, contours
 from crankwork.show.paper import plain
 from crankwork.show.scene import Drawing
 from crankwork.study.mapped import Map
-from crankwork.units import from_si, shown_in
+from crankwork.units import coherent_unit, from_si, shown_in
 
 _TALL, _WIDE_TALL = 250.0, 190.0
 _LINES = 9
@@ -26,40 +27,55 @@ def map_drawings(found: Map, language: Language) -> dict[str, Drawing]:
         return {
             f"map.{key}": _drawing(found, key, language)
             for key in found.varying
-            # the angle of the largest of two peaks is no surface
-            if not key.endswith("_angle")
+            # the angle of the largest of two peaks is no surface, nor is what goes in steps
+            if not key.partition(".")[0].endswith("_angle") and not _goes_in_steps(_dependent(found, key)[0])
         }
 
 
-def _drawing(found: Map, key: str, language: Language) -> Drawing:
+def _goes_in_steps(values: Array) -> bool:
+    """Return whether few of all values differ, so that between points of a map there is nothing."""
+    known = values[np.isfinite(values)]
+    return bool(2 * values.ndim * np.unique(known).size < known.size)
+
+
+def _dependent(found: Map, key: str) -> tuple[Array, list[str]]:
+    """Return values over the fields that they depend on, in the unit that they are displayed in, and these fields."""
     values = displayed_column(key, found.values[key])
     over = {one: at for at, one in enumerate(found.fields) if key not in found.independent[one]}
     for axis in sorted(set(range(values.ndim)) - set(over.values()), reverse=True):
         # the same all along, where there are any
         values = np.fmax.reduce(values, axis=axis)
-    rows = [Row(_largest(found, key, list(over), values, language), CIRCLE)]
+    return values, list(over)
+
+
+def _drawing(found: Map, key: str, language: Language) -> Drawing:
+    values, over = _dependent(found, key)
+    rows = [Row(_largest(found, key, over, values, language), CIRCLE)]
     rows += [
-        Row(plain(say("study.same_at", language, field=one)), width=0.0) for one in found.fields if one not in over
+        Row(say("study.same_at", language, field=_symbol(found, one, language)), width=0.0)
+        for one in found.fields
+        if one not in over
     ]
     if np.isnan(values).any():
         rows.append(Row(say("study.hatched", language), width=0.0))
     drawn = _surface if values.ndim == 2 else _curve
-    return drawn(found, key, list(over), values, rows, language)
+    return drawn(found, key, over, values, rows, language)
 
 
 def _largest(found: Map, key: str, over: list[str], values: Array, language: Language) -> str:
     """Return the largest value and where it is."""
     place = np.unravel_index(np.nanargmax(values), values.shape)
     where = ", ".join(
-        f"{one} = {_shown(float(_at(found, one)[at]), found.fields[one].unit, language)}"
+        f"{_symbol(found, one, language)} = {_shown(float(_at(found, one)[at]), found.fields[one].unit, language)}"
         for one, at in zip(over, place, strict=True)
     )
     value = _shown(float(values[place]), key_unit(key), language)
-    return plain(say("study.largest", language, value=value, where=where))
+    return say("study.largest", language, value=value, where=where)
 
 
 def _shown(value: float, unit: str, language: Language) -> str:
-    return f"{number(value, language, digits=_DIGITS)} {unit_name(unit, language)}".rstrip()
+    space = "" if unit == "deg" else " "
+    return f"{number(value, language, digits=_DIGITS)}{space}{unit_name(unit, language)}".rstrip()
 
 
 def _at(found: Map, field: str) -> Array:
@@ -67,8 +83,23 @@ def _at(found: Map, field: str) -> Array:
 
 
 def _axis(found: Map, field: str, language: Language) -> str:
-    unit = unit_name(found.fields[field].unit, language)
-    return plain(f"{field}, {unit}" if unit else field)
+    unit, row = unit_name(found.fields[field].unit, language), _quantity(found, field)
+    name = f"{plain(row.label(language))} ${row.symbol(language)}$" if row else plain(field)
+    return f"{name}, {unit}" if unit else name
+
+
+def _symbol(found: Map, field: str, language: Language) -> str:
+    """Return the symbol of a field, its key where it has none."""
+    row = _quantity(found, field)
+    return f"${row.symbol(language)}$" if row else plain(field)
+
+
+def _quantity(found: Map, field: str) -> Quantity | None:
+    """Return the quantity that a field of a table states, if it is one by its own name or by that of its table."""
+    table, _, key = field.partition(".")
+    unit = coherent_unit(found.fields[field].unit)
+    names = (f"rotational_{key}", f"{table}_{key}", FILE_KEYS.get(key, key))
+    return next((QUANTITIES[one] for one in names if one in QUANTITIES and QUANTITIES[one].si_unit == unit), None)
 
 
 def _named(key: str, language: Language) -> str:
