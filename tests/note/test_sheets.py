@@ -30,7 +30,7 @@ from crankwork.quantities import LANGUAGES
 from crankwork.report.figure_data import drawn_from
 from crankwork.report.figures import drawings
 from crankwork.show.dxf import dxf
-from crankwork.show.place import round_scale
+from crankwork.show.place import FINE, round_scale
 from crankwork.show.scene import Box, Hatch, Polyline, Text, extent, hatch_lines, text_width
 from looks import box_of, faults
 
@@ -126,7 +126,7 @@ def test_velocities_measured_on_the_plans_are_the_velocities():
     scales = {float(re.search(r"= ([\d.]+)", one.text)[1]) for one in texts}
     lengths = [np.hypot(*np.ptp(one.points, axis=0)) for one in drawing.items if isinstance(one, Polyline)]
     for scale in scales:
-        assert round_scale(scale) == scale
+        assert round_scale(scale, FINE) == scale
         # the shaft of an arrow ends where its head begins
         assert any(abs(length * scale - 14.65 * 0.05) < 0.08 for length in lengths)
 
@@ -346,7 +346,7 @@ def test_form_1_of_gost_has_its_size_and_its_cells():
     assert sorted(one.angle for one in turned) == [0, 180]
 
 
-FIELDS = [name for name in TitleBlock._fields if name not in ("form", "sheet", "sheets")]
+FIELDS = [name for name in TitleBlock._fields if name not in ("form", "sheet", "sheets", "title_height")]
 LONG = (
     "Кафедра «Теория механизмов и машин» факультета робототехники и комплексной автоматизации Московского "
     "государственного технического университета. Bộ môn Động cơ đốt trong, Khoa Cơ khí Giao thông, Trường Đại học "
