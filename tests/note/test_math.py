@@ -328,7 +328,7 @@ def test_every_formula_prints_in_every_format(formulas, language):
 
 def test_the_formats_of_one_formula():
     tree = record(clearance_volume)
-    assert typst_box(formula_box(tree)) == 'frac(attach(V, b: "d"), attach(r, b: "c") − 1)'
+    assert typst_box(formula_box(tree)) == 'frac(attach(V, b: upright(d)), attach(r, b: "c") − 1)'
     assert typst_box(formula_box(tree, {"V_d": 0.5, "r_c": 8}, "ru")) == 'frac(0","5, 8 − 1)'
     shown = ET.fromstring(mathml_box(formula_box(tree)))  # noqa: S314 - our own text
     assert [one.tag for one in shown.iter()] == [
@@ -347,3 +347,14 @@ def test_a_decimal_comma_is_inside_one_number():
         '<m:nor/></m:rPr><w:rPr><w:rFonts w:ascii="Cambria Math" w:hAnsi="Cambria Math" w:cs="Cambria Math"/>'
         in omml_box(box)
     )
+
+
+@pytest.mark.parametrize(
+    ("symbol", "shown"),
+    [
+        ("x″_B", '<msub><mrow><mi>x</mi><mtext>″</mtext></mrow><mi mathvariant="normal">B</mi></msub>'),
+        ("β′", "<mrow><mi>β</mi><mtext>′</mtext></mrow>"),
+    ],
+)
+def test_primes_stand_at_their_letter_in_browsers(symbol, shown):
+    assert mathml_box(symbol_box(symbol)) == shown

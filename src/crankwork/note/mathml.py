@@ -43,8 +43,6 @@ _FORMS = ("prefix", "postfix")
 def _upright(text: str) -> str:
     if text == "\u2009":
         return '<mspace width="0.25em"/>'
-    if text and all(one in "′″" for one in text):
-        return f"<mo>{text}</mo>"
     if text.isalpha():
         return f'<mi mathvariant="normal">{xml_text(text)}</mi>'
     return f"<mtext>{xml_text(text)}</mtext>"
@@ -61,6 +59,12 @@ def _sign(text: str, kind: str) -> str:
 
 
 def _script(box: Script) -> str:
-    kind = ("sub" if box.below else "") + ("sup" if box.above else "")
-    inside = "".join(mathml_box(one) for one in (box.base, box.below, box.above) if one)
-    return f"<m{kind}>{inside}</m{kind}>"
+    base, above = mathml_box(box.base), box.above
+    first, *others = above.parts if isinstance(above, Row) else (above,)
+    if isinstance(first, Upright) and not first.text.strip("′″"):
+        # raised by browsers once more, primes stand far above
+        base, above = f"<mrow>{base}{mathml_box(first)}</mrow>", Row(tuple(others)) if others else None
+    kind = ("sub" if box.below else "") + ("sup" if above else "")
+    if not kind:
+        return base
+    return f"<m{kind}>{base}{''.join(mathml_box(one) for one in (box.below, above) if one)}</m{kind}>"
