@@ -57,7 +57,7 @@ _STEPS = 60
 _SETTLED = 1e-9
 _JUMP = 1e-10
 # how far beyond a jump the law after it is met, also at the angle of another cylinder, where rounding is undone [deg]
-_BEYOND = 2e-11
+BEYOND = 2e-11
 _AT_EDGE = 0.05
 _ZERO = 1e-14
 
@@ -316,7 +316,7 @@ class OverCycle:
         jump = np.nonzero(jumps & (after >= high[:, None]))
         row, interval, u = (one[at_peaks >= high[row]] for one in (row, interval, u))
         peaks = (self._low[interval] + self._high[interval]) / 2 + (self._high - self._low)[interval] / 2 * u
-        beyond = self._low[jump[1]] + _BEYOND
+        beyond = self._low[jump[1]] + BEYOND
         top, least = self._plain(top), self._plain(least)
         equal = _PLATEAU * (top - least + np.maximum(np.abs(top), np.abs(least)))
         return _Places(
