@@ -6,9 +6,12 @@ import csv
 import json
 import math
 
+import numpy as np
 import pytest
 
+from crankwork.description.document import Description
 from crankwork.description.machine_file import template
+from crankwork.study import mapped as mapping
 
 OVER = ("--over", "crank.speed=1000..3000rpm:2")
 WRONG = {
@@ -73,3 +76,20 @@ def test_processes_find_what_one_finds(crankwork, machine, tmp_path):
     summaries = [(tmp_path / f"out{workers}" / "summary.json").read_bytes() for workers in "12"]
     assert summaries[0] == summaries[1]
     assert "--workers: " in crankwork("map", machine, *OVER, "--workers", "0").err
+
+
+def test_many_points_calculated_together_are_those_of_analyses(monkeypatch):
+    description, over = Description(template("engine")), ("crank.speed=1000..3000rpm:6", "rod.length=150..170mm:6")
+    together = mapping.mapped(description, over)
+    monkeypatch.setattr(mapping, "_together", lambda *_: None)
+    apart = mapping.mapped(description, over)
+    assert together.independent == apart.independent
+    assert together.values.keys() == apart.values.keys()
+    for key, values in apart.values.items():
+        np.testing.assert_allclose(together.values[key], values, rtol=1e-11, atol=1e-11 * np.max(np.abs(values)))
+
+
+def test_points_without_a_machine_are_told_where_many_are_calculated_together():
+    found = mapping.mapped(Description(template("engine")), ("rod.length=30..160mm:60",))
+    assert sum(found.refused.values()) == np.isnan(found.values["crank_torque_max"]).sum() > 5
+    assert len(found.refused) == 1

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -33,7 +33,8 @@ from crankwork.cylinders.counterweights import Unbalance, counterweight_moment, 
 from crankwork.cylinders.ellipse import Ellipse, OrderBalance, balance_sum, unit_vectors
 from crankwork.cylinders.journal_loads import unbalance_force
 from crankwork.cylinders.layout import Layout
-from crankwork.formula.known import Found, Known, given, in_order, total
+from crankwork.cylinders.torque_harmonics import amplitude_of_harmonic
+from crankwork.formula.known import Found, Harmonic, Known, given, in_order, total
 from crankwork.formula.replay import Samples, replay
 from crankwork.kinematics.crank_grid import CrankGrid
 
@@ -41,6 +42,8 @@ from crankwork.kinematics.crank_grid import CrankGrid
 _DECADES = 17
 # parts of a degree in the finest samples
 _MOST = 16
+# to which layouts of designs are one
+_DIGITS = 13
 
 
 class EngineBalance(NamedTuple):
@@ -156,12 +159,12 @@ def balance_memory(whole: WholeEngine, balance: EngineBalance) -> dict[str, Know
     for name, one in balance.rows.items():
         keys = [f"free_force.{row}" for row, other in balance.rows.items() if other.order == one.order]
         parts = [found[key] for key in keys if key in found] if name.startswith("residual") else _parts(name, found)
-        force = found.setdefault(
-            f"free_force.{name}", Known(Found(one.force.largest, "vector_sum", parts), f"free_force.{name}")
-        )
+        told = _told(whole, balance, found, one.order) if name.startswith("residual") else {}
+        sums = Found(one.force.largest, "vector_sum", parts, by=told.get("force"))
+        force = found.setdefault(f"free_force.{name}", Known(sums, f"free_force.{name}"))
         rest = {"free_force_min": one.force.least, "free_force_direction": math.radians(one.force.direction)}
         if has_moments:
-            moment = Known(Found(one.moment.largest, "vector_sum", parts))
+            moment = Known(Found(one.moment.largest, "vector_sum", parts, by=told.get("moment")))
             found.setdefault(f"free_moment.{name}", moment)
             rest["free_moment_min"] = one.moment.least
         found |= {f"{key}.{name}": Known(Found(value, "vector_sum", (force,))) for key, value in rest.items()}
@@ -173,6 +176,50 @@ def _parts(name: str, found: Mapping[str, Known]) -> list[Known]:
     kind, _, order = name.partition(".")
     start = f"order_inertia_force.{order}." if kind == "reciprocating" else f"unbalance_force.{kind}"
     return [known for key, known in found.items() if key.startswith(start)]
+
+
+def _told(whole: WholeEngine, balance: EngineBalance, found: Mapping[str, Known], order: int) -> dict[str, Known]:
+    """Return force and moment that are left of an order, made of the forces of one cylinder and of each counterweight.
+
+    Nothing where what turns does not follow from these: with balance shafts, and with articulated rods.
+    """
+    rows = {name: one for name, one in balance.rows.items() if one.order == order and not name.startswith("residual")}
+    terms = list[tuple[Known, OrderBalance]]()
+    for name, one in rows.items():
+        kind = name.partition(".")[0]
+        if kind == "counterweights":
+            for weight in balance.weights:
+                if not isinstance(weight.mass_moment, Known):
+                    return {}
+                force = unbalance_force(weight.mass_moment, whole.master.memory["speed"])
+                terms.append((force, turning_forces(whole.layout, (weight,), whole.master.speed)))
+        elif one.force.largest or one.moment.largest:
+            key = {"reciprocating": f"order_inertia_force.{order}", "rotating": "unbalance_force.rotating"}.get(
+                kind, ""
+            )
+            if key not in found:
+                return {}
+            terms.append((found[key], one))
+    made = {}
+    for kind in ("force", "moment"):
+        ways = [
+            [(force, getattr(getattr(one, kind), way) / force.value) for force, one in terms]
+            for way in Ellipse._fields
+        ]  # fmt: skip
+        sizes = [_size_of(way) for way in ways if any(factor for _, factor in way)]
+        if sizes:
+            made[kind] = total("", sizes)
+    return made
+
+
+def _size_of(way: Sequence[tuple[Known, complex]]) -> Known:
+    """Return the size of a sum of forces times vectors, which are those of the layout but for rounding."""
+    x, y = (
+        total("", [force * round(part, _DIGITS) for (force, _), part in zip(way, parts, strict=True)])
+        for parts in ([one.real for _, one in way], [one.imag for _, one in way])
+    )
+    size: Known = amplitude_of_harmonic(x, y)
+    return size
 
 
 def _order_forces(whole: WholeEngine, balance: EngineBalance) -> dict[str, Known]:
@@ -188,13 +235,24 @@ def _order_forces(whole: WholeEngine, balance: EngineBalance) -> dict[str, Known
                 continue
             of = whole.cylinders[number - 1].memory
             acceleration = of.get("inertia_acceleration", of["piston_acceleration"])
-            coefficient = Known(Found(float(row[at]), "harmonic", (acceleration,)), f"acceleration_coefficient.{name}")
+            is_plain = "inertia_acceleration" not in of and not of_slaves
+            by = _coefficient(of, order, balance.harmonics.coefficients[at]) if is_plain else None
+            amplitude = Found(float(row[at]), "harmonic", (acceleration,), by=by)
+            coefficient = Known(amplitude, f"acceleration_coefficient.{name}")
             force = order_inertia_force(
                 of["reciprocating_mass"], memory["crank_radius"], memory["speed"], coefficient
             ).named(f"order_inertia_force.{name}")
             found |= {one.key: one for one in (coefficient, force)}
             if not of_slaves:
                 found |= _freed(f"reciprocating.{order}", f"{order}", factor, pitch, force)
+    return found
+
+
+def _coefficient(memory: Mapping[str, Known], order: int, value: complex) -> Known:
+    """Return the amplitude of an order of the acceleration, over the crank radius, of its waves."""
+    of, r = memory["piston_transfer_2"], memory["crank_radius"]
+    waves = {"cosine": value.real * r.value, "sine": -value.imag * r.value}
+    found: Known = amplitude_of_harmonic(*(Known(Harmonic(one, of, part, order)) for part, one in waves.items())) / r
     return found
 
 
@@ -274,7 +332,11 @@ def _best_weights(whole: WholeEngine, balance: EngineBalance, memory: Mapping[st
     if not whole_part:
         return {}
     free = tuple(memory[key] for key in ("free_force.reciprocating.1", "free_moment.reciprocating.1") if key in memory)
-    share = Known(Found((swinging * whole_part.conjugate()).real / abs(whole_part) ** 2, "vector_share", free))
+    part, by = (swinging * whole_part.conjugate()).real / abs(whole_part) ** 2, None
+    coefficient = memory.get("acceleration_coefficient.1")
+    if coefficient is not None and not balance.knuckles:
+        by = coefficient * round(part / coefficient.value, _DIGITS)
+    share = Known(Found(part, "vector_share", free, by=by))
     share = share.named("best_balanced_share")
     moments = [
         total(f"best_counterweight_moment.{pin + 1}", [

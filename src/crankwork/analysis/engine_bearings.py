@@ -17,11 +17,11 @@ from crankwork.cylinders import bearings as formulas
 from crankwork.cylinders.counterweights import Unbalance, counterweight_moment, throw_counterweights
 from crankwork.cylinders.journal_loads import main_journal_loads
 from crankwork.cylinders.layout import Layout, Place
-from crankwork.cylinders.load_statistics import reversal
+from crankwork.cylinders.load_statistics import reversal, reversal_of_polynomials
 from crankwork.cylinders.load_vectors import BearingLoad
-from crankwork.cylinders.wear import oil_hole, ray_angles, wear_sums
+from crankwork.cylinders.wear import OilHoleOfPolynomials, oil_hole, ray_angles, wear_sums
 from crankwork.dynamics.piston_forces import transverse_weight, weight_force
-from crankwork.formula.known import Delayed, Found, Known, Node, Table, Use, absent, given, in_order, total
+from crankwork.formula.known import Delayed, Found, Known, Node, Procedure, Table, Use, absent, given, in_order, total
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Samples
 from crankwork.kinematics.crank_grid import Array, CrankGrid
@@ -326,8 +326,11 @@ def _reversal(over: OverCycle, extremes: Mapping[str, Known]) -> dict[str, Known
     key = "bearing_force_x.small_end"
     peaks = extremes["bearing_force_x_max.small_end"].value, extremes["bearing_force_x_min.small_end"].value
     turned, of = reversal(*over.stretches(key), peaks), (over.knowns[key],)
-    duration = Known(Found(math.radians(turned.duration), "reversal", of), "reversal_duration")
-    return {duration.key: duration, "reversal_ratio": Known(Found(turned.ratio, "reversal", of), "reversal_ratio")}
+    found = {"reversal_duration": math.radians(turned.duration), "reversal_ratio": turned.ratio}
+    return {
+        name: Known(Procedure(value, "reversal", of, reversal_of_polynomials, part), name)
+        for part, (name, value) in enumerate(found.items())
+    }
 
 
 # what its sizes are called in a description; of the others those of the crankpin
@@ -358,7 +361,9 @@ def wear_memory(whole: WholeEngine, memory: Mapping[str, Known], samples: Sample
         table = Known(Table(OnRays(sums), "wear", of=of), f"wear_sum.crankpin.{pin}")
         name = f"oil_hole_angle.{pin}" if len(loads.crankpins) > 1 else "oil_hole_angle"
         angle = math.radians(oil_hole(sums).angle)
-        found |= {table.key: table, name: Known(Found(angle, "oil_hole", (table,)), name)}
+        by = Known(Procedure(angle, "oil_hole", of, OilHoleOfPolynomials(_WEAR_STEP, rays), 0))
+        hole = Found(angle, "oil_hole", (table,), by=by)
+        found |= {table.key: table, name: Known(hole, name)}
     for at, load in enumerate(loads.mains, start=1):
         of = memory[f"{_X}.main_journal.{at}"], memory[f"{_Y}.main_journal.{at}"]
         key = f"wear_sum.main_journal.{at}"

@@ -25,7 +25,7 @@ from crankwork.cylinders.torque_harmonics import (
     total_harmonics,
 )
 from crankwork.dynamics.piston_forces import crank_torque
-from crankwork.formula.known import Found, Known, absent, total
+from crankwork.formula.known import Found, Harmonic, Known, absent, total
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Samples
 from crankwork.kinematics.crank_grid import Array, CrankGrid
@@ -124,18 +124,22 @@ def harmonics_memory(whole: WholeEngine, torque: EngineTorque, memory: Mapping[s
     layout, found = whole.layout, dict[str, Known]()
     count, of = round(_ORDERS * layout.cycle / 360), (whole.of(1, "crank_torque"),)
     one = curve_harmonics(torque.one, count)
-    all_ = None if whole.is_uniform else curve_harmonics(torque.total, count).amplitude
+    all_ = None if whole.is_uniform else curve_harmonics(torque.total, count)
     stars = phase_sums(layout, one.orders.tolist())
     for at, order in enumerate(one.orders.tolist()):
-        parts = {"harmonic_cosine": one.cosine, "harmonic_sine": one.sine}
-        cosine, sine = (Known(Found(float(part[at]), "fourier", of), f"{key}.{order:g}") for key, part in parts.items())
+        cosine, sine = (
+            Known(Harmonic(float(getattr(one, part)[at]), *of, part, order), f"harmonic_{part}.{order:g}")
+            for part in ("cosine", "sine")
+        )
         phase = Known(Found(float(one.phase[at]), "fourier", (cosine, sine)), f"harmonic_phase.{order:g}")
         amplitude = amplitude_of_harmonic(cosine, sine).named(f"harmonic_amplitude.{order:g}")
         star = Known(Found(abs(stars[at]), "phase_star"), f"phase_sum.{order:g}")
         if all_ is None:
             of_all = amplitude_of_total(amplitude, star)
         else:
-            of_all = Known(Found(float(all_[at]), "fourier", (memory["total_torque"],)))
+            total = memory["total_torque"]
+            parts = (Known(Harmonic(float(getattr(all_, part)[at]), total, part, order)) for part in ("cosine", "sine"))
+            of_all = Known(Found(float(all_.amplitude[at]), "fourier", (total,), by=amplitude_of_harmonic(*parts)))
         of_all = of_all.named(f"total_harmonic_amplitude.{order:g}")
         found |= {known.key: known for known in (cosine, sine, amplitude, phase, star, of_all)}
     return found

@@ -230,7 +230,10 @@ def course_of(torque: Curve, found: ExcessWork, excess: Known, w: Known, inertia
     summary["speed_fluctuation"] = fluctuation_of_inertia(excess, inertia, w)
     ends = speed.extremes
     for word, value, at in (("max", ends.largest, ends.at_largest), ("min", ends.least, ends.at_least)):
-        summary[f"crank_speed_{word}"] = Known(Found(value, word, (turning,), math.degrees(at)))
+        # as far above the mean as the least is below it, where the inertia is constant
+        half = w * summary["speed_fluctuation"] / 2
+        by = w + half if word == "max" else w - half
+        summary[f"crank_speed_{word}"] = Known(Found(value, word, (turning,), math.degrees(at), by))
     return Course(columns, summary, (), speed)
 
 

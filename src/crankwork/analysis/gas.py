@@ -61,7 +61,17 @@ def gas_memory(solved: SolvedCylinder, space: WorkingSpace, moving: MovingCylind
         rod_area = gas.piston_area(solved.method.pi, diameter).named("piston_area.rod")
         back = given("back_pressure", space.back_pressure, "gas.back_pressure")
     force = gas.gas_force(pressure, area, back, rod_area)
-    return {one.key: one for one in (volume, read, pressure, force)} | _ends_of_polytropes(solved, space, volume)
+    found = {one.key: one for one in (volume, read, pressure, force)} | _ends_of_polytropes(solved, space, volume)
+    return found | _filling(solved, space, (read, volume))
+
+
+def _filling(solved: SolvedCylinder, space: WorkingSpace, columns: tuple[Known, Known]) -> dict[str, Known]:
+    """Return the filling factor of a rounded diagram."""
+    key, given_gas = "filling_factor.diagram", solved.machine.gas
+    if space.calculated is None or key not in space.calculated.memory or given_gas is None:
+        return {}
+    filling = getattr(given_gas.calculated, "filling", None)
+    return {} if filling is None else {key: filling(space.calculated.memory[key].value, columns, solved.stroke[1:])}
 
 
 def _retold(

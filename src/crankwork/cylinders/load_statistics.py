@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -10,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from crankwork.cylinders.load_vectors import BearingLoad
 from crankwork.kinematics.crank_grid import Array
+from crankwork.shaft.curve import Curve
 
 
 class LoadReversal(NamedTuple):
@@ -51,6 +53,21 @@ def reversal(
     for one, length in zip(is_compression, lengths, strict=False):
         longest[one] = max(longest[one], length)
     return LoadReversal(longest[True], longest[False], max(-peaks[1], 0.0), max(peaks[0], 0.0))
+
+
+def reversal_of_polynomials(edges: Array, series: Array) -> tuple[float, float]:
+    """Return duration [rad] and ratio of the reversal of a load along the rod, of its polynomials over one cycle.
+
+    `edges`: ends of panels [rad]; `series`: Legendre coefficients of the load on them, shape (1, panels, k).
+    """
+    load = Curve.legendre(edges, series[0])
+    at = np.unique(np.concatenate([edges, load.zeros()]))
+    negative = load((at[1:] + at[:-1]) / 2) < 0
+    last = np.flatnonzero(np.append(negative[1:] != negative[:-1], True))
+    reach = load.extremes()
+    peaks, start = (reach.largest, reach.least), math.degrees(at[0])
+    turned = reversal(np.degrees(at[1:][last]).tolist(), negative[last].tolist(), peaks, start=start)
+    return math.radians(turned.duration), turned.ratio
 
 
 # steps of closer marks, and which share of the size of a diagram the curve goes from mark to mark there [deg]

@@ -7,9 +7,11 @@ presses on the side of the crankpin that faces the crankshaft. From there it act
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from numpy.polynomial import legendre
 from numpy.typing import ArrayLike, NDArray
 
 from crankwork.cylinders.load_vectors import BearingLoad
@@ -21,6 +23,8 @@ _SAME_ANGLE = 1e-9
 _SPREAD = 60.0
 # Sums closer than this share of the largest are the same.
 _SAME_SUM = 1e-9
+# of the largest force, what a polynomial may miss
+_ROUNDING = 1e-11
 
 
 def ray_angles(rays: int) -> Array:
@@ -51,6 +55,28 @@ def wear_sums(load: BearingLoad, *, rays: int = 12) -> Array:
     The load is that on the journal in its own frame, at even steps without the end of the cycle.
     """
     return np.asarray(np.sum(wear_table(load, rays), axis=0))
+
+
+@dataclass(frozen=True)
+class OilHoleOfPolynomials:
+    """The oil hole of a crankpin, of polynomials of its load over one cycle.
+
+    `step`: between the loads that are added up [deg]; `rays` in the wear diagram.
+    """
+
+    step: float
+    rays: int
+
+    def __call__(self, edges: Array, series: Array) -> tuple[float]:
+        """Return its angle from the crank [rad]; `series`: of the force of the rods, along the crank and across it."""
+        # an edge belongs to what ends there, and the end of the cycle is its start
+        at = np.arange(edges[-1], edges[0] + np.radians(self.step) / 2, -np.radians(self.step))
+        panel = np.searchsorted(edges, at - _SAME_ANGLE) - 1
+        u = (2 * at - edges[panel] - edges[panel + 1]) / (edges[panel + 1] - edges[panel])
+        forces = np.array([legendre.legval(u, one[panel].T, tensor=False) for one in series])
+        # along the crank where only rounding says otherwise: a ray at the end of an arc is told by that
+        radial, tangential = np.where(np.abs(forces) > _ROUNDING * np.max(np.abs(forces)), forces, 0.0)
+        return (float(np.radians(oil_hole(wear_sums(BearingLoad(-radial, tangential), rays=self.rays)).angle)),)
 
 
 class OilHole(NamedTuple):

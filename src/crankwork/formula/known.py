@@ -188,7 +188,8 @@ class Found(Node):
     """A single value that a procedure found: the largest of a column, its mean, a root, an angle.
 
     `word` names the procedure, `operands` are what it was applied to, `at` is the crank angle where the value stands,
-    if it stands at one [deg]. `by` is that angle where it follows from other knowns, or what a column reaches.
+    if it stands at one [deg]. `by` is that angle where it follows from other knowns, or what a column reaches; of
+    other words the same value made of nothing but knowns.
     """
 
     __slots__ = ("at", "by", "word")
@@ -198,6 +199,21 @@ class Found(Node):
     ) -> None:
         super().__init__(float(value), of)
         self.word, self.at, self.by = word, at, by
+
+    @property
+    def retold(self) -> Known | None:
+        """The same value made of nothing but knowns, where there is such a way."""
+        return None if self.word in ("at", "reached") else self.by
+
+
+class Harmonic(Found):
+    """A part of a harmonic of a column, of so many waves in a turn of the crank: its `cosine` or `sine`."""
+
+    __slots__ = ("order", "part")
+
+    def __init__(self, value: float, of: Known, part: str, order: float) -> None:
+        super().__init__(value, "fourier", (of,))
+        self.part, self.order = part, order
 
 
 class Procedure(Found):

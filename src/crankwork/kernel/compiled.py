@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork import files
-from crankwork.formula.known import Delayed, Found, Known, Procedure, breaks_of, in_order
+from crankwork.formula.known import Delayed, Found, Known, Node, Procedure, breaks_of, in_order
 from crankwork.kernel.arrays import Arrays
 from crankwork.kernel.gradient import Gradient
 from crankwork.kernel.graph import Value, number
@@ -77,7 +77,7 @@ class Kernel:
         designs = Designs(memories, fields, keys)
         self.fields = fields.shape[1]
         wanted = {key: memories[0][key] for key in keys}
-        every = list(in_order(wanted.values()))
+        every = list(in_order(wanted.values(), into=_told))
         if steps and any(isinstance(one.node, Procedure) for one in every):
             raise NotCompiledError("procedure", next(iter(keys)))
         delays = sorted({one.node.by for one in every if isinstance(one.node, Delayed)})
@@ -229,10 +229,14 @@ def _of_cycle(known: Known, value: Value) -> Value:
     return value.graph.reduction("column", value) if known.varies else value
 
 
+def _told(node: Node) -> Sequence[Known]:
+    return (node.retold,) if isinstance(node, Found) and node.retold is not None else node.operands
+
+
 def _reduced(knowns: Iterable[Known]) -> list[Known]:
     """Return the columns that single values are found of, and those that are kept."""
     knowns = list(knowns)
-    nodes = [one.node for one in in_order(knowns)]
+    nodes = [one.node for one in in_order(knowns, into=_told)]
     found = [of for node in nodes if isinstance(node, Found) for of in node.operands if of.varies]
     return [*found, *(one for one in knowns if one.varies)]
 

@@ -15,8 +15,6 @@ from crankwork.kernel.grid import Grid, Polynomials
 
 Array = NDArray[np.float64]
 
-# how near to the top a place must be to be followed to its peak, of what a column spans
-_NEAR_TOP = 0.05
 # of equal values, whatever rounding says, the first counts
 _PLATEAU = 1e-13
 _STEPS = 8
@@ -169,30 +167,32 @@ class Exact:
     def largest_in(self, columns: Array, starts: Sequence[int]) -> Peaks:
         """Return the largest of columns in each part that starts at a panel, shape (columns, parts, lanes)."""
         values = self.panels(columns)
-        top = np.maximum.reduceat(values.max(axis=2), starts, axis=1)
+        highest = values.max(axis=2)
+        top = np.maximum.reduceat(highest, starts, axis=1)
         least = np.minimum.reduceat(values.min(axis=2), starts, axis=1)
         part_of = np.repeat(np.arange(len(starts)), np.diff([*starts, self.count]))
+        size = np.maximum(np.abs(top), np.abs(least))
+        rounding = _EQUAL * size
+        # no polynomial comes further from its mean than its other coefficients together
+        series = np.matmul(self._to_coefficients, values)
+        rise = np.abs(series[:, :, 1:]).sum(axis=2)
+        is_high = series[:, :, 0] + rise >= (top - rounding)[:, part_of]
+        # where it is level but for rounding its first node is as good as any
+        is_level = rise <= (_PLATEAU * size)[:, part_of]
         inner = np.pad(values, ((0, 0), (0, 0), (1, 1), (0, 0)), constant_values=-np.inf)
-        is_peak = (values >= inner[:, :, :-2]) & (values >= inner[:, :, 2:])
-        is_peak &= values >= (top - _NEAR_TOP * (top - least))[:, part_of, None]
+        is_peak = (values >= inner[:, :, :-2]) & (values >= inner[:, :, 2:]) & (is_high & ~is_level)[:, :, None]
+        is_peak[:, :, 0] |= is_high & is_level
         column, panel, node, lane = np.nonzero(is_peak)
-        low = self._nodes[np.maximum(node - 1, 0)]
-        high = self._nodes[np.minimum(node + 1, self._nodes.size - 1)]
-        coefficients = self._to_coefficients @ values[column, panel, :, lane].T
-        slopes = np.stack([self._slope @ coefficients, self._bend @ coefficients], axis=1)
-        u = self._nodes[node]
-        for _ in range(_STEPS):
-            slope, bend = legendre.legval(u, slopes, tensor=False)
-            low, high = np.where(slope > 0, u, low), np.where(slope > 0, high, u)
-            with np.errstate(divide="ignore", invalid="ignore"):
-                moved = u - slope / bend
-            u = np.where(
-                (bend < 0) & (moved >= low) & (moved <= high), moved, np.where(slope == 0, u, (low + high) / 2)
-            )
-        at_node, at_peak = values[column, panel, node, lane], legendre.legval(u, coefficients, tensor=False)
+        at_node, u = values[column, panel, node, lane], self._nodes[node]
+        moving = ~is_level[column, panel, lane]
+        at_node = np.where(moving, at_node, highest[column, panel, lane])
+        at_peak = at_node.copy()
+        coefficients = np.ascontiguousarray(series[column[moving], panel[moving], :, lane[moving]].T)
+        u[moving] = self._peaks(coefficients, node[moving])
+        at_peak[moving] = legendre.legval(u[moving], coefficients, tensor=False)
         # at the end of a panel the column itself counts, and where only rounding tells a peak from it
         of = column, part_of[panel], lane
-        is_node = at_node >= at_peak - _EQUAL * np.maximum(np.abs(top), np.abs(least))[of]
+        is_node = at_node >= at_peak - rounding[of]
         found, u = np.where(is_node, at_node, at_peak), np.where(is_node, self._nodes[node], u)
         best = np.full(top.shape, -np.inf)
         np.maximum.at(best, of, found)
@@ -207,6 +207,20 @@ class Exact:
         inside[place], at[place] = panel[is_first], u[is_first]
         value, angle = (np.where(np.isfinite(top), one, np.nan) for one in (best, first))
         return Peaks(value, angle, inside, at)
+
+    def _peaks(self, coefficients: Array, node: NDArray[np.intp]) -> Array:
+        """Return where polynomials have a peak between the neighbours of a node: Newton steps, kept between these."""
+        low, high = self._nodes[np.maximum(node - 1, 0)], self._nodes[np.minimum(node + 1, self._nodes.size - 1)]
+        slopes, u = np.stack([self._slope @ coefficients, self._bend @ coefficients], axis=1), self._nodes[node]
+        for _ in range(_STEPS):
+            slope, bend = legendre.legval(u, slopes, tensor=False)
+            low, high = np.where(slope > 0, u, low), np.where(slope > 0, high, u)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                moved = u - slope / bend
+            u = np.where(
+                (bend < 0) & (moved >= low) & (moved <= high), moved, np.where(slope == 0, u, (low + high) / 2)
+            )
+        return u
 
     @staticmethod
     def _of(panels: Array, panel: NDArray[np.intp], lane: NDArray[np.intp]) -> Array:

@@ -10,6 +10,7 @@ import functools
 import math
 import operator
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
@@ -24,6 +25,7 @@ from crankwork.formula.known import (
     Found,
     Given,
     HalfTurns,
+    Harmonic,
     Known,
     Node,
     OfAngle,
@@ -78,6 +80,18 @@ class NotCompiledError(CrankworkError):
     def __init__(self, reason: Reason, key: str) -> None:
         super().__init__(f"{reason}: {key}")
         self.reason, self.key = reason, key
+
+
+@dataclass(frozen=True)
+class _Wave:
+    """A sine or cosine of so many waves over an angle. [deg]"""
+
+    function: np.ufunc
+    order: float
+
+    def __call__(self, degrees: Array) -> Array:
+        """Return it at crank angles."""
+        return np.asarray(self.function(self.order * degrees))
 
 
 class Designs:
@@ -136,8 +150,8 @@ class Designs:
                 return (self.told(node),)
             case Pieces(places=places):
                 return (*node.operands, *(one for one in places if isinstance(one, Known)))
-            case Found(by=by) if by is not None:
-                return (*node.operands, by)
+            case Found(by=by, retold=retold) if by is not None:
+                return (*node.operands, by) if retold is None else (retold,)
         return node.operands
 
     def told(self, node: Pieces) -> Known:
@@ -193,6 +207,8 @@ def _are_alike(one: Node, other: Node) -> bool:
             return one.retold is not None or _plain(one.places) == _plain(other.places)
         case Procedure(function=f, part=a), Procedure(function=g, part=b):
             return f == g and a == b
+        case Harmonic(order=a, part=b), Harmonic(order=c, part=d):
+            return (a, b) == (c, d)
         case (Component(at=a), Component(at=b)) | (Found(word=a), Found(word=b)):
             return bool(a == b)
     return True
@@ -225,6 +241,7 @@ class Trace:
         self._ends: dict[int, tuple[End, Array]] = {}
         self._made: dict[tuple[int, float | None, float], Value] = {}
         self._by_angle = ByAngle(self.graph)
+        self._waves: dict[tuple[str, float], _Wave] = {}
 
     def compiling(self, keys: Iterable[str]) -> list[str]:
         """Return those of some keys that compile, that designs differ in, and that need loops and extremes alone.
@@ -284,8 +301,10 @@ class Trace:
                 return self.graph.apply("choose", *map(of, node.operands))
             case Procedure():
                 return self.graph.procedure(node.function, node.part, map(self.value, node.operands))
+            case Harmonic():
+                return self._harmonic(self.value(node.operands[0]), node)
             case Found():
-                return self._found(known, node)
+                return self._found(known, node) if node.retold is None else self.value(node.retold)
             case Root() | Component():
                 raise NotCompiledError("solved", known.key)
         return self._of_angles(known, of, shift, fixed)
@@ -414,6 +433,16 @@ class Trace:
                 pressure, volume = map(self.value, node.operands)
                 return self.graph.reduction("integral", pressure * self._by_angle.of(volume))
         raise NotCompiledError("procedure", known.key or node.word)
+
+    def _harmonic(self, column: Value, node: Harmonic) -> Value:
+        """Return twice the mean of a column times a wave."""
+        function = {"cosine": "cos", "sine": "sin"}[node.part]
+        if node.order == int(node.order):
+            wave = self.graph.angle(function, int(node.order), 0.0)
+        else:
+            self._waves.setdefault((function, node.order), _Wave(getattr(np, function), math.radians(node.order)))
+            wave = self.graph.reading(self._waves[function, node.order], 0.0)
+        return self.graph.reduction("mean", column * wave) * 2.0
 
     def _at(self, column: Known, degrees: Value) -> Value:
         try:

@@ -17,7 +17,7 @@ from crankwork.kernel.slopes import in_part
 from crankwork.kernel.trace import NotCompiledError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Refusal
-from crankwork.study.machines import Machines, threaded
+from crankwork.study.machines import Machines, single, threaded
 from crankwork.study.sought import Sought, limit, sought_number
 from crankwork.units import System
 
@@ -235,10 +235,10 @@ class Box:
 
     def _analysed(self, place: Array) -> Array:
         try:
-            summary = self.results(place).summary
+            results = self.results(place)
         except CrankworkError:
             return np.full(len(self.keys), np.nan)
-        return np.array([summary.get(key, np.nan) for key in self.keys])
+        return np.array([single(results, key) for key in self.keys])
 
     def _by_differences(self, place: Array) -> Near:
         """Return derivatives by differences of analyses, which stay between the bounds."""

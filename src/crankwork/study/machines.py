@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
@@ -120,7 +121,7 @@ class Machines:
                 one = self.results(design)
             except CrankworkError:
                 continue
-            expected = np.array([one.summary.get(key, np.nan) for key in self.keys])
+            expected = np.array([single(one, key) for key in self.keys])
             if np.any(np.isnan(expected) & np.isfinite(found.values[:, at])):
                 raise NotCompiledError("absent", self.keys[int(np.argmax(np.isnan(expected)))])
             apart = np.abs(expected - found.values[:, at]) - limit * size
@@ -133,7 +134,7 @@ class Machines:
     def check_at(self, kernel: Kernel, design: Array) -> None:
         """Refuse a kernel that gives something else than the analysis of one design, or no derivatives."""
         found, one = kernel.slopes(design)[0][: len(self.keys)], self.results(design)
-        expected = np.array([one.summary[key] for key in self.keys])
+        expected = np.array([single(one, key) for key in self.keys])
         if not np.all(np.abs(found - expected) <= _SAME * np.maximum(np.abs(expected), _SAME)):
             raise NotCompiledError("differs", self.keys[0])
 
@@ -156,7 +157,7 @@ class Machines:
             found.values[:, at] = np.nan
             try:
                 results = self.results(designs[:, at])
-                found.values[:, at] = [results.summary.get(key, np.nan) for key in self.keys]
+                found.values[:, at] = [single(results, key) for key in self.keys]
                 # where there is a machine without such a value it says so
                 for key in self.keys:
                     results.value(key)
@@ -165,9 +166,16 @@ class Machines:
         return values
 
 
+def single(results: Results, key: str) -> float:
+    """Return a single value, also of those that lie between; NaN where there is none."""
+    known = results.memory.get(key)
+    return results.summary.get(key, math.nan) if known is None or known.varies else known.value
+
+
 def check_single(results: Results, key: str) -> None:
     """Refuse a key that is no single value of results."""
-    if key in results and key not in results.summary:
+    known = results.memory.get(key)
+    if key not in results.summary and (key in results.columns if known is None else known.varies):
         raise UnknownKeyError(Refusal("sweep_single", key=key[:60]))
     results.value(key)
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
+import itertools
 import json
 import re
 from collections import Counter
@@ -24,6 +26,7 @@ from crankwork.machine import Machine
 from crankwork.report.language import displayed, displayed_column, key_unit, label, rounded
 from crankwork.report.tables import Sheet, csv_of_sheet
 from crankwork.study.chunks import reason_of
+from crankwork.study.machines import Machines
 from crankwork.study.running import each
 from crankwork.study.sought import Places, Sought, places, sought_number
 from crankwork.units import System, from_si, shown_in
@@ -31,6 +34,8 @@ from crankwork.units import System, from_si, shown_in
 STEPS = 12
 _FEWEST, _MOST = 1, 200
 _AXES = 2
+# points that are worth calculating together, and worth compiling for
+_MANY, _WORTH_COMPILING = 48, 5000
 _OVER = re.compile(
     r"\s*(?P<key>[^=\s]+)\s*=\s*(?P<low>[^:]+?)\s*\.\.\s*(?P<high>[^:]+?)\s*(?::\s*(?P<steps>[0-9]{1,4})\s*)?"
 )
@@ -80,27 +85,24 @@ def mapped(
         raise CrankworkError(Refusal("map_twice", key=next(iter(fields))))
     at = {number.key: where for number, where in axes}
     shape = tuple(len(where.at) for where in at.values())
+    every = list(np.ndindex(shape))
+    designs = np.array([[where.at[one] for where, one in zip(at.values(), place, strict=True)] for place in every])
+    of_points = None
+    if len(every) >= _MANY:
+        of_points = _together(description, fields, designs, overrides)
+    if of_points is None:
+        points = [[*overrides, *_settings(fields, design)] for design in designs]
+        of_points = each(functools.partial(_point, description), points, workers)
     found: dict[str, Array] = {}
     given: set[str] = set()
-    refused: Counter[str] = Counter()
-    every = list(np.ndindex(shape))
-    points = [
-        [
-            *overrides,
-            *(
-                Setting("--over", key, fields[key].written(float(where.at[one])))
-                for (key, where), one in zip(at.items(), place, strict=True)
-            ),
-        ]
-        for place in every
-    ]
+    refused, reasons = Counter[str](), dict[str, str]()
     machine: Machine | None = None
-    of_points = each(functools.partial(_point, description), points, workers)
     for count, (place, point) in enumerate(zip(every, of_points, strict=True), start=1):
         if isinstance(point, str):
-            refused[point] += 1
+            # each length that is too short is another sentence, and one reason
+            refused[reasons.setdefault(getattr(point, "name", point), point)] += 1
         else:
-            machine = machine or description.machine(points[count - 1])
+            machine = machine or description.machine([*overrides, *_settings(fields, designs[count - 1])])
             given |= point.given
             for key, value in point.summary.items():
                 found.setdefault(key, np.full(shape, np.nan))[place] = value
@@ -118,6 +120,44 @@ class _Point(NamedTuple):
 
     summary: dict[str, float]
     given: set[str]
+
+
+def _settings(fields: Mapping[str, Sought], design: Array) -> list[Setting]:
+    """Return what states a point. [SI]"""
+    every = zip(fields.items(), design.tolist(), strict=True)
+    return [Setting("--over", key, field.written(value)) for (key, field), value in every]
+
+
+def _together(
+    description: Description, fields: Mapping[str, Sought], designs: Array, overrides: Sequence[str | Setting]
+) -> Iterator[_Point | str] | None:
+    """Return what is found at points, shape (n, fields), calculated at once; None where that cannot be. [SI]"""
+    low, high = designs.min(axis=0), designs.max(axis=0)
+    spans = np.stack([low, np.median(designs, axis=0), high], axis=1)
+    corners = np.array(list(itertools.product(*spans[:, ::2])))
+    try:
+        machines = Machines(description, fields, spans, (), overrides)
+    except CrankworkError:
+        return None
+    some = [machines.stated]
+    for corner in corners:
+        with contextlib.suppress(CrankworkError):
+            some.append(machines.results(corner))
+    machines.keys += some[0].summary
+    if any(one.summary.keys() != some[0].summary.keys() for one in some):
+        # what there is to be found changes with the point
+        return None
+    machines.compile(None, corners.T, is_for_few=len(designs) < _WORTH_COMPILING)
+    if machines.reason:
+        return None
+    given = {key for one in some for key in one.summary if _is_given(one, key)}
+    values = machines.values(designs.T)
+    return (
+        reason_of(values.refused[at])
+        if at in values.refused
+        else _Point({key: one for key, one in zip(machines.keys, of, strict=True) if np.isfinite(one)}, given)
+        for at, of in enumerate(values.of.T.tolist())
+    )
 
 
 def _point(description: Description, settings: Sequence[str | Setting]) -> _Point | str:

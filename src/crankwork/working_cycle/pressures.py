@@ -12,7 +12,14 @@ from crankwork.working_cycle.calculated_cycle import Calculated, CalculatedCycle
 from crankwork.working_cycle.gas_exchange import constant_pressure
 from crankwork.working_cycle.heat_data import HeatReleaseData
 from crankwork.working_cycle.heat_release import HeatReleaseResult, heat_release
-from crankwork.working_cycle.rounding import Rounding, Timing, motored_diagram, remembered_pressure, rounded_diagram
+from crankwork.working_cycle.rounding import (
+    Rounding,
+    Timing,
+    motored_diagram,
+    remembered_filling,
+    remembered_pressure,
+    rounded_diagram,
+)
 from crankwork.working_cycle.theoretical_diagram import theoretical_diagram
 
 # A cylinder is known by its volume at a few crank angles. [deg]
@@ -50,6 +57,11 @@ class CornerPressure:
         """Return the pressure over the crank angle, made of knowns alone, of the volume of a cylinder."""
         timing = Timing(cycle=self.cycle.angle) if self.timing is None else self.timing
         return remembered_pressure(_theory(self.cycle.corners), timing, self.rounding, volume, dead_centres)
+
+    def filling(self, value: float, columns: tuple[Known, Known], dead_centres: tuple[float, float]) -> Known:
+        """Return the filling factor of the rounded diagram, of the columns of pressure and volume."""
+        timing = self.timing or Timing(cycle=self.cycle.angle)
+        return remembered_filling(value, _theory(self.cycle.corners), timing, columns, dead_centres)
 
     def motored(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
         """Return the diagram of a cylinder in which nothing burns: expansion goes back along the compression line."""

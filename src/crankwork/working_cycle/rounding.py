@@ -7,12 +7,14 @@ exhaust line; the Vietnamese one puts c'' a third of the way up to the peak and 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
+from numpy.polynomial import legendre
 
-from crankwork.formula.known import Known
+from crankwork.formula.known import Known, Procedure, plain
+from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Segment, VolumeAt, solve_diagram
 from crankwork.loads.retold import RememberedVolume
 from crankwork.working_cycle.calculated_cycle import Drawn, Notice
@@ -161,6 +163,51 @@ def _filling(corners: RoundedCorners, diagram: IndicatorDiagram) -> float:
                 parts.append(clipped(segment, first, last))
     work = IndicatorDiagram(tuple(parts), {}).work(corners.volume_at)
     return work / theoretical_work(corners.theory, corners.volume_at, (corners.start, corners.top, end))
+
+
+@dataclass(frozen=True)
+class FillingOfPolynomials:
+    """The filling factor of a diagram, of polynomials over one cycle.
+
+    `names` of the pressures and exponents of the theory; `angles` where compression starts, of the top dead centre, and
+    where expansion ends; the `cycle`. [deg]
+    """
+
+    names: tuple[str, ...]
+    angles: tuple[float, float, float]
+    cycle: float
+
+    def __call__(self, edges: Array, series: Array) -> tuple[float]:
+        """Return the factor; `series`: Legendre coefficients of pressure, volume, and of each number of the theory."""
+        pressure, volume, *stated = series
+        start, _, end = self.angles
+        inside = np.mod(np.degrees(edges[1:] + edges[:-1]) / 2 - start, self.cycle) < end - start
+        nodes, weights = legendre.leggauss(pressure.shape[-1])
+        p = legendre.legval(nodes, pressure[inside].T)
+        V_1 = legendre.legval(nodes, legendre.legder(volume[inside].T))
+
+        def volume_at(degrees: Array) -> Array:
+            at = np.mod(np.radians(degrees) - edges[0], edges[-1] - edges[0]) + edges[0]
+            panel = np.clip(np.searchsorted(edges, at) - 1, 0, len(edges) - 2)
+            u = (2 * at - edges[panel] - edges[panel + 1]) / (edges[panel + 1] - edges[panel])
+            return np.asarray(legendre.legval(u, volume[panel].T, tensor=False))
+
+        theory = {name: float(one[0, 0]) for name, one in zip(self.names, stated, strict=True)}
+        return (float(((p * V_1) @ weights).sum()) / theoretical_work(theory, volume_at, self.angles),)
+
+
+def remembered_filling(
+    value: float,
+    theory: Mapping[str, Known],
+    timing: Timing,
+    columns: tuple[Known, Known],
+    centres: tuple[float, float],
+) -> Known:
+    """Return the filling factor as what a procedure finds of the pressure and the volume."""
+    corners = corners_of(theory, timing, Rounding(), RememberedVolume(columns[1]), centres)
+    end = corners.bottom if timing.cycle > 360 else plain(corners.opens)
+    by = FillingOfPolynomials(tuple(theory), (plain(corners.start), corners.top, end), timing.cycle)
+    return Known(Procedure(value, "integral", (*columns, *theory.values()), by, 0), "filling_factor.diagram")
 
 
 def theoretical_work(theory: Mapping[str, float], volume_at: VolumeAt, angles: tuple[float, float, float]) -> float:
