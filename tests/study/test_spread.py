@@ -237,3 +237,11 @@ def test_a_worst_case_that_is_none_is_refused(tmp_path, capsys, monkeypatch, wit
         cli.main()
     assert ended.value.code == 2
     assert "--within 3" in capsys.readouterr().err
+
+
+def test_draws_that_give_no_machine_are_counted_by_reason():
+    description = slider_crank(crank__radius="50 ± 12 mm", rod__length="100 ± 13 mm")
+    found = crankwork.spread(description, ["piston_acceleration_max"], samples=1500, seed=3)
+    r, rod = np.random.default_rng(3).standard_normal((1500, 2)).T * [[12], [13]] + [[50], [100]]
+    assert list(found.refused.values()) == [np.sum(r >= rod)]
+    assert "draws gave no machine: the rod" in spread_text(found)

@@ -110,8 +110,9 @@ def _sliders(live: Live, moved: Moved, language: Language) -> list[str]:
         name = html.escape(f"{capital(label(key, language))} ({one.key})" if key else one.key)
         unit = html.escape(unit_name(one.unit, language))
         ends = f'min="{low!r}" max="{high!r}"'
+        reach = " … ".join(number(value, language, digits=4) for value in (low, high))
         parts += [
-            f'<p class="slid"><label for="move{at}">{name}</label>',
+            f'<p class="slid"><label for="move{at}">{name} <small>{reach} {unit}</small></label>',
             f'<input type="range" id="move{at}" data-field="{at}" {ends} step="any" value="{now!r}">',
             f'<input type="text" inputmode="decimal" data-box="{at}" aria-label="{name}, {unit}" size="7">',
             f"<span>{unit}</span></p>",

@@ -6,7 +6,8 @@ import itertools
 import json
 import math
 import threading
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -239,6 +240,14 @@ def reason_of(error: CrankworkError) -> str:
     """Return why there is no machine: of several mistakes the first."""
     told: str = error.problems[0].message if isinstance(error, InputError) else error.args[0]
     return told
+
+
+def by_kind(reasons: Iterable[str]) -> Counter[str]:
+    """Return how often there is each kind of reason, under the first of its kind: each length is another sentence."""
+    first, found = dict[str, str](), Counter[str]()
+    for one in reasons:
+        found[first.setdefault(getattr(one, "name", one), one)] += 1
+    return found
 
 
 def _count(refused: dict[str, tuple[int, str]], reason: str, count: int) -> None:

@@ -7,7 +7,6 @@ import functools
 import itertools
 import json
 import re
-from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -25,7 +24,7 @@ from crankwork.locale.numbers import number, unit_name
 from crankwork.machine import Machine
 from crankwork.report.language import displayed, displayed_column, key_unit, label, rounded
 from crankwork.report.tables import Sheet, csv_of_sheet
-from crankwork.study.chunks import reason_of
+from crankwork.study.chunks import by_kind, reason_of
 from crankwork.study.machines import Machines
 from crankwork.study.running import each
 from crankwork.study.sought import Places, Sought, places, sought_number
@@ -95,12 +94,11 @@ def mapped(
         of_points = each(functools.partial(_point, description), points, workers)
     found: dict[str, Array] = {}
     given: set[str] = set()
-    refused, reasons = Counter[str](), dict[str, str]()
+    reasons = list[str]()
     machine: Machine | None = None
     for count, (place, point) in enumerate(zip(every, of_points, strict=True), start=1):
         if isinstance(point, str):
-            # each length that is too short is another sentence, and one reason
-            refused[reasons.setdefault(getattr(point, "name", point), point)] += 1
+            reasons.append(point)
         else:
             machine = machine or description.machine([*overrides, *_settings(fields, designs[count - 1])])
             given |= point.given
@@ -109,10 +107,10 @@ def mapped(
         if told_share is not None:
             told_share(count / len(every))
     if machine is None:
-        raise CrankworkError(Refusal("map_nothing", reason=next(iter(refused))))
+        raise CrankworkError(Refusal("map_nothing", reason=reasons[0]))
     kept = {key: of for key, of in found.items() if key not in given}
     independent = {key: [one for one, of in kept.items() if _is_same(of, at)] for at, key in enumerate(fields)}
-    return Map(machine.title or "", machine.units, fields, at, kept, independent, refused)
+    return Map(machine.title or "", machine.units, fields, at, kept, independent, by_kind(reasons))
 
 
 class _Point(NamedTuple):

@@ -18,6 +18,7 @@ from crankwork.description.machine_file import Setting
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Refusal
+from crankwork.study.chunks import by_kind, reason_of
 from crankwork.study.machines import Machines
 from crankwork.study.sought import Sought, sought_number
 
@@ -78,6 +79,8 @@ class Spreads(Mapping[str, Spread]):
         Draws that those spreads rest on which are sampled.
     within : float
         Deviations that a number may be off by in the worst case.
+    refused : mapping of str to int
+        How many draws gave no machine, by reason.
     """
 
     results: Results
@@ -85,6 +88,7 @@ class Spreads(Mapping[str, Spread]):
     found: Mapping[str, Spread] = field(repr=False)
     samples: int
     within: float
+    refused: Mapping[str, int]
 
     def __getitem__(self, key: str) -> Spread:
         return self.found[key]
@@ -167,7 +171,7 @@ def spread(  # noqa: PLR0913 - what spreads, how it is drawn, and how far the wo
     variances = first**2 + second**2 / 2
     deviations = np.sqrt(variances.sum(axis=0))
     draws = beside.draws(_LOOKS)
-    drawn = beside.values(draws)
+    drawn, reasons = beside.values(draws), list(beside.refused.values())
     model = draws @ first + draws**2 @ second / 2
     missed = np.sqrt(np.nanmean((drawn - middle - model) ** 2, axis=0))
     size = _NOTHING * np.maximum(np.abs(middle), np.max(np.abs(middle), initial=0.0) * _NOTHING)
@@ -178,6 +182,7 @@ def spread(  # noqa: PLR0913 - what spreads, how it is drawn, and how far the wo
         beside.compile(odd, samples)
         more = beside.draws(samples - _LOOKS)
         draws, drawn = np.concatenate([draws, more]), np.concatenate([drawn, beside.values(more, odd, told)])
+        reasons += beside.refused.values()
         centred = drawn[:, is_odd] - np.nanmean(drawn[:, is_odd], axis=0)
         deviations[is_odd] = np.sqrt(np.nanmean(centred**2, axis=0))
         variances[:, is_odd] = _by_cause(draws, centred)
@@ -195,7 +200,7 @@ def spread(  # noqa: PLR0913 - what spreads, how it is drawn, and how far the wo
                 float(middle[at]), float(deviations[at]), tuple(causes), worst.of(at), bool(is_odd[at]),
                 mean if is_away else None,
             )  # fmt: skip
-    return Spreads(stated, beside.given, spreads, samples if is_odd.any() else 0, within)
+    return Spreads(stated, beside.given, spreads, samples if is_odd.any() else 0, within, by_kind(reasons))
 
 
 class _Near(NamedTuple):
@@ -227,6 +232,7 @@ class _Beside:
         self.near = _Near((), np.zeros(0), 0.0)
         self._compiled: list[tuple[NDArray[np.intp], Machines]] = []
         self._generator = np.random.default_rng(seed)
+        self.refused: dict[int, str] = {}
 
     def draws(self, count: int) -> Array:
         """Return draws of all uncertain numbers, shape (count, numbers)."""
@@ -285,21 +291,25 @@ class _Beside:
     ) -> Array:
         """Return the values of machines off by so many deviations, shape (n, names); NaN where there is no machine.
 
-        `names`: those that are wanted, all by default; `is_needed`: a machine that cannot be is refused.
+        Why there is none is kept in `refused`. `names`: those that are wanted, all by default; `is_needed`: a machine
+        that cannot be is refused.
         """
         found = np.full((len(draws), len(self.near.names)), np.nan)
         left = set(range(len(self.near.names))) if names is None else set(names.tolist())
-        designs = self._designs(draws)
+        designs, self.refused = self._designs(draws), {}
         for some, machines in self._compiled:
             if left >= set(some.tolist()):
-                found[:, some] = machines.values(designs, workers=os.cpu_count() or 1).of.T
+                values = machines.values(designs, workers=os.cpu_count() or 1)
+                found[:, some] = values.of.T
+                self.refused |= {at: reason_of(one) for at, one in values.refused.items()}
                 left -= set(some.tolist())
         for row, design in enumerate(designs.T if left else ()):
             try:
                 summary = self._results(design).summary
-            except CrankworkError:
+            except CrankworkError as error:
                 if is_needed:
                     raise
+                self.refused[row] = reason_of(error)
                 continue
             for at in left:
                 found[row, at] = summary.get(self.near.names[at], np.nan)

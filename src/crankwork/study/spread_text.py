@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from crankwork.locale import Language, say
+from crankwork.locale import Language, say, told
 from crankwork.locale.numbers import number, unit_name
 from crankwork.report.language import displayed, displayed_size, key_unit, label, rounded
 from crankwork.study.spread import Spreads
@@ -45,6 +45,8 @@ def _text(found: Spreads, language: Language) -> str:
     lines += ["  ".join(cell.ljust(size) for cell, size in zip(row, [*wide, 0], strict=True)).rstrip() for row in rows]
     if found.samples:
         lines += ["", say("study.samples", language, count=str(found.samples), sign=say("study.sampled", language))]
+    for reason, count in found.refused.items():
+        lines += ["", say("study.draws_refused", language, count=str(count), reason=told(reason, language))]
     return "\n".join(lines)
 
 
@@ -55,6 +57,7 @@ def spread_data(found: Spreads) -> dict[str, Any]:
             "title": found.results.machine.title,
             "samples": found.samples,
             "within": found.within,
+            "refused": [{"count": count, "reason": str(reason)} for reason, count in found.refused.items()],
             "spreads": {
                 key: {
                     "value": rounded(displayed(key, one.value)),
