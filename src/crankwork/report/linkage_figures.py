@@ -177,9 +177,12 @@ def _dynamics(degrees: Array, known: Mapping[str, Array], style: Style) -> Pictu
         title = label("driving_torque", style.language)
         result["torques"] = partial(curves, degrees, known, [torques], title, style, remark)
     result |= _friction(degrees, known, style)
-    joints = any_nonzero((key for key in known if key.partition(".")[0] == "joint_force"), known)
-    if joints:
-        panels = [joints[start : start + _PER_PANEL] for start in range(0, len(joints), _PER_PANEL)]
+    panels = []
+    # magnitudes in pins, and apart from them forces of guides, which have a sign
+    for kind in ("joint_force", "normal_force"):
+        held = any_nonzero((key for key in known if key.partition(".")[0] == kind), known)
+        panels += [held[start : start + _PER_PANEL] for start in range(0, len(held), _PER_PANEL)]
+    if panels:
         result["joint_forces"] = partial(
             curves, degrees, known, panels, say("tables.joint_forces", style.language), style
         )
