@@ -92,6 +92,19 @@ def test_a_dot_stands_on_its_curve_where_the_table_says(opened, pages, stored, n
     assert compared >= 1
 
 
+def test_the_dot_of_the_indicator_diagram_stands_at_the_volume_of_its_angle(opened, pages, stored) -> None:
+    """Along straight strokes the volume does not grow as the angle does."""
+    page, results = opened("v8-diesel"), crankwork.analyse(crankwork.read(EXAMPLES / "v8-diesel.toml"))
+    (plot, *_) = stored(pages("v8-diesel").read_bytes())["figures"]["indicator"]["plots"]
+    (left, _, width, _), (low, high) = plot["box"], plot["x"]
+    page.keyboard.press("Home")
+    for volume in results["cylinder_volume"]:
+        dots = page.locator("svg[data-figure=indicator]").evaluate(DOTS)
+        said = [low + (float(x) - left) / width * (high - low) for x, _ in dots]
+        assert min(abs(one - displayed("cylinder_volume", volume)) for one in said) < 0.3 / width * (high - low)
+        page.keyboard.press("ArrowRight")
+
+
 def test_keys_move_the_cursor_and_the_machine_runs_and_stops(opened) -> None:
     page = opened("press")
     shown = page.locator("#shown")

@@ -10,6 +10,7 @@ from itertools import groupby
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from crankwork.kinematics.crank_grid import Array
 from crankwork.show.alt import described
@@ -22,6 +23,8 @@ from crankwork.show.theme import KINDS, Theme, curve_kind, fill_colours, look_of
 
 # of a curve, what nobody sees on a screen [mm]
 _UNSEEN = 0.05
+# of a place told by its crank angle, between points of the curve [mm]
+_MISPLACED = 0.3
 _QUOTED = re.compile(r"""="([^"\s=<>`'/&]+)"(?=[ >])""")
 _FILLED = fill_colours("print")
 # a number with a point ends where another point begins
@@ -84,8 +87,11 @@ class _InlineWriter(SvgWriter):
         if item.fill is not None and item.name in _FILLED:
             return super()._line(item._replace(name="", kind=pen_of(item.kind)._replace(colour=f"var(--{item.name})")))
         kept = self._kept.get(id(item.points), np.ones(len(item.points), dtype=bool))
-        d, angles = self._steps(item.points[kept], closed=item.closed), self._angles.get(item.name)
-        at = "" if angles is None or len(angles) != len(kept) else f' data-at="{_apart(angles[kept])}"'
+        angles, at = self._angles.get(item.name), ""
+        if angles is not None and len(angles) == len(kept):
+            kept = _with_places(kept, item.points, angles)
+            at = f' data-at="{_apart(angles[kept])}"'
+        d = self._steps(item.points[kept], closed=item.closed)
         self._kind = curve_kind(item)
         look, self._kind = self._drawn_as(item.kind, item.fill), ""
         return f'<path data-curve="{html.escape(item.name)}"{at} d="{d}"{look}/>'
@@ -197,9 +203,23 @@ def _parted(count: int) -> str:
     return _hundredths(count) if count < 0 else f" {_hundredths(count)}"
 
 
+def _with_places(kept: NDArray[np.bool_], points: Array, angles: Array) -> NDArray[np.bool_]:
+    """Return which points are kept that those between stand at their angles too, for a dot that goes along."""
+    while True:
+        between = np.column_stack([np.interp(angles, angles[kept], one) for one in points[kept].T])
+        apart = np.where(kept, 0.0, np.hypot(*(points - between).T))
+        stretch = np.cumsum(kept) - 1
+        farthest = np.maximum.reduceat(apart, np.flatnonzero(kept))[stretch]
+        wanted = (apart == farthest) & (farthest > _MISPLACED)
+        if not wanted.any():
+            return kept
+        kept = kept | wanted
+
+
 def _apart(angles: Array) -> str:
-    """Return angles as what each adds to the one before, in tenths of a degree."""
-    return " ".join(map(str, np.diff(np.rint(angles * 10).astype(int), prepend=0).tolist()))
+    """Return angles as what each adds to the one before, to tenths of a degree."""
+    steps = np.diff(np.rint(angles * 10).astype(int), prepend=0).tolist()
+    return " ".join(str(one // 10) if one % 10 == 0 else str(one / 10).removeprefix("0") for one in steps)
 
 
 _GREYS = "".join(f"--g{one}:color-mix(in srgb,var(--ground) {5 * one}%,var(--ink));" for one in range(1, 20))
