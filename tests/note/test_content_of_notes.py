@@ -89,7 +89,11 @@ def test_values_by_the_piston_area_are_those_of_the_tables():
 )
 def test_a_conclusion_says_the_numbers_that_matter(name, symbols):
     found = _note(name, "ru")
-    at = next(k for k, one in enumerate(found.blocks) if isinstance(one, Paragraph) and "числах" in str(one.runs[0]))
+    at = next(
+        k
+        for k, one in enumerate(found.blocks)
+        if isinstance(one, Paragraph) and "Основные результаты:" in str(one.runs[0])
+    )
     items = found.blocks[at + 1]
     assert isinstance(items, ItemList)
     assert [item[1].content for item in items.items][: len(symbols)] == symbols

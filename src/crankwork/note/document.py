@@ -7,6 +7,7 @@ Where a block takes runs, a plain text is a run too.
 from __future__ import annotations
 
 import datetime as dt
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -221,3 +222,8 @@ class Note:
     units: Shown = METRIC
     provenance: str = ""  # program, method and hash of the machine file
     results: Results | None = None  # What it tells of, for a page that is read with a cursor
+
+    @property
+    def headline(self) -> str:
+        """The title, each number on one line with what follows it."""
+        return re.sub(r"(?<=\d) (?=[^\W\d])", "\u00a0", self.title)

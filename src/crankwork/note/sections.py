@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Protocol, TypeVar
@@ -14,8 +13,6 @@ from crankwork.note.document import Block, Contents, Heading, ItemList, Note, Pa
 from crankwork.note.legends import explained
 from crankwork.note.options import NoteOptions
 
-# what parts a number from its unit
-_NUMBER = re.compile(r"(?<=\d) (?=[^\W\d])")
 # headings of contents that fill a page to more than three fifths
 _OWN_PAGE = 24
 
@@ -57,7 +54,7 @@ def note_of_sections(
     if listed >= _OWN_PAGE:
         front.append(PageBreak())
     return Note(
-        _NUMBER.sub("\u00a0", options.title or material.machine.title or title),
+        options.title or material.machine.title or title,
         options.language,
         (*front, *(_complete(blocks) if chosen else blocks)),
         tuple(one for one in document.author if one.strip()),

@@ -274,7 +274,7 @@ def _title_page(page: TitlePage, note: Note) -> str:
     columns = "(auto, auto, 1fr)" if any(one.signs for one in page.people) else "(auto, 0pt, auto)"
     grid = f"grid(columns: {columns}, column-gutter: 0.7em, row-gutter: 0.9em, align: left + bottom, {people})"
     body = (
-        f"{lines(page.institution, 13)}#v(1fr)\n{lines(page.above, 15)}#v(0.8em)\n{lines((note.title,), 20, 700)}"
+        f"{lines(page.institution, 13)}#v(1fr)\n{lines(page.above, 15)}#v(0.8em)\n{lines((note.headline,), 20, 700)}"
         f"#v(0.8em)\n{lines(page.below, 14)}#v(1fr)\n"
     )
     if people:

@@ -25,7 +25,7 @@ def cover_xml(page: TitlePage, note: Note) -> Iterator[str]:
         font = f'{"<w:b/>" if bold else ""}<w:sz w:val="{int(size * small)}"/><w:szCs w:val="{int(size * small)}"/>'
         return "".join(paragraph(text_run(one, font), style) for one in some)
 
-    title = lines(page.above, 30) + lines((note.title,), 40, bold=True, style="Title") + lines(page.below, 28)
+    title = lines(page.above, 30) + lines((note.headline,), 40, bold=True, style="Title") + lines(page.below, 28)
     parts = [
         (_HEAD, "top", lines(page.institution, 26)),
         (_TITLE, "center", title),
