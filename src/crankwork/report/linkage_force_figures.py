@@ -77,7 +77,8 @@ def _figure(plans: list[ForcePlan], numbers: dict[str, int], degrees: float, sty
 
 def _scale(plan: ForcePlan, width: float, height: float) -> float:
     """Return the scale at which a polygon has room beside its list. [displayed unit/mm]"""
-    room = np.array([width - _LIST - 2 * _MARGIN, height - 2 * _MARGIN])
+    # beside it letters stand between it and the list
+    room = np.array([width - _LIST - 4 * _MARGIN, height - 2 * _MARGIN])
     return round_scale(float(points_per_mm() * np.max(np.ptp(_ends(plan), axis=0) / room)), FINE)
 
 
