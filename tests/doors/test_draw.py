@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -57,3 +58,11 @@ def test_a_drawing_that_is_there_is_kept(crankwork, tmp_path):
     out.write_text("mine", "utf-8")
     assert crankwork("draw", _example("slider-crank"), "-o", str(out)).code == 2
     assert out.read_text("utf-8") == "mine"
+
+
+def test_a_still_says_which_link_acts_on_which_in_a_joint(crankwork, tmp_path):
+    """The boom (3) is held by the frame and by the rod (2) of the cylinder, whose barrel (1) is held by the frame."""
+    out = tmp_path / "forces.svg"
+    assert crankwork("draw", _example("excavator-boom"), "--at", "2", "--forces", "-o", str(out)).code == 0
+    said = re.sub(r"<[^>]*>", "", out.read_text("utf-8"))
+    assert re.findall(r"R([A-Z]) (\d) → (\d)", said)[:3] == [("O", "0", "3"), ("B", "3", "2"), ("A", "0", "1")]

@@ -15,6 +15,7 @@ from crankwork.errors import CrankworkError, GeometryError
 from crankwork.locale import Refusal, capital, say
 from crankwork.locale.numbers import number, unit_name
 from crankwork.machine import Machine
+from crankwork.mechanism.driver import Cylinder, rod_name
 from crankwork.mechanism.joints import joints, names_of_pivots
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Crank, Mechanism
@@ -217,8 +218,14 @@ def _acting(mechanism: Mechanism, shape: Skeleton, symbols: Mapping[str, str], l
     """Return which link acts on which in the joints that forces are drawn in."""
     numbers = {name: at for at, name in numbered(shape)} | {GROUND: 0}
     pivots = names_of_pivots(mechanism)
-    found = [(symbols.get(pivots.get(one.name, one.name)), numbers.get(one.other), numbers.get(one.link))
-             for one in joints(mechanism)]  # fmt: skip
+    driver = mechanism.driver
+    # the rod of a cylinder is a link of its own
+    rod = {driver.rod: {driver.link: rod_name(driver.link)}} if isinstance(driver, Cylinder) else {}
+    found = [
+        (symbols.get(pivots.get(one.name, one.name)), *(numbers.get(rod.get(one.name, {}).get(link, link))
+                                                         for link in (one.other, one.link)))
+        for one in joints(mechanism)
+    ]  # fmt: skip
     told = [f"{sign} {other} → {link}" for sign, other, link in found if sign and None not in (other, link)]
     return [f"{say('drawing.acts_on', language)} {told[0]}", *told[1:]] if told else []
 
