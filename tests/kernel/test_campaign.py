@@ -64,6 +64,8 @@ def test_calculated_cycles_are_compiled_to_what_analyses_give(file, fields):
     ("file", "fields"),
     [
         (EXAMPLES / "spark-engine.toml", ("crank.radius", "gas.points.c1.angle")),
+        # a point that a constant law comes to, and that has a pressure of its own
+        (EXAMPLES / "spark-engine.toml", ("crank.radius", "gas.points.a.pressure")),
         (TEMPLATES / "compressor.toml", ("rod.length", "gas.valves.discharge")),
         (EXAMPLES / "double-acting-steam.toml", ()),
         (MACHINES / "four-stroke-linkage.toml", ()),

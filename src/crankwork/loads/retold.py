@@ -120,7 +120,7 @@ class _Told:
             first, last = piece.points[0], piece.points[-1]
             if piece.law == "polytropic" and number in segments:
                 self._follow(number, piece, segments[number])
-            elif piece.law != "rounded":
+            elif piece.law != "rounded" and of.points[last].pressure is None:
                 self._pressures.setdefault(last, self._pressure(first))
 
     def laws(self, segment: Segment) -> Iterator[tuple[Value, Known]]:
