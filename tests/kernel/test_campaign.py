@@ -70,7 +70,7 @@ def test_calculated_cycles_are_compiled_to_what_analyses_give(file, fields):
         (EXAMPLES / "double-acting-steam.toml", ()),
         (MACHINES / "four-stroke-linkage.toml", ()),
     ],
-    ids=lambda one: one.stem if isinstance(one, Path) else "",
+    ids=lambda one: one.stem if isinstance(one, Path) else "-".join(one),
 )
 def test_pressures_through_points_are_compiled_to_what_analyses_give(file, fields):
     found = compared(file.stem, file.read_text(encoding="utf-8"), named=fields)
