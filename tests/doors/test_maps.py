@@ -55,7 +55,7 @@ def test_inertia_grows_with_the_square_of_the_speed_and_work_does_not(crankwork,
     assert "indicated_work" not in by_bore
     assert "Do not depend on crank.speed" in answer.out
     figure = (tmp_path / "out" / "figures" / "map.indicated_work.svg").read_text("utf-8")
-    assert "the same at every crank.speed" in figure
+    assert "the same at every" in figure
 
 
 @pytest.mark.parametrize(("options", "answered"), WRONG.values(), ids=WRONG)

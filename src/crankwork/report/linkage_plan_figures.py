@@ -135,7 +135,7 @@ def _figure(
         ends[place] = f"{ends[place]}, {node_name(name)}" if place in ends else node_name(name)
     beside = max([_MARGIN, *(WIDER * text_width(plain(one), 8.0) + 12 for one in ends.values())])
     high = max(tall(_TALL), _ROW * len(rows))
-    room = side - 2 * min(beside, side / 4), max(high - 2 * _MARGIN, _LOWEST)
+    room = side - 2 * min(beside, side / 8), max(high - 2 * _MARGIN, _LOWEST)
     scale = _scale(size_of(plan), among, room)
     unit = points_per_mm() / scale
     high = max(float(height) * unit + 2 * _MARGIN, _ROW * len(rows) + 30) + 34
