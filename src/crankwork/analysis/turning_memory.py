@@ -86,7 +86,7 @@ class _Torque:
     def _constant(self) -> Known:
         """Return the constant part: stated, or that of a power."""
         path, power = f"{self._table}.constant", self._machine.stated.get(f"{self._table}.power")
-        plain = given(f"{self._key}.constant", self._diagram.constant, path)
+        plain = given(f"{self._key}.0", self._diagram.constant, path)
         if power is None:
             return plain
         return origins.checked(given("shaft_power", power.value, f"{self._table}.power") / self._w, plain)
