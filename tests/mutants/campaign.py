@@ -97,9 +97,10 @@ def _checked(path: Path, method: str | None) -> Callable[[], bool]:
 
 
 def test_witnesses(session: pytest.Session) -> Iterator[Witness]:
-    """Yield every test that was collected."""
+    """Yield every test that was collected, but those of compiled steps, which are made of the source of formulas."""
     for item in session.items:
-        yield Witness(item.nodeid, False, _failed(item))
+        if "compiled" not in item.name:
+            yield Witness(item.nodeid, False, _failed(item))
 
 
 def _failed(item: pytest.Item) -> Callable[[], bool]:
