@@ -51,6 +51,8 @@ def english_words(told: str, file: Path | str, language: str) -> set[str]:
     """Return the words in subscripts that neither the file nor the symbols of the language have."""
     text = file.read_text("utf-8") if isinstance(file, Path) else crankwork.template(file)
     known = set(re.findall(r"\w+", " ".join([text, *texts("symbols", language).values()]).replace("_", " ")))
+    # what a crank is called that has no name of its own
+    known |= set(re.findall(r"\w+", texts("report", language)["crank"]))
     known |= set(texts("marks", language).values()) | {"max", "min", "sin", "cos", "tan", "exp", "abs"}
     # phase of a harmonic, with the letter that the crank angle has
     known |= {"kφ₀", "kα₀"}
@@ -126,7 +128,7 @@ def test_what_is_made_of_an_extreme_stands_after_it():
 def test_an_integral_says_what_is_integrated(tmp_path):
     file = tmp_path / "press.toml"
     file.write_text(crankwork.template("toggle-press") + "\n[flywheel]\nfluctuation = 0.02\n", encoding="utf-8")
-    for path, integral in (("examples/petrol-four.toml", "∫(M_Σ − M_Σm) dφ"), (str(file), "−∫(M_st − M_m) dφ")):
+    for path, integral in (("examples/petrol-four.toml", "∫(M_Σ − M_Σm) dφ"), (str(file), "−∫(M_st − M_st,m) dφ")):
         lines = explained(path, "kinetic_energy_change", "--at", "50")
         assert any(one.startswith(f"  ΔT = {integral} = ") for one in lines)
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from playwright.sync_api import Error
 
 from crankwork import analyse
 from crankwork.description.machine_file import read
@@ -116,12 +117,22 @@ def test_its_ground_is_dark_where_the_reader_prefers_it(shown):
     assert grounds == {"light": "rgb(255, 255, 255)", "dark": "rgb(20, 23, 28)"}
 
 
+def _captured(page, session):
+    """Return what a page looks like, once the browser has something to show."""
+    for _ in range(10):
+        try:
+            return session.send("Page.captureScreenshot", {"format": "png"})["data"]
+        except Error:
+            page.wait_for_timeout(100)
+    raise AssertionError("the browser shows nothing")
+
+
 def _moves(page):
     """Return whether a page looks otherwise after a while."""
     session = page.context.new_cdp_session(page)
-    first = session.send("Page.captureScreenshot", {"format": "png"})["data"]
+    first = _captured(page, session)
     page.wait_for_timeout(400)
-    return session.send("Page.captureScreenshot", {"format": "png"})["data"] != first
+    return _captured(page, session) != first
 
 
 def test_a_picture_of_it_moves_where_no_script_runs(shown):
