@@ -316,6 +316,8 @@ def main() -> None:
     parser.add_argument("--million", action="store_true", help="a whole study of a million engines too")
     asked = parser.parse_args()
     count = asked.count // 64 * 64
+    # a process begins as large as the one that starts it
+    study = a_million() if asked.million else {}
     sampled, exact, v8, linkage = kernel(ANGLES), kernel(None), v8_kernel(), linkage_kernel()
     designs = drawn(FIELDS, count)
     start = time.perf_counter()
@@ -341,7 +343,6 @@ def main() -> None:
         }
     cores = on_two_cores(sampled, np.concatenate([designs] * 4, axis=1))
     load = os.getloadavg()[0]
-    study = a_million() if asked.million else {}
     if asked.json:
         print(json.dumps(found | {"first_call": first, "two_cores": cores, "load": load, "million": study}))
         return
