@@ -141,7 +141,11 @@ def compared(name: str, text: str, seed: int = 1, named: Sequence[str] = ()) -> 
     keys = [key for key in machine.stated.summary if key not in reasons]
     if not keys:
         return Comparison(name, reasons=reasons)
-    kernel = Kernel(memories, machine.rows, keys, CrankGrid.from_degrees, cycle=cycle)
+    try:
+        kernel = Kernel(memories, machine.rows, keys, CrankGrid.from_degrees, cycle=cycle)
+    except NotCompiledError as error:
+        # such designs are analysed one by one
+        return Comparison(name, reasons=reasons | dict.fromkeys(keys, f"{error.reason}: {error.key}"))
     return _worst(Comparison(name, len(keys), reasons=reasons), machine, kernel, np.random.default_rng(seed))
 
 
